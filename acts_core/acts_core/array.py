@@ -1,0 +1,71 @@
+"""Geometry of a tactile array: which index is which taxel, and where it lies on the skin."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from acts_core.errors import ArrayError
+
+MAX_SIDE = 64
+"""Largest number of rows or columns; the wire format and the firmware are sized for it."""
+
+COUNT_MAX = 1023
+"""Largest ADC count: the board reads 10 bit."""
+
+
+@dataclass(frozen=True)
+class ArrayGeometry:
+    """A rectangular array of taxels.
+
+    The index of a taxel is ``row * cols + col``, row-major in image coordinates: row 0 is the top of the picture,
+    seen from outside the skin. The skin's frame is right-handed with its origin at the pad's centre: x points along
+    the columns (to the right), y from the last row to the first (up in the picture), z out of the skin.
+
+    Attributes
+    ----------
+    rows, cols : int
+        1 to 64.
+    pitch_m : float
+        Distance between neighbouring taxels [m]. The default is the paper's original array, 140 mm for 32 taxels
+        (Fig. S10-2).
+    """
+
+    rows: int = 32
+    cols: int = 32
+    pitch_m: float = 0.140 / 32
+
+    def __post_init__(self) -> None:
+        for name, value in (("rows", self.rows), ("cols", self.cols)):
+            if not 1 <= value <= MAX_SIDE:
+                raise ArrayError(f"{name} = {value}: an array has 1 to {MAX_SIDE} {name}")
+        if not (np.isfinite(self.pitch_m) and self.pitch_m > 0):
+            raise ArrayError(f"pitch_m = {self.pitch_m}: the pitch is a positive number of metres")
+
+    @property
+    def size(self) -> int:
+        """Number of taxels."""
+        return self.rows * self.cols
+
+    @property
+    def taxel_area_m2(self) -> float:
+        """Area that one taxel stands for [m^2]."""
+        return self.pitch_m**2
+
+    def x_m(self, col: ArrayLike) -> NDArray[np.float64]:
+        """x of a column, which may be fractional [m]; same shape as `col`."""
+        return (np.asarray(col, dtype=np.float64) - (self.cols - 1) / 2) * self.pitch_m
+
+    def y_m(self, row: ArrayLike) -> NDArray[np.float64]:
+        """y of a row, which may be fractional [m]; same shape as `row`."""
+        return ((self.rows - 1) / 2 - np.asarray(row, dtype=np.float64)) * self.pitch_m
+
+    def col_of(self, x_m: ArrayLike) -> NDArray[np.float64]:
+        """Fractional column of an x [m]; same shape as `x_m`."""
+        return np.asarray(x_m, dtype=np.float64) / self.pitch_m + (self.cols - 1) / 2
+
+    def row_of(self, y_m: ArrayLike) -> NDArray[np.float64]:
+        """Fractional row of a y [m]; same shape as `y_m`."""
+        return (self.rows - 1) / 2 - np.asarray(y_m, dtype=np.float64) / self.pitch_m

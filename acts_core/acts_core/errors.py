@@ -1,0 +1,40 @@
+"""The errors of ACTS: one root, and a class for each thing a caller may want to handle apart."""
+
+
+class ActsError(Exception):
+    """Root of every error that ACTS raises on purpose.
+
+    A message says what was given, what is allowed and what to do.
+    """
+
+
+class SettingsError(ActsError):
+    """A setting, parameter or settings file has an unknown key, a wrong type or a value out of range."""
+
+
+class ArrayError(ActsError):
+    """An array has the wrong shape, type or size, or holds values that are not allowed (NaN, out of range)."""
+
+
+class PacketError(ActsError):
+    """Bytes from a board are not a valid packet."""
+
+
+class PortError(ActsError):
+    """A serial port cannot be opened, or was lost."""
+
+
+class DictionaryError(ActsError):
+    """A dictionary file cannot be read or does not fit the array or the patch size."""
+
+
+class RecordingError(ActsError):
+    """A recording (npz file or bag) cannot be read or lacks what is needed."""
+
+
+class RobotError(ActsError):
+    """The robot cannot be reached, refuses a command, or has stopped."""
+
+
+class LaunchError(ActsError):
+    """A launch file is not valid, or holds something outside the supported subset."""

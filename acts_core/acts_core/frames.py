@@ -1,0 +1,54 @@
+"""What one frame of the array is, from the board to the reconstruction."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+class Scheme(IntEnum):
+    """How the taxels of a frame are chosen. 1 to 3 are the mode numbers of the published firmware."""
+
+    UNKNOWN = 0
+    UNIFORM = 1
+    RANDOM = 2
+    ADAPTIVE = 3
+    RASTER = 4
+
+
+@dataclass(frozen=True)
+class SampleFrame:
+    """One subsampled frame as the board sent it.
+
+    Attributes
+    ----------
+    sequence : int
+        Number of the frame, wraps at 2**32. A gap is a lost frame.
+    board_us : int
+        The board's clock at the end of the frame's last measurement [us], 64 bit, does not wrap.
+    duration_us : int
+        From the start of the first measurement to the end of the last [us].
+    scheme : Scheme
+        How the taxels were chosen.
+    rows, cols : int
+        Size of the array.
+    overruns : int
+        Frames the board had to drop since its start because the host did not read, wraps at 2**32.
+    indices : np.ndarray [shape=(m,), dtype=uint16]
+        Row-major taxel indices in the order of measurement, none twice.
+    counts : np.ndarray [shape=(m,), dtype=uint16]
+        ADC counts of these taxels, 0 to 1023.
+    """
+
+    sequence: int
+    board_us: int
+    duration_us: int
+    scheme: Scheme
+    rows: int
+    cols: int
+    overruns: int
+    indices: NDArray[np.uint16]
+    counts: NDArray[np.uint16]

@@ -1,0 +1,247 @@
+"""Set up this checkout on a bare machine: virtual environment, ROS 2 from wheels, colcon build.
+
+Standard library only: it runs before anything is installed. Every step is skipped when its inputs have not changed
+since it last succeeded, so calling it again costs a fraction of a second. `make setup` and `./acts` call it.
+"""
+
+from __future__ import annotations
+
+import argparse
+import fcntl
+import hashlib
+import importlib.util
+import os
+import shlex
+import shutil
+import subprocess
+import sys
+import time
+from collections.abc import Iterable
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+STATE = ROOT / ".acts"
+VENV = STATE / "venv"
+INSTALL = STATE / "install"
+LOCK = ROOT / "requirements.lock"
+
+MINIMUM_PYTHON = (3, 10)
+TOOLS = {"g++": "g++", "cmake": "cmake", "make": "make"}
+# A change to one of these asks for a new colcon build; Python modules do not, they are linked into the installation.
+BUILD_INPUTS = (
+    "package.xml",
+    "setup.py",
+    "setup.cfg",
+    "CMakeLists.txt",
+    "*.msg",
+    "*.srv",
+    "*.cpp",
+    "*.hpp",
+    "*.h",
+    "*.launch.xml",
+    "*.yaml",
+    "*.npz",
+)
+
+
+class SetupError(Exception):
+    """The machine lacks something; the message names the command that installs it."""
+
+
+def say(text: str) -> None:
+    print(f"[setup] {text}", flush=True)
+
+
+def check_machine() -> None:
+    """Refuse a machine on which a later step would fail, naming everything that is missing at once."""
+    if sys.version_info < MINIMUM_PYTHON:
+        raise SetupError(
+            f"Python {sys.version.split()[0]} is too old: ACTS needs 3.10 or newer. "
+            "Install one and call `make PYTHON=/path/to/python3 ...`."
+        )
+    packages = [package for tool, package in TOOLS.items() if shutil.which(tool) is None]
+    missing = [tool for tool in TOOLS if shutil.which(tool) is None]
+    if importlib.util.find_spec("ensurepip") is None or importlib.util.find_spec("venv") is None:
+        missing.append("the Python module venv")
+        packages.append("python3-venv")
+    if missing:
+        raise SetupError(f"missing: {', '.join(missing)}. Install with: sudo apt-get install {' '.join(packages)}")
+
+
+def digest(paths: Iterable[Path], *words: str) -> str:
+    """Hash of the names and contents of `paths` and of `words`."""
+    total = hashlib.sha256("\0".join(words).encode())
+    for path in sorted(paths):
+        total.update(str(path).encode() + b"\0" + path.read_bytes())
+    return total.hexdigest()
+
+
+def up_to_date(stamp: Path, value: str) -> bool:
+    return stamp.is_file() and stamp.read_text() == value
+
+
+def run(command: list[str], log_name: str, env: dict[str, str] | None = None) -> None:
+    """Run a command with its output in `.acts/log/<log_name>`, shown only when it fails."""
+    log_path = STATE / "log" / log_name
+    log_path.parent.mkdir(parents=True, exist_ok=True)
+    with log_path.open("wb") as log:
+        code = subprocess.run(command, cwd=ROOT, env=env, stdout=log, stderr=subprocess.STDOUT).returncode
+    if code != 0:
+        tail = log_path.read_text(errors="replace").splitlines()[-40:]
+        print("\n".join(tail), file=sys.stderr)
+        raise SetupError(f"`{shlex.join(command[:4])} ...` ended with code {code}; its output is in {log_path}")
+
+
+def create_venv() -> None:
+    """Install the locked wheels into a fresh virtual environment and make it a ROS prefix."""
+    wanted = digest([LOCK, Path(__file__)], sys.version, sys.executable, str(ROOT))
+    stamp = VENV / "acts.stamp"
+    if up_to_date(stamp, wanted):
+        return
+    say(f"virtual environment with Python {sys.version.split()[0]} in .acts/venv")
+    shutil.rmtree(VENV, ignore_errors=True)
+    run([sys.executable, "-m", "venv", str(VENV)], "venv.log")
+    count = sum(1 for line in LOCK.read_text().splitlines() if line and not line.startswith("#"))
+    say(f"installing about {count} wheels, ROS 2 Kilted among them (one to three minutes, 1 GB)")
+    started = time.monotonic()
+    pip = [str(VENV / "bin/python"), "-m", "pip", "install", "--prefer-binary", "--no-input", "--progress-bar=off"]
+    run([*pip, "-r", str(LOCK)], "pip.log", env={**os.environ, "PYTHONDONTWRITEBYTECODE": ""})
+    say(f"wheels installed in {time.monotonic() - started:.0f} s")
+    relocate_cmake_exports()
+    stamp.write_text(wanted)
+
+
+def site_packages() -> Path:
+    return VENV / "lib" / f"python{sys.version_info.major}.{sys.version_info.minor}" / "site-packages"
+
+
+def relocate_cmake_exports() -> None:
+    """Replace the build machine's Python paths in the wheels' exported CMake files by this interpreter's.
+
+    The wheels were built against `/opt/python/cpXY-cpXY`; without this, interface packages cannot be built on them.
+    """
+    import sysconfig
+
+    tag = f"cp{sys.version_info.major}{sys.version_info.minor}"
+    version = f"python{sys.version_info.major}.{sys.version_info.minor}"
+    built_with = f"/opt/python/{tag}-{tag}"
+    replacements = {
+        f"{built_with}/include/{version}": sysconfig.get_paths()["include"],
+        f"{built_with}/lib/{version}/site-packages": str(site_packages()),
+    }
+    for path in (VENV / "share").rglob("*.cmake"):
+        text = path.read_text()
+        changed = text
+        for old, new in replacements.items():
+            changed = changed.replace(old, new)
+        if changed != text:
+            path.write_text(changed)
+    headers = Path(sysconfig.get_paths()["include"]) / "Python.h"
+    if not headers.is_file():
+        raise SetupError(f"missing: {headers}. Install with: sudo apt-get install python3-dev")
+
+
+def environment() -> dict[str, str]:
+    """The variables that make the venv and the installed workspace one ROS environment, overlay first."""
+    version = f"python{sys.version_info.major}.{sys.version_info.minor}"
+    return {
+        "VIRTUAL_ENV": str(VENV),
+        "AMENT_PREFIX_PATH": f"{INSTALL}:{VENV}",
+        "CMAKE_PREFIX_PATH": f"{INSTALL}:{VENV}",
+        "LD_LIBRARY_PATH": f"{INSTALL}/lib:{VENV}/lib",
+        "PYTHONPATH": f"{INSTALL}/lib/{version}/site-packages",
+        "PATH": f"{INSTALL}/bin:{VENV}/bin",
+        # The wheels' start-up hook would re-execute Python and order LD_LIBRARY_PATH at random.
+        "_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1",
+        "ROS_DISTRO": "kilted",
+        "ROS_VERSION": "2",
+        "ROS_PYTHON_VERSION": "3",
+    }
+
+
+def write_environment() -> None:
+    lines = ["# Written by scripts/bootstrap.py; source it to enter the ACTS environment."]
+    for name, value in environment().items():
+        if name == "PATH":
+            lines.append(f'export PATH={shlex.quote(value)}:"$PATH"')
+        else:
+            lines.append(f"export {name}={shlex.quote(value)}")
+    # What the user has set stays: these are defaults only.
+    lines.append('export ROS_AUTOMATIC_DISCOVERY_RANGE="${ROS_AUTOMATIC_DISCOVERY_RANGE:-LOCALHOST}"')
+    lines.append(f'export ROS_LOG_DIR="${{ROS_LOG_DIR:-{STATE}/log/ros}}"')
+    (STATE / "env.sh").write_text("\n".join(lines) + "\n")
+
+
+def packages() -> list[Path]:
+    return sorted(path.parent for path in ROOT.glob("*/package.xml"))
+
+
+def build_workspace() -> None:
+    """`colcon build` of every package, merged into `.acts/install`, Python modules linked so that edits are live."""
+    files = [
+        path
+        for package in packages()
+        for pattern in BUILD_INPUTS
+        for path in package.rglob(pattern)
+        if "__pycache__" not in path.parts
+    ]
+    # New and removed modules and executables count as well as changed build files.
+    names = " ".join(str(path.relative_to(ROOT)) for package in packages() for path in sorted(package.rglob("*.py")))
+    wanted = digest(files, names, (VENV / "acts.stamp").read_text())
+    stamp = STATE / "build.stamp"
+    if up_to_date(stamp, wanted):
+        return
+    say(f"colcon build of {len(packages())} packages (half a minute)")
+    started = time.monotonic()
+    env = {**os.environ, **environment()}
+    env["PATH"] = f"{environment()['PATH']}:{os.environ['PATH']}"
+    # Bytecode at colcon's own pace is not worth an error when the user forbids it.
+    env.pop("PYTHONDONTWRITEBYTECODE", None)
+    run(
+        [
+            str(VENV / "bin/colcon"),
+            "--log-base",
+            str(STATE / "log/colcon"),
+            "build",
+            "--base-paths",
+            *[str(package) for package in packages()],
+            "--build-base",
+            str(STATE / "build"),
+            "--install-base",
+            str(INSTALL),
+            "--merge-install",
+            "--symlink-install",
+            "--cmake-args",
+            "-DCMAKE_BUILD_TYPE=Release",
+            f"-DPython3_EXECUTABLE={VENV}/bin/python",
+        ],
+        "build.log",
+        env=env,
+    )
+    say(f"built in {time.monotonic() - started:.0f} s")
+    stamp.write_text(wanted)
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--quiet", action="store_true", help="say nothing when there is nothing to do")
+    arguments = parser.parse_args()
+    try:
+        check_machine()
+        STATE.mkdir(exist_ok=True)
+        # Two commands at once must not build into one another.
+        with (STATE / "lock").open("w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            create_venv()
+            write_environment()
+            build_workspace()
+    except SetupError as error:
+        print(f"[setup] {error}", file=sys.stderr)
+        return 1
+    if not arguments.quiet:
+        say("ready: ./acts --help")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
