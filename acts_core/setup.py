@@ -16,7 +16,7 @@ setup(
     zip_safe=False,
     maintainer="ACTS maintainers",
     maintainer_email="acts-maintainers@example.org",
-    description="The vocabulary of ACTS: array geometry, sampling schemes, force response, settings and errors. No ROS.",
+    description="The vocabulary of ACTS, free of ROS: geometry, sampling schemes, force response, settings, errors.",
     license="Apache-2.0",
     entry_points={"console_scripts": []},
 )

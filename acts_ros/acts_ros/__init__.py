@@ -1,1 +1,1 @@
-"""See package.xml."""
+"""What ACTS nodes share: parameters, quality of service, executors, diagnostics."""

@@ -1,0 +1,220 @@
+"""Settings as dataclasses: every field carries its description and range, and is checked when it is set.
+
+A settings class is a frozen dataclass whose fields are made by `setting`::
+
+    @dataclass(frozen=True)
+    class EstimatorConfig:
+        touch_counts: int = setting(60, "counts above which a taxel is pressed", minimum=0, maximum=1023)
+
+        def __post_init__(self) -> None:
+            validate(self)
+
+`from_mapping` builds one from a plain mapping (a YAML section, ROS parameters) and refuses unknown keys.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import difflib
+import math
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, TypeVar, cast
+
+import yaml
+
+from acts_core.errors import SettingsError
+
+T = TypeVar("T")
+
+SettingValue = bool | int | float | str | tuple[float, ...] | tuple[str, ...]
+
+_METADATA_KEY = "acts_setting"
+
+
+@dataclasses.dataclass(frozen=True)
+class SettingInfo:
+    """What is known of one setting besides its name and default.
+
+    Attributes
+    ----------
+    description : str
+        One sentence for a person, as shown by ``ros2 param describe``.
+    minimum, maximum : float or None
+        Allowed range, both ends included.
+    choices : tuple of str
+        Allowed words; empty for any.
+    length : int or None
+        Required number of elements of a sequence.
+    """
+
+    description: str
+    minimum: float | None = None
+    maximum: float | None = None
+    choices: tuple[str, ...] = ()
+    length: int | None = None
+
+    @property
+    def allowed(self) -> str:
+        """The constraint in words, empty where anything is allowed."""
+        words = []
+        if self.choices:
+            words.append("one of " + ", ".join(self.choices))
+        if self.minimum is not None and self.maximum is not None:
+            words.append(f"{self.minimum:g} to {self.maximum:g}")
+        elif self.minimum is not None:
+            words.append(f"{self.minimum:g} or more")
+        elif self.maximum is not None:
+            words.append(f"{self.maximum:g} or less")
+        if self.length is not None:
+            words.append(f"{self.length} values")
+        return ", ".join(words)
+
+
+def setting(
+    default: Any,
+    description: str,
+    *,
+    minimum: float | None = None,
+    maximum: float | None = None,
+    choices: Sequence[str] = (),
+    length: int | None = None,
+) -> Any:
+    """Make a dataclass field with a default, a description and constraints (see `SettingInfo`)."""
+    info = SettingInfo(description, minimum, maximum, tuple(choices), length)
+    return dataclasses.field(default=default, metadata={_METADATA_KEY: info})
+
+
+def describe(settings_class: type) -> dict[str, SettingInfo]:
+    """The settings of a dataclass by name, in order of definition; fields not made by `setting` are left out."""
+    return {
+        field.name: field.metadata[_METADATA_KEY]
+        for field in dataclasses.fields(settings_class)
+        if _METADATA_KEY in field.metadata
+    }
+
+
+def default_of(settings_class: type, name: str) -> SettingValue:
+    """Default of one setting."""
+    for field in dataclasses.fields(settings_class):
+        if field.name == name:
+            return cast(SettingValue, field.default)
+    raise SettingsError(f"{settings_class.__name__} has no setting {name!r}")
+
+
+def validate(settings: Any) -> None:
+    """Check every setting of a dataclass instance.
+
+    Raises
+    ------
+    SettingsError
+        Naming the setting, what was given and what is allowed.
+    """
+    for name, info in describe(type(settings)).items():
+        checked(name, getattr(settings, name), default_of(type(settings), name), info)
+
+
+def checked(name: str, value: Any, default: SettingValue, info: SettingInfo) -> SettingValue:
+    """Return `value` in the type of `default`, or raise `SettingsError` where type or range do not fit."""
+    try:
+        converted = _converted(value, default)
+    except (TypeError, ValueError):
+        raise _error(name, value, f"a value of type {_type_name(default)}", info) from None
+    if info.choices and converted not in info.choices:
+        raise _error(name, value, "", info)
+    if info.length is not None and len(cast(Sequence[Any], converted)) != info.length:
+        raise _error(name, value, "", info)
+    numbers: Sequence[Any] = converted if isinstance(converted, tuple) else (converted,)
+    for number in numbers:
+        if isinstance(number, bool) or not isinstance(number, (int, float)):
+            continue
+        if not math.isfinite(number):
+            raise _error(name, value, "a finite number", info)
+        if (info.minimum is not None and number < info.minimum) or (info.maximum is not None and number > info.maximum):
+            raise _error(name, value, "", info)
+    return converted
+
+
+def _converted(value: Any, default: SettingValue) -> SettingValue:
+    if isinstance(default, bool):
+        if isinstance(value, bool):
+            return value
+        raise TypeError
+    if isinstance(default, int):
+        if isinstance(value, bool) or not isinstance(value, (int, float)) or value != int(value):
+            raise TypeError
+        return int(value)
+    if isinstance(default, float):
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            raise TypeError
+        return float(value)
+    if isinstance(default, str):
+        if isinstance(value, str):
+            return value
+        raise TypeError
+    if isinstance(value, str) or not isinstance(value, Sequence):
+        raise TypeError
+    if default and isinstance(default[0], str):
+        if not all(isinstance(item, str) for item in value):
+            raise TypeError
+        return tuple(value)
+    if not all(isinstance(item, (int, float)) and not isinstance(item, bool) for item in value):
+        raise TypeError
+    return tuple(float(item) for item in value)
+
+
+def _type_name(default: SettingValue) -> str:
+    if isinstance(default, tuple):
+        return "list of words" if default and isinstance(default[0], str) else "list of numbers"
+    return {bool: "true/false", int: "whole number", float: "number", str: "text"}[type(default)]
+
+
+def _error(name: str, value: Any, wanted: str, info: SettingInfo) -> SettingsError:
+    allowed = ", ".join(part for part in (wanted, info.allowed) if part)
+    return SettingsError(f"{name} = {value!r}: allowed is {allowed} ({info.description})")
+
+
+def unknown_key_message(key: str, known: Sequence[str], where: str) -> str:
+    """Words for a key that does not exist, with the nearest one that does."""
+    near = difflib.get_close_matches(key, known, n=1)
+    hint = f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known)}"
+    return f"{where}: unknown key {key!r}; {hint}"
+
+
+def from_mapping(settings_class: type[T], values: Mapping[str, Any], where: str = "settings") -> T:
+    """Build a settings dataclass from a mapping; keys that are missing keep their defaults.
+
+    Raises
+    ------
+    SettingsError
+        For an unknown key (with the nearest known one), a wrong type or a value out of range.
+    """
+    infos = describe(settings_class)
+    for key in values:
+        if key not in infos:
+            raise SettingsError(unknown_key_message(str(key), list(infos), where))
+    arguments = {
+        name: checked(name, values[name], default_of(settings_class, name), info)
+        for name, info in infos.items()
+        if name in values
+    }
+    return settings_class(**arguments)
+
+
+def load_yaml(path: Path) -> dict[str, Any]:
+    """Read a YAML file whose top level is a mapping.
+
+    Raises
+    ------
+    SettingsError
+        When the file cannot be read or is not a mapping.
+    """
+    try:
+        content = yaml.safe_load(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise SettingsError(f"{path}: cannot be read ({error.strerror}); give an existing YAML file") from error
+    except (yaml.YAMLError, UnicodeDecodeError) as error:
+        raise SettingsError(f"{path}: not valid YAML: {error}") from error
+    if not isinstance(content, dict):
+        raise SettingsError(f"{path}: the top level must be a mapping of names to values")
+    return content

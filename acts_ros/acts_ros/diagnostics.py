@@ -1,0 +1,59 @@
+"""Publish diagnostics in the standard form: one status a component on /diagnostics, once a second."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from rclpy.node import Node
+
+OK = 0
+WARN = 1
+ERROR = 2
+
+Report = tuple[int, str, Mapping[str, object]]
+"""Level (OK, WARN, ERROR), a sentence, and named values."""
+
+
+class DiagnosticsReporter:
+    """Calls `report` once a second and publishes what it returns.
+
+    Parameters
+    ----------
+    node : rclpy.node.Node
+        Its full name is the name of the status.
+    hardware_id : str
+        What the status is about, for example the port.
+    report : callable
+        Returns the present `Report`.
+    """
+
+    def __init__(self, node: Node, hardware_id: str, report: Callable[[], Report], *, period_s: float = 1.0) -> None:
+        self._node = node
+        self._hardware_id = hardware_id
+        self._report = report
+        self._publisher = node.create_publisher(DiagnosticArray, "/diagnostics", 10)
+        self._timer = node.create_timer(period_s, self.publish)
+
+    def publish(self) -> None:
+        """Publish the present report at once."""
+        level, message, values = self._report()
+        status = DiagnosticStatus(
+            level=bytes([level]),
+            name=self._node.get_fully_qualified_name().lstrip("/"),
+            message=message,
+            hardware_id=self._hardware_id,
+            values=[KeyValue(key=key, value=_text(value)) for key, value in values.items()],
+        )
+        array = DiagnosticArray(status=[status])
+        array.header.stamp = self._node.get_clock().now().to_msg()
+        self._publisher.publish(array)
+
+    def destroy(self) -> None:
+        """Stop reporting."""
+        self._node.destroy_timer(self._timer)
+        self._node.destroy_publisher(self._publisher)
+
+
+def _text(value: object) -> str:
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
