@@ -26,6 +26,8 @@ INSTALL = STATE / "install"
 LOCK = ROOT / "requirements.lock"
 
 MINIMUM_PYTHON = (3, 10)
+# Raise it when `create_venv` changes, so that existing checkouts make theirs anew.
+VENV_RECIPE = "1"
 TOOLS = {"g++": "g++", "cmake": "cmake", "make": "make"}
 # A change to one of these asks for a new colcon build; Python modules do not, they are linked into the installation.
 BUILD_INPUTS = (
@@ -94,7 +96,7 @@ def run(command: list[str], log_name: str, env: dict[str, str] | None = None) ->
 
 def create_venv() -> None:
     """Install the locked wheels into a fresh virtual environment and make it a ROS prefix."""
-    wanted = digest([LOCK, Path(__file__)], sys.version, sys.executable, str(ROOT))
+    wanted = digest([LOCK], VENV_RECIPE, sys.version, sys.executable, str(ROOT))
     stamp = VENV / "acts.stamp"
     if up_to_date(stamp, wanted):
         return
@@ -144,12 +146,15 @@ def relocate_cmake_exports() -> None:
 def environment() -> dict[str, str]:
     """The variables that make the venv and the installed workspace one ROS environment, overlay first."""
     version = f"python{sys.version_info.major}.{sys.version_info.minor}"
+    # Python packages are linked (--symlink-install): the modules are found through their build folders.
+    linked = [str(STATE / "build" / package.name) for package in packages() if (package / "setup.py").is_file()]
+    vendored = sorted(str(folder) for folder in site_packages().glob("ros_*.libs"))
     return {
         "VIRTUAL_ENV": str(VENV),
         "AMENT_PREFIX_PATH": f"{INSTALL}:{VENV}",
         "CMAKE_PREFIX_PATH": f"{INSTALL}:{VENV}",
-        "LD_LIBRARY_PATH": f"{INSTALL}/lib:{VENV}/lib",
-        "PYTHONPATH": f"{INSTALL}/lib/{version}/site-packages",
+        "LD_LIBRARY_PATH": ":".join([f"{INSTALL}/lib", f"{VENV}/lib", *vendored]),
+        "PYTHONPATH": ":".join([f"{INSTALL}/lib/{version}/site-packages", *linked]),
         "PATH": f"{INSTALL}/bin:{VENV}/bin",
         # The wheels' start-up hook would re-execute Python and order LD_LIBRARY_PATH at random.
         "_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1",

@@ -18,7 +18,7 @@ class ForceResponse:
     ``counts = full_scale * (f - dead) / (f - dead + half)`` for a force ``f`` above the dead band, else 0.
 
     The default follows the shape of the measured response (paper, Fig. S9: 30 g give 63 counts, 100 g 208, 400 g 443,
-    800 g 647; nothing below about 15 g) within 50 counts. The figure gives the weight but not the area it stood on; the
+    800 g 647; little below 20 g) within 50 counts. The figure gives the weight but not the area it stood on; the
     default assumes 16 taxels, a foot of about 18 mm. A lab replaces it by its own calibration.
 
     Attributes
@@ -32,8 +32,8 @@ class ForceResponse:
     """
 
     full_scale_counts: float = float(COUNT_MAX)
-    dead_n: float = 0.0092
-    half_n: float = 0.28
+    dead_n: float = 0.005
+    half_n: float = 0.30
 
     def __post_init__(self) -> None:
         if not 0 < self.full_scale_counts <= COUNT_MAX:

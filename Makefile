@@ -1,0 +1,31 @@
+# make demo and make test do all the set-up they need, in this checkout, and say what they do.
+PYTHON ?= python3
+export PYTHON
+
+.PHONY: help setup demo test lint format clean
+
+help:
+	@echo "make demo    ball balancing with simulated skin, ball and UR5e (DEMO_SECONDS=30); writes out/"
+	@echo "make test    linters and the whole test suite"
+	@echo "make lint    linters and type checks only"
+	@echo "make format  format Python and C++"
+	@echo "make setup   only the set-up: virtual environment, ROS 2 wheels, colcon build"
+	@echo "make clean   remove everything that was built or installed"
+
+setup:
+	@bash -c 'set -euo pipefail; source scripts/enter.sh; echo "[setup] ready: ./acts --help"'
+
+demo:
+	@./acts demo ball_balancing $(if $(DEMO_SECONDS),--seconds $(DEMO_SECONDS))
+
+test:
+	@./acts run python3 scripts/check.py
+
+lint:
+	@./acts run python3 scripts/check.py --lint
+
+format:
+	@./acts run python3 scripts/check.py --format
+
+clean:
+	rm -rf .acts build install log out

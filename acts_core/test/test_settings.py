@@ -1,0 +1,99 @@
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from acts_core.errors import SettingsError
+from acts_core.settings import describe, from_mapping, load_yaml, setting, validate
+
+
+@dataclass(frozen=True)
+class Example:
+    rate_hz: float = setting(250.0, "how often", minimum=1.0, maximum=1000.0)
+    depth: int = setting(4, "how many", minimum=0)
+    enabled: bool = setting(True, "whether")
+    protocol: str = setting("binary", "which", choices=("binary", "raster_ascii"))
+    home_rad: tuple[float, ...] = setting((0.0, 1.0), "where", minimum=-6.3, maximum=6.3, length=2)
+
+    def __post_init__(self) -> None:
+        validate(self)
+
+
+def test_missing_keys_keep_their_defaults() -> None:
+    assert from_mapping(Example, {"depth": 7}) == Example(depth=7)
+
+
+def test_whole_numbers_serve_as_numbers_and_lists_as_tuples() -> None:
+    settings = from_mapping(Example, {"rate_hz": 100, "home_rad": [1, 2]})
+    assert settings.rate_hz == 100.0
+    assert isinstance(settings.rate_hz, float)
+    assert settings.home_rad == (1.0, 2.0)
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "words"),
+    [
+        ("rate_hz", 0.5, "1 to 1000"),
+        ("rate_hz", float("nan"), "finite"),
+        ("rate_hz", "fast", "number"),
+        ("rate_hz", True, "number"),
+        ("depth", -1, "0 or more"),
+        ("depth", 1.5, "whole number"),
+        ("enabled", 1, "true/false"),
+        ("protocol", "morse", "binary, raster_ascii"),
+        ("protocol", False, "text"),
+        ("home_rad", [1.0], "2 values"),
+        ("home_rad", [1.0, 9.0], "-6.3 to 6.3"),
+        ("home_rad", "12", "list of numbers"),
+        ("home_rad", [1.0, "x"], "list of numbers"),
+    ],
+)
+def test_a_wrong_value_is_refused_with_what_is_allowed(key: str, value: Any, words: str) -> None:
+    with pytest.raises(SettingsError) as error:
+        from_mapping(Example, {key: value})
+    assert key in str(error.value)
+    assert repr(value) in str(error.value)
+    assert words in str(error.value)
+
+
+def test_an_unknown_key_names_its_neighbour() -> None:
+    with pytest.raises(SettingsError, match=r"rate_h'.*did you mean 'rate_hz'"):
+        from_mapping(Example, {"rate_h": 1.0})
+
+
+def test_direct_construction_is_checked_too() -> None:
+    with pytest.raises(SettingsError, match="depth"):
+        Example(depth=-3)
+
+
+def test_every_setting_is_described() -> None:
+    assert list(describe(Example)) == ["rate_hz", "depth", "enabled", "protocol", "home_rad"]
+    assert all(info.description for info in describe(Example).values())
+
+
+KEYS = ("rate_hz", "depth", "enabled", "protocol", "home_rad")
+
+
+@given(st.dictionaries(st.text(max_size=8), st.one_of(st.integers(), st.floats(), st.text(), st.booleans(), st.none())))
+def test_any_mapping_gives_settings_or_a_settings_error(values: dict[str, Any]) -> None:
+    # Keys of the settings themselves have to occur.
+    values = {KEYS[len(key) % len(KEYS)] if len(key) < 5 else key: value for key, value in values.items()}
+    with suppress(SettingsError):
+        validate(from_mapping(Example, values))
+
+
+@pytest.mark.parametrize("text", ["- 1\n- 2\n", "a: [1\n", "plain words"])
+def test_a_file_that_is_no_mapping_is_refused_by_name(tmp_path: Path, text: str) -> None:
+    path = tmp_path / "settings.yaml"
+    path.write_text(text)
+    with pytest.raises(SettingsError, match=r"settings\.yaml"):
+        load_yaml(path)
+
+
+def test_a_missing_file_is_refused_by_name(tmp_path: Path) -> None:
+    with pytest.raises(SettingsError, match=r"nowhere\.yaml"):
+        load_yaml(tmp_path / "nowhere.yaml")

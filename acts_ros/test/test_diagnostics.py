@@ -1,0 +1,34 @@
+"""A diagnostic status over DDS; ROS_DOMAIN_ID 12."""
+
+import rclpy
+from diagnostic_msgs.msg import DiagnosticArray
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.task import Future
+
+from acts_ros.diagnostics import WARN, DiagnosticsReporter
+
+
+def test_the_report_arrives_with_name_level_and_values() -> None:
+    context = Context()
+    rclpy.init(context=context, domain_id=12)
+    node = Node("driver", namespace="/plate", context=context)
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+    received: Future = Future()
+    node.create_subscription(DiagnosticArray, "/diagnostics", lambda message: received.set_result(message), 10)
+    DiagnosticsReporter(
+        node, "/dev/ttyACM0", lambda: (WARN, "3 frames lost", {"lost": 3, "rate_hz": 999.5}), period_s=0.05
+    )
+    executor.spin_until_future_complete(received, timeout_sec=20)
+    assert received.done()
+    status = received.result().status[0]
+    assert status.name == "plate/driver"
+    assert status.hardware_id == "/dev/ttyACM0"
+    assert status.level == b"\x01"
+    assert status.message == "3 frames lost"
+    assert {value.key: value.value for value in status.values} == {"lost": "3", "rate_hz": "999.5"}
+    executor.shutdown()
+    node.destroy_node()
+    rclpy.try_shutdown(context=context)

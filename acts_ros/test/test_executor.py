@@ -1,0 +1,64 @@
+"""A node process from start to stop; ROS_DOMAIN_ID 11."""
+
+import os
+import signal
+import subprocess
+import sys
+
+import pytest
+
+NODE = """
+import sys
+from acts_core.errors import SettingsError
+from acts_ros.executor import run
+from rclpy.node import Node
+
+class Example(Node):
+    def __init__(self):
+        super().__init__("example")
+        if "fail" in sys.argv:
+            raise SettingsError("rate_hz = 0: allowed is 1 to 1000")
+        self.create_timer(0.01, self.tick)
+        self.ticks = 0
+
+    def tick(self):
+        self.ticks += 1
+        if self.ticks == 3:
+            print("ticking", flush=True)
+
+    def close(self):
+        print("closed", flush=True)
+
+sys.exit(run([Example]))
+"""
+
+
+def start(*arguments: str) -> subprocess.Popen[str]:
+    environment = {**os.environ, "ROS_DOMAIN_ID": "11", "ROS_PYTHON_CHECK_FIELDS": "1"}
+    return subprocess.Popen(
+        [sys.executable, "-c", NODE, *arguments],
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_the_node_in_order(number: signal.Signals) -> None:
+    process = start()
+    assert process.stdout is not None
+    assert process.stdout.readline() == "ticking\n"
+    process.send_signal(number)
+    output, errors = process.communicate(timeout=20)
+    assert output == "closed\n"
+    assert errors == ""
+    assert process.returncode == 0
+
+
+def test_an_error_at_start_is_one_line_and_exit_code_1() -> None:
+    process = start("fail")
+    output, errors = process.communicate(timeout=20)
+    assert process.returncode == 1
+    assert errors == "error: rate_hz = 0: allowed is 1 to 1000\n"
+    assert output == ""

@@ -1,0 +1,83 @@
+"""Parameters of real nodes, in this process; ROS_DOMAIN_ID 10."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+import rclpy
+from rclpy.context import Context
+from rclpy.lifecycle import LifecycleNode
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+
+from acts_core.errors import SettingsError
+from acts_core.settings import setting, validate
+from acts_ros.parameters import declare, node_options
+
+
+@dataclass(frozen=True)
+class Settings:
+    rate_hz: float = setting(250.0, "how often", minimum=1.0, maximum=1000.0)
+    port: str = setting("", "which port")
+    home_rad: tuple[float, ...] = setting((0.0, 1.0), "where", length=2)
+
+    def __post_init__(self) -> None:
+        validate(self)
+
+
+@pytest.fixture
+def context() -> Iterator[Context]:
+    context = Context()
+    rclpy.init(context=context, domain_id=10)
+    yield context
+    rclpy.try_shutdown(context=context)
+
+
+def make_node(context: Context, arguments: list[str], kind: type[Node] = Node) -> Node:
+    return kind("example", namespace="/plate", context=context, cli_args=["--ros-args", *arguments], **node_options())
+
+
+@pytest.mark.parametrize("kind", [Node, LifecycleNode])
+def test_given_values_arrive_and_the_rest_are_defaults(context: Context, kind: type[Node]) -> None:
+    node = make_node(context, ["-p", "rate_hz:=100", "-p", "home_rad:=[1.0, 2.0]"], kind)
+    assert declare(node, Settings) == Settings(rate_hz=100.0, home_rad=(1.0, 2.0))
+    assert node.get_parameter("rate_hz").value == 100.0
+    assert list(node.get_parameter("home_rad").value) == [1.0, 2.0]
+    assert node.describe_parameter("rate_hz").description == "how often"
+    assert node.describe_parameter("rate_hz").floating_point_range[0].to_value == 1000.0
+
+
+def test_values_come_from_a_params_file_for_any_namespace(context: Context, tmp_path: Path) -> None:
+    path = tmp_path / "params.yaml"
+    path.write_text("/**/example:\n  ros__parameters:\n    port: /dev/somewhere\n")
+    assert declare(make_node(context, ["--params-file", str(path)]), Settings).port == "/dev/somewhere"
+
+
+def test_an_unknown_parameter_is_refused_with_node_and_neighbour(context: Context) -> None:
+    node = make_node(context, ["-p", "rate:=100.0"])
+    with pytest.raises(SettingsError, match=r"/plate/example.*'rate'.*rate_hz"):
+        declare(node, Settings)
+
+
+def test_a_value_out_of_range_is_refused(context: Context) -> None:
+    node = make_node(context, ["-p", "rate_hz:=5000.0"])
+    with pytest.raises(SettingsError, match=r"/plate/example.*rate_hz = 5000\.0.*1 to 1000"):
+        declare(node, Settings)
+
+
+def test_ros_own_parameters_are_let_through(context: Context) -> None:
+    node = make_node(context, ["-p", "use_sim_time:=false", "-p", "qos_overrides./x.publisher.depth:=5"])
+    assert declare(node, Settings) == Settings()
+
+
+def test_read_only_and_changeable_parameters(context: Context) -> None:
+    node = make_node(context, [])
+    declare(node, Settings)
+    assert not node.set_parameters([Parameter("rate_hz", value=10.0)])[0].successful
+
+    node = make_node(context, [])
+    declare(node, Settings, read_only=False)
+    assert node.set_parameters([Parameter("rate_hz", value=10.0)])[0].successful
+    assert not node.set_parameters([Parameter("rate_hz", value=0.0)])[0].successful
+    assert node.get_parameter("rate_hz").value == 10.0

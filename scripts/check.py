@@ -1,0 +1,83 @@
+"""Linters, type checks and the test suite; `make test`, `make lint` and `make format` call it inside the environment."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+CXX_PATTERNS = ("*.cpp", "*.hpp", "*.h", "*.ino")
+
+
+def tracked(*patterns: str) -> list[str]:
+    """Files git knows that match; in a tree without git, all that match outside of the build folders."""
+    command = ["git", "ls-files", "--cached", "--others", "--exclude-standard", "--", *patterns]
+    listed = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+    if listed.returncode == 0:
+        return [name for name in listed.stdout.splitlines() if (ROOT / name).is_file()]
+    found = (path.relative_to(ROOT) for pattern in patterns for path in ROOT.rglob(pattern))
+    return sorted(str(path) for path in found if path.parts[0] not in (".acts", "build", "install"))
+
+
+def python_packages() -> list[str]:
+    return sorted(f"{path.parent.name}/{path.parent.name}" for path in ROOT.glob("*/setup.py"))
+
+
+def run(title: str, command: list[str], env: dict[str, str] | None = None) -> bool:
+    print(f"[check] {title}", flush=True)
+    return subprocess.run(command, cwd=ROOT, env=env).returncode == 0
+
+
+def lint() -> bool:
+    """Every linter, also after one has failed, so that one run shows all there is."""
+    passed = [
+        run("ruff: rules", ["ruff", "check", "."]),
+        run("ruff: format", ["ruff", "format", "--check", "--quiet", "."]),
+        run("mypy", ["mypy", *python_packages(), "scripts"]),
+        run("clang-format", ["clang-format", "--dry-run", "--Werror", *tracked(*CXX_PATTERNS)]),
+    ]
+    return all(passed)
+
+
+def reformat() -> bool:
+    passed = [
+        run("ruff: rules", ["ruff", "check", "--fix", "--quiet", "."]),
+        run("ruff: format", ["ruff", "format", "--quiet", "."]),
+        run("clang-format", ["clang-format", "-i", *tracked(*CXX_PATTERNS)]),
+    ]
+    return all(passed)
+
+
+def test(arguments: list[str]) -> bool:
+    # Without these checks a wrong message field is serialised as garbage instead of raising.
+    env = {**os.environ, "ROS_PYTHON_CHECK_FIELDS": "1"}
+    return run("pytest", [sys.executable, "-m", "pytest", *arguments], env)
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--lint", action="store_true", help="linters only")
+    parser.add_argument("--format", action="store_true", help="format the sources and stop")
+    parser.add_argument("pytest", nargs="*", help="arguments for pytest, after --")
+    arguments = parser.parse_args()
+    if arguments.format:
+        return 0 if reformat() else 1
+    missing = [tool for tool in ("ruff", "mypy", "clang-format") if shutil.which(tool) is None]
+    if missing:
+        # A sourced ROS installation need not have them; the bare machine's set-up always does.
+        print(f"[check] linters left out, not installed: {', '.join(missing)} (pip install {' '.join(missing)})")
+        passed = not arguments.lint
+    else:
+        passed = lint()
+    if arguments.lint:
+        return 0 if passed else 1
+    # The suite runs also when a linter complained, and its summary comes last.
+    return 0 if test(arguments.pytest) and passed else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
