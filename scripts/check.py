@@ -1,4 +1,4 @@
-"""Linters, type checks and the test suite; `make test`, `make lint` and `make format` call it inside the environment."""
+"""Linters, type checks and the test suite; `make test`, `make lint` and `make format` run it in the environment."""
 
 from __future__ import annotations
 

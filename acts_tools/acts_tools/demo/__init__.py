@@ -1,0 +1,1 @@
+"""The demonstrations: `acts demo ball_balancing`."""

@@ -1,0 +1,225 @@
+"""`acts demo ball_balancing`: run the whole chain with simulated skin, ball and robot, watch it, score it, draw it."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import rclpy
+from rclpy.executors import Executor
+from rclpy.task import Future
+
+from acts_control.trajectory import TrajectoryConfig, make_trajectory
+from acts_core.array import ArrayGeometry
+from acts_core.errors import ActsError, LaunchError
+from acts_msgs.msg import BalanceStatus
+from acts_ros.executor import make_executor
+from acts_tools.demo.collector import Collector
+from acts_tools.demo.picture import draw
+from acts_tools.demo.processes import LoadMeter
+from acts_tools.demo.recording import Recording
+from acts_tools.demo.score import score, table
+
+START_TIMEOUT_S = 60.0
+STOP_TIMEOUT_S = 20.0
+_REFRESH_S = 0.2
+_PLAIN_REFRESH_S = 5.0
+NAMESPACE = "/plate"
+
+_STATE_NAMES = {
+    BalanceStatus.STATE_CONNECTING: "connecting",
+    BalanceStatus.STATE_HOMING: "levelling",
+    BalanceStatus.STATE_WAITING: "waiting",
+    BalanceStatus.STATE_BALANCING: "balancing",
+    BalanceStatus.STATE_STOPPED: "stopped",
+}
+
+
+def plan(seconds: float | None) -> tuple[str, float]:
+    """The longest trajectory of hold, N, B, I that fits into a time.
+
+    Parameters
+    ----------
+    seconds : float or None
+        Time there is [s]; None for all of it.
+
+    Returns
+    -------
+    trajectory : str
+        Comma list for the launch argument.
+    duration_s : float
+        How long it takes.
+    """
+    segments = ["hold", "N", "B", "I"]
+    while True:
+        trajectory = ",".join(segments)
+        duration_s = make_trajectory(TrajectoryConfig(trajectory=trajectory)).duration_s
+        if seconds is None or duration_s <= seconds or len(segments) == 1:
+            return trajectory, duration_s
+        segments.pop()
+
+
+@contextmanager
+def launched(arguments: list[str], log_path: Path) -> Iterator[subprocess.Popen[bytes]]:
+    """Run a launch file in a process group of its own; at the end stop it as Ctrl-C would."""
+    command = [sys.executable, "-m", "acts_tools", "launch", "acts_bringup", "ball_balancing.launch.xml", *arguments]
+    with log_path.open("wb") as log:
+        process = subprocess.Popen(command, stdout=log, stderr=subprocess.STDOUT, start_new_session=True)
+        try:
+            yield process
+        finally:
+            if process.poll() is None:
+                process.send_signal(signal.SIGINT)
+            try:
+                process.wait(STOP_TIMEOUT_S)
+            except subprocess.TimeoutExpired:
+                os.killpg(process.pid, signal.SIGKILL)
+                process.wait()
+
+
+class Watcher:
+    """Spins the collector, shows the status line, and notices when something ends."""
+
+    def __init__(
+        self, executor: Executor, collector: Collector, launch: subprocess.Popen[bytes], total_s: float
+    ) -> None:
+        self._executor = executor
+        self._collector = collector
+        self._launch = launch
+        self._total_s = total_s
+        self._live = sys.stdout.isatty()
+        self._shown_s = 0.0
+
+    def until_balancing(self) -> None:
+        """Wait until the control loop is closed.
+
+        Raises
+        ------
+        LaunchError
+            When it is not within `START_TIMEOUT_S`, or the launch ended.
+        """
+        deadline_s = time.monotonic() + START_TIMEOUT_S
+        while self._collector.state != BalanceStatus.STATE_BALANCING:
+            self._step()
+            if time.monotonic() > deadline_s:
+                raise LaunchError(f"the control loop was not closed within {START_TIMEOUT_S:.0f} s")
+
+    def until_finished(self, limit_s: float) -> None:
+        """Watch the run until the trajectory has ended, the controller has stopped, or time is over."""
+        deadline_s = time.monotonic() + limit_s
+        recording = self._collector.recording
+        while not recording.finished and not recording.stop_reason and time.monotonic() < deadline_s:
+            self._step()
+
+    def end(self) -> None:
+        """Leave the status line."""
+        if self._live:
+            print()
+
+    def _step(self) -> None:
+        self._executor.spin_until_future_complete(Future(), timeout_sec=0.1)
+        if self._launch.poll() is not None:
+            raise LaunchError(f"the launch ended early with code {self._launch.returncode}")
+        now_s = time.monotonic()
+        if now_s - self._shown_s >= (_REFRESH_S if self._live else _PLAIN_REFRESH_S):
+            self._shown_s = now_s
+            line = self._line()
+            print(f"\r\x1b[K{line}" if self._live else line, end="" if self._live else "\n", flush=True)
+
+    def _line(self) -> str:
+        collector = self._collector
+        words = [f"{_STATE_NAMES.get(collector.state, '?'):>10}"]
+        track = collector.recording.reference.time_s
+        if track:
+            words.append(f"{track[-1] - track[0]:5.1f}/{self._total_s:.0f} s {collector.segment:<4}")
+        else:
+            words.append(collector.reason)
+        if collector.latency_s.size:
+            median_ms, worst_ms = (float(value) * 1000 for value in _median_and_p99(collector))
+            words.append(f"{collector.rate_hz:6.1f} contacts/s")
+            words.append(f"latency {median_ms:.2f} ms (p99 {worst_ms:.2f})")
+        if collector.ball_m is not None:
+            words.append(f"ball {collector.ball_m[0] * 1000:+6.1f} {collector.ball_m[1] * 1000:+6.1f} mm")
+        return " | ".join(words)
+
+
+def _median_and_p99(collector: Collector) -> tuple[float, float]:
+    ordered = sorted(collector.latency_s.tolist())
+    return ordered[len(ordered) // 2], ordered[min(len(ordered) - 1, int(len(ordered) * 0.99))]
+
+
+def free_domain_id() -> int:
+    """A ROS domain of the demo's own, so that it neither disturbs nor is disturbed by what else runs here."""
+    # 102 to 199: free of the default domain and below the ids whose ports collide with ephemeral ports on Linux.
+    return 102 + os.getpid() % 98
+
+
+def watch(arguments: list[str], duration_s: float, recording: Recording, log_path: Path) -> None:
+    """Launch the chain and watch it to the end of the trajectory."""
+    rclpy.init(args=[])
+    executor = make_executor()
+    collector = Collector(NAMESPACE, recording)
+    executor.add_node(collector)
+    try:
+        with launched(arguments, log_path) as launch:
+            watcher = Watcher(executor, collector, launch, duration_s)
+            watcher.until_balancing()
+            meter = LoadMeter(launch.pid)
+            meter.start()
+            watcher.until_finished(duration_s + 10.0)
+            recording.cpu_percent = meter.percent()
+            watcher.end()
+    finally:
+        collector.destroy_node()
+        executor.shutdown()
+        rclpy.try_shutdown()
+
+
+def run(seconds: float | None, out: Path, robot_ip: str) -> int:
+    """Run the demo; the exit code says whether it worked.
+
+    Parameters
+    ----------
+    seconds : float or None
+        Trace only what fits into this time [s]; None for everything.
+    out : Path
+        Folder for the results.
+    robot_ip : str
+        Loopback address of the simulated robot.
+    """
+    if seconds is not None and not 5.0 <= seconds <= 600.0:
+        raise ActsError(f"--seconds {seconds:g}: allowed is 5 to 600")
+    out.mkdir(parents=True, exist_ok=True)
+    trajectory, duration_s = plan(seconds)
+    os.environ.setdefault("ROS_DOMAIN_ID", str(free_domain_id()))
+    print(f"Ball balancing with simulated skin, ball and UR5e: {trajectory.replace(',', ', ')}; {duration_s:.0f} s")
+    print("The same nodes run on the real robot; only launch arguments differ. Everything below is measured live.")
+    recording = Recording()
+    log_path = out / "ball_balancing.log"
+    with tempfile.TemporaryDirectory(prefix="acts_demo_", dir=_shared_memory()) as run_dir:
+        launch_arguments = [f"trajectory:={trajectory}", f"run_dir:={run_dir}", f"robot_ip:={robot_ip}"]
+        try:
+            watch(launch_arguments, duration_s, recording, log_path)
+        except LaunchError as error:
+            print()
+            print("\n".join(log_path.read_text(errors="replace").splitlines()[-30:]), file=sys.stderr)
+            raise LaunchError(f"{error}; the end of {log_path} is above") from error
+    results = score(recording)
+    (out / "ball_balancing.json").write_text(json.dumps(results, indent=2) + "\n")
+    draw(recording, results, ArrayGeometry(), out / "ball_balancing.png")
+    print(table(results))
+    print(f"  wrote {out / 'ball_balancing.json'}, {out / 'ball_balancing.png'}, {log_path}")
+    return 0 if results["ok"] else 1
+
+
+def _shared_memory() -> Path | None:
+    shared = Path("/dev/shm")
+    return shared if shared.is_dir() else None

@@ -1,0 +1,124 @@
+"""The node that watches a ball-balancing run and fills a `Recording`."""
+
+from __future__ import annotations
+
+import numpy as np
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import PointStamped
+from numpy.typing import NDArray
+from rclpy.node import Node
+from sensor_msgs.msg import Image
+
+from acts_msgs.msg import BalanceStatus, BallReference, BallState, StreamStatistics
+from acts_ros import qos
+from acts_tools.demo.recording import Recording
+
+_IMAGE_PERIOD_S = 0.01
+
+
+def seconds(stamp: object) -> float:
+    """A message stamp as seconds."""
+    return stamp.sec + stamp.nanosec * 1e-9  # type: ignore[attr-defined,no-any-return]
+
+
+class Collector(Node):
+    """Subscribes what the demo scores and shows.
+
+    Parameters
+    ----------
+    namespace : str
+        The skin's namespace.
+    recording : Recording
+        Filled while the control loop is closed.
+    """
+
+    def __init__(self, namespace: str, recording: Recording) -> None:
+        super().__init__("demo", namespace=namespace)
+        self.recording = recording
+        self.state = BalanceStatus.STATE_CONNECTING
+        self.reason = "starting"
+        self.segment = ""
+        self.ball_m: tuple[float, float] | None = None
+        self.rate_hz = 0.0
+        self.latency_s: NDArray[np.float32] = np.empty(0, dtype=np.float32)
+        self._balancing = False
+        self._first: StreamStatistics | None = None
+        self._frames_lost_before: int | None = None
+        self._crc_errors_before = 0
+        self._last_image_s = 0.0
+        subscribe = self.create_subscription
+        subscribe(BalanceStatus, "ball/status", self._on_status, qos.STATE)
+        subscribe(BallReference, "ball/reference", self._on_reference, qos.STATE)
+        subscribe(BallState, "ball/state", self._on_state, qos.STATE)
+        subscribe(PointStamped, "ball/truth", self._on_truth, qos.STATE)
+        subscribe(StreamStatistics, "contact_statistics", self._on_statistics, qos.STATE)
+        subscribe(DiagnosticArray, "/diagnostics", self._on_diagnostics, 10)
+        subscribe(Image, "image_raw", self._on_image, qos.STREAM)
+
+    def _on_status(self, message: BalanceStatus) -> None:
+        self.state, self.reason = message.state, message.reason
+        if message.state == BalanceStatus.STATE_BALANCING:
+            self._balancing = True
+            recording = self.recording
+            recording.tilt_time_s.append(seconds(message.header.stamp))
+            recording.tilt_commanded_rad.append((message.tilt_commanded.x, message.tilt_commanded.y))
+            recording.tilt_measured_rad.append((message.tilt_measured.x, message.tilt_measured.y))
+        elif message.state == BalanceStatus.STATE_STOPPED and self._balancing:
+            self.recording.stop_reason = message.reason
+
+    def _on_reference(self, message: BallReference) -> None:
+        if not self._balancing or self.recording.finished:
+            return
+        self.segment = message.segment
+        track = self.recording.reference
+        before = len(track.time_s)
+        track.add(seconds(message.header.stamp), message.position.x, message.position.y)
+        self.recording.segments.extend([message.segment] * (len(track.time_s) - before))
+        self.recording.finished = message.finished
+
+    def _on_state(self, message: BallState) -> None:
+        if message.valid:
+            self.ball_m = (message.position.x, message.position.y)
+            self.recording.estimate.add(seconds(message.header.stamp), *self.ball_m)
+
+    def _on_truth(self, message: PointStamped) -> None:
+        self.recording.truth.add(seconds(message.header.stamp), message.point.x, message.point.y)
+
+    def _on_statistics(self, message: StreamStatistics) -> None:
+        latencies = np.asarray(message.latencies, dtype=np.float32)
+        self.latency_s = latencies
+        self.rate_hz = latencies.size / message.interval if message.interval > 0 else 0.0
+        if not self._balancing:
+            return
+        if self._first is None:
+            # Everything is counted from here on: what happened before the loop was closed is the start-up.
+            self._first = message
+            return
+        recording = self.recording
+        recording.latencies_s.append(latencies)
+        recording.contacts_received = message.received - self._first.received
+        recording.contacts_lost = message.lost - self._first.lost
+        elapsed_s = seconds(message.header.stamp) - seconds(self._first.header.stamp)
+        recording.contact_rate_hz = recording.contacts_received / elapsed_s if elapsed_s > 0 else 0.0
+
+    def _on_diagnostics(self, message: DiagnosticArray) -> None:
+        name = f"{self.get_namespace().strip('/')}/driver"
+        for status in message.status:
+            if status.name != name:
+                continue
+            values = {value.key: value.value for value in status.values}
+            lost, crc_errors = int(values["lost"]), int(values["crc_errors"])
+            if self._frames_lost_before is None or not self._balancing:
+                self._frames_lost_before, self._crc_errors_before = lost, crc_errors
+            self.recording.frames_lost = lost - self._frames_lost_before
+            self.recording.crc_errors = crc_errors - self._crc_errors_before
+
+    def _on_image(self, message: Image) -> None:
+        # One image in ten is plenty for a map and costs a tenth.
+        stamp_s = seconds(message.header.stamp)
+        if not self._balancing or self.recording.finished or stamp_s - self._last_image_s < _IMAGE_PERIOD_S:
+            return
+        self._last_image_s = stamp_s
+        image = np.frombuffer(message.data, dtype=np.uint16).reshape(message.height, message.width)
+        total = self.recording.segment_pressure.setdefault(self.segment, np.zeros(image.shape))
+        total += image

@@ -1,0 +1,28 @@
+"""`acts demo NAME`: the demonstrations by name."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+
+def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add ``demo`` to the acts command."""
+    parser = subparsers.add_parser("demo", help="run a demonstration with everything simulated")
+    demos = parser.add_subparsers(dest="demo", required=True, metavar="NAME")
+    ball = demos.add_parser(
+        "ball_balancing",
+        help="a UR5e balances a ball by touch and traces N, B and I",
+        description="Ball balancing by touch with simulated skin, ball and UR5e. The exit code says whether it worked.",
+    )
+    ball.add_argument("--seconds", type=float, help="shorten it: trace only what fits into this time (default: all)")
+    ball.add_argument("--out", type=Path, default=Path("out"), help="folder for the results (default: out)")
+    ball.add_argument("--robot-ip", default="127.0.0.1", help="loopback address of the simulated robot")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Run the demonstration that was named."""
+    # Late: the other commands need neither ROS messages nor the drawing library.
+    from acts_tools.demo import ball_balancing
+
+    return ball_balancing.run(arguments.seconds, arguments.out, arguments.robot_ip)

@@ -1,0 +1,64 @@
+"""CPU load of a process tree, a name for each process."""
+
+from __future__ import annotations
+
+import time
+from collections import defaultdict
+from pathlib import Path
+
+import psutil
+
+
+class LoadMeter:
+    """Measures the mean load of all descendants of a process between `start` and `percent`.
+
+    Parameters
+    ----------
+    pid : int
+        The launching process; its own load is reported as "launch".
+    """
+
+    def __init__(self, pid: int) -> None:
+        self._root = psutil.Process(pid)
+        self._before: dict[psutil.Process, float] = {}
+        self._started_s = 0.0
+
+    def start(self) -> None:
+        """Begin to count. Processes started later are counted from their own start."""
+        self._started_s = time.monotonic()
+        self._before = {process: _cpu_s(process) for process in self._processes()}
+
+    def percent(self) -> dict[str, float]:
+        """Load since `start` by process name [% of one core]; processes that have ended are left out."""
+        elapsed_s = max(time.monotonic() - self._started_s, 1e-9)
+        loads: dict[str, float] = defaultdict(float)
+        for process in self._processes():
+            try:
+                used_s = _cpu_s(process) - self._before.get(process, 0.0)
+                loads["launch" if process == self._root else _name(process)] += used_s / elapsed_s * 100
+            except psutil.NoSuchProcess:
+                continue
+        return dict(loads)
+
+    def _processes(self) -> list[psutil.Process]:
+        try:
+            return [self._root, *self._root.children(recursive=True)]
+        except psutil.NoSuchProcess:
+            return []
+
+
+def _cpu_s(process: psutil.Process) -> float:
+    try:
+        times = process.cpu_times()
+    except psutil.NoSuchProcess:
+        return 0.0
+    return float(times.user + times.system)
+
+
+def _name(process: psutil.Process) -> str:
+    """Name of the program: the script where an interpreter runs one."""
+    words = process.cmdline()
+    if not words:
+        return process.name()
+    interpreted = Path(words[0]).name.startswith("python") and len(words) > 1 and not words[1].startswith("-")
+    return Path(words[1] if interpreted else words[0]).name

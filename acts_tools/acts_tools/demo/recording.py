@@ -1,0 +1,91 @@
+"""What a run of the ball-balancing demo leaves behind, as plain arrays."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass
+class Track:
+    """A path over time that grows sample by sample.
+
+    Attributes
+    ----------
+    time_s : list of float
+        ROS time of every sample [s].
+    x_m, y_m : list of float
+        Position in the skin's plane [m].
+    """
+
+    time_s: list[float] = field(default_factory=list)
+    x_m: list[float] = field(default_factory=list)
+    y_m: list[float] = field(default_factory=list)
+
+    def add(self, time_s: float, x_m: float, y_m: float) -> None:
+        """Append one sample; one that is not newer than the last is left out, interpolation needs growing times."""
+        if not self.time_s or time_s > self.time_s[-1]:
+            self.time_s.append(time_s)
+            self.x_m.append(x_m)
+            self.y_m.append(y_m)
+
+    def at(self, time_s: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Positions at other times, linearly interpolated; shape (n, 2) [m]."""
+        return np.column_stack([np.interp(time_s, self.time_s, self.x_m), np.interp(time_s, self.time_s, self.y_m)])
+
+
+@dataclass
+class Recording:
+    """Everything the demo scores and draws.
+
+    Attributes
+    ----------
+    truth : Track
+        Where the simulated ball really was.
+    reference : Track
+        Where it should have been, only while the control loop was closed.
+    segments : list of str
+        Name of the reference's segment, one per sample of `reference`.
+    estimate : Track
+        Where the controller believed it to be.
+    tilt_time_s, tilt_commanded_rad, tilt_measured_rad : lists
+        Tilt about the skin's x and y axes.
+    latencies_s : list of arrays
+        From the last measurement of a frame to the reception of its contact by the control node.
+    contacts_received, contacts_lost : int
+        Counted by the control node.
+    contact_rate_hz : float
+        Contacts received per second over the run.
+    frames_lost : int
+        Frames missing between board and driver, counted by the driver.
+    crc_errors : int
+        Counted by the driver.
+    segment_pressure : dict of str to np.ndarray [shape=(rows, cols), dtype=float64]
+        Sum of the tactile images of each segment [ADC counts].
+    cpu_percent : dict of str to float
+        Mean load of every process [% of one core].
+    stop_reason : str
+        Why the controller stopped, empty when it did not.
+    finished : bool
+        Whether the reference came to its end.
+    """
+
+    truth: Track = field(default_factory=Track)
+    reference: Track = field(default_factory=Track)
+    segments: list[str] = field(default_factory=list)
+    estimate: Track = field(default_factory=Track)
+    tilt_time_s: list[float] = field(default_factory=list)
+    tilt_commanded_rad: list[tuple[float, float]] = field(default_factory=list)
+    tilt_measured_rad: list[tuple[float, float]] = field(default_factory=list)
+    latencies_s: list[NDArray[np.float32]] = field(default_factory=list)
+    contacts_received: int = 0
+    contacts_lost: int = 0
+    contact_rate_hz: float = 0.0
+    frames_lost: int = 0
+    crc_errors: int = 0
+    segment_pressure: dict[str, NDArray[np.float64]] = field(default_factory=dict)
+    cpu_percent: dict[str, float] = field(default_factory=dict)
+    stop_reason: str = ""
+    finished: bool = False
