@@ -1,4 +1,4 @@
-"""A ring of timestamped arrays in a memory-mapped file: how simulated processes share what changes a thousand times a second.
+"""A ring of timestamped arrays in a memory-mapped file: what simulated processes share a thousand times a second.
 
 One process writes, any number read, none ever waits. The world writes pressure fields that the virtual board (C++)
 reads, the simulated robot writes joint angles that the world reads.
@@ -20,13 +20,14 @@ Layout of the file, little-endian, natural alignment::
     8       int64       time [ns], CLOCK_MONOTONIC of the host
     16      float64[width]
 
-Times grow from slot to slot. A reader interpolates linearly between the two slots around the time it asks for, and holds
-the oldest or newest outside of them. A writer that knows the near future (the world runs one step ahead) may write it.
+Times grow from slot to slot. A reader interpolates linearly between the two slots around the time it asks for, and
+holds the oldest or newest outside of them. A writer that knows the near future (the world runs ahead) may write it.
 """
 
 from __future__ import annotations
 
 import mmap
+import os
 import struct
 import time
 from pathlib import Path
@@ -42,6 +43,9 @@ _VERSION = 1
 _HEADER = struct.Struct("<8sIIII")
 _HEADER_BYTES = 64
 _WRITTEN_OFFSET = 24
+_ONE = np.uint64(1)
+# A writer is inside a slot for about a microsecond; a reader that finds it there a hundred times has a stuck writer.
+_ATTEMPTS = 100
 
 
 def _slot_dtype(width: int) -> np.dtype:
@@ -54,22 +58,38 @@ class TimedRingWriter:
     Parameters
     ----------
     path : Path
-        The file; a memory file system such as ``/dev/shm`` avoids disk writes.
+        The file, in a folder that exists; a memory file system such as ``/dev/shm`` avoids disk writes.
     width : int
         Number of values in a slot.
     slots : int
-        How many slots are kept; at 1 kHz, 128 hold an eighth of a second.
+        How many slots are kept, at least 2; at 1 kHz, 128 hold an eighth of a second.
+
+    Raises
+    ------
+    ActsError
+        When the file cannot be created, or `width` or `slots` is too small.
     """
 
     def __init__(self, path: Path, width: int, slots: int = 128) -> None:
+        if width < 1 or slots < 2:
+            raise ActsError(
+                f"{path}: a ring of {slots} slots of {width} values; allowed are 2 slots and 1 value or more"
+            )
         self.path = path
+        self.width = width
         dtype = _slot_dtype(width)
         total = _HEADER_BYTES + slots * dtype.itemsize
         # A new file under the old name: a reader of the old one keeps a whole, if ageing, ring.
-        temporary = path.with_name(path.name + ".new")
-        with temporary.open("w+b") as file:
-            file.truncate(total)
-            self._map = mmap.mmap(file.fileno(), total)
+        temporary = path.with_name(f"{path.name}.{os.getpid()}.new")
+        try:
+            with temporary.open("w+b") as file:
+                file.truncate(total)
+                self._map = mmap.mmap(file.fileno(), total)
+                self._identity = _identity_of(os.fstat(file.fileno()))
+        except OSError as error:
+            raise ActsError(
+                f"{path}: the shared ring cannot be created ({error.strerror}); its folder must exist"
+            ) from error
         self._map[: _HEADER.size] = _HEADER.pack(_MAGIC, _VERSION, slots, width, 0)
         self._written = np.frombuffer(self._map, dtype="<u8", count=1, offset=_WRITTEN_OFFSET)
         self._slots = np.frombuffer(self._map, dtype=dtype, count=slots, offset=_HEADER_BYTES)
@@ -77,22 +97,42 @@ class TimedRingWriter:
         self._time_ns = self._slots["time_ns"]
         self._values = self._slots["values"]
         self._count = 0
+        self._newest_ns: int | None = None
         temporary.replace(path)
 
     def write(self, time_ns: int, values: NDArray[np.float64]) -> None:
-        """Append one slot. `time_ns` must be greater than in the slot before; `values` has shape (width,)."""
+        """Append one slot.
+
+        Parameters
+        ----------
+        time_ns : int
+            CLOCK_MONOTONIC [ns], greater than in the slot before.
+        values : np.ndarray [shape=(width,), dtype=float64]
+            What holds at that time.
+
+        Raises
+        ------
+        ActsError
+            For another shape, or a time that does not grow.
+        """
+        if values.shape != (self.width,):
+            raise ActsError(f"{self.path}: values of shape {values.shape}; a slot holds ({self.width},)")
+        if self._newest_ns is not None and time_ns <= self._newest_ns:
+            raise ActsError(f"{self.path}: slot of {time_ns} ns after one of {self._newest_ns} ns; times must grow")
+        self._newest_ns = time_ns
         index = self._count % len(self._slots)
         # x86 keeps the order of stores; on other processors a torn slot is possible but is only simulated touch.
-        self._lock[index] += np.uint64(1)
+        self._lock[index] += _ONE
         self._time_ns[index] = time_ns
         self._values[index] = values
-        self._lock[index] += np.uint64(1)
+        self._lock[index] += _ONE
         self._count += 1
         self._written[0] = self._count
 
     def close(self) -> None:
-        """Remove the file."""
-        self.path.unlink(missing_ok=True)
+        """Remove the file, unless another writer has put its own in its place."""
+        if _identity(self.path) == self._identity:
+            self.path.unlink(missing_ok=True)
 
     def __enter__(self) -> TimedRingWriter:
         return self
@@ -106,53 +146,142 @@ class TimedRingWriter:
 class TimedRingReader:
     """Reads a ring that another process writes.
 
+    A writer that starts anew puts a new file in the place of the old one. The reader looks for that whenever nothing
+    was written since its last read, and changes over; while there is no file, it keeps what it has.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    width : int
+        Number of values in a slot that the caller expects.
+
     Raises
     ------
     ActsError
-        When the file is missing, is no ring, or has another width than asked for.
+        When the file is missing, is no ring, or has another width than asked for; from every read also when a new file
+        is so.
     """
 
     def __init__(self, path: Path, width: int) -> None:
         self.path = path
+        self.width = width
+        self._open()
+
+    def _open(self) -> None:
+        path = self.path
         try:
             with path.open("rb") as file:
-                self._map = mmap.mmap(file.fileno(), 0, prot=mmap.PROT_READ)
+                identity = _identity_of(os.fstat(file.fileno()))
+                mapped = mmap.mmap(file.fileno(), 0, prot=mmap.PROT_READ)
         except (OSError, ValueError) as error:
             raise ActsError(
                 f"{path}: no shared ring there ({error}); start the process that writes it first"
             ) from error
-        if len(self._map) < _HEADER_BYTES:
+        if len(mapped) < _HEADER_BYTES:
             raise ActsError(f"{path}: too short to be a shared ring")
-        magic, version, slots, given_width, _ = _HEADER.unpack_from(self._map)
+        magic, version, slots, width, _ = _HEADER.unpack_from(mapped)
         if magic != _MAGIC or version != _VERSION:
             raise ActsError(f"{path}: not a shared ring of version {_VERSION}")
-        if given_width != width:
-            raise ActsError(f"{path}: holds {given_width} values a slot, {width} are expected")
+        if width != self.width:
+            raise ActsError(f"{path}: holds {width} values a slot, {self.width} are expected")
         dtype = _slot_dtype(width)
-        if len(self._map) < _HEADER_BYTES + slots * dtype.itemsize:
-            raise ActsError(f"{path}: shorter than its header says")
-        self._written = np.frombuffer(self._map, dtype="<u8", count=1, offset=_WRITTEN_OFFSET)
-        self._slots = np.frombuffer(self._map, dtype=dtype, count=slots, offset=_HEADER_BYTES)
+        if slots < 2 or len(mapped) < _HEADER_BYTES + slots * dtype.itemsize:
+            raise ActsError(f"{path}: shorter than its header says ({slots} slots of {width} values)")
+        self._identity = identity
+        self._written = np.frombuffer(mapped, dtype="<u8", count=1, offset=_WRITTEN_OFFSET)
+        self._slots = np.frombuffer(mapped, dtype=dtype, count=slots, offset=_HEADER_BYTES)
+        self._lock = self._slots["lock"]
+        self._time_ns = self._slots["time_ns"]
+        self._values = self._slots["values"]
+        self._seen = 0
 
     @property
     def written(self) -> int:
-        """Number of slots written so far."""
+        """Number of slots written so far, to the present file."""
         return int(self._written[0])
 
     def newest(self) -> tuple[int, NDArray[np.float64]] | None:
-        """Time [ns] and a copy of the values of the newest slot; None before the first."""
-        for _ in range(100):
-            count = self.written
+        """Time [ns] and a copy of the values, shape (width,), of the newest slot; None before the first."""
+        for _ in range(_ATTEMPTS):
+            count = self._follow()
             if count == 0:
                 return None
-            slot = self._slots[(count - 1) % len(self._slots)]
-            before = int(slot["lock"])
-            time_ns, values = int(slot["time_ns"]), slot["values"].copy()
-            if before % 2 == 0 and int(slot["lock"]) == before:
-                return time_ns, values
-        raise ActsError(f"{self.path}: the newest slot never came to rest; is its writer stuck?")
+            slot = self._read((count - 1) % len(self._slots))
+            if slot is not None:
+                return slot
+        raise self._stuck()
+
+    def sample(self, time_ns: int) -> NDArray[np.float64] | None:
+        """What held at a time: linear between the slots around it, the oldest or newest slot outside of them.
+
+        Parameters
+        ----------
+        time_ns : int
+            CLOCK_MONOTONIC [ns].
+
+        Returns
+        -------
+        np.ndarray [shape=(width,), dtype=float64] or None
+            None before the first slot.
+        """
+        for attempt in range(_ATTEMPTS):
+            count = self._follow()
+            if count == 0:
+                return None
+            slots = len(self._slots)
+            # The oldest slot is the one that is written next; a reader that was overtaken leaves more of them alone.
+            first = min(max(count - slots + 1 + attempt, 0), count - 1)
+            order = np.arange(first, count) % slots
+            times_ns = self._time_ns[order]
+            overtaken = max(self.written - slots + 1 - first, 0)
+            order, times_ns = order[overtaken:], times_ns[overtaken:]
+            if not len(order):
+                continue
+            after = int(np.searchsorted(times_ns, time_ns))
+            low, high = max(after - 1, 0), min(after, len(order) - 1)
+            early, late = self._read(int(order[low])), self._read(int(order[high]))
+            # Both whole, and not overwritten by later slots since their times were looked up.
+            if early is None or late is None or early[0] != times_ns[low] or late[0] != times_ns[high]:
+                continue
+            if low == high:
+                return late[1]
+            share = (time_ns - early[0]) / (late[0] - early[0])
+            return early[1] + share * (late[1] - early[1])
+        raise self._stuck()
 
     def age_s(self) -> float:
-        """Time since the newest slot [s]; infinite before the first."""
+        """Time since the newest slot [s], negative for one in the future; infinite before the first."""
         newest = self.newest()
         return float("inf") if newest is None else (time.monotonic_ns() - newest[0]) / 1e9
+
+    def _follow(self) -> int:
+        """Number of slots written, after changing over to a new file where there is one."""
+        count = self.written
+        if count == self._seen:
+            identity = _identity(self.path)
+            if identity is not None and identity != self._identity:
+                self._open()
+                count = self.written
+        self._seen = count
+        return count
+
+    def _read(self, index: int) -> tuple[int, NDArray[np.float64]] | None:
+        before = int(self._lock[index])
+        time_ns, values = int(self._time_ns[index]), self._values[index].copy()
+        whole = before % 2 == 0 and int(self._lock[index]) == before
+        return (time_ns, values) if whole else None
+
+    def _stuck(self) -> ActsError:
+        return ActsError(f"{self.path}: a slot never came to rest; is its writer stuck?")
+
+
+def _identity(path: Path) -> tuple[int, int] | None:
+    try:
+        return _identity_of(path.stat())
+    except OSError:
+        return None
+
+
+def _identity_of(status: os.stat_result) -> tuple[int, int]:
+    return status.st_dev, status.st_ino
