@@ -6,8 +6,9 @@ wrist 1, wrist 2, wrist 3. The robot's base is taken to stand level.
 
 The *tilt* ``(tilt_x, tilt_y)`` of a plate is the rotation vector about the skin's x and y axes that took it away from
 level. Two joints choose two of the three components of an attitude; the third, a twist about the plate's normal, is
-left out. It is about 0.3 degrees at most at 6 degrees of tilt, and gravity in the plane of the skin does not depend on it: a
-solid ball rolls with ``a_x = 5/7 g sin(tilt_y)``, ``a_y = -5/7 g sin(tilt_x)`` exactly.
+left out: about 0.3 degrees at 6 degrees of tilt, and gravity in the plane of the skin does not depend on it. A solid
+ball rolls with ``a_x = 5/7 g sin(tilt_y)`` and ``a_y = -5/7 g sin(tilt_x)``; where both are tilted, ``sin(tilt)`` is
+the component times ``sin(angle) / angle``.
 
 References
 ----------
