@@ -18,5 +18,5 @@ setup(
     maintainer_email="acts-maintainers@example.org",
     description="Serial driver of the ACTS tactile array: board bytes in, TactileSamples out.",
     license="Apache-2.0",
-    entry_points={"console_scripts": []},
+    entry_points={"console_scripts": [f"driver = {PACKAGE}.driver_node:main"]},
 )

@@ -1,0 +1,170 @@
+"""The node `driver`: board bytes in, TactileSamples out."""
+
+from __future__ import annotations
+
+import sys
+import time
+
+from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
+from rclpy.timer import Timer
+
+from acts_core.errors import ActsError
+from acts_core.frames import SampleFrame
+from acts_driver.messages import SamplesMessage
+from acts_driver.reader import Reader
+from acts_driver.report import DriverReport
+from acts_driver.settings import DriverSettings
+from acts_driver.source import SerialSource
+from acts_driver.stream import FrameStream
+from acts_msgs.msg import TactileSamples
+from acts_ros.diagnostics import ERROR, OK, DiagnosticsReporter, Report
+from acts_ros.executor import run
+from acts_ros.parameters import declare, node_options
+from acts_ros.qos import OVERRIDABLE, STREAM
+
+SUCCESS = TransitionCallbackReturn.SUCCESS
+FAILURE = TransitionCallbackReturn.FAILURE
+
+
+class DriverNode(LifecycleNode):
+    """Lifecycle node around `Reader` and `FrameStream`.
+
+    Configured, it reads the board, so that nothing old is waiting when it is activated; active, it publishes. The
+    frames are published from the reader's thread, without a hop through the executor.
+    """
+
+    def __init__(self, **node_arguments: object) -> None:
+        super().__init__("driver", **node_options(), **node_arguments)
+        self._settings = declare(self, DriverSettings)
+        self._active = False
+        self._reader: Reader | None = None
+        self._report: DriverReport | None = None
+        self._problem = ""
+        self._autostart_timer: Timer | None = None
+        frame_id = self._settings.frame_id or self.get_namespace().strip("/").replace("/", "_") or "skin"
+        self._message = SamplesMessage(frame_id)
+        # Not made in on_configure: subscribers then are matched before the first frame.
+        self._publisher = self.create_publisher(TactileSamples, "samples", STREAM, qos_overriding_options=OVERRIDABLE)
+        self._diagnostics = DiagnosticsReporter(self, self._settings.port, self._make_report)
+        if self._settings.autostart:
+            self._autostart()
+
+    def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Open the port and begin to read."""
+        settings = self._settings
+        source = SerialSource(settings.port, settings.baud)
+        try:
+            source.open()
+        except ActsError as error:
+            # With autostart this is tried again and again, and told once.
+            if str(error) != self._problem:
+                self.get_logger().error(str(error))
+            self._problem = str(error)
+            return FAILURE
+        self._problem = ""
+        decoder = settings.make_decoder()
+        self._stream = FrameStream(settings.rows, settings.cols, has_board_clock=decoder.has_board_clock)
+        self._reader = Reader(
+            source,
+            decoder,
+            self._on_frames,
+            reconnect_s=settings.reconnect_s,
+            log=self._log,
+            on_reconnect=self._stream.statistics.reconnected,
+        )
+        self._report = DriverReport(self._reader, decoder, self._stream, (settings.rows, settings.cols), settings.port)
+        self._wrong_size_told = (0, 0)
+        self._reader.start(is_open=True)
+        self.get_logger().info(f"reading {settings.port} ({settings.protocol})")
+        return SUCCESS
+
+    def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Begin to publish."""
+        self._active = True
+        return super().on_activate(state)
+
+    def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Stop publishing; the board is still read."""
+        self._active = False
+        return super().on_deactivate(state)
+
+    def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Close the port."""
+        self.close()
+        return SUCCESS
+
+    def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Close the port for good."""
+        self.close()
+        return SUCCESS
+
+    def on_error(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Close the port after a transition failed unexpectedly; the node is unconfigured then."""
+        self.get_logger().error("a transition failed; the port is closed")
+        self.close()
+        return SUCCESS
+
+    def close(self) -> None:
+        """Stop publishing, end the reader's thread and close the port."""
+        self._active = False
+        self._stop_autostart()
+        reader, self._reader, self._report = self._reader, None, None
+        if reader is not None:
+            reader.stop()
+
+    def _autostart(self) -> None:
+        if self.trigger_configure() == SUCCESS:
+            self._stop_autostart()
+            self.trigger_activate()
+        elif self._autostart_timer is None:
+            self.get_logger().info(f"waiting for {self._settings.port}")
+            self._autostart_timer = self.create_timer(self._settings.reconnect_s, self._autostart)
+
+    def _stop_autostart(self) -> None:
+        timer, self._autostart_timer = self._autostart_timer, None
+        if timer is not None:
+            self.destroy_timer(timer)
+
+    def _on_frames(self, frames: list[SampleFrame], arrival_ns: int) -> None:
+        """Publish; on the reader's thread."""
+        accepted = self._stream.accept(frames, arrival_ns)
+        if self._stream.wrong_size_last != self._wrong_size_told:
+            self._tell_wrong_size()
+        if not self._active:
+            return
+        for frame, stamp_ns in accepted:
+            try:
+                self._publisher.publish(self._message.fill(frame, stamp_ns))
+            except Exception:
+                # A signal may end the context between two frames.
+                if self.context.ok():
+                    raise
+                return
+
+    def _tell_wrong_size(self) -> None:
+        self._wrong_size_told = self._stream.wrong_size_last
+        rows, cols = self._wrong_size_told
+        self.get_logger().error(
+            f"the board sends frames of {rows} x {cols} taxels, expected are {self._settings.rows} x "
+            f"{self._settings.cols}; they are dropped: set the parameters rows and cols"
+        )
+
+    def _make_report(self) -> Report:
+        if self._report is not None:
+            return self._report.make("active" if self._active else "inactive", time.time_ns())
+        values = {"port": self._settings.port, "state": "unconfigured"}
+        return (ERROR, self._problem, values) if self._problem else (OK, "unconfigured", values)
+
+    def _log(self, level: str, message: str) -> None:
+        # A line each: rclpy refuses a line that changes its severity.
+        if level == "error":
+            self.get_logger().error(message)
+        elif level == "warning":
+            self.get_logger().warning(message)
+        else:
+            self.get_logger().info(message)
+
+
+def main() -> None:
+    """Run the driver until it is told to stop."""
+    sys.exit(run([DriverNode]))

@@ -1,0 +1,103 @@
+"""Opening a serial port, with errors that say what to do."""
+
+from __future__ import annotations
+
+import errno
+import os
+import termios
+from pathlib import Path
+
+import serial
+from serial.tools import list_ports
+
+from acts_core.errors import PortError
+
+
+def open_port(path: str, baud: int) -> serial.Serial:
+    """Open a port for this process alone.
+
+    Parameters
+    ----------
+    path : str
+        Device file, or a link to one.
+    baud : int
+        Bits per second; of no effect on USB boards and pseudo-terminals.
+
+    Raises
+    ------
+    PortError
+        With the ports that are present where `path` is missing, who may hold it where it is busy, and which group to
+        join where the permission is missing.
+    """
+    try:
+        return serial.Serial(path, baudrate=baud, timeout=0, exclusive=True)
+    except (serial.SerialException, OSError, termios.error, ValueError) as error:
+        raise PortError(explain(path, _errno_of(error), str(error))) from error
+
+
+def explain(path: str, number: int | None, reason: str) -> str:
+    """Words for a port that cannot be opened.
+
+    Parameters
+    ----------
+    path : str
+        The port.
+    number : int or None
+        errno of the failure, if there is one.
+    reason : str
+        What the operating system or the serial library said, used where `number` has no explanation of its own.
+    """
+    if number in (errno.ENOENT, errno.ENODEV, errno.ENXIO, errno.EIO):
+        return f"port {_shown(path)} is not there; plug the board in or set the parameter port. {ports_present()}"
+    if number in (errno.EBUSY, errno.EAGAIN):
+        held_by = holders(path)
+        who = f"by {', '.join(held_by)}" if held_by else f"by another program (`lsof {path}` tells which)"
+        return f"port {_shown(path)} is held {who}; stop that program first"
+    if number in (errno.EACCES, errno.EPERM):
+        return (
+            f"port {_shown(path)}: permission denied; join its group with `sudo usermod -a -G dialout $USER`, then log "
+            "out and in again"
+        )
+    if number == errno.ENOTTY:
+        return f"{_shown(path)} is no serial port. {ports_present()}"
+    return f"port {_shown(path)} cannot be opened: {reason}. {ports_present()}"
+
+
+def ports_present() -> str:
+    """A sentence that lists the serial ports of this machine."""
+    ports = [
+        f"{port.device} ({port.description})" if port.description not in ("", "n/a") else port.device
+        for port in sorted(list_ports.comports(), key=lambda port: port.device)
+    ]
+    return f"Ports present: {', '.join(ports)}." if ports else "No serial ports are present."
+
+
+def holders(path: str) -> list[str]:
+    """Names and process numbers of the programs that have a port open, as far as this user may see."""
+    device = os.path.realpath(path)
+    found = []
+    for process in Path("/proc").glob("[0-9]*"):
+        try:
+            if int(process.name) != os.getpid() and any(
+                os.path.realpath(link) == device for link in (process / "fd").iterdir()
+            ):
+                found.append(f"{(process / 'comm').read_text().strip()} (process {process.name})")
+        except OSError:
+            # Another user's process, or one that has just ended.
+            continue
+    return sorted(found)
+
+
+def _errno_of(error: BaseException | None) -> int | None:
+    """errno of a failure; pyserial leaves that of the terminal's settings in the exception it replaces."""
+    while error is not None:
+        number = error.args[0] if isinstance(error, termios.error) else getattr(error, "errno", None)
+        if isinstance(number, int):
+            return number
+        error = error.__context__
+    return None
+
+
+def _shown(path: str) -> str:
+    target = os.path.realpath(path)
+    return f"{path} (a link to {target})" if Path(path).is_symlink() else path

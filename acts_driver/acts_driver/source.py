@@ -1,0 +1,97 @@
+"""Where bytes come from. The reader knows only `Source`, so that a recording can stand in for a serial port."""
+
+from __future__ import annotations
+
+import os
+import select
+from typing import Protocol
+
+import serial
+
+from acts_core.errors import PortError
+from acts_driver.port import open_port
+
+READ_TIMEOUT_S = 0.1
+"""Longest time that `Source.read` blocks, so that a reader can be stopped."""
+
+_READ_SIZE = 65536
+
+
+class Source(Protocol):
+    """A stream of bytes that can be opened again after it was lost.
+
+    How to write one: `open` takes hold of the stream, `read` waits for the next bytes, `close` may be called at any
+    time and any number of times. All of them are called from one thread at a time.
+    """
+
+    @property
+    def name(self) -> str:
+        """What a person calls the source, for example the path of the port."""
+
+    def open(self) -> None:
+        """Open the stream, or raise `PortError`."""
+
+    def read(self) -> bytes:
+        """Return the bytes that are there, waiting for the first one up to `READ_TIMEOUT_S`; empty where none came.
+
+        Raises `PortError` when the stream was lost.
+        """
+
+    def close(self) -> None:
+        """Let go of the stream."""
+
+
+class SerialSource:
+    """A serial port, opened with pyserial for this process alone.
+
+    Parameters
+    ----------
+    path : str
+        Device file, or a link to one; a link is followed anew at every opening.
+    baud : int
+        Bits per second; of no effect on USB boards.
+    """
+
+    def __init__(self, path: str, baud: int = 115200) -> None:
+        self._path = path
+        self._baud = baud
+        self._port: serial.Serial | None = None
+        self._poll = select.poll()
+        self._fd = -1
+
+    @property
+    def name(self) -> str:
+        """Path of the port."""
+        return self._path
+
+    def open(self) -> None:
+        """Open the port, or raise `PortError`."""
+        self.close()
+        self._port = open_port(self._path, self._baud)
+        self._fd = self._port.fileno()
+        self._poll = select.poll()
+        self._poll.register(self._fd, select.POLLIN)
+
+    def read(self) -> bytes:
+        """Return what has arrived, waiting up to `READ_TIMEOUT_S`, or raise `PortError` when the port was lost."""
+        if self._port is None:
+            raise PortError(f"port {self._path} is not open")
+        # Not pyserial's read(n): it waits for all n bytes, and reading what is there takes it four system calls.
+        try:
+            if not self._poll.poll(READ_TIMEOUT_S * 1000):
+                return b""
+            data = os.read(self._fd, _READ_SIZE)
+        except BlockingIOError:
+            return b""
+        except OSError as error:
+            raise PortError(f"port {self._path} was lost: {error.strerror}") from error
+        if not data:
+            # An unplugged port is always ready and has nothing to give.
+            raise PortError(f"port {self._path} was lost: end of stream")
+        return data
+
+    def close(self) -> None:
+        """Close the port if it is open."""
+        port, self._port = self._port, None
+        if port is not None:
+            port.close()

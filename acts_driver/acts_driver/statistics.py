@@ -1,0 +1,112 @@
+"""What the stream of frames looks like: rate, gaps, repetitions, restarts of the board."""
+
+from __future__ import annotations
+
+from collections import deque
+
+_MODULUS = 1 << 32
+_HALF = 1 << 31
+_BIN_NS = 100_000_000
+_BINS = 10
+_RECENT = 64
+_CLOCKS_AGREE_NS = 500_000_000
+
+
+class StreamStatistics:
+    """Counts over all frames of a board, in the order of their arrival.
+
+    Attributes
+    ----------
+    frames : int
+        New frames.
+    lost : int
+        Frames missing between two others, by their sequence numbers (which wrap at 2**32).
+    repeated : int
+        Frames that came a second time, or after a later one.
+    restarts : int
+        Restarts of the board. Its sequence starts anew then, and no frame counts as lost.
+    overruns : int
+        Frames the board dropped because the host did not read, as it said last.
+    """
+
+    def __init__(self) -> None:
+        self.frames = 0
+        self.lost = 0
+        self.repeated = 0
+        self.restarts = 0
+        self.overruns = 0
+        self._sequence = -1
+        self._board_us = 0
+        self._arrival_ns = 0
+        self._recent: deque[tuple[int, int]] = deque(maxlen=_RECENT)
+        self._reconnected = False
+        self._bin = 0
+        self._bins: deque[tuple[int, int]] = deque(maxlen=_BINS + 1)
+        self._in_bin = 0
+
+    def observe(self, sequence: int, board_us: int, overruns: int, arrival_ns: int) -> bool:
+        """Count one frame.
+
+        Parameters
+        ----------
+        sequence, board_us, overruns : int
+            As in `acts_core.frames.SampleFrame`.
+        arrival_ns : int
+            When it was read, on the host's clock [ns].
+
+        Returns
+        -------
+        bool
+            Whether it is new; one that is not must not be published.
+        """
+        if self._sequence >= 0:
+            missing = (sequence - self._sequence - 1) % _MODULUS
+            if missing >= _HALF and self._came_before(sequence, board_us):
+                self.repeated += 1
+                return False
+            if missing >= _HALF or board_us < self._board_us or self._was_off(board_us, arrival_ns):
+                self.restarts += 1
+                self._recent.clear()
+            else:
+                self.lost += missing
+        self._reconnected = False
+        self._sequence = sequence
+        self._board_us = board_us
+        self._arrival_ns = arrival_ns
+        self._recent.append((sequence, board_us))
+        self.overruns = overruns
+        self.frames += 1
+        self._count_rate(arrival_ns)
+        return True
+
+    def reconnected(self) -> None:
+        """Tell that the port was lost and opened again: the next frame may be from a board that was restarted."""
+        self._reconnected = True
+
+    def rate_hz(self, now_ns: int) -> float:
+        """New frames per second of arrival, over the last second."""
+        now = now_ns // _BIN_NS
+        # The bin that is filling is left out, or the rate would depend on when one asks.
+        done = [*self._bins, (self._bin, self._in_bin)]
+        return sum(count for number, count in done if now - _BINS <= number < now) / (_BINS * _BIN_NS * 1e-9)
+
+    def _came_before(self, sequence: int, board_us: int) -> bool:
+        """Whether a frame that is behind the last one is from the same life of the board."""
+        known_us = dict(self._recent).get(sequence)
+        if known_us is not None:
+            return known_us == board_us
+        oldest_sequence, oldest_us = self._recent[0]
+        return (sequence - oldest_sequence) % _MODULUS < _RECENT and oldest_us < board_us < self._board_us
+
+    def _was_off(self, board_us: int, arrival_ns: int) -> bool:
+        """Whether, after a reconnection, the board's clock tells that the board was without power meanwhile."""
+        board_ns = (board_us - self._board_us) * 1000
+        return self._reconnected and abs(board_ns - (arrival_ns - self._arrival_ns)) > _CLOCKS_AGREE_NS
+
+    def _count_rate(self, arrival_ns: int) -> None:
+        number = arrival_ns // _BIN_NS
+        if number != self._bin:
+            self._bins.append((self._bin, self._in_bin))
+            self._bin = number
+            self._in_bin = 0
+        self._in_bin += 1

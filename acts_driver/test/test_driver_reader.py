@@ -1,0 +1,201 @@
+"""The reader on a real pseudo-terminal: garbage, unplugging, a failing consumer; and ports that do not open."""
+
+import errno
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from pty_board import PtyBoard, frame, wait_for
+
+from acts_core.delimited import DelimitedDecoder
+from acts_core.errors import PortError
+from acts_core.frames import SampleFrame
+from acts_core.raster_ascii import RasterDecoder
+from acts_core.wire import StreamDecoder, encode_frame
+from acts_driver.port import explain, open_port
+from acts_driver.reader import Reader
+from acts_driver.source import SerialSource
+
+
+class Collector:
+    """A reader with everything it said."""
+
+    def __init__(self, path: Path, decoder: DelimitedDecoder | None = None) -> None:
+        self.frames: list[SampleFrame] = []
+        self.arrivals_ns: list[int] = []
+        self.log: list[tuple[str, str]] = []
+        self.fail = False
+        self.reconnected = 0
+        self.decoder = decoder if decoder is not None else StreamDecoder()
+        self.source = SerialSource(str(path))
+        self.reader = Reader(
+            self.source,
+            self.decoder,
+            self.take,
+            reconnect_s=0.05,
+            log=lambda level, message: self.log.append((level, message)),
+            on_reconnect=self.count_reconnect,
+        )
+
+    def take(self, frames: list[SampleFrame], arrival_ns: int) -> None:
+        if self.fail:
+            raise ValueError("no room")
+        self.frames += frames
+        self.arrivals_ns += [arrival_ns] * len(frames)
+
+    def count_reconnect(self) -> None:
+        self.reconnected += 1
+
+    def sequences(self) -> list[int]:
+        return [one.sequence for one in self.frames]
+
+    def open(self) -> None:
+        self.source.open()
+        self.reader.start(is_open=True)
+
+
+@pytest.fixture
+def board(tmp_path: Path) -> Iterator[PtyBoard]:
+    with PtyBoard(tmp_path) as board:
+        yield board
+
+
+@pytest.fixture
+def collector(board: PtyBoard) -> Iterator[Collector]:
+    collector = Collector(board.path)
+    yield collector
+    collector.reader.stop()
+
+
+def test_frames_arrive_in_order_with_their_arrival(board: PtyBoard, collector: Collector) -> None:
+    collector.open()
+    for k in range(200):
+        board.write_frames(frame(k))
+    wait_for(lambda: len(collector.frames) == 200, "200 frames")
+    assert collector.sequences() == list(range(200))
+    assert collector.arrivals_ns == sorted(collector.arrivals_ns)
+    assert collector.decoder.crc_errors + collector.decoder.malformed + collector.decoder.partial == 0
+
+
+def test_bad_bytes_are_dropped_without_opening_the_port_again(board: PtyBoard, collector: Collector) -> None:
+    collector.open()
+    good = encode_frame(frame(1))
+    flipped = bytearray(good)
+    flipped[20] ^= 0x40
+    swapped = bytearray(good)
+    swapped[33], swapped[34] = swapped[34], swapped[33]
+    board.write(encode_frame(frame(0)) + b"boot messages\r\n\xff\xfe\x00")
+    board.write(good[:30] + b"\x00" + bytes(flipped) + bytes(swapped) + os.urandom(5000) + b"\x00")
+    board.write_frames(frame(2), frame(3))
+    wait_for(lambda: 3 in collector.sequences(), "the last frame")
+    assert collector.sequences() == [0, 2, 3]
+    assert collector.decoder.crc_errors + collector.decoder.malformed >= 5
+    assert collector.reader.reconnects == 0
+    assert collector.log == []
+
+
+def test_unplugged_in_the_middle_of_a_frame_and_plugged_in_again(board: PtyBoard, collector: Collector) -> None:
+    collector.open()
+    board.write_frames(frame(0))
+    wait_for(lambda: collector.frames, "a frame")
+    board.write(encode_frame(frame(1))[:40])
+    for again in (1, 2):
+        board.unplug()
+        wait_for(lambda: not collector.reader.connected, "the loss")
+        wait_for(lambda: "is not there" in collector.reader.problem, "a failed attempt")
+        board.plug_in()
+        wait_for(lambda: collector.reader.connected, "the recovery")
+        # The rest of a packet, since the port is opened at any time.
+        board.write(encode_frame(frame(9))[10:] + encode_frame(frame(10 * again)))
+        wait_for(lambda: collector.sequences()[-1] == 10 * again, "frames after the recovery")  # noqa: B023
+    assert collector.sequences() == [0, 10, 20]
+    assert collector.reader.reconnects == collector.reconnected == 2
+    assert collector.decoder.partial == 2
+    assert collector.decoder.crc_errors + collector.decoder.malformed == 0
+    # Loss and recovery once each, however many attempts there were.
+    assert [level for level, _ in collector.log] == ["warning", "info"] * 2
+    assert str(board.path) in collector.log[0][1]
+    assert "is back after" in collector.log[1][1]
+
+
+def test_a_reader_waits_for_a_port_that_is_not_there_yet(tmp_path: Path) -> None:
+    board = PtyBoard(tmp_path)
+    collector = Collector(board.path)
+    collector.reader.start()
+    wait_for(lambda: "is not there" in collector.reader.problem, "a failed attempt")
+    with board:
+        wait_for(lambda: collector.reader.connected, "the port")
+        board.write_frames(frame(5))
+        wait_for(lambda: collector.sequences() == [5], "a frame")
+        collector.reader.stop()
+    assert collector.reader.reconnects == 0
+    assert collector.log == []
+
+
+def test_a_failing_consumer_does_not_end_reading(board: PtyBoard, collector: Collector) -> None:
+    collector.fail = True
+    collector.open()
+    for k in range(3):
+        board.write_frames(frame(k))
+        wait_for(lambda: collector.reader.consumer_errors == k + 1, "the failure")  # noqa: B023
+    collector.fail = False
+    board.write_frames(frame(3))
+    wait_for(lambda: collector.sequences() == [3], "the next frame")
+    assert collector.log == [("error", "frames could not be handed on: ValueError: no room")]
+    assert collector.reader.connected
+
+
+def test_raster_lines(board: PtyBoard) -> None:
+    collector = Collector(board.path, RasterDecoder(2, 2))
+    collector.open()
+    board.write(b"3,4,100\r\n1,2,3,4,100\r\n1,2,3,100\r\n5,6,7,8,100\r\n")
+    wait_for(lambda: len(collector.frames) == 2, "two scans")
+    collector.reader.stop()
+    assert [one.counts.tolist() for one in collector.frames] == [[1, 2, 3, 4], [5, 6, 7, 8]]
+    assert collector.sequences() == [0, 2]
+    assert (collector.decoder.partial, collector.decoder.malformed) == (1, 1)
+
+
+def test_a_stopped_reader_has_closed_its_port(board: PtyBoard, collector: Collector) -> None:
+    collector.open()
+    collector.reader.stop()
+    collector.reader.stop()
+    open_port(str(board.path), 115200).close()
+
+
+def test_a_busy_port_names_its_holder(board: PtyBoard) -> None:
+    first = open_port(str(board.path), 115200)
+    with pytest.raises(PortError, match=r"board.*is held .*(process|lsof).*stop that program"):
+        open_port(str(board.path), 115200)
+    first.close()
+    open_port(str(board.path), 115200).close()
+
+
+def test_a_missing_port_lists_those_present() -> None:
+    with pytest.raises(
+        PortError, match=r"/dev/ttyNONE is not there.*parameter port\. (Ports present:|No serial ports)"
+    ):
+        open_port("/dev/ttyNONE", 115200)
+
+
+def test_a_dangling_link_tells_where_it_points(tmp_path: Path) -> None:
+    (tmp_path / "board").symlink_to("/dev/pts/nothing")
+    with pytest.raises(PortError, match=r"board \(a link to /dev/pts/nothing\) is not there"):
+        open_port(str(tmp_path / "board"), 115200)
+
+
+def test_a_plain_file_is_no_port(tmp_path: Path) -> None:
+    path = tmp_path / "file"
+    path.write_text("")
+    with pytest.raises(PortError, match="is no serial port"):
+        open_port(str(path), 115200)
+
+
+def test_missing_permission_names_the_group() -> None:
+    # Tests may run as root, whom nothing is denied.
+    assert "dialout" in explain("/dev/ttyACM0", errno.EACCES, "")
+
+
+def test_any_other_reason_is_passed_on() -> None:
+    assert "the moon" in explain("/dev/ttyACM0", None, "the moon")
