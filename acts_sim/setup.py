@@ -18,5 +18,10 @@ setup(
     maintainer_email="acts-maintainers@example.org",
     description="The simulated world: contacts, a ball on a plate, a UR5e controller, speaking the real protocols.",
     license="Apache-2.0",
-    entry_points={"console_scripts": []},
+    entry_points={
+        "console_scripts": [
+            "ball_world = acts_sim.ball_world_node:main",
+            "ur_controller = acts_sim.ur.main:main",
+        ],
+    },
 )

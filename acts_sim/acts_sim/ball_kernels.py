@@ -1,0 +1,233 @@
+"""Hot loops of the ball's world, compiled: the plate's motion, a step of the rolling ball, and the field it presses.
+
+`ball_contact.forces_n` is the plain twin of `press`; the other two are checked against closed solutions.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+STANDARD_GRAVITY_M_S2 = 9.80665
+
+SUBPOINTS = 4
+"""Points along a taxel's side at which the pressure is taken."""
+
+# Three-point Gauss-Hermite rule of a Gaussian with standard deviation 1: exact for polynomials up to the fifth degree.
+SPREAD_OFFSETS = (-math.sqrt(3.0), 0.0, math.sqrt(3.0))
+SPREAD_WEIGHTS = (1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0)
+
+
+@njit(cache=True)  # type: ignore[untyped-decorator]
+def plate_pose(
+    q_rad: NDArray[np.float64], dh: NDArray[np.float64], yaw_rad: float, height_m: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Pose of the plate's surface in the robot's base frame.
+
+    Parameters
+    ----------
+    q_rad : np.ndarray [shape=(n,), dtype=float64]
+    dh : np.ndarray [shape=(n, 3), dtype=float64]
+        Denavit-Hartenberg parameters a [m], d [m], alpha [rad] of every joint.
+    yaw_rad, height_m : float
+        Turn of the plate about the flange's z axis, and its surface's distance from the flange.
+
+    Returns
+    -------
+    rotation : np.ndarray [shape=(3, 3), dtype=float64]
+        Columns are the skin's x, y and z.
+    origin : np.ndarray [shape=(3,), dtype=float64]
+        The pad's centre [m].
+    """
+    rotation = np.eye(3)
+    origin = np.zeros(3)
+    turned = np.empty((3, 3))
+    for joint in range(q_rad.shape[0]):
+        a_m, d_m, alpha_rad = dh[joint, 0], dh[joint, 1], dh[joint, 2]
+        c, s = math.cos(q_rad[joint]), math.sin(q_rad[joint])
+        ca, sa = math.cos(alpha_rad), math.sin(alpha_rad)
+        for i in range(3):
+            x, y, z = rotation[i, 0], rotation[i, 1], rotation[i, 2]
+            along = c * x + s * y
+            across = c * y - s * x
+            origin[i] += a_m * along + d_m * z
+            turned[i, 0] = along
+            turned[i, 1] = ca * across + sa * z
+            turned[i, 2] = ca * z - sa * across
+        rotation[:] = turned
+    c, s = math.cos(yaw_rad), math.sin(yaw_rad)
+    for i in range(3):
+        x, y = rotation[i, 0], rotation[i, 1]
+        rotation[i, 0] = c * x + s * y
+        rotation[i, 1] = c * y - s * x
+        origin[i] += height_m * rotation[i, 2]
+    return rotation, origin
+
+
+@njit(cache=True)  # type: ignore[untyped-decorator]
+def _small_turn(start: NDArray[np.float64], end: NDArray[np.float64], turn: NDArray[np.float64]) -> None:
+    # Rotation vector of start' end for a small angle: the antisymmetric part. The axis is the same in both frames.
+    turn[0] = turn[1] = turn[2] = 0.0
+    for k in range(3):
+        turn[0] += 0.5 * (start[k, 2] * end[k, 1] - start[k, 1] * end[k, 2])
+        turn[1] += 0.5 * (start[k, 0] * end[k, 2] - start[k, 2] * end[k, 0])
+        turn[2] += 0.5 * (start[k, 1] * end[k, 0] - start[k, 0] * end[k, 1])
+
+
+@njit(cache=True)  # type: ignore[untyped-decorator]
+def plate_motion(
+    q_rad: NDArray[np.float64],
+    qd_rad_s: NDArray[np.float64],
+    qdd_rad_s2: NDArray[np.float64],
+    dh: NDArray[np.float64],
+    yaw_rad: float,
+    height_m: float,
+    difference_s: float,
+) -> NDArray[np.float64]:
+    """Motion of the plate while its joints move with constant acceleration, by central differences.
+
+    Returns
+    -------
+    np.ndarray [shape=(4, 3), dtype=float64]
+        All in the skin's frame: gravity minus the acceleration of the surface's origin [m/s^2], the plate's angular
+        velocity [rad/s], its angular acceleration [rad/s^2], and the upward vertical (a unit vector).
+    """
+    h = difference_s
+    change = 0.5 * h * h * qdd_rad_s2
+    rotation, origin = plate_pose(q_rad, dh, yaw_rad, height_m)
+    rotation_after, origin_after = plate_pose(q_rad + h * qd_rad_s + change, dh, yaw_rad, height_m)
+    rotation_before, origin_before = plate_pose(q_rad - h * qd_rad_s + change, dh, yaw_rad, height_m)
+    turn_after, turn_before = np.empty(3), np.empty(3)
+    _small_turn(rotation, rotation_after, turn_after)
+    _small_turn(rotation_before, rotation, turn_before)
+    motion = np.zeros((4, 3))
+    for i in range(3):
+        pull = -(origin_after[i] - 2.0 * origin[i] + origin_before[i]) / (h * h)
+        if i == 2:
+            pull -= STANDARD_GRAVITY_M_S2
+        for j in range(3):
+            motion[0, j] += rotation[i, j] * pull
+        motion[1, i] = (turn_after[i] + turn_before[i]) / (2.0 * h)
+        motion[2, i] = (turn_after[i] - turn_before[i]) / (h * h)
+        motion[3, i] = rotation[2, i]
+    return motion
+
+
+@njit(cache=True)  # type: ignore[untyped-decorator]
+def roll(
+    x: float, y: float, vx: float, vy: float, motion: NDArray[np.float64], radius: float, resistance: float, dt: float
+) -> tuple[float, float, float, float, float]:
+    """One step of a sphere that rolls without slipping on the moving plate.
+
+    Newton's law for the centre, Euler's for the spin, and the rolling condition in the turning frame of the plate give,
+    with the centre at r = (x, y, radius), n the normal and 2/5 the sphere's moment of inertia over m radius^2::
+
+        7/5 r'' = (g - a_P - 2 W x r' - W' x r - W x (W x r)) + 2/5 radius n x W' - 2/5 W_z n x r'     (in the plane)
+
+    The spin about the normal is taken as zero relative to the plate.
+
+    Parameters
+    ----------
+    x, y, vx, vy : float
+        Position [m] and velocity [m/s] in the skin's frame.
+    motion : np.ndarray [shape=(4, 3), dtype=float64]
+        As `plate_motion` returns it.
+    radius : float
+        [m]
+    resistance : float
+        Coefficient of rolling resistance.
+    dt : float
+        [s]
+
+    Returns
+    -------
+    x, y, vx, vy : float
+        One step later.
+    load : float
+        Normal force over mass during the step [m/s^2]; 0 where the plate drops away faster than the ball falls.
+    """
+    gx, gy, gz = motion[0]
+    wx, wy, wz = motion[1]
+    ax, ay, az = motion[2]
+    # W x r, then W x (W x r)
+    ux, uy, uz = wy * radius - wz * y, wz * x - wx * radius, wx * y - wy * x
+    fx = gx + 2.0 * wz * vy - (ay * radius - az * y) - (wy * uz - wz * uy)
+    fy = gy - 2.0 * wz * vx - (az * x - ax * radius) - (wz * ux - wx * uz)
+    load = max(-gz + 2.0 * (wx * vy - wy * vx) + (ax * y - ay * x) + (wx * uy - wy * ux), 0.0)
+    rx = (fx + 0.4 * (-radius * ay + wz * vy)) / 1.4
+    ry = (fy + 0.4 * (radius * ax - wz * vx)) / 1.4
+    new_vx, new_vy = vx + rx * dt, vy + ry * dt
+    # Rolling resistance slows the ball and never turns it back: at rest it holds against a pull smaller than itself.
+    speed = math.hypot(new_vx, new_vy)
+    loss = resistance * load / 1.4 * dt
+    share = 0.0 if speed <= loss else 1.0 - loss / speed
+    new_vx *= share
+    new_vy *= share
+    return x + 0.5 * (vx + new_vx) * dt, y + 0.5 * (vy + new_vy) * dt, new_vx, new_vy, load
+
+
+@njit(cache=True)  # type: ignore[untyped-decorator]
+def press(
+    counts: NDArray[np.float64],
+    pitch: float,
+    x: float,
+    y: float,
+    radius: float,
+    depth: float,
+    stiffness: float,
+    spread: float,
+    full_scale: float,
+    dead: float,
+    half: float,
+) -> None:
+    """Fill the counts of every taxel under a sphere pressed into foam; see `ball_contact.forces_n` for the model.
+
+    Parameters
+    ----------
+    counts : np.ndarray [shape=(rows, cols), dtype=float64]
+        Overwritten.
+    pitch, x, y, radius, depth, spread : float
+        [m]
+    stiffness : float
+        [N/m^3]
+    full_scale, dead, half : float
+        The force response: counts, N, N.
+    """
+    rows, cols = counts.shape
+    counts[:] = 0.0
+    if depth <= 0.0:
+        return
+    reach = math.sqrt(2.0 * radius * depth) + SPREAD_OFFSETS[2] * spread + 0.5 * pitch
+    col_middle = x / pitch + 0.5 * (cols - 1)
+    row_middle = 0.5 * (rows - 1) - y / pitch
+    first_col = max(math.ceil(col_middle - reach / pitch), 0)
+    last_col = min(math.floor(col_middle + reach / pitch), cols - 1)
+    first_row = max(math.ceil(row_middle - reach / pitch), 0)
+    last_row = min(math.floor(row_middle + reach / pitch), rows - 1)
+    points = SUBPOINTS * 3
+    weight = np.empty(points)
+    offset = np.empty(points)
+    for i in range(SUBPOINTS):
+        for j in range(3):
+            offset[3 * i + j] = ((i + 0.5) / SUBPOINTS - 0.5) * pitch + SPREAD_OFFSETS[j] * spread
+            weight[3 * i + j] = SPREAD_WEIGHTS[j] / SUBPOINTS
+    rise_x = np.empty(points)
+    for col in range(first_col, last_col + 1):
+        for i in range(points):
+            distance = (col - col_middle) * pitch + offset[i]
+            rise_x[i] = depth - distance * distance / (2.0 * radius)
+        for row in range(first_row, last_row + 1):
+            total = 0.0
+            for j in range(points):
+                distance = (row_middle - row) * pitch + offset[j]
+                rise_y = distance * distance / (2.0 * radius)
+                line = 0.0
+                for i in range(points):
+                    line += weight[i] * max(rise_x[i] - rise_y, 0.0)
+                total += weight[j] * line
+            above = stiffness * total * pitch * pitch - dead
+            if above > 0.0:
+                counts[row, col] = full_scale * above / (above + half)

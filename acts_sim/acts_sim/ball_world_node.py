@@ -1,0 +1,144 @@
+"""The node `ball_world`: the simulated plate with its ball, between the robot's joints and the board's taxels.
+
+Publishes the ball's true position on ``ball/truth``, so that what controls it can be scored. Nothing that controls it
+subscribes to that.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+from geometry_msgs.msg import PointStamped
+from rclpy._rclpy_pybind11 import RCLError
+from rclpy.node import Node
+from rclpy.time import Time
+
+from acts_core.errors import ActsError
+from acts_core.settings import setting, validate
+from acts_ros import qos
+from acts_ros.diagnostics import ERROR, OK, WARN, DiagnosticsReporter, Report
+from acts_ros.executor import run
+from acts_ros.parameters import declare, node_options
+from acts_sim.joint_follower import JointFollower, JointSource
+from acts_sim.timed_ring import TimedRingWriter
+from acts_sim.world import Phase, World, WorldConfig, WorldState
+from acts_sim.world_loop import LoopStatistics, WorldLoop
+
+
+@dataclass(frozen=True)
+class BallWorldSettings(WorldConfig):
+    """Parameters of the node: the world's, and what it is connected to."""
+
+    field_ring: str = setting("/dev/shm/acts/field.ring", "shared file the pressure field is written to")
+    joint_ring: str = setting("/dev/shm/acts/joints.ring", "shared file the simulated robot writes its joints to")
+    frame_id: str = setting("", "frame of the skin; empty: the namespace of the node")
+    truth_every: int = setting(
+        4, "the ball's true position is published every so many milliseconds", minimum=1, maximum=1000
+    )
+
+    def __post_init__(self) -> None:
+        validate(self)
+
+
+class BallWorld(Node):
+    """Translates between ROS and the world; the world itself runs in a thread of its own."""
+
+    def __init__(self) -> None:
+        super().__init__("ball_world", **node_options())
+        settings = declare(self, BallWorldSettings)
+        self._settings = settings
+        self._frame_id = settings.frame_id or self.get_namespace().strip("/") or "plate"
+        self._truth = self.create_publisher(PointStamped, "ball/truth", qos.STATE)
+        self._message = PointStamped()
+        self._message.header.frame_id = self._frame_id
+        self._steps = 0
+        self._refused_reported = 0
+        self._reported = (time.monotonic(), LoopStatistics())
+        field_ring = Path(settings.field_ring)
+        _make_folder(field_ring.parent)
+        self._world = World(settings)
+        self._joints = JointFollower(Path(settings.joint_ring))
+        self._ring = TimedRingWriter(field_ring, settings.rows * settings.cols)
+        self._loop = WorldLoop(self._world, self._joints, self._ring, self._publish)
+        self._diagnostics = DiagnosticsReporter(self, settings.field_ring, self._report)
+        self._loop.start()
+        self.get_logger().info(
+            f"ball of {settings.diameter_m * 1000:g} mm, {settings.mass_kg:.3f} kg; field in {field_ring}, "
+            f"joints from {settings.joint_ring}"
+        )
+
+    def close(self) -> None:
+        """Stop the world and remove its ring."""
+        self._loop.stop()
+        self._ring.close()
+
+    def _publish(self, time_ns: int, state: WorldState) -> None:
+        self._steps += 1
+        if state.phase is not Phase.ROLLING or self._steps % self._settings.truth_every:
+            return
+        stamp_ns = self.get_clock().now().nanoseconds + time_ns - time.monotonic_ns()
+        message = self._message
+        message.header.stamp = Time(nanoseconds=stamp_ns).to_msg()
+        message.point.x = state.ball.x_m
+        message.point.y = state.ball.y_m
+        try:
+            self._truth.publish(message)
+        except RCLError:
+            # A signal shuts the context down before `close` is called; until then the world goes on unseen.
+            if self.context.ok():
+                raise
+
+    def _report(self) -> Report:
+        if self._loop.failure is not None:
+            raise ActsError(f"the world has stopped: {self._loop.failure!r}")
+        state, loop, source = self._world.state, self._loop.statistics, self._joints.source
+        now_s = time.monotonic()
+        before_s, before = self._reported
+        self._reported = (now_s, loop)
+        refused = state.joints_refused - self._refused_reported
+        self._refused_reported = state.joints_refused
+        values = {
+            "ball": state.phase.value,
+            "ball_x_m": state.ball.x_m,
+            "ball_y_m": state.ball.y_m,
+            "load_n": state.ball.load_n,
+            "rate_hz": (loop.steps - before.steps) / max(now_s - before_s, 1e-9),
+            "late": loop.late,
+            "latest_s": loop.latest_s,
+            "skipped": loop.skipped,
+            "joints": source.value,
+            "joints_refused": state.joints_refused,
+            "pushes": state.pushes,
+            "falls": state.falls,
+        }
+        if refused:
+            return ERROR, f"{refused} joint states were NaN or beyond reason; the plate keeps its last pose", values
+        if source is not JointSource.FOLLOWED:
+            why = f" ({self._joints.problem})" if self._joints.problem else ""
+            return WARN, f"{source.value}{why}; the plate rests", values
+        if loop.skipped > before.skipped:
+            return WARN, f"the world stood still for {loop.skipped - before.skipped} ms", values
+        if state.phase is Phase.FALLEN:
+            return WARN, "the ball has fallen off the plate", values
+        return OK, f"the ball is {state.phase.value}", values
+
+
+def _make_folder(folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise ActsError(
+            f"field_ring: the folder {folder} cannot be made ({error.strerror}); give a path where files may be written"
+        ) from error
+
+
+def main() -> None:
+    """Run the node."""
+    sys.exit(run([BallWorld]))
+
+
+if __name__ == "__main__":
+    main()
