@@ -1,0 +1,314 @@
+"""The sampling schemes: which taxels of a frame are measured, and in which order.
+
+The firmware (``acts_firmware``, C++) does this on the board. This is its reference: the same taxels in the same order,
+readable, and usable where there is no board. A test compares the two on random and on recorded fields.
+
+A new scheme is a function from what it needs to row-major taxel indices in the order of measurement, none twice, plus
+a branch in `Sampler.frame`, and the same in the C++ core.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from acts_core.array import COUNT_MAX, MAX_SIDE
+from acts_core.errors import ArrayError, SettingsError
+from acts_core.frames import Scheme
+from acts_core.settings import setting, validate
+
+Measure = Callable[[int, int], int]
+"""Measures one taxel: row and column to ADC counts."""
+
+SCHEMES = {"adaptive": Scheme.ADAPTIVE, "uniform": Scheme.UNIFORM, "random": Scheme.RANDOM, "raster": Scheme.RASTER}
+
+NEIGHBOURS: dict[str, tuple[tuple[int, int], ...]] = {
+    # Columns outer, the taxel's own first: the published sketches.
+    "columns": ((-1, 0), (1, 0), (-1, -1), (0, -1), (1, -1), (-1, 1), (0, 1), (1, 1)),
+    # Rows outer: fits the adaptive frames of the paper's figures 4 and 5.
+    "rows": ((-1, -1), (-1, 0), (-1, 1), (0, -1), (0, 1), (1, -1), (1, 0), (1, 1)),
+}
+"""Steps (rows, columns) to the eight neighbours of a taxel in the order of search, by neighbour order."""
+
+RANDOM_STREAM = 1
+"""PCG32 stream that draws random taxels; the virtual board's noise has another."""
+
+
+@dataclass(frozen=True)
+class SamplingConfig:
+    """What a board is told about sampling."""
+
+    scheme: str = setting("adaptive", "how the taxels of a frame are chosen", choices=tuple(SCHEMES))
+    rows: int = setting(32, "rows of the array", minimum=1, maximum=MAX_SIDE)
+    cols: int = setting(32, "columns of the array", minimum=1, maximum=MAX_SIDE)
+    m: int = setting(55, "taxels measured per frame; raster measures all", minimum=1, maximum=MAX_SIDE**2)
+    threshold_counts: int = setting(180, "counts above which the neighbours are searched", minimum=0, maximum=COUNT_MAX)
+    neighbour_order: str = setting("columns", "order of the neighbour search", choices=tuple(NEIGHBOURS))
+    seed: int = setting(1, "seed of random sampling", minimum=0, maximum=2**64 - 1)
+
+    def __post_init__(self) -> None:
+        validate(self)
+        if self.m > self.rows * self.cols and self.scheme != "raster":
+            raise SettingsError(
+                f"m = {self.m}: an array of {self.rows} x {self.cols} has {self.rows * self.cols} taxels"
+            )
+        if self.scheme == "uniform":
+            uniform_spacing(self.rows, self.cols, self.m)
+
+
+class Sampler:
+    """Samples frame after frame; holds what goes from one to the next (uniform offset, random numbers)."""
+
+    def __init__(self, config: SamplingConfig) -> None:
+        self.config = config
+        self._frame = 0
+        self._random = RandomTaxels(config.rows, config.cols, config.seed)
+
+    def frame(self, measure: Measure) -> tuple[NDArray[np.uint16], NDArray[np.uint16]]:
+        """Sample one frame.
+
+        Parameters
+        ----------
+        measure : Measure
+            Called once for each taxel measured, in order.
+
+        Returns
+        -------
+        indices, counts : np.ndarray [shape=(m,), dtype=uint16]
+            Row-major taxel indices in the order of measurement, none twice, and what was measured there.
+        """
+        config = self.config
+        if config.scheme == "adaptive":
+            return adaptive(
+                measure,
+                config.rows,
+                config.cols,
+                config.m,
+                threshold_counts=config.threshold_counts,
+                neighbour_order=config.neighbour_order,
+            )
+        if config.scheme == "uniform":
+            indices = uniform(config.rows, config.cols, config.m, self._frame)
+        elif config.scheme == "random":
+            indices = self._random.draw(config.m)
+        else:
+            indices = raster(config.rows, config.cols)
+        self._frame += 1
+        counts = [measure(*divmod(int(index), config.cols)) for index in indices]
+        return indices, np.array(counts, dtype=np.uint16)
+
+
+def measure_in(field: ArrayLike) -> Measure:
+    """Measure in a still field.
+
+    Parameters
+    ----------
+    field : array_like [shape=(rows, cols), dtype=any integer]
+        ADC counts of every taxel.
+    """
+    image = np.asarray(field)
+    if image.ndim != 2 or image.dtype.kind not in "iu":
+        raise ArrayError(f"field of shape {image.shape} and type {image.dtype}: a field is (rows, cols) whole counts")
+    values = image.tolist()
+    return lambda row, col: int(values[row][col])
+
+
+def adaptive(
+    measure: Measure, rows: int, cols: int, m: int, *, threshold_counts: int = 180, neighbour_order: str = "columns"
+) -> tuple[NDArray[np.uint16], NDArray[np.uint16]]:
+    """Walk the division order; around a taxel above the threshold search the neighbours first, depth first.
+
+    Paper, Supplemental Algorithm 1, with the two points in which the published firmware differs from it: exactly `m`
+    taxels are measured, and the threshold itself does not count as a touch.
+
+    Returns
+    -------
+    indices, counts : np.ndarray [shape=(m,), dtype=uint16]
+        As in `Sampler.frame`.
+    """
+    steps = NEIGHBOURS[neighbour_order]
+    measured = np.zeros((rows, cols), dtype=bool)
+    indices: list[int] = []
+    counts: list[int] = []
+
+    def touched(row: int, col: int) -> bool:
+        count = measure(row, col)
+        measured[row, col] = True
+        indices.append(row * cols + col)
+        counts.append(count)
+        return count > threshold_counts
+
+    for index in division_order(rows, cols).tolist():
+        if len(indices) == m:
+            break
+        row, col = divmod(index, cols)
+        if measured[row, col] or not touched(row, col):
+            continue
+        # A stack instead of recursion, here and on the board: a palm on the skin is a thousand levels deep.
+        stack = [(row, col, iter(steps))]
+        while stack and len(indices) < m:
+            row, col, remaining = stack[-1]
+            step = next(remaining, None)
+            if step is None:
+                stack.pop()
+                continue
+            near_row, near_col = row + step[0], col + step[1]
+            outside = not (0 <= near_row < rows and 0 <= near_col < cols)
+            if outside or measured[near_row, near_col]:
+                continue
+            if touched(near_row, near_col):
+                stack.append((near_row, near_col, iter(steps)))
+    return np.array(indices, dtype=np.uint16), np.array(counts, dtype=np.uint16)
+
+
+@lru_cache(maxsize=32)
+def division_order(rows: int, cols: int) -> NDArray[np.uint16]:
+    """Every taxel once, from coarse to fine: the centres of ever smaller halves of the array.
+
+    Centres are kept doubled (the first is ``(rows, cols)``) and halved, rounding down, when listed. Each round splits
+    every cell across its longer side, the columns where both are equal: the step along that side is halved, rounding
+    up, and each centre yields the two at that step before and behind it. Centres outside of the array are split on but
+    not listed. The rounds end when both steps are 1: by then no taxel is missing. On 32 x 32 these are the ten rounds
+    of the published firmware; other sizes, also non-square, are a generalisation.
+
+    Returns
+    -------
+    np.ndarray [shape=(rows * cols,), dtype=uint16, read-only]
+        Row-major taxel indices.
+    """
+    listed = np.zeros((rows, cols), dtype=bool)
+    order: list[int] = []
+
+    def put(row2: int, col2: int) -> None:
+        row, col = row2 >> 1, col2 >> 1
+        if 0 <= row < rows and 0 <= col < cols and not listed[row, col]:
+            listed[row, col] = True
+            order.append(row * cols + col)
+
+    centres = [(rows, cols)]
+    put(rows, cols)
+    row_step, col_step = rows, cols
+    while row_step > 1 or col_step > 1:
+        if col_step >= row_step:
+            col_step = (col_step + 1) // 2
+            step = (0, col_step)
+        else:
+            row_step = (row_step + 1) // 2
+            step = (row_step, 0)
+        centres = [(row + sign * step[0], col + sign * step[1]) for row, col in centres for sign in (-1, 1)]
+        for row, col in centres:
+            put(row, col)
+    result = np.array(order, dtype=np.uint16)
+    result.flags.writeable = False
+    return result
+
+
+def uniform_spacing(rows: int, cols: int, m: int) -> tuple[int, int]:
+    """Spacing of rows and columns of a uniform grid of `m` taxels.
+
+    The grid of spacing ``(s, t)`` has ``ceil(rows / s) * ceil(cols / t)`` taxels. Of all that have `m`, the one with
+    the most equal spacings is taken, the larger one along the rows. On 32 x 32 that is the published table.
+
+    Raises
+    ------
+    SettingsError
+        When no grid of this array has `m` taxels; names the nearest that exist.
+    """
+    found = _spacing(rows, cols, m)
+    if found is None:
+        possible = [other for other in range(1, rows * cols + 1) if _spacing(rows, cols, other) is not None]
+        below = max((other for other in possible if other < m), default=possible[0])
+        above = min((other for other in possible if other > m), default=possible[-1])
+        raise SettingsError(
+            f"m = {m}: no uniform grid of {rows} x {cols} has so many taxels; the nearest have {below} and {above}"
+        )
+    return found
+
+
+def _spacing(rows: int, cols: int, m: int) -> tuple[int, int] | None:
+    best: tuple[int, int] | None = None
+    for grid_rows in range(1, rows + 1):
+        grid_cols, rest = divmod(m, grid_rows)
+        if rest or not 1 <= grid_cols <= cols:
+            continue
+        s, t = -(-rows // grid_rows), -(-cols // grid_cols)
+        if -(-rows // s) != grid_rows or -(-cols // t) != grid_cols:
+            continue
+        # Ratio of the larger to the smaller spacing, compared without division.
+        if best is None or (max(s, t) * min(best), s < t) < (max(best) * min(s, t), best[0] < best[1]):
+            best = (s, t)
+    return best
+
+
+def uniform(rows: int, cols: int, m: int, frame: int) -> NDArray[np.uint16]:
+    """Taxels of the `frame`-th uniform frame, row by row.
+
+    The grid moves by one column a frame and, when it has been through the columns, by one row, so that after
+    ``s * t`` frames every taxel was seen. Where the moved grid's last row or column falls off the array, the array's
+    last row or column is taken instead, as by the authors' program: every frame has `m` taxels.
+
+    Returns
+    -------
+    np.ndarray [shape=(m,), dtype=uint16]
+    """
+    s, t = uniform_spacing(rows, cols, m)
+    first_row, first_col = divmod(frame % (s * t), t)
+    grid_rows = np.minimum(np.arange(first_row, first_row + rows, s)[: -(-rows // s)], rows - 1)
+    grid_cols = np.minimum(np.arange(first_col, first_col + cols, t)[: -(-cols // t)], cols - 1)
+    return (grid_rows[:, None] * cols + grid_cols).astype(np.uint16).ravel()
+
+
+def raster(rows: int, cols: int) -> NDArray[np.uint16]:
+    """All taxels row by row; shape (rows * cols,), uint16."""
+    return np.arange(rows * cols, dtype=np.uint16)
+
+
+class Pcg32:
+    """PCG-XSH-RR 64/32, the same random numbers as on the board (M. E. O'Neill, HMC-CS-2014-0905)."""
+
+    _MULTIPLIER = 6364136223846793005
+    _MASK64 = 2**64 - 1
+
+    def __init__(self, seed: int, stream: int) -> None:
+        self._increment = (stream << 1 | 1) & self._MASK64
+        self._state = 0
+        self.next()
+        self._state = (self._state + seed) & self._MASK64
+        self.next()
+
+    def next(self) -> int:
+        """A whole number from 0 to 2**32 - 1."""
+        state = self._state
+        self._state = (state * self._MULTIPLIER + self._increment) & self._MASK64
+        shifted = ((state >> 18 ^ state) >> 27) & 0xFFFFFFFF
+        rotation = state >> 59
+        return (shifted >> rotation | shifted << (32 - rotation & 31)) & 0xFFFFFFFF
+
+    def below(self, bound: int) -> int:
+        """A whole number from 0 to ``bound - 1``, every one equally likely (D. Lemire, doi:10.1145/3230636)."""
+        product = self.next() * bound
+        if product & 0xFFFFFFFF < bound:
+            unfair = (2**32 - bound) % bound
+            while product & 0xFFFFFFFF < unfair:
+                product = self.next() * bound
+        return product >> 32
+
+
+class RandomTaxels:
+    """Draws distinct taxels, frame after frame (the first steps of a Fisher-Yates shuffle that is never undone)."""
+
+    def __init__(self, rows: int, cols: int, seed: int) -> None:
+        self._taxels = raster(rows, cols)
+        self._random = Pcg32(seed, RANDOM_STREAM)
+
+    def draw(self, m: int) -> NDArray[np.uint16]:
+        """`m` distinct taxel indices; shape (m,), uint16."""
+        taxels = self._taxels
+        for i in range(m):
+            j = i + self._random.below(len(taxels) - i)
+            taxels[i], taxels[j] = taxels[j], taxels[i]
+        return taxels[:m].copy()
