@@ -1,0 +1,28 @@
+// What a readout board must be able to do. All that the Teensy and the host differ in.
+#pragma once
+
+#include <cstdint>
+
+namespace acts {
+
+// How to bring the firmware to a board: implement these three functions, hand the board to a `Firmware` together with
+// the wiring (see wiring.hpp), and call `Firmware::measure_frame` again and again. On a Teensy they are one line each
+// (digitalWrite, analogRead(A0), micros); the virtual board models the same pins.
+class Board {
+ public:
+  Board() = default;
+  Board(const Board&) = delete;
+  Board& operator=(const Board&) = delete;
+  virtual ~Board() = default;
+
+  // Drive a digital output. Row lines carry the excitation, multiplexer lines the address of a column.
+  virtual void write_pin(std::uint8_t pin, bool high) = 0;
+
+  // Convert what the multiplexer passes on; 0 to 1023.
+  virtual std::uint16_t read_adc() = 0;
+
+  // Time since the board's start [us]; wraps at 2^32.
+  virtual std::uint32_t micros() = 0;
+};
+
+}  // namespace acts

@@ -1,0 +1,34 @@
+// What one frame is, from measurement to packet.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "acts_firmware/limits.hpp"
+
+namespace acts {
+
+// Numbers on the wire; 1 to 3 are the mode numbers of the published firmware.
+enum class Scheme : std::uint8_t { kUniform = 1, kRandom = 2, kAdaptive = 3, kRaster = 4 };
+
+struct SampleFrame {
+  std::uint32_t sequence = 0;
+  std::uint64_t board_us = 0;     // end of the last measurement
+  std::uint32_t duration_us = 0;  // from the start of the first to the end of the last measurement
+  std::uint32_t overruns = 0;     // frames dropped since the start
+  Scheme scheme = Scheme::kAdaptive;
+  std::uint8_t rows = 0;
+  std::uint8_t cols = 0;
+  std::uint16_t m = 0;
+  std::array<std::uint16_t, kMaxTaxels> indices{};  // row-major, in the order of measurement, none twice
+  std::array<std::uint16_t, kMaxTaxels> counts{};
+
+  bool full(int limit) const { return m >= limit; }
+  void append(int index, std::uint16_t count) {
+    indices[m] = static_cast<std::uint16_t>(index);
+    counts[m] = count;
+    ++m;
+  }
+};
+
+}  // namespace acts

@@ -1,0 +1,81 @@
+// The sampling schemes. acts_core/sampling.py is their readable reference; a test compares the two.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "acts_firmware/division_order.hpp"
+#include "acts_firmware/frame.hpp"
+#include "acts_firmware/random.hpp"
+#include "acts_firmware/scanner.hpp"
+
+namespace acts {
+
+enum class NeighbourOrder : std::uint8_t {
+  kColumns = 0,  // columns outer 0, -1, +1, rows inner -1, 0, +1: the published sketches
+  kRows = 1,     // rows outer -1, 0, +1, columns inner -1, 0, +1: fits the frames of the paper's figures 4 and 5
+};
+
+struct SamplingConfig {
+  int rows = 32;
+  int cols = 32;
+  Scheme scheme = Scheme::kAdaptive;
+  int m = 55;           // taxels per frame; raster measures all
+  int threshold = 180;  // counts; above it the neighbours are searched
+  NeighbourOrder neighbour_order = NeighbourOrder::kColumns;
+  std::uint64_t seed = 1;  // of random sampling
+};
+
+enum class ConfigError : std::uint8_t { kNone, kSize, kM, kThreshold, kUniformM, kScheme };
+
+// Spacing of rows and columns of a uniform grid of m taxels; zeros where the array has none of that many. Of all grids
+// ceil(rows / s) * ceil(cols / t) == m the one with the most equal spacings, the larger one along the rows.
+struct Spacing {
+  int row = 0;
+  int col = 0;
+};
+Spacing uniform_spacing(int rows, int cols, int m);
+
+// Samples frame after frame; holds what goes from one to the next (uniform offset, random numbers).
+//
+// A new scheme is a number in `Scheme`, a private function beside `adaptive`, a branch in `sample`, and its twin in
+// acts_core/sampling.py.
+class Sampler {
+ public:
+  Sampler();
+
+  // Takes the settings over and starts anew, or says what is wrong and leaves everything as it was.
+  ConfigError configure(const SamplingConfig& config);
+  const SamplingConfig& config() const { return config_; }
+
+  // Taxels a frame will hold; known beforehand for every scheme.
+  int frame_size() const { return config_.scheme == Scheme::kRaster ? config_.rows * config_.cols : config_.m; }
+
+  // Measures one frame: fills scheme, size, m, indices and counts.
+  void sample(TaxelReader& reader, SampleFrame& frame);
+
+ private:
+  struct Visit {
+    std::uint16_t index;
+    std::uint8_t next;  // which neighbour comes next
+  };
+
+  void adaptive(TaxelReader& reader, SampleFrame& frame);
+  void uniform(TaxelReader& reader, SampleFrame& frame);
+  void random(TaxelReader& reader, SampleFrame& frame);
+  void raster(TaxelReader& reader, SampleFrame& frame);
+  bool touched(TaxelReader& reader, SampleFrame& frame, int index);
+
+  SamplingConfig config_;
+  DivisionOrder order_;
+  Spacing spacing_;
+  int offset_ = 0;  // of uniform sampling, 0 to spacing.row * spacing.col - 1
+  Pcg32 random_;
+  std::array<std::uint16_t, kMaxTaxels> shuffled_{};
+  // A taxel was measured in this frame when it carries the frame's mark; so nothing is cleared between frames.
+  std::array<std::uint16_t, kMaxTaxels> mark_{};
+  std::uint16_t frame_mark_ = 0;
+  std::array<Visit, kMaxTaxels> stack_{};
+};
+
+}  // namespace acts

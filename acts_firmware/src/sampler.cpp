@@ -1,0 +1,183 @@
+#include "acts_firmware/sampler.hpp"
+
+#include <algorithm>
+
+namespace acts {
+
+namespace {
+
+constexpr std::uint64_t kRandomStream = 1;
+
+struct Step {
+  std::int8_t row;
+  std::int8_t col;
+};
+constexpr int kNeighbours = 8;
+using Steps = std::array<Step, kNeighbours>;
+
+constexpr Steps kColumnsOuter = {{{-1, 0}, {1, 0}, {-1, -1}, {0, -1}, {1, -1}, {-1, 1}, {0, 1}, {1, 1}}};
+constexpr Steps kRowsOuter = {{{-1, -1}, {-1, 0}, {-1, 1}, {0, -1}, {0, 1}, {1, -1}, {1, 0}, {1, 1}}};
+
+constexpr int divide_up(int a, int b) {
+  return (a + b - 1) / b;
+}
+
+}  // namespace
+
+Spacing uniform_spacing(int rows, int cols, int m) {
+  Spacing best;
+  for (int grid_rows = 1; grid_rows <= rows; ++grid_rows) {
+    const int grid_cols = m / grid_rows;
+    if (m % grid_rows != 0 || grid_cols < 1 || grid_cols > cols) {
+      continue;
+    }
+    const Spacing spacing = {divide_up(rows, grid_rows), divide_up(cols, grid_cols)};
+    if (divide_up(rows, spacing.row) != grid_rows || divide_up(cols, spacing.col) != grid_cols) {
+      continue;
+    }
+    // Ratios of the larger to the smaller spacing, compared without division.
+    const int ratio = std::max(spacing.row, spacing.col) * std::min(best.row, best.col);
+    const int best_ratio = std::max(best.row, best.col) * std::min(spacing.row, spacing.col);
+    const bool better =
+        ratio < best_ratio || (ratio == best_ratio && spacing.row >= spacing.col && best.row < best.col);
+    if (best.row == 0 || better) {
+      best = spacing;
+    }
+  }
+  return best;
+}
+
+Sampler::Sampler() : random_(config_.seed, kRandomStream) {
+  configure(config_);
+}
+
+ConfigError Sampler::configure(const SamplingConfig& config) {
+  if (config.rows < 1 || config.rows > kMaxSide || config.cols < 1 || config.cols > kMaxSide) {
+    return ConfigError::kSize;
+  }
+  if (config.scheme < Scheme::kUniform || config.scheme > Scheme::kRaster) {
+    return ConfigError::kScheme;
+  }
+  const int taxels = config.rows * config.cols;
+  if (config.scheme != Scheme::kRaster && (config.m < 1 || config.m > taxels)) {
+    return ConfigError::kM;
+  }
+  if (config.threshold < 0 || config.threshold > kCountMax) {
+    return ConfigError::kThreshold;
+  }
+  const Spacing spacing = uniform_spacing(config.rows, config.cols, config.m);
+  if (config.scheme == Scheme::kUniform && spacing.row == 0) {
+    return ConfigError::kUniformM;
+  }
+  config_ = config;
+  spacing_ = spacing;
+  order_.build(config.rows, config.cols);
+  offset_ = 0;
+  random_ = Pcg32(config.seed, kRandomStream);
+  for (int i = 0; i < taxels; ++i) {
+    shuffled_[static_cast<std::size_t>(i)] = static_cast<std::uint16_t>(i);
+  }
+  mark_.fill(0);
+  frame_mark_ = 0;
+  return ConfigError::kNone;
+}
+
+void Sampler::sample(TaxelReader& reader, SampleFrame& frame) {
+  frame.scheme = config_.scheme;
+  frame.rows = static_cast<std::uint8_t>(config_.rows);
+  frame.cols = static_cast<std::uint8_t>(config_.cols);
+  frame.m = 0;
+  switch (config_.scheme) {
+    case Scheme::kAdaptive:
+      adaptive(reader, frame);
+      break;
+    case Scheme::kUniform:
+      uniform(reader, frame);
+      break;
+    case Scheme::kRandom:
+      random(reader, frame);
+      break;
+    case Scheme::kRaster:
+      raster(reader, frame);
+      break;
+  }
+}
+
+bool Sampler::touched(TaxelReader& reader, SampleFrame& frame, int index) {
+  const std::uint16_t count = reader.measure(index / config_.cols, index % config_.cols);
+  mark_[static_cast<std::size_t>(index)] = frame_mark_;
+  frame.append(index, count);
+  return count > config_.threshold;
+}
+
+// Paper, Supplemental Algorithm 1, with the two points in which the published firmware differs from it: exactly m
+// taxels are measured, and the threshold itself does not count as a touch.
+void Sampler::adaptive(TaxelReader& reader, SampleFrame& frame) {
+  const Steps& steps = config_.neighbour_order == NeighbourOrder::kRows ? kRowsOuter : kColumnsOuter;
+  const int m = config_.m;
+  if (++frame_mark_ == 0) {
+    mark_.fill(0);
+    frame_mark_ = 1;
+  }
+  for (int rank = 0; rank < order_.size() && !frame.full(m); ++rank) {
+    const int centre = order_[rank];
+    if (mark_[static_cast<std::size_t>(centre)] == frame_mark_ || !touched(reader, frame, centre)) {
+      continue;
+    }
+    // A stack instead of recursion: a palm on the skin is a thousand levels deep.
+    std::size_t depth = 0;
+    stack_[depth++] = {static_cast<std::uint16_t>(centre), 0};
+    while (depth > 0 && !frame.full(m)) {
+      Visit& visit = stack_[depth - 1];
+      if (visit.next == kNeighbours) {
+        --depth;
+        continue;
+      }
+      const Step step = steps[visit.next++];
+      const int row = visit.index / config_.cols + step.row;
+      const int col = visit.index % config_.cols + step.col;
+      if (row < 0 || row >= config_.rows || col < 0 || col >= config_.cols) {
+        continue;
+      }
+      const int index = row * config_.cols + col;
+      if (mark_[static_cast<std::size_t>(index)] != frame_mark_ && touched(reader, frame, index)) {
+        stack_[depth++] = {static_cast<std::uint16_t>(index), 0};
+      }
+    }
+  }
+}
+
+// The grid moves by one column a frame and, when it has been through the columns, by one row. Where its last row or
+// column falls off the array, the array's last is taken instead, as by the authors' program: m taxels in every frame.
+void Sampler::uniform(TaxelReader& reader, SampleFrame& frame) {
+  const int first_row = offset_ / spacing_.col;
+  const int first_col = offset_ % spacing_.col;
+  for (int i = 0; i < divide_up(config_.rows, spacing_.row); ++i) {
+    const int row = std::min(first_row + i * spacing_.row, config_.rows - 1);
+    for (int j = 0; j < divide_up(config_.cols, spacing_.col); ++j) {
+      const int col = std::min(first_col + j * spacing_.col, config_.cols - 1);
+      frame.append(row * config_.cols + col, reader.measure(row, col));
+    }
+  }
+  offset_ = (offset_ + 1) % (spacing_.row * spacing_.col);
+}
+
+// The first m steps of a Fisher-Yates shuffle that is never undone.
+void Sampler::random(TaxelReader& reader, SampleFrame& frame) {
+  const auto taxels = static_cast<std::uint32_t>(config_.rows * config_.cols);
+  for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(config_.m); ++i) {
+    std::swap(shuffled_[i], shuffled_[i + random_.below(taxels - i)]);
+    const int index = shuffled_[i];
+    frame.append(index, reader.measure(index / config_.cols, index % config_.cols));
+  }
+}
+
+void Sampler::raster(TaxelReader& reader, SampleFrame& frame) {
+  for (int row = 0; row < config_.rows; ++row) {
+    for (int col = 0; col < config_.cols; ++col) {
+      frame.append(row * config_.cols + col, reader.measure(row, col));
+    }
+  }
+}
+
+}  // namespace acts

@@ -1,0 +1,96 @@
+"""The virtual board as the tests start, read and stop it."""
+
+from __future__ import annotations
+
+import json
+import os
+import select
+import signal
+import subprocess
+import time
+import tty
+from collections.abc import Callable
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+from core_library import installed
+
+from acts_core.delimited import DelimitedDecoder
+from acts_core.frames import SampleFrame
+from acts_core.wire import StreamDecoder
+
+DEADLINE_S = 30.0
+
+
+class BoardProcess:
+    """A virtual board with a link in `folder`, ended at the end of the block whatever happens."""
+
+    def __init__(self, folder: Path, *options: str | float | Path) -> None:
+        folder.mkdir(exist_ok=True)
+        self.link = folder / "run/board"
+        self.errors = folder / "errors.txt"
+        command = [installed("virtual_board"), "--link", self.link, "--print-status", *options]
+        with self.errors.open("wb") as errors:
+            self.process = subprocess.Popen([str(word) for word in command], stdout=subprocess.PIPE, stderr=errors)
+        assert self.process.stdout is not None
+        line = self.process.stdout.readline()
+        assert line, self.errors.read_text()
+        self.start: dict[str, Any] = json.loads(line)
+        self._port: int | None = None
+        self.decoder: DelimitedDecoder = StreamDecoder()
+
+    def __enter__(self) -> BoardProcess:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close_port()
+        self.process.kill()
+        self.process.wait(DEADLINE_S)
+        assert self.process.stdout is not None
+        self.process.stdout.close()
+
+    def status(self) -> dict[str, Any]:
+        """The next line of --status-period-s."""
+        assert self.process.stdout is not None
+        return json.loads(self.process.stdout.readline())
+
+    def open_port(self) -> int:
+        self._port = os.open(self.link, os.O_RDWR | os.O_NOCTTY)
+        tty.setraw(self._port)
+        self.decoder.reset()
+        return self._port
+
+    def close_port(self) -> None:
+        if self._port is not None:
+            os.close(self._port)
+            self._port = None
+
+    def read_bytes(self) -> bytes:
+        """Some bytes; fails where none come."""
+        assert self._port is not None
+        ready, _, _ = select.select([self._port], [], [], DEADLINE_S)
+        assert ready, f"the board is silent; {self.errors.read_text()}"
+        return os.read(self._port, 65536)
+
+    def read_frames(self, count: int) -> list[SampleFrame]:
+        """The next `count` frames or a few more."""
+        frames: list[SampleFrame] = []
+        while len(frames) < count:
+            frames += self.decoder.feed(self.read_bytes())
+        return frames
+
+    def read_until(self, wanted: Callable[[SampleFrame], bool]) -> SampleFrame:
+        """The first frame from now on that is `wanted`."""
+        deadline = time.monotonic() + DEADLINE_S
+        while time.monotonic() < deadline:
+            for frame in self.decoder.feed(self.read_bytes()):
+                if wanted(frame):
+                    return frame
+        raise AssertionError(f"no such frame within {DEADLINE_S} s")
+
+    def terminate(self, number: signal.Signals = signal.SIGTERM) -> int:
+        self.process.send_signal(number)
+        return self.process.wait(DEADLINE_S)

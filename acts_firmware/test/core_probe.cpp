@@ -1,0 +1,120 @@
+// The core behind C functions, for ctypes. Fields are measured through the model of the wiring.
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+
+#include "acts_firmware/division_order.hpp"
+#include "acts_firmware/packet.hpp"
+#include "acts_firmware/random.hpp"
+#include "acts_firmware/sampler.hpp"
+#include "acts_firmware/wiring.hpp"
+#include "wired_board.hpp"
+
+namespace {
+
+class StillBoard final : public acts::WiredBoard {
+ public:
+  StillBoard(int rows, int cols) : WiredBoard(rows, cols), cols_(cols) {}
+
+  void show(const std::uint16_t* field) { field_ = field; }
+  std::uint16_t read_adc() override { return static_cast<std::uint16_t>(adc_input()); }
+  std::uint32_t micros() override { return 0; }
+
+ protected:
+  double taxel_counts(int row, int col) override { return field_[row * cols_ + col]; }
+
+ private:
+  int cols_;
+  const std::uint16_t* field_ = nullptr;
+};
+
+struct Probe {
+  explicit Probe(const acts::SamplingConfig& config)
+      : board(config.rows, config.cols),
+        scanner(board, acts::wiring_for(config.rows, config.cols)),
+        error(sampler.configure(config)) {}
+
+  StillBoard board;
+  acts::Scanner scanner;
+  acts::Sampler sampler;
+  acts::SampleFrame frame;
+  acts::ConfigError error;
+};
+
+}  // namespace
+
+extern "C" {
+
+Probe* probe_new(int rows, int cols, int scheme, int m, int threshold, int neighbour_order, std::uint64_t seed) {
+  acts::SamplingConfig config;
+  config.rows = rows;
+  config.cols = cols;
+  config.scheme = static_cast<acts::Scheme>(scheme);
+  config.m = m;
+  config.threshold = threshold;
+  config.neighbour_order = static_cast<acts::NeighbourOrder>(neighbour_order);
+  config.seed = seed;
+  auto probe = std::make_unique<Probe>(config);
+  return probe->error == acts::ConfigError::kNone ? probe.release() : nullptr;
+}
+
+void probe_free(Probe* probe) {
+  delete probe;
+}
+
+int probe_sample(Probe* probe, const std::uint16_t* field, std::uint16_t* indices, std::uint16_t* counts) {
+  probe->board.show(field);
+  probe->sampler.sample(probe->scanner, probe->frame);
+  std::copy_n(probe->frame.indices.begin(), probe->frame.m, indices);
+  std::copy_n(probe->frame.counts.begin(), probe->frame.m, counts);
+  return probe->frame.m;
+}
+
+int probe_division_order(int rows, int cols, std::uint16_t* out) {
+  auto order = std::make_unique<acts::DivisionOrder>();
+  order->build(rows, cols);
+  for (int rank = 0; rank < order->size(); ++rank) {
+    out[rank] = static_cast<std::uint16_t>((*order)[rank]);
+  }
+  return order->size();
+}
+
+void probe_spacing(int rows, int cols, int m, int* out) {
+  const acts::Spacing spacing = acts::uniform_spacing(rows, cols, m);
+  out[0] = spacing.row;
+  out[1] = spacing.col;
+}
+
+void probe_random(std::uint64_t seed, std::uint64_t stream, std::uint32_t bound, int count, std::uint32_t* out) {
+  acts::Pcg32 random(seed, stream);
+  for (int i = 0; i < count; ++i) {
+    out[i] = bound == 0 ? random.next() : random.below(bound);
+  }
+}
+
+std::size_t probe_cobs_encode(const std::uint8_t* data, std::size_t length, std::uint8_t* out) {
+  return acts::cobs_encode(data, length, out);
+}
+
+std::size_t probe_cobs_decode(const std::uint8_t* data, std::size_t length, std::uint8_t* out) {
+  return acts::cobs_decode(data, length, out);
+}
+
+std::size_t probe_encode(std::uint32_t sequence, std::uint64_t board_us, std::uint32_t duration_us,
+                         std::uint32_t overruns, int scheme, int rows, int cols, int m, const std::uint16_t* indices,
+                         const std::uint16_t* counts, std::uint8_t* out) {
+  auto frame = std::make_unique<acts::SampleFrame>();
+  frame->sequence = sequence;
+  frame->board_us = board_us;
+  frame->duration_us = duration_us;
+  frame->overruns = overruns;
+  frame->scheme = static_cast<acts::Scheme>(scheme);
+  frame->rows = static_cast<std::uint8_t>(rows);
+  frame->cols = static_cast<std::uint8_t>(cols);
+  for (int i = 0; i < m; ++i) {
+    frame->append(indices[i], counts[i]);
+  }
+  return acts::encode_samples(*frame, out);
+}
+
+}  // extern "C"

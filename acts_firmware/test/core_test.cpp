@@ -1,0 +1,302 @@
+// Tests of what Python does not see of the core: wiring, clock, queue, framing, the firmware as a whole.
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <initializer_list>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "acts_firmware/clock.hpp"
+#include "acts_firmware/firmware.hpp"
+#include "wired_board.hpp"
+
+namespace {
+
+int failures = 0;
+
+#define CHECK(condition)                                                                       \
+  do {                                                                                         \
+    if (!(condition)) {                                                                        \
+      std::cerr << __FILE__ << ":" << __LINE__ << ": " << __func__ << ": " #condition << "\n"; \
+      ++failures;                                                                              \
+    }                                                                                          \
+  } while (false)
+
+using Bytes = std::vector<std::uint8_t>;
+
+// Each taxel reads its own index (modulo the ADC's range), a measurement takes 10 us.
+class IndexBoard final : public acts::WiredBoard {
+ public:
+  IndexBoard(int rows, int cols, std::uint32_t start_us = 0) : WiredBoard(rows, cols), cols_(cols), now_us_(start_us) {}
+
+  void write_pin(std::uint8_t pin, bool high) override {
+    levels_[pin] = high;
+    WiredBoard::write_pin(pin, high);
+  }
+  std::uint16_t read_adc() override {
+    now_us_ += 10;
+    return static_cast<std::uint16_t>(adc_input());
+  }
+  std::uint32_t micros() override { return now_us_; }
+  bool level(std::size_t pin) const { return levels_[pin]; }
+  int high_pins(std::size_t first, std::size_t last) const {
+    int count = 0;
+    for (std::size_t pin = first; pin <= last; ++pin) {
+      count += levels_[pin] ? 1 : 0;
+    }
+    return count;
+  }
+
+ protected:
+  double taxel_counts(int row, int col) override { return (row * cols_ + col) % (acts::kCountMax + 1); }
+
+ private:
+  int cols_;
+  std::uint32_t now_us_;
+  std::array<bool, 256> levels_{};
+};
+
+void test_pin_table() {
+  const acts::Wiring wiring = acts::published_wiring();
+  CHECK(wiring.lines == 32);
+  CHECK(wiring.pin_of_row(31) == 0);  // the picture is flipped against the lines
+  CHECK(wiring.pin_of_row(18) == 13);
+  CHECK(wiring.pin_of_row(17) == 15);  // pin 14 is the ADC
+  CHECK(wiring.pin_of_row(0) == 32);
+  CHECK(wiring.address_bits == 5);
+  CHECK(wiring.address_pins[0] == 33);
+  CHECK(wiring.address_pins[4] == 37);
+  CHECK(acts::wiring_for(33, 8).lines == 64);
+  CHECK(acts::wiring_for(8, 33).address_bits == 6);
+}
+
+void test_levels_while_measuring() {
+  IndexBoard board(32, 32);
+  acts::Scanner scanner(board, acts::published_wiring());
+  scanner.measure(30, 0x15);
+  CHECK(board.level(1));  // row 30 on line 1
+  CHECK(board.high_pins(0, 32) == 1);
+  CHECK(board.level(33) && !board.level(34) && board.level(35) && !board.level(36) && board.level(37));
+  scanner.measure(2, 0x0A);
+  CHECK(board.level(30));
+  CHECK(board.high_pins(0, 32) == 1);
+  CHECK(!board.level(33) && board.level(34) && !board.level(35) && board.level(36) && !board.level(37));
+  scanner.release();
+  CHECK(board.high_pins(0, 255) == 0);
+}
+
+void test_every_taxel_is_wired(int rows, int cols) {
+  IndexBoard board(rows, cols);
+  acts::Scanner scanner(board, acts::wiring_for(rows, cols));
+  bool right = true;
+  for (int row = 0; row < rows; ++row) {
+    for (int col = 0; col < cols; ++col) {
+      right = right && scanner.measure(row, col) == (row * cols + col) % (acts::kCountMax + 1);
+    }
+  }
+  CHECK(right);
+}
+
+void test_clock_across_wraps() {
+  acts::ExtendedClock clock;
+  CHECK(clock.extend(0xFFFFFFF0U) == 0xFFFFFFF0ULL);
+  CHECK(clock.extend(0x10U) == 0x100000010ULL);
+  CHECK(clock.extend(0x10U) == 0x100000010ULL);
+  CHECK(clock.extend(0xFFFFFFFFU) == 0x1FFFFFFFFULL);
+  CHECK(clock.extend(0U) == 0x200000000ULL);
+}
+
+void test_frame_across_a_wrap() {
+  IndexBoard board(32, 32, 0xFFFFFFFFU - 100U);
+  auto firmware = std::make_unique<acts::Firmware>(board, acts::published_wiring(), acts::Protocol::kBinary);
+  const acts::SampleFrame& frame = firmware->measure_frame();
+  CHECK(frame.duration_us == 550);
+  CHECK(frame.board_us == 0xFFFFFFFFULL - 100 + 550);
+}
+
+void test_crc() {
+  const std::string check = "123456789";
+  CHECK(acts::crc32(reinterpret_cast<const std::uint8_t*>(check.data()), check.size()) == 0xCBF43926U);
+  CHECK(acts::crc32(nullptr, 0) == 0);
+}
+
+Bytes run_of(std::size_t length) {
+  Bytes bytes(length);
+  for (std::size_t i = 0; i < length; ++i) {
+    bytes[i] = static_cast<std::uint8_t>(i % 255 + 1);
+  }
+  return bytes;
+}
+
+Bytes encoded(const Bytes& data) {
+  Bytes out(acts::cobs_bytes_max(data.size()));
+  out.resize(acts::cobs_encode(data.data(), data.size(), out.data()));
+  return out;
+}
+
+void test_cobs() {
+  CHECK(encoded({}) == Bytes{0x01});
+  CHECK(encoded({0x00}) == (Bytes{0x01, 0x01}));
+  CHECK(encoded({0x11, 0x22, 0x00, 0x33}) == (Bytes{0x03, 0x11, 0x22, 0x02, 0x33}));
+  CHECK(encoded(run_of(254)).size() == 255);
+  CHECK(encoded(run_of(255)).size() == 257);
+  for (const std::size_t length : {1U, 253U, 254U, 255U, 508U, 509U, 4132U}) {
+    for (const bool zero_at_end : {false, true}) {
+      Bytes data = run_of(length);
+      if (zero_at_end) {
+        data.back() = 0;
+      }
+      const Bytes stuffed = encoded(data);
+      Bytes back(stuffed.size());
+      back.resize(acts::cobs_decode(stuffed.data(), stuffed.size(), back.data()));
+      CHECK(back == data);
+      CHECK(std::memchr(stuffed.data(), 0, stuffed.size()) == nullptr);
+    }
+  }
+  Bytes room(8);
+  CHECK(acts::cobs_decode(Bytes{0x05, 0x11}.data(), 2, room.data()) == 0);
+  CHECK(acts::cobs_decode(Bytes{0x00}.data(), 1, room.data()) == 0);
+}
+
+std::uint64_t little_endian(const Bytes& bytes, std::size_t at, int size) {
+  std::uint64_t value = 0;
+  for (int i = 0; i < size; ++i) {
+    value |= static_cast<std::uint64_t>(bytes[at + static_cast<std::size_t>(i)]) << (8 * i);
+  }
+  return value;
+}
+
+void test_packet_layout() {
+  auto frame = std::make_unique<acts::SampleFrame>();
+  frame->sequence = 0x01020304;
+  frame->board_us = 0x1122334455667788ULL;
+  frame->duration_us = 0x0A0B0C0D;
+  frame->overruns = 7;
+  frame->scheme = acts::Scheme::kRandom;
+  frame->rows = 15;
+  frame->cols = 33;
+  frame->append(0x0102, 0x0304);
+  frame->append(0x0506, 0x03FF);
+  Bytes packet(acts::kMaxPacketBytes);
+  packet.resize(acts::encode_samples(*frame, packet.data()));
+  CHECK(packet.size() == 44);
+  CHECK(packet[0] == 1 && packet[1] == 1);
+  CHECK(little_endian(packet, 2, 2) == 44);
+  CHECK(little_endian(packet, 4, 4) == 0x01020304);
+  CHECK(little_endian(packet, 8, 8) == 0x1122334455667788ULL);
+  CHECK(little_endian(packet, 16, 4) == 0x0A0B0C0D);
+  CHECK(little_endian(packet, 20, 4) == 7);
+  CHECK(packet[24] == 2 && packet[25] == 15 && packet[26] == 33 && packet[27] == 0);
+  CHECK(little_endian(packet, 28, 2) == 2);
+  CHECK(little_endian(packet, 30, 2) == 0);
+  CHECK(little_endian(packet, 32, 2) == 0x0102 && little_endian(packet, 34, 2) == 0x0506);
+  CHECK(little_endian(packet, 36, 2) == 0x0304 && little_endian(packet, 38, 2) == 0x03FF);
+  CHECK(little_endian(packet, 40, 4) == acts::crc32(packet.data(), 40));
+}
+
+void test_queue_keeps_messages_whole() {
+  auto queue = std::make_unique<acts::TransmitQueue>();
+  const Bytes message = run_of(50000);
+  CHECK(queue->push(message.data(), message.size()));
+  CHECK(queue->push(message.data(), message.size()));
+  CHECK(!queue->push(message.data(), message.size()));
+  CHECK(queue->size() == 100000);
+  queue->pop(70000);
+  CHECK(queue->push(message.data(), message.size()));  // goes round the end
+  Bytes out;
+  while (queue->size() > 0) {
+    const acts::TransmitQueue::Piece piece = queue->front();
+    out.insert(out.end(), piece.data, piece.data + piece.length);
+    queue->pop(piece.length);
+  }
+  Bytes expected(message.begin() + 20000, message.end());
+  expected.insert(expected.end(), message.begin(), message.end());
+  CHECK(out == expected);
+}
+
+void test_overruns_are_counted_and_numbered() {
+  IndexBoard board(32, 32);
+  auto firmware = std::make_unique<acts::Firmware>(board, acts::published_wiring(), acts::Protocol::kBinary);
+  acts::SamplingConfig config;
+  config.scheme = acts::Scheme::kRaster;
+  CHECK(firmware->configure(config) == acts::ConfigError::kNone);
+  firmware->measure_frame();
+  CHECK(firmware->output().size() == 0);  // nobody reads: discarded, no overrun
+  firmware->start_stream();
+  CHECK(firmware->output().size() == 1);  // the delimiter a stream starts with
+  for (int i = 0; i < 40; ++i) {
+    firmware->measure_frame();
+  }
+  const std::uint32_t overruns = firmware->overruns();
+  CHECK(overruns == 40 - (acts::TransmitQueue::kCapacity - 1) / 4150);
+  firmware->skip_frames(5);
+  const acts::SampleFrame& frame = firmware->measure_frame();
+  CHECK(frame.sequence == 46);
+  CHECK(frame.overruns == overruns + 5);
+  firmware->stop_stream();
+  CHECK(firmware->output().size() == 0);
+}
+
+void test_settings_are_checked() {
+  auto sampler = std::make_unique<acts::Sampler>();
+  acts::SamplingConfig config;
+  config.rows = 65;
+  CHECK(sampler->configure(config) == acts::ConfigError::kSize);
+  config = {};
+  config.m = 1025;
+  CHECK(sampler->configure(config) == acts::ConfigError::kM);
+  config = {};
+  config.threshold = 1024;
+  CHECK(sampler->configure(config) == acts::ConfigError::kThreshold);
+  config = {};
+  config.scheme = acts::Scheme::kUniform;
+  config.m = 53;
+  CHECK(sampler->configure(config) == acts::ConfigError::kUniformM);
+  config = {};
+  config.scheme = static_cast<acts::Scheme>(9);
+  CHECK(sampler->configure(config) == acts::ConfigError::kScheme);
+  CHECK(sampler->config().rows == 32 && sampler->frame_size() == 55);  // refused settings change nothing
+}
+
+void test_published_ascii() {
+  IndexBoard board(2, 3);
+  auto firmware = std::make_unique<acts::Firmware>(board, acts::published_wiring(), acts::Protocol::kRasterAscii);
+  acts::SamplingConfig config;
+  config.rows = 2;
+  config.cols = 3;
+  config.m = 6;
+  config.scheme = acts::Scheme::kRaster;
+  CHECK(firmware->configure(config) == acts::ConfigError::kNone);
+  firmware->start_stream();
+  firmware->measure_frame();
+  const acts::TransmitQueue::Piece piece = firmware->output().front();
+  CHECK(std::string(reinterpret_cast<const char*>(piece.data), piece.length) == "0,1,2,3,4,5,60\r\n");
+}
+
+}  // namespace
+
+int main() {
+  test_pin_table();
+  test_levels_while_measuring();
+  test_every_taxel_is_wired(32, 32);
+  test_every_taxel_is_wired(15, 7);
+  test_every_taxel_is_wired(64, 64);
+  test_every_taxel_is_wired(16, 64);
+  test_clock_across_wraps();
+  test_frame_across_a_wrap();
+  test_crc();
+  test_cobs();
+  test_packet_layout();
+  test_queue_keeps_messages_whole();
+  test_overruns_are_counted_and_numbered();
+  test_settings_are_checked();
+  test_published_ascii();
+  if (failures > 0) {
+    std::cerr << failures << " checks failed\n";
+    return 1;
+  }
+  std::cout << "all checks passed\n";
+  return 0;
+}

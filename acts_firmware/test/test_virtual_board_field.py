@@ -1,0 +1,182 @@
+"""What the virtual board measures: the simulated world's ring or a recording, each taxel at its own time."""
+
+import subprocess
+import time
+from contextlib import ExitStack
+from pathlib import Path
+
+import numpy as np
+import pytest
+from board_process import BoardProcess
+from core_library import installed
+from numpy.typing import NDArray
+
+from acts_core.frames import SampleFrame
+from acts_sim.timed_ring import TimedRingWriter
+
+ROWS, COLS = 6, 5
+TAXELS = ROWS * COLS
+SAMPLE_NS = 20_000
+SMALL = ("--rows", ROWS, "--cols", COLS, "--m", 20, "--scheme", "random", "--sample-us", 20, "--noise-counts", 0)
+
+
+def measured_at_ns(board: BoardProcess, frame: SampleFrame, drift_ppm: float = 0.0) -> NDArray[np.float64]:
+    """Host time (monotonic) of each measurement of a frame; frames begin every millisecond of the board's clock."""
+    board_ns = frame.board_us // 1000 * 1_000_000 + np.arange(len(frame.indices)) * SAMPLE_NS
+    return board.start["epoch_monotonic_ns"] + board_ns / (1 + drift_ppm * 1e-6)
+
+
+def expected(
+    at_ns: NDArray[np.float64], indices: NDArray[np.uint16], times_ns: NDArray[np.float64], fields: NDArray
+) -> NDArray[np.float64]:
+    return np.array(
+        [np.interp(t, times_ns, fields[:, index]) for t, index in zip(at_ns, indices.tolist(), strict=True)]
+    )
+
+
+def test_ring_is_read_at_the_time_of_each_measurement(tmp_path: Path) -> None:
+    rng = np.random.default_rng(2)
+    ring = tmp_path / "field.ring"
+    # A world that knows the next twelve seconds: every 4 ms another field, hundreds of counts apart.
+    times_ns = time.monotonic_ns() - 100_000_000 + np.arange(3000) * 4_000_000
+    fields = rng.uniform(0, 1023, (len(times_ns), TAXELS))
+    with TimedRingWriter(ring, TAXELS, slots=4096) as writer:
+        for time_ns, field in zip(times_ns.tolist(), fields, strict=True):
+            writer.write(time_ns, field)
+        with BoardProcess(tmp_path, *SMALL, "--field-ring", ring) as board:
+            board.open_port()
+            frames = board.read_frames(150)
+            known = [frame for frame in frames if measured_at_ns(board, frame)[-1] < times_ns[-1]]
+            assert known
+            for frame in known:
+                at_ns = measured_at_ns(board, frame)
+                truth = expected(at_ns, frame.indices, times_ns.astype(float), fields)
+                assert np.abs(frame.counts - truth).max() < 0.6
+
+
+def test_newest_slot_is_held_and_strange_values_are_clipped(tmp_path: Path) -> None:
+    ring = tmp_path / "field.ring"
+    field = np.linspace(0, 1000, TAXELS)
+    field[:5] = (np.nan, np.inf, -np.inf, -20.0, 5000.0)
+    with TimedRingWriter(ring, TAXELS, slots=4) as writer:
+        writer.write(1, field)
+        with BoardProcess(tmp_path, *SMALL, "--scheme", "raster", "--field-ring", ring) as board:
+            board.open_port()
+            frame = board.read_frames(1)[0]
+    assert frame.counts[:5].tolist() == [0, 1023, 0, 0, 1023]
+    assert np.abs(frame.counts[5:] - field[5:]).max() <= 0.5
+
+
+def test_ring_appears_is_replaced_and_goes(tmp_path: Path) -> None:
+    ring = tmp_path / "field.ring"
+    with BoardProcess(tmp_path, *SMALL, "--field-ring", ring) as board:
+        board.open_port()
+        assert all(not frame.counts.any() for frame in board.read_frames(20))
+        for value in (100.0, 200.0):
+            # Not closed: its writer was killed, and the next one replaces the file.
+            TimedRingWriter(ring, TAXELS, slots=8).write(time.monotonic_ns(), np.full(TAXELS, value))
+            board.read_until(lambda frame, value=value: bool((frame.counts == value).all()))
+        # A ring of another array is refused in words, and its successor taken up.
+        TimedRingWriter(ring, TAXELS + 1, slots=8).write(time.monotonic_ns(), np.full(TAXELS + 1, 300.0))
+        board.read_until(lambda frame: not frame.counts.any())
+        assert f"holds {TAXELS + 1} values a slot, the array has {TAXELS} taxels" in board.errors.read_text()
+        last = TimedRingWriter(ring, TAXELS, slots=8)
+        last.write(time.monotonic_ns(), np.full(TAXELS, 400.0))
+        board.read_until(lambda frame: bool((frame.counts == 400).all()))
+        last.close()
+        board.read_until(lambda frame: not frame.counts.any())
+
+
+def test_a_ring_that_is_written_all_the_time_is_never_torn(tmp_path: Path) -> None:
+    ring = tmp_path / "field.ring"
+    with TimedRingWriter(ring, TAXELS, slots=3) as writer:
+        writer.write(time.monotonic_ns(), np.full(TAXELS, 500.0))
+        with BoardProcess(tmp_path, *SMALL, "--field-ring", ring) as board:
+            board.open_port()
+            board.read_until(lambda frame: bool(frame.counts.all()))
+            frames: list[SampleFrame] = []
+            while len(frames) < 100:
+                for _ in range(200):
+                    writer.write(time.monotonic_ns(), np.full(TAXELS, 500.0))
+                frames += board.decoder.feed(board.read_bytes())
+    assert all((frame.counts == 500).all() for frame in frames)
+
+
+@pytest.mark.parametrize("loop", [True, False])
+@pytest.mark.parametrize("drift_ppm", [0.0, 5000.0])
+def test_recording_is_interpolated_between_its_frames(tmp_path: Path, loop: bool, drift_ppm: float) -> None:
+    rng = np.random.default_rng(4)
+    recording = rng.integers(0, 1024, (7, ROWS, COLS), dtype=np.uint16)
+    np.save(tmp_path / "frames.npy", recording)
+    options = ["--recording", tmp_path / "frames.npy", "--recording-rate-hz", 40, "--drift-ppm", drift_ppm]
+    with BoardProcess(tmp_path, *SMALL, *options, *(["--loop"] if loop else [])) as board:
+        board.open_port()
+        frames = board.read_frames(400)
+    flat = recording.reshape(7, TAXELS).astype(float)
+    fields = np.concatenate([flat] * 100 + [flat[:1]]) if loop else flat
+    times_ns = board.start["epoch_monotonic_ns"] + np.arange(len(fields)) * 25e6
+    for frame in frames:
+        truth = expected(measured_at_ns(board, frame, drift_ppm), frame.indices, times_ns, fields)
+        assert np.abs(frame.counts - truth).max() < 0.6
+
+
+def test_noise_is_seeded_and_of_the_size_asked_for(tmp_path: Path) -> None:
+    np.save(tmp_path / "frames.npy", np.full((1, ROWS, COLS), 500, dtype=np.uint16))
+    options = ("--recording", tmp_path / "frames.npy", "--scheme", "raster", "--noise-counts", 4)
+    with ExitStack() as stack:
+        boards = [
+            stack.enter_context(BoardProcess(tmp_path / str(i), *SMALL, *options, "--seed", seed))
+            for i, seed in enumerate((1, 1, 2))
+        ]
+        for board in boards:
+            board.open_port()
+        runs: list[dict[int, NDArray[np.uint16]]] = [{}, {}, {}]
+        common: set[int] = set()
+        while len(common) < 100:
+            for board, run in zip(boards, runs, strict=True):
+                # A frame that a stall of the machine made the board skip draws no noise: no comparison after that.
+                run.update({f.sequence: f.counts for f in board.read_frames(1) if f.overruns == 0})
+            common = runs[0].keys() & runs[1].keys() & runs[2].keys()
+    values = np.concatenate(list(runs[0].values())).astype(float)
+    assert values.mean() == pytest.approx(500, abs=0.5)
+    assert values.std() == pytest.approx(4, rel=0.1)
+    assert all((runs[0][k] == runs[1][k]).all() for k in common)
+    assert not any((runs[0][k] == runs[2][k]).all() for k in common)
+
+
+@pytest.mark.parametrize(
+    ("array", "message"),
+    [
+        (np.zeros((3, ROWS, COLS + 1), dtype=np.uint16), "shape (frames, 6, 5)"),
+        (np.zeros((3, ROWS, COLS)), "uint16"),
+        (np.zeros((ROWS, COLS), dtype=np.uint16), "shape (frames, 6, 5)"),
+        (np.asfortranarray(np.zeros((3, ROWS, COLS), dtype=np.uint16)), "C order"),
+        (np.zeros((0, ROWS, COLS), dtype=np.uint16), "one frame or more"),
+    ],
+)
+def test_recordings_that_do_not_fit_are_refused(tmp_path: Path, array: NDArray, message: str) -> None:
+    np.save(tmp_path / "frames.npy", array)
+    assert message in refusal(tmp_path / "frames.npy")
+
+
+def test_broken_recordings_are_refused(tmp_path: Path) -> None:
+    path = tmp_path / "frames.npy"
+    assert "cannot be read" in refusal(path)
+    path.write_bytes(b"")
+    assert "empty" in refusal(path)
+    path.write_bytes(b"not a recording at all")
+    assert "is no .npy file" in refusal(path)
+    np.save(path, np.zeros((3, ROWS, COLS), dtype=np.uint16))
+    whole = path.read_bytes()
+    path.write_bytes(whole[:-2])
+    assert "shorter than its header says" in refusal(path)
+    path.write_bytes(whole[:20])
+    assert "cut off" in refusal(path)
+
+
+def refusal(path: Path) -> str:
+    command = [installed("virtual_board"), *map(str, SMALL), "--recording", path]
+    result = subprocess.run(command, capture_output=True, text=True, timeout=30)
+    assert result.returncode == 1
+    assert str(path) in result.stderr
+    return result.stderr

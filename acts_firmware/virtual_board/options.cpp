@@ -1,0 +1,229 @@
+#include "options.hpp"
+
+#include <cerrno>
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+namespace acts {
+
+namespace {
+
+// The authors' raster sketch: 17,509 us for 1024 taxels.
+constexpr double kRasterSketchSampleUs = 17.098;
+
+struct Option {
+  const char* name;
+  const char* value;  // what stands for the value in the help; empty for a switch
+  const char* help;
+  std::function<void(const std::string&)> set;
+};
+
+std::string shortest(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+double number(const std::string& name, const std::string& text, double minimum, double maximum) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || !std::isfinite(value) || value < minimum || value > maximum) {
+    throw OptionError(name + " " + text + ": allowed is a number from " + shortest(minimum) + " to " +
+                      shortest(maximum));
+  }
+  return value;
+}
+
+int whole(const std::string& name, const std::string& text, int minimum, int maximum) {
+  char* end = nullptr;
+  errno = 0;
+  const long value = std::strtol(text.c_str(), &end, 10);
+  if (text.empty() || *end != '\0' || errno != 0 || value < minimum || value > maximum) {
+    throw OptionError(name + " " + text + ": allowed is a whole number from " + std::to_string(minimum) + " to " +
+                      std::to_string(maximum));
+  }
+  return static_cast<int>(value);
+}
+
+std::uint64_t seed(const std::string& name, const std::string& text) {
+  char* end = nullptr;
+  errno = 0;
+  const unsigned long long value = std::strtoull(text.c_str(), &end, 10);
+  if (text.empty() || text[0] == '-' || *end != '\0' || errno != 0) {
+    throw OptionError(name + " " + text + ": allowed is a whole number from 0 to 18446744073709551615");
+  }
+  return value;
+}
+
+template <typename T>
+T word(const std::string& name, const std::string& text, const std::vector<std::pair<const char*, T>>& words) {
+  std::string allowed;
+  for (const auto& [known, value] : words) {
+    if (text == known) {
+      return value;
+    }
+    allowed += (allowed.empty() ? "" : ", ") + std::string(known);
+  }
+  throw OptionError(name + " " + text + ": allowed is one of " + allowed);
+}
+
+std::string path_or_none(const std::string& text) {
+  return text == "none" ? "" : text;
+}
+
+const std::vector<std::pair<const char*, Scheme>>& schemes() {
+  static const std::vector<std::pair<const char*, Scheme>> kSchemes = {{"adaptive", Scheme::kAdaptive},
+                                                                       {"uniform", Scheme::kUniform},
+                                                                       {"random", Scheme::kRandom},
+                                                                       {"raster", Scheme::kRaster}};
+  return kSchemes;
+}
+
+std::vector<Option> make_options(Options& o, bool& sample_us_given) {
+  SamplingConfig& s = o.sampling;
+  return {
+      {"--link", "PATH", "symbolic link to the pseudo-terminal, made at the start and removed at the end",
+       [&o](const std::string& v) { o.link = path_or_none(v); }},
+      {"--field-ring", "PATH", "pressure field of a simulated world (acts_sim/timed_ring.py); none: no world",
+       [&o](const std::string& v) { o.field_ring = path_or_none(v); }},
+      {"--recording", "FILE.npy", "play frames (n, rows, cols) uint16 instead of the world; none: no recording",
+       [&o](const std::string& v) { o.recording = path_or_none(v); }},
+      {"--recording-rate-hz", "R", "frames per second of the recording (1000)",
+       [&o](const std::string& v) { o.recording_rate_hz = number("--recording-rate-hz", v, 0.001, 1e6); }},
+      {"--loop", "", "start the recording over at its end; without, its last frame is held",
+       [&o](const std::string&) { o.loop = true; }},
+      {"--rows", "N", "rows of the array, 1 to 64 (32)",
+       [&s](const std::string& v) { s.rows = whole("--rows", v, 1, kMaxSide); }},
+      {"--cols", "N", "columns of the array, 1 to 64 (32)",
+       [&s](const std::string& v) { s.cols = whole("--cols", v, 1, kMaxSide); }},
+      {"--scheme", "NAME", "adaptive, uniform, random or raster (adaptive)",
+       [&s](const std::string& v) { s.scheme = word<Scheme>("--scheme", v, schemes()); }},
+      {"--m", "M", "taxels measured per frame (55); raster measures all",
+       [&s](const std::string& v) { s.m = whole("--m", v, 1, kMaxTaxels); }},
+      {"--rate-hz", "R", "largest number of frames per second (1000)",
+       [&o](const std::string& v) { o.rate_hz = number("--rate-hz", v, 1.0, 1e5); }},
+      {"--sample-us", "T", "time of one measurement in microseconds (17.877; raster_ascii 17.098)",
+       [&o, &sample_us_given](const std::string& v) {
+         o.sample_us = number("--sample-us", v, 0.1, 1000.0);
+         sample_us_given = true;
+       }},
+      {"--threshold", "COUNTS", "counts above which the adaptive scheme searches the neighbours (180)",
+       [&s](const std::string& v) { s.threshold = whole("--threshold", v, 0, kCountMax); }},
+      {"--neighbour-order", "ORDER", "of that search: columns or rows (columns)",
+       [&s](const std::string& v) {
+         s.neighbour_order = word<NeighbourOrder>(
+             "--neighbour-order", v, {{"columns", NeighbourOrder::kColumns}, {"rows", NeighbourOrder::kRows}});
+       }},
+      {"--noise-counts", "S", "standard deviation of the noise in counts (1.5)",
+       [&o](const std::string& v) { o.noise_counts = number("--noise-counts", v, 0.0, 1000.0); }},
+      {"--seed", "N", "of the noise and of random sampling (1)",
+       [&s](const std::string& v) { s.seed = seed("--seed", v); }},
+      {"--drift-ppm", "D", "how much faster the board's clock runs than the host's, in millionths (0)",
+       [&o](const std::string& v) { o.drift_ppm = number("--drift-ppm", v, -10000.0, 10000.0); }},
+      {"--protocol", "NAME", "binary, or raster_ascii: the authors' raster sketch (binary)",
+       [&o](const std::string& v) {
+         o.protocol =
+             word<Protocol>("--protocol", v, {{"binary", Protocol::kBinary}, {"raster_ascii", Protocol::kRasterAscii}});
+       }},
+      {"--print-status", "", "print one line of JSON at the start: link, port, and the time of board time 0",
+       [&o](const std::string&) { o.print_status = true; }},
+      {"--status-period-s", "T", "print another such line with frames and overruns every T seconds (0: never)",
+       [&o](const std::string& v) { o.status_period_s = number("--status-period-s", v, 0.0, 1e6); }},
+      {"--help", "", "print this and stop", [&o](const std::string&) { o.help = true; }},
+  };
+}
+
+void check_sampling(const Options& options) {
+  const SamplingConfig& sampling = options.sampling;
+  const std::string size = std::to_string(sampling.rows) + " x " + std::to_string(sampling.cols);
+  const int taxels = sampling.rows * sampling.cols;
+  if (sampling.m > taxels) {
+    throw OptionError("--m " + std::to_string(sampling.m) + ": an array of " + size + " has " + std::to_string(taxels) +
+                      " taxels");
+  }
+  if (sampling.scheme != Scheme::kUniform || uniform_spacing(sampling.rows, sampling.cols, sampling.m).row != 0) {
+    return;
+  }
+  std::string possible;
+  for (int m = 1; m <= taxels; ++m) {
+    if (uniform_spacing(sampling.rows, sampling.cols, m).row != 0) {
+      possible += " " + std::to_string(m);
+    }
+  }
+  throw OptionError("--m " + std::to_string(sampling.m) + ": no uniform grid of " + size +
+                    " has so many taxels; allowed are" + possible);
+}
+
+}  // namespace
+
+Options parse_options(int argc, const char* const* argv) {
+  Options options;
+  bool sample_us_given = false;
+  const std::vector<Option> known = make_options(options, sample_us_given);
+  for (int i = 1; i < argc && std::string(argv[i]) != "--ros-args"; ++i) {
+    std::string name = argv[i];
+    const std::size_t equals = name.find('=');
+    const bool joined = equals != std::string::npos;
+    const std::string joined_value = joined ? name.substr(equals + 1) : "";
+    name = name.substr(0, equals);
+
+    const Option* option = nullptr;
+    for (const Option& candidate : known) {
+      option = name == candidate.name ? &candidate : option;
+    }
+    if (option == nullptr) {
+      throw OptionError("unknown option " + name + "; --help lists what there is");
+    }
+    const bool takes_value = option->value[0] != '\0';
+    if (joined && !takes_value) {
+      throw OptionError(name + " takes no value");
+    }
+    if (!takes_value || joined) {
+      option->set(joined_value);
+    } else if (i + 1 < argc && std::string(argv[i + 1]) != "--ros-args") {
+      option->set(argv[++i]);
+    } else {
+      throw OptionError(name + " needs a value: " + option->help);
+    }
+  }
+  if (options.protocol == Protocol::kRasterAscii) {
+    options.sampling.scheme = Scheme::kRaster;
+    if (!sample_us_given) {
+      options.sample_us = kRasterSketchSampleUs;
+    }
+  }
+  if (options.sampling.scheme == Scheme::kRaster) {
+    options.sampling.m = options.sampling.rows * options.sampling.cols;
+  }
+  check_sampling(options);
+  return options;
+}
+
+std::string help_text() {
+  Options options;
+  bool unused = false;
+  std::string text =
+      "virtual_board: the ACTS firmware on the host, behind a pseudo-terminal.\n"
+      "usage: virtual_board [options] [--ros-args ...]   (what follows --ros-args is left alone)\n";
+  for (const Option& option : make_options(options, unused)) {
+    std::string left = std::string("  ") + option.name + " " + option.value;
+    left.resize(left.size() < 26 ? 26 : left.size() + 1, ' ');
+    text += left + option.help + "\n";
+  }
+  return text;
+}
+
+const char* name_of(Scheme scheme) {
+  for (const auto& [name, value] : schemes()) {
+    if (value == scheme) {
+      return name;
+    }
+  }
+  return "unknown";
+}
+
+}  // namespace acts

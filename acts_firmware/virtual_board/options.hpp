@@ -1,0 +1,43 @@
+// Command line of the virtual board.
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+#include "acts_firmware/firmware.hpp"
+#include "acts_firmware/sampler.hpp"
+
+namespace acts {
+
+struct Options {
+  bool help = false;
+  std::string link;        // empty: none
+  std::string field_ring;  // empty: none
+  std::string recording;   // empty: none
+  double recording_rate_hz = 1000.0;
+  bool loop = false;
+  SamplingConfig sampling;
+  double rate_hz = 1000.0;
+  double sample_us = 17.877;  // published: 55,936 samples a second
+  double noise_counts = 1.5;
+  double drift_ppm = 0.0;
+  Protocol protocol = Protocol::kBinary;
+  bool print_status = false;
+  double status_period_s = 0.0;  // 0: none
+};
+
+// What was given, what is allowed.
+class OptionError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// Everything from --ros-args on is left alone, so that ros2 launch can start the board as a node.
+Options parse_options(int argc, const char* const* argv);
+
+std::string help_text();
+
+const char* name_of(Scheme scheme);
+
+}  // namespace acts

@@ -1,0 +1,120 @@
+#include "pseudo_terminal.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <stdlib.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+#include <system_error>
+
+namespace acts {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+[[noreturn]] void fail(const std::string& what) {
+  throw std::runtime_error(what + " (" + std::strerror(errno) + ")");
+}
+
+}  // namespace
+
+PseudoTerminal::PseudoTerminal(const std::string& link) : link_(link) {
+  master_ = posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+  std::array<char, 128> name{};
+  if (master_ < 0 || grantpt(master_) != 0 || unlockpt(master_) != 0 ||
+      ptsname_r(master_, name.data(), name.size()) != 0) {
+    fail("no pseudo-terminal can be had");
+  }
+  port_ = name.data();
+  termios raw{};
+  if (tcgetattr(master_, &raw) != 0) {
+    fail(port_ + ": its settings cannot be read");
+  }
+  cfmakeraw(&raw);
+  if (tcsetattr(master_, TCSANOW, &raw) != 0) {
+    fail(port_ + ": cannot be made raw");
+  }
+  // Only after a first opening and closing does the system report that nobody has the other end open.
+  discard_unread();
+  if (!link_.empty()) {
+    make_link();
+  }
+}
+
+PseudoTerminal::~PseudoTerminal() {
+  std::error_code ignored;
+  // Another board may have taken the link over.
+  if (!link_.empty() && fs::read_symlink(link_, ignored) == port_) {
+    fs::remove(link_, ignored);
+  }
+  if (master_ >= 0) {
+    close(master_);
+  }
+}
+
+void PseudoTerminal::make_link() const {
+  const fs::path path(link_);
+  std::error_code error;
+  if (path.has_parent_path()) {
+    fs::create_directories(path.parent_path(), error);
+  }
+  const fs::file_status status = fs::symlink_status(path, error);
+  if (fs::exists(status) && !fs::is_symlink(status)) {
+    throw std::runtime_error("--link " + link_ + ": something else than a symbolic link is there; remove it");
+  }
+  const fs::path fresh = link_ + ".new";
+  fs::remove(fresh, error);
+  error.clear();
+  fs::create_symlink(port_, fresh, error);
+  if (!error) {
+    fs::rename(fresh, path, error);  // replaces a stale link in one step
+  }
+  if (error) {
+    throw std::runtime_error("--link " + link_ + ": cannot be made (" + error.message() + ")");
+  }
+}
+
+void PseudoTerminal::discard_unread() const {
+  tcflush(master_, TCOFLUSH);
+  const int slave = ::open(port_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
+  if (slave >= 0) {
+    tcflush(slave, TCIFLUSH);
+    close(slave);
+  }
+}
+
+PseudoTerminal::Event PseudoTerminal::service() {
+  pollfd state{master_, POLLIN, 0};
+  if (poll(&state, 1, 0) < 0) {
+    return Event::kNone;
+  }
+  if ((state.revents & POLLIN) != 0) {
+    std::array<std::uint8_t, 4096> discarded{};
+    // Bounded: a host that floods the board must not keep it from measuring.
+    for (int i = 0; i < 4 && read(master_, discarded.data(), discarded.size()) > 0; ++i) {
+    }
+  }
+  const bool now_open = (state.revents & POLLHUP) == 0;
+  if (now_open == open_) {
+    return Event::kNone;
+  }
+  open_ = now_open;
+  if (!open_) {
+    discard_unread();  // the next host must not begin with the last one's leftovers
+  }
+  return open_ ? Event::kOpened : Event::kClosed;
+}
+
+std::size_t PseudoTerminal::write(const std::uint8_t* data, std::size_t length) {
+  const ssize_t taken = ::write(master_, data, length);
+  return taken > 0 ? static_cast<std::size_t>(taken) : 0;
+}
+
+}  // namespace acts

@@ -1,0 +1,62 @@
+// The board on the host: virtual time, a pressure field, noise.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "acts_firmware/random.hpp"
+#include "field.hpp"
+#include "wired_board.hpp"
+
+namespace acts {
+
+// Which time of the host is which time of the board.
+class BoardTime {
+ public:
+  // Board time 0 is `epoch_monotonic_ns` of CLOCK_MONOTONIC; the board's clock is fast by `drift_ppm`.
+  BoardTime(std::int64_t epoch_monotonic_ns, double drift_ppm)
+      : epoch_ns_(epoch_monotonic_ns), board_per_host_(1.0 + drift_ppm * 1e-6) {}
+
+  std::int64_t to_host_ns(std::int64_t board_ns) const {
+    return epoch_ns_ + static_cast<std::int64_t>(static_cast<double>(board_ns) / board_per_host_);
+  }
+  std::int64_t to_board_ns(std::int64_t host_ns) const {
+    return static_cast<std::int64_t>(static_cast<double>(host_ns - epoch_ns_) * board_per_host_);
+  }
+
+ private:
+  std::int64_t epoch_ns_;
+  double board_per_host_;
+};
+
+// Measuring is what makes its time pass: each conversion takes `sample_ns` and sees the field at its own beginning.
+class VirtualBoard final : public WiredBoard {
+ public:
+  VirtualBoard(int rows, int cols, std::unique_ptr<Field> field, const BoardTime& time, std::int64_t sample_ns,
+               double noise_counts, std::uint64_t seed);
+
+  // Jump to a board time, the start of a frame that ends at `end_ns`.
+  void begin_frame(std::int64_t start_ns, std::int64_t end_ns);
+
+  std::uint16_t read_adc() override;
+  std::uint32_t micros() override { return static_cast<std::uint32_t>(now_ns_ / 1000); }
+
+ protected:
+  double taxel_counts(int row, int col) override;
+
+ private:
+  double gaussian();
+
+  int cols_;
+  std::unique_ptr<Field> field_;
+  BoardTime time_;
+  std::int64_t sample_ns_;
+  double noise_counts_;
+  Pcg32 random_;
+  double spare_ = 0.0;
+  bool has_spare_ = false;
+  std::int64_t now_ns_ = 0;
+  std::int64_t now_host_ns_ = 0;
+};
+
+}  // namespace acts
