@@ -89,7 +89,7 @@ def test_ring_appears_is_replaced_and_goes(tmp_path: Path) -> None:
 
 def test_a_ring_that_is_written_all_the_time_is_never_torn(tmp_path: Path) -> None:
     ring = tmp_path / "field.ring"
-    with TimedRingWriter(ring, TAXELS, slots=3) as writer:
+    with TimedRingWriter(ring, TAXELS, slots=2) as writer:
         writer.write(time.monotonic_ns(), np.full(TAXELS, 500.0))
         with BoardProcess(tmp_path, *SMALL, "--field-ring", ring) as board:
             board.open_port()

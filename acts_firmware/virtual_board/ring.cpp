@@ -32,8 +32,8 @@ class Ring {
       throw std::runtime_error(path + ": is no shared ring");
     }
     std::memcpy(header, file_.data() + 8, sizeof header);
-    if (header[0] != kVersion || header[1] < 3) {
-      throw std::runtime_error(path + ": is no shared ring of version 1 with three slots or more");
+    if (header[0] != kVersion || header[1] < 2) {
+      throw std::runtime_error(path + ": is no shared ring of version 1 with two slots or more");
     }
     if (header[2] != width) {
       throw std::runtime_error(path + ": holds " + std::to_string(header[2]) + " values a slot, the array has " +
