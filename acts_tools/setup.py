@@ -18,5 +18,5 @@ setup(
     maintainer_email="acts-maintainers@example.org",
     description="The acts command: launch, record, play, train, demo.",
     license="Apache-2.0",
-    entry_points={"console_scripts": []},
+    entry_points={"console_scripts": ["acts = acts_tools.cli:main"]},
 )

@@ -1,1 +1,3 @@
-"""See package.xml."""
+"""The `acts` command: launch files, bags, training and demonstrations. See `acts --help`."""
+
+__version__ = "0.1.0"

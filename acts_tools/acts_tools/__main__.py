@@ -1,0 +1,7 @@
+"""`python3 -m acts_tools` is the acts command."""
+
+import sys
+
+from acts_tools.cli import main
+
+sys.exit(main())

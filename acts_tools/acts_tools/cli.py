@@ -1,0 +1,88 @@
+"""The `acts` command: one subcommand, one module; only the module of the subcommand that was asked for is imported."""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import os
+import sys
+from collections.abc import Sequence
+from types import ModuleType
+
+from acts_core.errors import ActsError
+from acts_tools import __version__
+
+COMMANDS = {
+    "launch": ("acts_tools.launch.command", "start the nodes of a launch file"),
+    "record": ("acts_tools.bags.record", "record topics to a bag"),
+    "play": ("acts_tools.bags.play", "publish a bag's messages again"),
+    "train": ("acts_tools.train", "train a dictionary for the reconstruction"),
+    "demo": ("acts_tools.demo.command", "run a demonstration with everything simulated"),
+}
+"""Module and summary of every subcommand; the module has ``add_parser(subparsers)`` and ``run(arguments) -> int``."""
+
+_EPILOG = """\
+examples:
+  acts demo ball_balancing                                          see the whole chain at work, no hardware needed
+  acts launch acts_bringup tactile.launch.xml --show-args           what a launch file lets you choose
+  acts launch acts_bringup tactile.launch.xml sim:=false port:=/dev/ttyACM0
+  acts record -o touch /plate/samples /plate/contact                Ctrl-C ends it
+  acts play touch
+
+`acts COMMAND --help` explains a command. `./acts run COMMAND ...` runs any program in the ACTS environment.
+"""
+
+_INTERRUPTED = 130
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the acts command.
+
+    Parameters
+    ----------
+    argv : sequence of str or None
+        Words after ``acts``; None for those of the process.
+
+    Returns
+    -------
+    int
+        Exit code: that of the subcommand, 1 after an `ActsError`, 2 for a wrong command line, 130 after Ctrl-C.
+    """
+    words = list(sys.argv[1:] if argv is None else argv)
+    # The first word that is no option names the subcommand: acts has no option that takes a value.
+    selected = next((word for word in words if not word.startswith("-")), None)
+    parser, module = _build_parser(selected)
+    arguments = parser.parse_args(words)
+    if module is None:
+        parser.print_help()
+        return 0
+    try:
+        return int(module.run(arguments))
+    except ActsError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        return _INTERRUPTED
+    except BrokenPipeError:
+        # The reader of our output went away (`acts ... | head`); without this Python complains once more at exit.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
+
+
+def _build_parser(selected: str | None) -> tuple[argparse.ArgumentParser, ModuleType | None]:
+    parser = argparse.ArgumentParser(
+        prog="acts",
+        description="ACTS: robot touch at 1 kHz, from the board's bytes to the robot's joints.",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("--version", action="version", version=f"acts {__version__}")
+    subparsers = parser.add_subparsers(title="commands", metavar="COMMAND")
+    module = None
+    for name, (module_name, summary) in COMMANDS.items():
+        if name == selected:
+            module = importlib.import_module(module_name)
+            module.add_parser(subparsers)
+        else:
+            subparsers.add_parser(name, help=summary)
+    return parser, module

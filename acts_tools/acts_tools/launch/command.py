@@ -1,0 +1,146 @@
+"""`acts launch`: run a launch file, list its arguments, or show what it would start."""
+
+from __future__ import annotations
+
+import argparse
+import importlib.util
+import os
+import shlex
+import shutil
+import sys
+import tempfile
+from pathlib import Path
+
+from acts_core.errors import LaunchError
+
+_OWN_VARIABLE = "ACTS_LAUNCH_OWN"
+_TIMEOUTS = ("sigterm_timeout", "sigkill_timeout")
+
+
+def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add ``launch`` to the acts command."""
+    parser = subparsers.add_parser(
+        "launch",
+        help="start the nodes of a launch file",
+        description="Start the nodes of an XML launch file and stop them together (Ctrl-C). "
+        "Where `ros2 launch` is installed, it does the work.",
+        epilog="Exit code: 0 when all nodes ended in order, 1 when one died or the launch file is wrong.",
+    )
+    parser.add_argument("package", help="package that holds the launch file, or the path of a launch file")
+    parser.add_argument("words", nargs="*", metavar="file | name:=value", help="launch file, then its arguments")
+    what = parser.add_mutually_exclusive_group()
+    what.add_argument(
+        "-s", "--show-args", "--show-arguments", action="store_true", help="list the arguments of the launch file"
+    )
+    what.add_argument("-p", "--print", action="store_true", help="print the commands without starting anything")
+    parser.add_argument(
+        "--own",
+        action="store_true",
+        help=f"do not hand over to `ros2 launch` where it is installed (also with {_OWN_VARIABLE}=1)",
+    )
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Run ``acts launch``; the exit code as in its help."""
+    own = arguments.own or os.environ.get(_OWN_VARIABLE, "") not in ("", "0")
+    if not own and real_launch_installed():
+        return _hand_over(arguments)
+    file, words = _find_file(arguments.package, list(arguments.words))
+    if not file.name.endswith(".xml"):
+        raise LaunchError(f"acts launch reads XML launch files (*.launch.xml) only, not '{file.name}'")
+    values = parse_arguments(words)
+    if arguments.show_args:
+        from acts_tools.launch.show import show_arguments
+
+        print(show_arguments(file, os.environ))
+        return 0
+    return _launch(file, values, only_print=arguments.print)
+
+
+def real_launch_installed() -> bool:
+    """Whether ``ros2 launch`` can take over."""
+    return shutil.which("ros2") is not None and all(
+        importlib.util.find_spec(module) is not None for module in ("ros2launch", "launch_ros", "launch_xml")
+    )
+
+
+def parse_arguments(words: list[str]) -> dict[str, str]:
+    """Launch arguments from ``name:=value`` words; of duplicates the last one wins.
+
+    Raises
+    ------
+    LaunchError
+        A word is not of this form.
+    """
+    values = {}
+    for word in words:
+        name, separator, value = word.partition(":=")
+        if not separator or not name or not value:
+            raise LaunchError(f"malformed launch argument '{word}', expected format '<name>:=<value>'")
+        values[name] = value
+    return values
+
+
+def _hand_over(arguments: argparse.Namespace) -> int:
+    options = [
+        *(["--show-args"] if arguments.show_args else []),
+        *(["--print"] if arguments.print else []),
+    ]
+    sys.stdout.flush()
+    os.execvp("ros2", ["ros2", "launch", *options, arguments.package, *arguments.words])
+
+
+def _find_file(package: str, words: list[str]) -> tuple[Path, list[str]]:
+    """The launch file and the words that are left; a path wins over a package of the same name."""
+    from acts_tools.launch import packages
+
+    if Path(package).is_file():
+        return Path(package).absolute(), words
+    if "/" in package or package.endswith(".xml"):
+        raise LaunchError(f"the launch file '{package}' does not exist")
+    if not words or ":=" in words[0]:
+        share = packages.share(package, os.environ)
+        there = ", ".join(sorted(path.name for path in share.rglob("*.launch.xml"))) or "none"
+        raise LaunchError(f"no launch file named: acts launch {package} FILE (there: {there})")
+    return packages.launch_file(package, words[0], os.environ), words[1:]
+
+
+def _launch(file: Path, values: dict[str, str], only_print: bool) -> int:
+    # Late: listing arguments needs none of it.
+    from acts_tools.launch.console import Console, make_log_folder
+    from acts_tools.launch.evaluate import evaluate
+    from acts_tools.launch.processes import Launcher
+
+    timeouts_s = [_seconds(name, values.get(name, "5")) for name in _TIMEOUTS]
+    with tempfile.TemporaryDirectory(prefix="acts_launch_") as folder:
+        plan = evaluate(file, values, os.environ, Path(folder))
+        for name in sorted(set(values) - plan.declared - set(_TIMEOUTS)):
+            known = ", ".join(sorted(plan.declared)) or "none"
+            plan.warnings.append(f"the launch file declares no argument '{name}' (declared: {known})")
+        if only_print:
+            for text in plan.warnings:
+                print(f"warning: {text}", file=sys.stderr)
+            for process in plan.processes:
+                print(f"[{process.label}] {shlex.join(process.command)}")
+                for path in process.parameter_files:
+                    print("".join(f"    {line}\n" for line in (f"{path}:", *path.read_text().splitlines())), end="")
+            return 0
+        log_folder = make_log_folder()
+        console = Console(log_folder)
+        try:
+            console.say("INFO", "launch", f"All log files can be found below {log_folder}")
+            for text in plan.warnings:
+                console.say("WARNING", "launch", text)
+            return Launcher(console, *timeouts_s).run(plan.processes)
+        finally:
+            console.close()
+
+
+def _seconds(name: str, text: str) -> float:
+    try:
+        value_s = float(text)
+    except ValueError:
+        value_s = float("nan")
+    if not 0.0 <= value_s < float("inf"):
+        raise LaunchError(f"{name}:={text} is not a time in seconds")
+    return value_s

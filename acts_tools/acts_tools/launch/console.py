@@ -1,0 +1,68 @@
+"""Where the words of a launch and the output of its processes go: the screen and a log file, as in the real launch."""
+
+from __future__ import annotations
+
+import os
+import socket
+import sys
+import time
+from datetime import datetime
+from pathlib import Path
+from typing import TextIO
+
+from acts_core.errors import LaunchError
+
+
+def make_log_folder() -> Path:
+    """Make a folder for the logs of one launch, below ``ROS_LOG_DIR``, ``ROS_HOME/log`` or ``~/.ros/log``.
+
+    Raises
+    ------
+    LaunchError
+        It cannot be made.
+    """
+    base = os.environ.get("ROS_LOG_DIR") or f"{os.environ.get('ROS_HOME') or '~/.ros'}/log"
+    name = f"{datetime.now():%Y-%m-%d-%H-%M-%S-%f}-{socket.gethostname()}-{os.getpid()}"
+    folder = Path(base).expanduser() / name
+    try:
+        folder.mkdir(parents=True)
+    except OSError as error:
+        raise LaunchError(f"cannot make the log folder {folder}: {error.strerror}. Set ROS_LOG_DIR.") from error
+    return folder
+
+
+class Console:
+    """Writes lines to the screen and to ``launch.log``.
+
+    Parameters
+    ----------
+    folder : Path
+        Where the log file goes.
+    screen : TextIO
+        Standard output unless told otherwise.
+    """
+
+    def __init__(self, folder: Path, screen: TextIO | None = None) -> None:
+        self._screen = sys.stdout if screen is None else screen
+        self._log = (folder / "launch.log").open("a", buffering=1)
+        self.screen_lost = False
+
+    def close(self) -> None:
+        """Close the log file."""
+        self._log.close()
+
+    def say(self, level: str, who: str, text: str) -> None:
+        """A message of the launch itself; `level` is INFO, WARNING or ERROR."""
+        self.write(f"[{level}] [{who}]: {text}", to_screen=True, to_log=True)
+
+    def write(self, line: str, to_screen: bool, to_log: bool) -> None:
+        """One line; what goes to neither is dropped."""
+        if to_log:
+            self._log.write(f"{time.time():.7f} {line}\n")
+        if to_screen and not self.screen_lost:
+            try:
+                self._screen.write(f"{line}\n")
+                self._screen.flush()
+            except BrokenPipeError:
+                # The reader went away; the launcher sees this and stops its processes in order.
+                self.screen_lost = True

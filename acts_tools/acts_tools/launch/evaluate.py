@@ -1,0 +1,319 @@
+"""Actions and arguments to the processes that are to be started. Nothing is started here."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import yaml
+
+from acts_core.errors import LaunchError
+from acts_tools.launch import packages, parameters, substitutions
+from acts_tools.launch.model import (
+    AnyAction,
+    Condition,
+    DeclareArgument,
+    Group,
+    Include,
+    Node,
+    ParameterFile,
+    PushNamespace,
+    SetEnvironment,
+    SetVariable,
+)
+from acts_tools.launch.parser import parse_file
+from acts_tools.launch.place import located
+from acts_tools.launch.substitutions import Scope
+
+_MAXIMUM_DEPTH = 30
+_NAMESPACE_VARIABLE = "ros_namespace"
+_OUTPUTS = ("screen", "log", "both")
+
+
+@dataclass(frozen=True)
+class Process:
+    """One process to start.
+
+    Attributes
+    ----------
+    label : str
+        Name for people: the executable and a running number, such as ``driver-2``.
+    command : tuple of str
+        Program and arguments.
+    environment : dict of str to str
+        All of its environment.
+    output : str
+        "screen", "log" (standard error still goes to the screen) or "both".
+    respawn : bool
+        Start it again whenever it ends.
+    respawn_delay_s : float
+        Pause before that [s].
+    parameter_files : tuple of Path
+        Files among the arguments that were written for it.
+    """
+
+    label: str
+    command: tuple[str, ...]
+    environment: dict[str, str]
+    output: str
+    respawn: bool
+    respawn_delay_s: float
+    parameter_files: tuple[Path, ...]
+
+
+@dataclass
+class Plan:
+    """What a launch file comes to.
+
+    Attributes
+    ----------
+    processes : list of Process
+        In the order in which they are to be started.
+    warnings : list of str
+        What is likely a mistake, but none that the real launch refuses.
+    declared : set of str
+        Names of the arguments that the file and those it includes declare.
+    """
+
+    processes: list[Process] = field(default_factory=list)
+    warnings: list[str] = field(default_factory=list)
+    declared: set[str] = field(default_factory=set)
+
+
+def evaluate(file: Path, arguments: Mapping[str, str], environment: Mapping[str, str], parameter_folder: Path) -> Plan:
+    """Evaluate a launch file.
+
+    Parameters
+    ----------
+    file : Path
+        The launch file.
+    arguments : mapping of str to str
+        Values of its arguments; what is not declared becomes a variable nevertheless, as in the real launch.
+    environment : mapping of str to str
+        Where packages are looked up, and what the processes get plus the file's `set_env`.
+    parameter_folder : Path
+        Existing folder for the params files made from `param name value`.
+
+    Returns
+    -------
+    Plan
+        The processes to start.
+
+    Raises
+    ------
+    LaunchError
+        Anything wrong in the file or those it includes, with file and line.
+    """
+    actions = parse_file(file)
+    _check_required(actions, given=list(arguments), where=f"{file}: ")
+    evaluator = _Evaluator(parameter_folder)
+    evaluator.visit(actions, Scope(dict(arguments), dict(environment), file), depth=0)
+    return evaluator.plan
+
+
+def declarations(actions: tuple[AnyAction, ...], conditional: bool = False) -> Iterator[tuple[DeclareArgument, bool]]:
+    """The arguments a file declares itself, each with whether a condition decides about it."""
+    for action in actions:
+        under_condition = conditional or action.condition is not None
+        if isinstance(action, DeclareArgument):
+            yield action, under_condition
+        elif isinstance(action, Group):
+            yield from declarations(action.actions, under_condition)
+
+
+def _check_required(actions: tuple[AnyAction, ...], given: list[str], where: str) -> None:
+    for argument, conditional in declarations(actions):
+        if not conditional and argument.default is None and argument.name not in given:
+            raise LaunchError(
+                f"{where}Included launch description missing required argument '{argument.name}' "
+                f"(description: '{argument.description}'), given: [{', '.join(given)}]"
+            )
+
+
+class _Evaluator:
+    """Visits actions one after the other, as the real launch does, and collects the processes."""
+
+    def __init__(self, parameter_folder: Path) -> None:
+        self.plan = Plan()
+        self._parameter_folder = parameter_folder
+        self._node_names: dict[str, int] = {}
+
+    def visit(self, actions: tuple[AnyAction, ...], scope: Scope, depth: int) -> None:
+        for action in actions:
+            with located(action.place):
+                if isinstance(action, DeclareArgument):
+                    self.plan.declared.add(action.name)
+                if _holds(action.condition, scope):
+                    self._execute(action, scope, depth)
+
+    def _execute(self, action: AnyAction, scope: Scope, depth: int) -> None:
+        if isinstance(action, DeclareArgument):
+            _declare(action, scope)
+        elif isinstance(action, SetVariable):
+            scope.variables[substitutions.perform(action.name, scope)] = substitutions.perform(action.value, scope)
+        elif isinstance(action, SetEnvironment):
+            scope.environment[substitutions.perform(action.name, scope)] = substitutions.perform(action.value, scope)
+        elif isinstance(action, PushNamespace):
+            _push_namespace(substitutions.perform(action.namespace, scope), scope)
+        elif isinstance(action, Group):
+            inner = Scope(dict(scope.variables), dict(scope.environment), scope.file) if action.scoped else scope
+            self.visit(action.actions, inner, depth)
+        elif isinstance(action, Include):
+            self._include(action, scope, depth)
+        else:
+            self._node(action, scope)
+
+    def _include(self, action: Include, scope: Scope, depth: int) -> None:
+        if depth >= _MAXIMUM_DEPTH:
+            raise LaunchError(f"more than {_MAXIMUM_DEPTH} includes within one another: does a file include itself?")
+        file = Path(substitutions.perform(action.file, scope))
+        if not file.is_file():
+            raise LaunchError(f"the launch file to include does not exist: '{file}'")
+        if not file.name.endswith(".xml"):
+            raise LaunchError(f"cannot include '{file}': acts launch reads XML launch files only")
+        # Included files change the variables of this scope, and their arguments stay set, as in the real launch.
+        inner = Scope(scope.variables, scope.environment, file.absolute())
+        actions = parse_file(inner.file)
+        values = [(substitutions.perform(name, inner), value) for name, value in action.arguments]
+        _check_required(actions, given=[name for name, _ in values], where="")
+        for name, value in values:
+            scope.variables[name] = substitutions.perform(value, inner)
+        self.visit(actions, inner, depth + 1)
+
+    def _node(self, node: Node, scope: Scope) -> None:
+        program = _program(node, scope)
+        command = [str(program), *(substitutions.perform(word, scope) for word in node.arguments), "--ros-args"]
+        name = None if node.name is None else _node_name(substitutions.perform(node.name, scope))
+        if name is not None:
+            command += ["-r", f"__node:={name}"]
+        namespace = _node_namespace(node, scope)
+        if namespace is not None:
+            command += ["-r", f"__ns:={namespace}"]
+        full_name = None if name is None or namespace is None else f"{namespace.rstrip('/')}/{name}"
+        files = []
+        for parameter in node.parameters:
+            with located(parameter.place):
+                if isinstance(parameter, ParameterFile):
+                    path = Path(substitutions.perform(parameter.path, scope))
+                    if not path.is_file():
+                        raise LaunchError(f"Parameter file path is not a file: {path}")
+                else:
+                    key = substitutions.perform(parameter.name, scope)
+                    value = parameters.evaluate(parameter.content, parameter.type_name, scope)
+                    path = self._write_parameter(full_name or "/**", key, value)
+                    files.append(path)
+                command += ["--params-file", str(path)]
+        for source, target in node.remaps:
+            command += ["-r", f"{substitutions.perform(source, scope)}:={substitutions.perform(target, scope)}"]
+        if full_name is not None:
+            self._count(full_name)
+        self.plan.processes.append(
+            Process(
+                label=f"{program.name}-{len(self.plan.processes) + 1}",
+                command=tuple(command),
+                environment=dict(scope.environment),
+                output=_output(node, scope),
+                respawn=bool(parameters.coerce(substitutions.perform(node.respawn, scope), "bool")),
+                respawn_delay_s=node.respawn_delay_s,
+                parameter_files=tuple(files),
+            )
+        )
+
+    def _write_parameter(self, node: str, name: str, value: parameters.Scalar | list[parameters.Scalar]) -> Path:
+        number = sum(1 for _ in self._parameter_folder.iterdir())
+        path = self._parameter_folder / f"launch_params_{number}.yaml"
+        path.write_text(yaml.safe_dump({node: {"ros__parameters": {name: value}}}, default_flow_style=False))
+        return path
+
+    def _count(self, name: str) -> None:
+        self._node_names[name] = self._node_names.get(name, 0) + 1
+        if self._node_names[name] > 1:
+            self.plan.warnings.append(
+                f"there are now at least {self._node_names[name]} nodes with the name {name} "
+                "created within this launch context"
+            )
+
+
+def _holds(condition: Condition | None, scope: Scope) -> bool:
+    if condition is None:
+        return True
+    value = substitutions.perform(condition.expression, scope).strip().lower()
+    if value not in ("true", "1", "false", "0"):
+        raise LaunchError(
+            f"invalid condition expression, expected one of [true, 1, false, 0] but got '{value}', "
+            f"expanded from {substitutions.describe(condition.expression)}"
+        )
+    return (value in ("true", "1")) == condition.wanted
+
+
+def _declare(argument: DeclareArgument, scope: Scope) -> None:
+    if argument.name in scope.variables:
+        return
+    if argument.default is None:
+        raise LaunchError(f'Required launch argument "{argument.name}" was not provided.')
+    scope.variables[argument.name] = substitutions.perform(argument.default, scope)
+
+
+def _push_namespace(pushed: str, scope: Scope) -> None:
+    previous = scope.variables.get(_NAMESPACE_VARIABLE)
+    namespace = _absolute(_joined(previous, pushed))
+    if not _is_namespace(namespace):
+        raise LaunchError(
+            f"The resulting namespace is invalid: [previous_namespace='{previous}', pushed_namespace='{pushed}']"
+        )
+    scope.variables[_NAMESPACE_VARIABLE] = namespace
+
+
+def _node_namespace(node: Node, scope: Scope) -> str | None:
+    own = None if node.namespace is None else substitutions.perform(node.namespace, scope)
+    pushed = scope.variables.get(_NAMESPACE_VARIABLE)
+    if own is None:
+        return None if pushed is None else _absolute(pushed)
+    namespace = _absolute(_joined(pushed, own))
+    if not _is_namespace(namespace):
+        raise LaunchError(f"Invalid namespace: '{namespace}' (letters, digits and '_', parts separated by one '/')")
+    return namespace
+
+
+def _joined(base: str | None, namespace: str) -> str:
+    relative = bool(base) and not namespace.startswith("/")
+    joined = f"{'' if base == '/' else base}/{namespace}" if relative else namespace
+    return joined if joined == "/" else joined.rstrip("/")
+
+
+def _absolute(namespace: str) -> str:
+    return namespace if namespace.startswith("/") else f"/{namespace}"
+
+
+def _is_namespace(text: str) -> bool:
+    return text == "/" or re.fullmatch(r"(/[A-Za-z_][A-Za-z0-9_]*)+", text) is not None
+
+
+def _node_name(name: str) -> str:
+    if re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", name) is None:
+        raise LaunchError(
+            f"Invalid node name: '{name}' (node name must not contain characters other than alphanumerics or '_', "
+            "nor start with a digit)"
+        )
+    return name
+
+
+def _program(node: Node, scope: Scope) -> Path:
+    name = substitutions.perform(node.executable, scope)
+    if node.package is not None:
+        return packages.executable(substitutions.perform(node.package, scope), name, scope.environment)
+    found = shutil.which(name, path=scope.environment.get("PATH"))
+    if found is None:
+        raise LaunchError(f"executable '{name}' not found on the PATH")
+    return Path(found)
+
+
+def _output(node: Node, scope: Scope) -> str:
+    output = os.environ.get("OVERRIDE_LAUNCH_PROCESS_OUTPUT") or substitutions.perform(node.output, scope)
+    if output not in _OUTPUTS:
+        raise LaunchError(f'{output} is not a valid standard output config i.e. "screen", "log" or "both"')
+    return output

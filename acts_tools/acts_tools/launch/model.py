@@ -1,0 +1,129 @@
+"""What a parsed launch file is: a list of actions, each with its place in the file and an optional condition."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from acts_tools.launch.parameters import Content
+from acts_tools.launch.place import Place
+from acts_tools.launch.substitutions import Template
+
+
+@dataclass(frozen=True)
+class Condition:
+    """`if` (wanted is True) or `unless` (wanted is False): holds when the expression evaluates to `wanted`."""
+
+    expression: Template
+    wanted: bool
+
+
+@dataclass(frozen=True, kw_only=True)
+class Action:
+    """What all actions have."""
+
+    place: Place
+    condition: Condition | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class DeclareArgument(Action):
+    """`arg`: something the user of the file may choose; without a default it is required."""
+
+    name: str
+    default: Template | None
+    description: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class SetVariable(Action):
+    """`let`: sets a variable from here on, up to the end of the scope."""
+
+    name: Template
+    value: Template
+
+
+@dataclass(frozen=True, kw_only=True)
+class SetEnvironment(Action):
+    """`set_env`: an environment variable of what is started from here on, up to the end of the scope."""
+
+    name: Template
+    value: Template
+
+
+@dataclass(frozen=True, kw_only=True)
+class PushNamespace(Action):
+    """`push-ros-namespace`: prefix of the namespaces of the nodes from here on, up to the end of the scope."""
+
+    namespace: Template
+
+
+@dataclass(frozen=True, kw_only=True)
+class Group(Action):
+    """`group`: when scoped, variables, environment and namespace are afterwards what they were before."""
+
+    scoped: bool
+    actions: tuple[AnyAction, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Include(Action):
+    """`include`: the actions of another file; the arguments are variables, and stay set after it."""
+
+    file: Template
+    arguments: tuple[tuple[Template, Template], ...]
+
+
+@dataclass(frozen=True)
+class ParameterFile:
+    """`param from`: a params file, passed on as it is."""
+
+    place: Place
+    path: Template
+
+
+@dataclass(frozen=True)
+class ParameterValue:
+    """`param name value`: one parameter.
+
+    Attributes
+    ----------
+    content : Content
+        The value before its substitutions are known.
+    type_name : str or None
+        The `type` attribute; None and "yaml" let YAML decide.
+    """
+
+    place: Place
+    name: Template
+    content: Content
+    type_name: str | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Node(Action):
+    """`node`: one process.
+
+    Attributes
+    ----------
+    package : Template or None
+        None when `executable` is a path or a program on the PATH.
+    arguments : tuple of Template
+        Words of the command line, each of which stays one word whatever its substitutions yield.
+    respawn_delay_s : float
+        From the end of the process to its next start [s].
+    """
+
+    package: Template | None
+    executable: Template
+    name: Template | None
+    namespace: Template | None
+    output: Template
+    arguments: tuple[Template, ...]
+    respawn: Template
+    respawn_delay_s: float
+    parameters: tuple[ParameterFile | ParameterValue, ...]
+    remaps: tuple[tuple[Template, Template], ...]
+
+
+AnyAction: TypeAlias = "DeclareArgument | SetVariable | SetEnvironment | PushNamespace | Group | Include | Node"

@@ -1,0 +1,1 @@
+"""What launch tests are written with: `launch_runner`. For tests only."""

@@ -1,0 +1,276 @@
+"""Launch tests with one body for two back-ends: real `launch_pytest` where it is installed, `acts launch` elsewhere.
+
+    @launch_fixture
+    def tactile() -> LaunchFile:
+        return LaunchFile("acts_bringup", "tactile.launch.xml", domain_id=61, arguments={"sim": "true"})
+
+    @launch_test(tactile)
+    def test_contact_is_published(tactile: Launched) -> None:
+        tactile.wait_for_message("/plate/contact", Contact)
+        assert tactile.stop() == 0
+
+`launched` is the same without pytest's fixtures.
+"""
+
+from __future__ import annotations
+
+import functools
+import importlib.util
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, NoReturn
+
+import pytest
+
+from acts_tools.testing.probe import Probe
+
+HAS_LAUNCH_PYTEST = importlib.util.find_spec("launch_pytest") is not None
+_POLL_S = 0.02
+_SHOWN_LINES = 60
+
+
+@dataclass(frozen=True)
+class LaunchFile:
+    """What a launch test starts.
+
+    Attributes
+    ----------
+    package : str
+        Package of the launch file, or the path of a launch file.
+    file : str or None
+        Name of the launch file; None with a path.
+    domain_id : int
+        ROS domain of its processes; every test has its own.
+    arguments : mapping of str to str
+        Launch arguments.
+    environment : mapping of str to str
+        Added to the environment of the processes.
+    """
+
+    package: str
+    file: str | None = None
+    domain_id: int = 0
+    arguments: Mapping[str, str] = field(default_factory=dict)
+    environment: Mapping[str, str] = field(default_factory=dict)
+
+    def added_environment(self) -> dict[str, str]:
+        """What the processes get besides the environment of the test."""
+        return {"ROS_DOMAIN_ID": str(self.domain_id), "PYTHONUNBUFFERED": "1", **self.environment}
+
+
+class Launched(ABC):
+    """A launch that is running: look at it, wait for things, stop it."""
+
+    def __init__(self, domain_id: int) -> None:
+        self._domain_id = domain_id
+        self._probe: Probe | None = None
+
+    @property
+    @abstractmethod
+    def output(self) -> str:
+        """Everything that its processes and the launch itself have written so far."""
+
+    @property
+    @abstractmethod
+    def running(self) -> bool:
+        """Whether it has not ended yet."""
+
+    @abstractmethod
+    def stop(self, timeout_s: float = 30.0) -> int:
+        """Stop it as Ctrl-C does.
+
+        Returns
+        -------
+        int
+            0 when every process ended in order, 1 when one died (before or while stopping).
+        """
+
+    @property
+    def probe(self) -> Probe:
+        """A node in the launch's ROS domain."""
+        if self._probe is None:
+            self._probe = Probe(self._domain_id, self._check_running)
+        return self._probe
+
+    def wait_for(self, predicate: Callable[[], bool], timeout_s: float = 30.0, what: str = "a condition") -> None:
+        """Wait until a condition holds; fails at the deadline, or as soon as the launch has ended without it."""
+        self._wait(predicate, timeout_s, what, while_running=True)
+
+    def _wait(self, predicate: Callable[[], bool], timeout_s: float, what: str, while_running: bool) -> None:
+        deadline_s = time.monotonic() + timeout_s
+        while not predicate():
+            if while_running and not self.running and not predicate():
+                self._fail(f"the launch ended while the test waited for {what}")
+            if time.monotonic() > deadline_s:
+                self._fail(f"waited {timeout_s:g} s in vain for {what}")
+            time.sleep(_POLL_S)
+
+    def wait_for_output(self, text: str, timeout_s: float = 30.0) -> None:
+        """Wait until a text has been written."""
+        self.wait_for(lambda: text in self.output, timeout_s, f"`{text}` in the output")
+
+    def wait_for_publisher(self, topic: str, timeout_s: float = 30.0) -> None:
+        """Wait until somebody publishes a topic."""
+        self._show_on_failure(lambda: self.probe.wait_for_publisher(topic, timeout_s))
+
+    def wait_for_message(self, topic: str, message_type: type, timeout_s: float = 30.0) -> Any:
+        """The first message that arrives on a topic, subscribed to with its publishers' quality of service."""
+        return self._show_on_failure(lambda: self.probe.wait_for_message(topic, message_type, timeout_s))
+
+    def wait_for_messages(self, topic: str, message_type: type, count: int, timeout_s: float = 30.0) -> list[Any]:
+        """The first messages that arrive on a topic."""
+        messages = self._show_on_failure(lambda: self.probe.wait_for_messages(topic, message_type, count, timeout_s))
+        assert isinstance(messages, list)
+        return messages
+
+    def close(self) -> None:
+        """Leave nothing behind."""
+        if self._probe is not None:
+            self._probe.close()
+            self._probe = None
+
+    def _check_running(self) -> None:
+        assert self.running, "the launch has ended"
+
+    def _show_on_failure(self, action: Callable[[], Any]) -> Any:
+        try:
+            return action()
+        except AssertionError as error:
+            self._fail(str(error))
+
+    def _fail(self, message: str) -> NoReturn:
+        tail = "\n".join(self.output.splitlines()[-_SHOWN_LINES:])
+        raise AssertionError(f"{message}\n--- end of the launch's output ---\n{tail}")
+
+
+class ProcessLaunch(Launched):
+    """A launch by `acts launch` in a process of its own.
+
+    Parameters
+    ----------
+    launch_file : LaunchFile
+        What to start.
+    folder : Path
+        Where the output is kept.
+    """
+
+    def __init__(self, launch_file: LaunchFile, folder: Path) -> None:
+        super().__init__(launch_file.domain_id)
+        self._output_path = folder / "output.txt"
+        words = [word for word in (launch_file.package, launch_file.file) if word is not None]
+        words += [f"{name}:={value}" for name, value in launch_file.arguments.items()]
+        environment = {"ROS_LOG_DIR": str(folder), **os.environ, **launch_file.added_environment()}
+        with self._output_path.open("wb") as output:
+            self.process = subprocess.Popen(
+                [sys.executable, "-m", "acts_tools", "launch", "--own", *words],
+                env=environment,
+                stdin=subprocess.DEVNULL,
+                stdout=output,
+                stderr=subprocess.STDOUT,
+                start_new_session=True,
+            )
+
+    @property
+    def output(self) -> str:
+        """See `Launched`."""
+        return self._output_path.read_text(errors="replace")
+
+    @property
+    def running(self) -> bool:
+        """See `Launched`."""
+        return self.process.poll() is None
+
+    def stop(self, timeout_s: float = 30.0) -> int:
+        """See `Launched`."""
+        if self.running:
+            self.process.send_signal(signal.SIGINT)
+        return self.wait(timeout_s)
+
+    def wait(self, timeout_s: float = 30.0) -> int:
+        """Exit code, once it has ended by itself."""
+        try:
+            return self.process.wait(timeout_s)
+        except subprocess.TimeoutExpired:
+            self._fail(f"the launch did not end within {timeout_s:g} s")
+
+    def close(self) -> None:
+        """See `Launched`."""
+        super().close()
+        if self.running:
+            self.process.send_signal(signal.SIGINT)
+            with suppress(subprocess.TimeoutExpired):
+                self.process.wait(15.0)
+        self.process.kill()  # its processes end with it
+        self.process.wait()
+
+
+@contextmanager
+def launched(
+    package: str,
+    file: str | None = None,
+    *,
+    domain_id: int,
+    environment: Mapping[str, str] | None = None,
+    **arguments: str,
+) -> Iterator[ProcessLaunch]:
+    """Run a launch file with `acts launch` for the length of a block.
+
+    Parameters
+    ----------
+    package, file, domain_id, environment
+        See `LaunchFile`.
+    **arguments : str
+        Launch arguments.
+    """
+    launch_file = LaunchFile(package, file, domain_id, arguments, environment or {})
+    with _running(launch_file) as run:
+        yield run
+
+
+@contextmanager
+def _running(launch_file: LaunchFile) -> Iterator[ProcessLaunch]:
+    with tempfile.TemporaryDirectory(prefix="acts_launch_test_") as folder:
+        run = ProcessLaunch(launch_file, Path(folder))
+        try:
+            yield run
+        except BaseException:
+            print(run.output)
+            raise
+        finally:
+            run.close()
+
+
+def launch_fixture(function: Callable[..., LaunchFile]) -> Any:
+    """Make a pytest fixture of a function that returns a `LaunchFile`: it runs for the length of the test.
+
+    The function may use other fixtures. The test has to be decorated with `launch_test`.
+    """
+    if HAS_LAUNCH_PYTEST:
+        from acts_tools.testing.launch_pytest_backend import make_fixture
+
+        return make_fixture(function)
+
+    @functools.wraps(function)
+    def run_it(*args: Any, **kwargs: Any) -> Iterator[ProcessLaunch]:
+        with _running(function(*args, **kwargs)) as run:
+            yield run
+
+    return pytest.fixture(run_it)
+
+
+def launch_test(fixture: Any) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    """Mark a test that takes a `launch_fixture`, under the fixture's name, as a `Launched`."""
+    if HAS_LAUNCH_PYTEST:
+        from acts_tools.testing.launch_pytest_backend import make_test
+
+        return make_test(fixture)
+    return lambda body: body

@@ -1,0 +1,86 @@
+"""Look into a running ROS graph from a test: wait for publishers and messages, with deadlines and never a sleep."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from types import TracebackType
+from typing import Any
+
+import rclpy
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+
+from acts_tools.bags.qos import for_subscription
+
+_TURN_S = 0.05
+
+
+class Probe:
+    """A node of its own context, so that tests with different domain ids do not meet.
+
+    Parameters
+    ----------
+    domain_id : int
+        ROS domain to look into.
+    while_waiting : callable
+        Called again and again while waiting; raises to end a wait that has become hopeless.
+    """
+
+    def __init__(self, domain_id: int, while_waiting: Callable[[], None] = lambda: None) -> None:
+        self._while_waiting = while_waiting
+        self._context = Context()
+        rclpy.init(context=self._context, domain_id=domain_id)
+        self.node = rclpy.create_node("probe", context=self._context)
+        self._executor = SingleThreadedExecutor(context=self._context)
+        self._executor.add_node(self.node)
+
+    def close(self) -> None:
+        """Leave the graph."""
+        self._executor.shutdown()
+        self.node.destroy_node()
+        self._context.try_shutdown()
+
+    def __enter__(self) -> Probe:
+        """Nothing more to set up."""
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """Close."""
+        self.close()
+
+    def wait_for(self, predicate: Callable[[], bool], timeout_s: float, what: str) -> None:
+        """Handle callbacks until a condition holds.
+
+        Raises
+        ------
+        AssertionError
+            It does not hold within `timeout_s` [s]; the message says `what` was awaited.
+        """
+        deadline_s = time.monotonic() + timeout_s
+        while not predicate():
+            self._while_waiting()
+            assert time.monotonic() < deadline_s, f"waited {timeout_s:g} s in vain for {what}"
+            self._executor.spin_once(timeout_sec=_TURN_S)
+
+    def wait_for_publisher(self, topic: str, timeout_s: float = 30.0) -> None:
+        """Wait until somebody publishes a topic."""
+        self.wait_for(lambda: self.node.count_publishers(topic) > 0, timeout_s, f"a publisher of {topic}")
+
+    def wait_for_messages(self, topic: str, message_type: type, count: int, timeout_s: float = 30.0) -> list[Any]:
+        """Subscribe with the publishers' own quality of service and wait for some messages."""
+        self.wait_for_publisher(topic, timeout_s)
+        received: list[Any] = []
+        offers = self.node.get_publishers_info_by_topic(topic)
+        subscription = self.node.create_subscription(message_type, topic, received.append, for_subscription(offers))
+        try:
+            self.wait_for(lambda: len(received) >= count, timeout_s, f"{count} messages on {topic}")
+        finally:
+            self.node.destroy_subscription(subscription)
+        return received[:count]
+
+    def wait_for_message(self, topic: str, message_type: type, timeout_s: float = 30.0) -> Any:
+        """The first message that arrives on a topic."""
+        return self.wait_for_messages(topic, message_type, 1, timeout_s)[0]
