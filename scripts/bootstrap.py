@@ -96,13 +96,17 @@ def run(command: list[str], log_name: str, env: dict[str, str] | None = None) ->
 
 def create_venv() -> None:
     """Install the locked wheels into a fresh virtual environment and make it a ROS prefix."""
-    wanted = digest([LOCK], VENV_RECIPE, sys.version, sys.executable, str(ROOT))
+    # Called from inside a virtual environment, ours perhaps, the interpreter is still the one that made that.
+    python = str(Path(sys.base_prefix) / "bin" / f"python{sys.version_info.major}.{sys.version_info.minor}")
+    if not Path(python).is_file():
+        python = sys.executable
+    wanted = digest([LOCK], VENV_RECIPE, sys.version, python, str(ROOT))
     stamp = VENV / "acts.stamp"
     if up_to_date(stamp, wanted):
         return
     say(f"virtual environment with Python {sys.version.split()[0]} in .acts/venv")
     shutil.rmtree(VENV, ignore_errors=True)
-    run([sys.executable, "-m", "venv", str(VENV)], "venv.log")
+    run([python, "-m", "venv", str(VENV)], "venv.log")
     count = sum(1 for line in LOCK.read_text().splitlines() if line and not line.startswith("#"))
     say(f"installing about {count} wheels, ROS 2 Kilted among them (one to three minutes, 1 GB)")
     started = time.monotonic()

@@ -1,0 +1,91 @@
+"""Write docs/reference.md: every parameter of every node and every argument of every launch file, from the sources."""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import sys
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+from acts_core.settings import default_of, describe
+
+ROOT = Path(__file__).resolve().parent.parent
+PAGE = ROOT / "docs" / "reference.md"
+
+NODES = (
+    ("acts_driver", "driver", "acts_driver.settings", "DriverSettings"),
+    ("acts_recon", "reconstruction", "acts_recon.reconstruction_settings", "ReconstructionSettings"),
+    ("acts_control", "ball_state", "acts_control.ball_state_node", "BallStateSettings"),
+    ("acts_control", "ball_trajectory", "acts_control.ball_trajectory_node", "BallTrajectorySettings"),
+    ("acts_control", "ball_control", "acts_control.ball_control_node", "BallControlSettings"),
+    ("acts_sim", "ball_world", "acts_sim.ball_world_node", "BallWorldSettings"),
+)
+"""Package, executable, module and settings class of every node with parameters."""
+
+HEAD = """# Reference: launch arguments and parameters
+
+Written by `./acts run python3 scripts/reference.py` from the launch files and settings classes; a test compares them.
+"""
+
+
+def cell(text: object) -> str:
+    return str(text).replace("|", "\\|")
+
+
+def launch_section(path: Path) -> list[str]:
+    lines = [f"### {path.name}", "", "| argument | default | |", "|---|---|---|"]
+    for argument in ET.parse(path).getroot().iter("arg"):
+        # An arg tag with a value belongs to an include.
+        if "value" not in argument.attrib:
+            default = argument.get("default")
+            shown = "required" if default is None else f"`{default}`"
+            lines.append(f"| `{argument.get('name')}` | {cell(shown)} | {cell(argument.get('description', ''))} |")
+    return [*lines, ""]
+
+
+def shown_default(value: object) -> str:
+    if isinstance(value, bool):
+        return f"`{str(value).lower()}`"
+    if isinstance(value, float):
+        return f"`{value:g}`"
+    if isinstance(value, tuple):
+        return "`[" + ", ".join(f"{item:.4g}" if isinstance(item, float) else str(item) for item in value) + "]`"
+    return f"`{value}`" if value != "" else "empty"
+
+
+def node_section(package: str, executable: str, module: str, class_name: str) -> list[str]:
+    settings_class = getattr(importlib.import_module(module), class_name)
+    lines = [f"### {package} {executable}", "", "| parameter | default | allowed | |", "|---|---|---|---|"]
+    for name, info in describe(settings_class).items():
+        default = shown_default(default_of(settings_class, name))
+        lines.append(f"| `{name}` | {cell(default)} | {cell(info.allowed)} | {cell(info.description)} |")
+    return [*lines, ""]
+
+
+def page() -> str:
+    lines = [HEAD, "## Launch files of acts_bringup", ""]
+    for path in sorted((ROOT / "launch").glob("*.launch.xml")):
+        lines += launch_section(path)
+    lines += ["## Parameters of the nodes", ""]
+    for node in NODES:
+        lines += node_section(*node)
+    return "\n".join(lines).rstrip() + "\n"
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--check", action="store_true", help="only say whether the page is up to date")
+    arguments = parser.parse_args()
+    text = page()
+    if not arguments.check:
+        PAGE.write_text(text)
+        return 0
+    if not PAGE.is_file() or PAGE.read_text() != text:
+        print(f"{PAGE.relative_to(ROOT)} is out of date: ./acts run python3 scripts/reference.py", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

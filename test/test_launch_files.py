@@ -1,0 +1,249 @@
+"""Every launch file, started for real: processes, topics, faults, orderly end. ROS_DOMAIN_ID 110 to 119."""
+
+import os
+import re
+import signal
+import socket
+from pathlib import Path
+
+import numpy as np
+import pytest
+from ament_index_python.packages import get_package_share_directory
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import PointStamped
+from sensor_msgs.msg import Image
+
+from acts_core.array import ArrayGeometry
+from acts_core.frames import Scheme
+from acts_core.wire import StreamDecoder
+from acts_msgs.msg import BalanceStatus, Contact, TactileSamples
+from acts_tools.testing.launch_runner import HAS_LAUNCH_PYTEST, Launched, LaunchFile, launch_fixture, launch_test
+
+PACKAGE = "acts_bringup"
+# Numba compiles in the first process that needs a kernel; on a busy machine that takes its time.
+START_S = 90.0
+LONG_S = 60.0
+
+
+def pid_of(launched: Launched, executable: str) -> int:
+    """Process id of a node, from the launch's own words."""
+    found = re.findall(rf"\[{executable}-\d+\]: process started with pid \[(\d+)\]", launched.output)
+    assert found, f"{executable} was not started"
+    return int(found[-1])
+
+
+def disc_recording(folder: Path) -> Path:
+    """A recording of a disc of 3.6 taxels pressed at rest, off the centre."""
+    rows, cols = np.mgrid[:32, :32]
+    disc = np.where(np.hypot(rows - 9, cols - 20) < 3.6, 700, 0).astype(np.uint16)
+    path = folder / "disc.npy"
+    np.save(path, np.repeat(disc[np.newaxis], 4, axis=0))
+    return path
+
+
+def test_every_launch_file_is_tested_here() -> None:
+    folder = Path(get_package_share_directory(PACKAGE)) / "launch"
+    names = {path.name for path in folder.glob("*.launch.xml")}
+    assert names
+    used = set(re.findall(r'PACKAGE, "([a-z_]+\.launch\.xml)"', Path(__file__).read_text()))
+    assert used == names
+
+
+@launch_fixture
+def tactile(tmp_path: Path) -> LaunchFile:
+    arguments = {
+        "run_dir": str(tmp_path / "run"),
+        "recording": str(disc_recording(tmp_path)),
+        "recording_rate_hz": "30",
+    }
+    return LaunchFile(PACKAGE, "tactile.launch.xml", 110, arguments)
+
+
+@launch_test(tactile)
+def test_a_pressed_disc_becomes_a_contact_where_it_is(tactile: Launched, tmp_path: Path) -> None:
+    contact = tactile.wait_for_messages("/plate/contact", Contact, 50, START_S)[-1]
+    geometry = ArrayGeometry()
+    assert contact.header.frame_id == "plate"
+    assert contact.in_contact
+    assert contact.centre_of_pressure.x == pytest.approx(float(geometry.x_m(20)), abs=geometry.pitch_m / 2)
+    assert contact.centre_of_pressure.y == pytest.approx(float(geometry.y_m(9)), abs=geometry.pitch_m / 2)
+    samples = tactile.wait_for_messages("/plate/samples", TactileSamples, 200)
+    assert {len(message.indices) for message in samples} == {55}
+    assert {message.scheme for message in samples} == {TactileSamples.SCHEME_ADAPTIVE}
+    image = tactile.wait_for_message("/plate/image_raw", Image)
+    assert (image.height, image.width, image.encoding) == (32, 32, "mono16")
+    assert tactile.wait_for_message("/plate/image", Image).height % 32 == 0
+    assert tactile.wait_for_message("/plate/cop", PointStamped).header.frame_id == "plate"
+    assert tactile.stop() == 0
+    assert not os.path.lexists(tmp_path / "run" / "board")
+
+
+@launch_fixture
+def chest(tmp_path: Path) -> LaunchFile:
+    arguments = {
+        "run_dir": str(tmp_path / "run"),
+        "recording": str(disc_recording(tmp_path)),
+        "namespace": "chest_left",
+        "protocol": "raster_ascii",
+    }
+    return LaunchFile(PACKAGE, "tactile.launch.xml", 111, arguments)
+
+
+@launch_test(chest)
+def test_the_published_raster_sketch_on_another_skin(chest: Launched) -> None:
+    samples = chest.wait_for_messages("/chest_left/samples", TactileSamples, 5, START_S)
+    assert {message.scheme for message in samples} == {int(Scheme.RASTER)}
+    assert {len(message.counts) for message in samples} == {1024}
+    assert chest.wait_for_message("/chest_left/contact", Contact).in_contact
+    assert chest.stop() == 0
+
+
+@launch_fixture
+def no_board(tmp_path: Path) -> LaunchFile:
+    return LaunchFile(PACKAGE, "tactile.launch.xml", 112, {"sim": "false", "port": str(tmp_path / "missing_port")})
+
+
+@launch_test(no_board)
+def test_a_missing_board_is_reported_and_waited_for(no_board: Launched) -> None:
+    def complaint() -> str:
+        for status in no_board.wait_for_message("/diagnostics", DiagnosticArray, START_S).status:
+            if status.name == "plate/driver" and status.level == b"\x02":
+                return str(status.message)
+        return ""
+
+    no_board.wait_for(lambda: bool(complaint()), START_S, "an error in the driver's diagnostics")
+    no_board.wait_for_output("missing_port", START_S)
+    assert no_board.stop() == 0
+
+
+@launch_fixture
+def wrong_parameters(tmp_path: Path) -> LaunchFile:
+    path = tmp_path / "params.yaml"
+    path.write_text("/**/driver:\n  ros__parameters:\n    porrt: /dev/ttyACM0\n")
+    return LaunchFile(PACKAGE, "tactile.launch.xml", 113, {"run_dir": str(tmp_path / "run"), "params_file": str(path)})
+
+
+@launch_test(wrong_parameters)
+def test_a_misspelt_parameter_is_named_and_nothing_else_suffers(wrong_parameters: Launched) -> None:
+    wrong_parameters.wait_for_output("porrt", START_S)
+    assert "did you mean 'port'" in wrong_parameters.output
+    wrong_parameters.wait_for_publisher("/plate/contact", START_S)
+    assert wrong_parameters.stop() == 1
+
+
+@launch_fixture
+def board(tmp_path: Path) -> LaunchFile:
+    return LaunchFile(PACKAGE, "simulated_board.launch.xml", 114, {"run_dir": str(tmp_path / "run"), "m": "64"})
+
+
+@launch_test(board)
+def test_the_simulated_board_speaks_on_its_port(board: Launched, tmp_path: Path) -> None:
+    port = tmp_path / "run" / "board"
+    board.wait_for(port.exists, START_S, "the board's port")
+    decoder = StreamDecoder()
+    frames = []
+    descriptor = os.open(port, os.O_RDONLY | os.O_NOCTTY)
+    try:
+        while len(frames) < 20:
+            frames += decoder.feed(os.read(descriptor, 4096))
+    finally:
+        os.close(descriptor)
+    assert {len(frame.indices) for frame in frames} == {64}
+    assert board.stop() == 0
+    assert not os.path.lexists(port)
+
+
+@launch_fixture
+def robot(tmp_path: Path) -> LaunchFile:
+    arguments = {"run_dir": str(tmp_path / "run"), "robot_ip": "127.0.6.1"}
+    return LaunchFile(PACKAGE, "simulated_robot.launch.xml", 115, arguments)
+
+
+@launch_test(robot)
+def test_the_simulated_robot_listens_and_the_ball_lies_on_the_plate(robot: Launched) -> None:
+    truth = robot.wait_for_message("/ball/truth", PointStamped, START_S)
+    assert abs(truth.point.x) < 0.07
+    for port in (29999, 30003, 30004):
+        with socket.create_connection(("127.0.6.1", port), timeout=10):
+            pass
+    assert robot.stop() == 0
+
+
+@launch_fixture
+def balancing(tmp_path: Path) -> LaunchFile:
+    arguments = {"run_dir": str(tmp_path / "run"), "robot_ip": "127.0.6.2", "trajectory": "hold"}
+    return LaunchFile(PACKAGE, "ball_balancing.launch.xml", 116, arguments)
+
+
+def wait_for_state(launched: Launched, state: int, timeout_s: float) -> BalanceStatus:
+    """Wait until the controller reports a state."""
+    statuses: list[BalanceStatus] = []
+
+    def reached() -> bool:
+        statuses.append(launched.wait_for_message("/plate/ball/status", BalanceStatus, START_S))
+        return statuses[-1].state == state
+
+    launched.wait_for(reached, timeout_s, f"state {state} of the controller")
+    return statuses[-1]
+
+
+@launch_test(balancing)
+def test_the_ball_is_brought_to_the_centre_and_the_end_is_orderly(balancing: Launched) -> None:
+    wait_for_state(balancing, BalanceStatus.STATE_BALANCING, START_S)
+
+    def centred() -> bool:
+        truth = balancing.wait_for_message("/plate/ball/truth", PointStamped).point
+        return float(np.hypot(truth.x, truth.y)) < 0.005
+
+    balancing.wait_for(centred, LONG_S, "the ball within 5 mm of the centre")
+    assert balancing.stop() == 0
+
+
+@launch_fixture
+def separate(tmp_path: Path) -> LaunchFile:
+    arguments = {
+        "run_dir": str(tmp_path / "run"),
+        "robot_ip": "127.0.6.3",
+        "trajectory": "hold",
+        "composed": "false",
+    }
+    return LaunchFile(PACKAGE, "ball_balancing.launch.xml", 117, arguments)
+
+
+@launch_test(separate)
+def test_in_separate_processes_a_lost_board_ends_motion_level(separate: Launched) -> None:
+    wait_for_state(separate, BalanceStatus.STATE_BALANCING, START_S)
+    os.kill(pid_of(separate, "virtual_board"), signal.SIGKILL)
+
+    def level() -> bool:
+        status = separate.wait_for_message("/plate/ball/status", BalanceStatus)
+        tilted = max(abs(status.tilt_measured.x), abs(status.tilt_measured.y))
+        return status.state != BalanceStatus.STATE_BALANCING and tilted < 0.002
+
+    separate.wait_for(level, LONG_S, "a level plate")
+    assert separate.stop() == 1  # the board died
+
+
+@launch_fixture
+def robot_lost(tmp_path: Path) -> LaunchFile:
+    arguments = {"run_dir": str(tmp_path / "run"), "robot_ip": "127.0.6.4", "trajectory": "hold"}
+    return LaunchFile(PACKAGE, "ball_balancing.launch.xml", 118, arguments)
+
+
+@launch_test(robot_lost)
+def test_a_lost_robot_stops_the_controller_with_a_reason(robot_lost: Launched) -> None:
+    wait_for_state(robot_lost, BalanceStatus.STATE_BALANCING, START_S)
+    os.kill(pid_of(robot_lost, "ur_controller"), signal.SIGKILL)
+    status = wait_for_state(robot_lost, BalanceStatus.STATE_STOPPED, LONG_S)
+    assert "robot" in status.reason.lower()
+    assert robot_lost.stop() == 1  # the robot died
+
+
+def test_the_back_end_is_the_one_for_this_machine() -> None:
+    # One body of tests: where launch_pytest is installed it has to be the one that runs them.
+    try:
+        import launch_pytest  # noqa: F401
+    except ImportError:
+        assert not HAS_LAUNCH_PYTEST
+    else:
+        assert HAS_LAUNCH_PYTEST
