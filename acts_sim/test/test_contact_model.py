@@ -1,0 +1,137 @@
+import math
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from acts_core.array import ArrayGeometry
+from acts_core.errors import SettingsError
+from acts_sim.contact_model import ContactModel, FoamConfig, Press
+from acts_sim.objects import OBJECTS, ContactObject, box, object_named, prism, register
+
+GEOMETRY = ArrayGeometry()
+
+
+def centre_m(forces: NDArray[np.float64]) -> tuple[float, float]:
+    x, y = np.meshgrid(GEOMETRY.x_m(np.arange(32)), GEOMETRY.y_m(np.arange(32)))
+    return float((forces * x).sum() / forces.sum()), float((forces * y).sum() / forces.sum())
+
+
+def test_the_register_holds_the_papers_printed_shapes_and_daily_things() -> None:
+    printed = [item.name for item in OBJECTS.values() if item.group == "printed"]
+    assert printed == [
+        "two_cylinders",
+        "three_lines",
+        "diagonal_line",
+        "three_rings",
+        "triangle",
+        "circle",
+        "square",
+        "x",
+    ]
+    assert sum(item.group == "daily" for item in OBJECTS.values()) >= 20
+
+
+@pytest.mark.parametrize("item", OBJECTS.values(), ids=list(OBJECTS))
+def test_every_object_touches_with_its_lowest_point_and_fits_on_the_pad(item: ContactObject) -> None:
+    x, y = np.meshgrid(np.linspace(-0.07, 0.07, 281), np.linspace(-0.07, 0.07, 281))
+    gap = item.gap_m(x, y)
+    assert gap.shape == x.shape
+    assert np.isfinite(gap).all()
+    assert 0 <= gap.min() < 2e-4
+    shallow, deep = item.depth_m
+    assert 0 < shallow < deep < 0.01
+    touching = gap < deep
+    assert 20e-6 < touching.sum() * 0.0005**2 < 0.004
+    edge = np.ones_like(touching)
+    edge[1:-1, 1:-1] = False
+    assert not (touching & edge).any()
+
+
+def test_the_force_is_where_the_object_is() -> None:
+    model = ContactModel()
+    forces = model.forces_n(object_named("circle"), Press(x_m=0.021, y_m=-0.013))
+    assert centre_m(forces) == pytest.approx((0.021, -0.013), abs=2e-4)
+
+
+def test_the_total_force_is_stiffness_times_area_times_depth() -> None:
+    model = ContactModel(config=FoamConfig(stiffness_n_per_m3=1e7))
+    block = ContactObject("block", "test", (0.001, 0.002), lambda x, y: prism(box(x, y, 0.035, 0.035)))
+    forces = model.forces_n(block, Press(depth_m=0.001))
+    # The rounded edge adds a little.
+    assert forces.sum() == pytest.approx(1e7 * 0.035**2 * 0.001, rel=0.03)
+    assert model.forces_n(block, Press(depth_m=0.002)).sum() > 1.9 * forces.sum()
+
+
+def test_turning_counter_clockwise_and_scaling() -> None:
+    model = ContactModel()
+    ruler = object_named("ruler_edge")
+    flat = model.forces_n(ruler, Press())
+    assert np.ptp(np.nonzero(flat > 0.02)[1]) > 2 * np.ptp(np.nonzero(flat > 0.02)[0])
+    row, col = np.nonzero(model.forces_n(ruler, Press(angle_rad=math.pi / 4)) > 0.02)
+    # Counter-clockwise: the right end is further up, and up is towards row 0.
+    assert np.corrcoef(row, col)[0, 1] < -0.9
+    assert model.forces_n(ruler, Press(scale=0.5)).sum() < 0.5 * flat.sum()
+
+
+def test_a_tilted_object_presses_harder_on_one_side() -> None:
+    forces = ContactModel().forces_n(object_named("square"), Press(tilt_x=0.02))
+    assert centre_m(forces)[0] < -0.002
+    assert abs(centre_m(forces)[1]) < 1e-6
+
+
+def test_foam_spreads_the_force_without_losing_any() -> None:
+    narrow = ContactModel(config=FoamConfig(spread_m=0.0003))
+    wide = ContactModel(config=FoamConfig(spread_m=0.006))
+    coin = object_named("coin")
+    sharp, soft = narrow.forces_n(coin, Press()), wide.forces_n(coin, Press())
+    assert soft.sum() == pytest.approx(sharp.sum(), rel=1e-3)
+    assert soft.max() < 0.9 * sharp.max()
+    assert np.count_nonzero(soft > 1e-3) > 1.5 * np.count_nonzero(sharp > 1e-3)
+
+
+def test_an_object_beside_the_pad_and_one_above_it_leave_no_force() -> None:
+    model = ContactModel()
+    assert not (model.forces_n(object_named("coin"), Press(x_m=0.2)) > 1e-9).any()
+    assert not model.forces_n(object_named("coin"), Press(depth_m=0.0)).any()
+
+
+def test_counts_are_seeded_noisy_and_in_range() -> None:
+    forces = ContactModel().forces_n(object_named("square"), Press(depth_m=0.002))
+    first, again, other = (ContactModel(seed=seed).counts(forces) for seed in (4, 4, 5))
+    assert first.dtype == np.uint16
+    assert np.array_equal(first, again)
+    assert not np.array_equal(first, other)
+    assert 500 < first.max() <= 1023
+    model = ContactModel(config=FoamConfig(noise_counts=0, gain_spread=0))
+    assert np.array_equal(model.counts(forces), np.rint(model.response.counts(forces)))
+
+
+def test_noise_has_the_stated_size() -> None:
+    model = ContactModel(config=FoamConfig(noise_counts=5))
+    forces = np.full((32, 32), 0.3)
+    difference = model.counts(forces).astype(float) - model.counts(forces)
+    assert difference.std() == pytest.approx(5 * math.sqrt(2), rel=0.1)
+
+
+def test_random_presses_reach_all_of_the_pad() -> None:
+    model = ContactModel(seed=3)
+    presses = [model.random_press(object_named("coin")) for _ in range(300)]
+    for values in ([press.x_m for press in presses], [press.y_m for press in presses]):
+        assert min(values) < -0.06
+        assert max(values) > 0.06
+        assert max(np.abs(values)) <= 0.07
+    assert all(0.0003 <= press.depth_m <= 0.0015 for press in presses)
+
+
+def test_an_array_of_another_size() -> None:
+    model = ContactModel(ArrayGeometry(rows=33, cols=15, pitch_m=0.006))
+    frame = model.random_frame(object_named("golf_ball"))
+    assert frame.shape == (33, 15)
+
+
+def test_unknown_and_repeated_names_are_refused() -> None:
+    with pytest.raises(SettingsError, match="'cube' does not exist; known are two_cylinders"):
+        object_named("cube")
+    with pytest.raises(SettingsError, match="'coin' is registered twice"):
+        register("coin", "daily")(lambda x, y: x)
