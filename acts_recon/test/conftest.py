@@ -1,0 +1,36 @@
+"""A small dictionary, and recorded frames where they are present."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from acts_recon.dictionary import Dictionary
+
+RECORDINGS = Path(__file__).resolve().parents[3] / "shared" / "data"
+
+
+@pytest.fixture(scope="session")
+def dictionary() -> Dictionary:
+    """Smooth random atoms for 8 x 8 patches."""
+    rng = np.random.default_rng(7)
+    row, col = np.indices((8, 8))
+    atoms = []
+    for _ in range(150):
+        r, c = rng.uniform(-2, 10, 2)
+        sr, sc = rng.uniform(0.7, 4, 2)
+        atoms.append(np.exp(-(((row - r) / sr) ** 2) - ((col - c) / sc) ** 2).T.ravel() + 1e-3 * rng.random(64))
+    matrix = np.array(atoms).T
+    return Dictionary((matrix / np.linalg.norm(matrix, axis=0)).astype(np.float32), 8, {"seed": 7}, "made for tests")
+
+
+@pytest.fixture(scope="session")
+def grasp_frames() -> NDArray[np.uint16]:
+    """Frames of real grasps, one in the middle of each of 40 recordings."""
+    path = RECORDINGS / "sdh_weiss" / "grasps_canvas.npz"
+    if not path.exists():
+        pytest.skip(f"the shared recordings are not here ({path})")
+    with np.load(path) as archive:
+        middle = archive["start"] + archive["length"] // 2
+        return archive["frames"][middle[::10][:40]]

@@ -1,0 +1,89 @@
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as st_numpy
+from numpy.typing import NDArray
+from recon_samples import bump
+
+from acts_core.array import ArrayGeometry
+from acts_core.force import ForceResponse
+from acts_recon import contact_kernels
+from acts_recon.contact import NO_CONTACT, Contact, find_contact
+
+GEOMETRY = ArrayGeometry(rows=12, cols=9, pitch_m=0.005)
+RESPONSE = ForceResponse()
+
+
+def by_kernel(image: NDArray[np.float32], geometry: ArrayGeometry, touch_counts: float) -> list[float]:
+    results = np.zeros(contact_kernels.RESULTS)
+    contact_kernels.find_contact(
+        image.ravel(),
+        geometry.cols,
+        touch_counts,
+        RESPONSE.full_scale_counts,
+        RESPONSE.dead_n,
+        RESPONSE.half_n,
+        results,
+    )
+    return results.tolist()
+
+
+def assert_kernel_equals_twin(image: NDArray[np.float32], touch_counts: float) -> None:
+    col, row, force_n, peak, pressed, square = by_kernel(image, GEOMETRY, touch_counts)
+    contact = find_contact(image, GEOMETRY, RESPONSE, touch_counts=touch_counts)
+    assert pressed == contact.active_taxels
+    assert peak == contact.peak_counts
+    assert force_n == pytest.approx(contact.force_n, rel=1e-6)
+    if contact.in_contact:
+        assert GEOMETRY.x_m(col) == pytest.approx(contact.x_m, abs=1e-7)
+        assert GEOMETRY.y_m(row) == pytest.approx(contact.y_m, abs=1e-7)
+        assert math.sqrt(square) * GEOMETRY.pitch_m == pytest.approx(contact.spread_m, abs=1e-6)
+
+
+def test_nothing_pressed_is_all_zero() -> None:
+    image = np.full((12, 9), 60, dtype=np.float32)
+    assert find_contact(image, GEOMETRY, RESPONSE) == NO_CONTACT == Contact()
+    assert by_kernel(image, GEOMETRY, 60.0) == [0.0] * 6
+
+
+def test_one_taxel() -> None:
+    image = np.zeros((12, 9), dtype=np.float32)
+    image[2, 7] = 400
+    contact = find_contact(image, GEOMETRY, RESPONSE)
+    assert contact.in_contact
+    assert contact.x_m == pytest.approx(3 * 0.005)
+    assert contact.y_m == pytest.approx(3.5 * 0.005)
+    assert contact.force_n == pytest.approx(float(RESPONSE.force_n(400.0)))
+    assert contact.peak_counts == 400
+    assert contact.area_m2 == pytest.approx(25e-6)
+    assert (contact.active_taxels, contact.spread_m) == (1, 0)
+
+
+def test_the_centre_is_weighted_by_force() -> None:
+    forces = np.zeros((12, 9))
+    forces[5, 2], forces[5, 6] = 0.1, 0.9
+    contact = find_contact(RESPONSE.counts(forces), GEOMETRY, RESPONSE)
+    assert contact.x_m == pytest.approx(float(GEOMETRY.x_m(2 * 0.1 + 6 * 0.9)))
+    assert contact.force_n == pytest.approx(1.0)
+    # Two points at distances 3.6 and 0.4 taxels.
+    assert contact.spread_m == pytest.approx(0.005 * math.sqrt(0.1 * 3.6**2 + 0.9 * 0.4**2))
+
+
+def test_kernel_equals_twin_on_a_bump() -> None:
+    assert_kernel_equals_twin(bump(GEOMETRY, 5.3, 4.1).astype(np.float32), 60)
+
+
+@settings(max_examples=100, deadline=None)
+@given(
+    st_numpy.arrays(np.float32, (12, 9), elements=st.floats(0, 1023, width=32)),
+    st.integers(0, 1023),
+)
+def test_kernel_equals_twin_and_all_is_finite(image: NDArray[np.float32], touch_counts: int) -> None:
+    assert np.isfinite(by_kernel(image, GEOMETRY, touch_counts)).all()
+    contact = find_contact(image, GEOMETRY, RESPONSE, touch_counts=touch_counts)
+    numbers = (contact.x_m, contact.y_m, contact.force_n, contact.peak_counts, contact.area_m2, contact.spread_m)
+    assert np.isfinite(numbers).all()
+    assert_kernel_equals_twin(image, touch_counts)
