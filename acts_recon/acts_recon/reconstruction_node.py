@@ -1,0 +1,193 @@
+"""Node ``reconstruction``: samples in; full images and the contact in them out, as fast as the samples come."""
+
+from __future__ import annotations
+
+import gc
+import sys
+import time
+from array import array
+from collections import Counter, deque
+from collections.abc import Sequence
+from statistics import median
+
+import numpy as np
+from geometry_msgs.msg import PointStamped
+from numpy.typing import NDArray
+from rclpy.node import Node
+from sensor_msgs.msg import Image
+
+from acts_core.errors import ArrayError
+from acts_msgs.msg import Contact as ContactMessage
+from acts_msgs.msg import TactileSamples
+from acts_recon.contact import Contact
+from acts_recon.image import mono16, rgb8
+from acts_recon.reconstruction_settings import ReconstructionSettings
+from acts_ros import qos
+from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
+from acts_ros.executor import run
+from acts_ros.parameters import declare, node_options
+
+_SUBSCRIBERS_PERIOD_S = 0.2
+_SEQUENCE_MODULUS = 2**32
+
+
+class ReconstructionNode(Node):
+    """Translates between topics and `Reconstructor`.
+
+    Subscribes ``samples`` (acts_msgs/TactileSamples). Publishes for every frame ``contact`` (acts_msgs/Contact), while
+    in contact ``cop`` (geometry_msgs/PointStamped), and where somebody listens ``image_raw`` (sensor_msgs/Image,
+    mono16, ADC counts) and at most `image_rate_hz` times a second ``image`` (rgb8). Header and sequence number are
+    those of the samples. A message that does not fit is dropped, counted and told in the diagnostics.
+    """
+
+    def __init__(self, *, cli_args: Sequence[str] | None = None, **options: object) -> None:
+        super().__init__("reconstruction", cli_args=cli_args, **node_options(), **options)
+        self._settings = declare(self, ReconstructionSettings)
+        self.get_logger().info("loading the dictionary and compiling (the first time on a machine takes some seconds)")
+        self._reconstructor = self._settings.reconstructor()
+        overridable = {"qos_overriding_options": qos.OVERRIDABLE}
+        self._contact_publisher = self.create_publisher(ContactMessage, "contact", qos.STREAM, **overridable)
+        self._cop_publisher = self.create_publisher(PointStamped, "cop", qos.STREAM, **overridable)
+        self._raw_publisher = self.create_publisher(Image, "image_raw", qos.STREAM, **overridable)
+        self._view_publisher = self.create_publisher(Image, "image", qos.VIEW, **overridable)
+        # Filled anew for every frame: making messages costs more than sending them.
+        self._contact = ContactMessage()
+        self._cop = PointStamped()
+        self._raw = _empty_image(self._settings.rows, self._settings.cols, "mono16", 2)
+        scale = self._settings.image_scale
+        self._view = _empty_image(self._settings.rows * scale, self._settings.cols * scale, "rgb8", 3)
+        self._next_view_s = 0.0
+
+        self._frames = 0
+        self._lost = 0
+        self._rejected: Counter[str] = Counter()
+        self._last_sequence: int | None = None
+        self._durations_s: deque[float] = deque(maxlen=1000)
+        self._reported = (time.monotonic(), 0, 0)
+
+        self._look_for_subscribers()
+        self.create_timer(_SUBSCRIBERS_PERIOD_S, self._look_for_subscribers)
+        self._diagnostics = DiagnosticsReporter(self, self.resolve_topic_name("samples"), self._report)
+        self.create_subscription(TactileSamples, "samples", self._on_samples, qos.STREAM, **overridable)
+        self.get_logger().info(f"ready: array of {self._settings.rows} x {self._settings.cols}")
+
+    def _look_for_subscribers(self) -> None:
+        self._send_cop = self._cop_publisher.get_subscription_count() > 0
+        self._send_raw = self._raw_publisher.get_subscription_count() > 0
+        self._send_view = self._view_publisher.get_subscription_count() > 0
+
+    def _on_samples(self, samples: TactileSamples) -> None:
+        began_s = time.perf_counter()
+        settings = self._settings
+        if samples.rows != settings.rows or samples.cols != settings.cols:
+            self._reject(
+                "wrong_array_size",
+                f"array of {samples.rows} x {samples.cols}: the parameters rows and cols say "
+                f"{settings.rows} x {settings.cols}",
+            )
+            return
+        try:
+            contact = self._reconstructor.step(_as_numpy(samples.indices), _as_numpy(samples.counts))
+        except ArrayError as error:
+            self._reject("bad_frame", str(error))
+            return
+        self._frames += 1
+        self._follow(samples.sequence)
+        self._publish_contact(samples, contact)
+        if self._send_raw:
+            self._raw.header = samples.header
+            self._raw.data = array("B", mono16(self._reconstructor.image))
+            self._raw_publisher.publish(self._raw)
+        if self._send_view:
+            self._publish_view(samples)
+        self._durations_s.append(time.perf_counter() - began_s)
+
+    def _publish_contact(self, samples: TactileSamples, contact: Contact) -> None:
+        message = self._contact
+        message.header = samples.header
+        message.sequence = samples.sequence
+        message.in_contact = contact.in_contact
+        message.centre_of_pressure.x = contact.x_m
+        message.centre_of_pressure.y = contact.y_m
+        message.force = contact.force_n
+        message.peak = contact.peak_counts
+        message.area = contact.area_m2
+        message.active_taxels = contact.active_taxels
+        message.spread = contact.spread_m
+        self._contact_publisher.publish(message)
+        if self._send_cop and contact.in_contact:
+            self._cop.header = samples.header
+            self._cop.point = message.centre_of_pressure
+            self._cop_publisher.publish(self._cop)
+
+    def _publish_view(self, samples: TactileSamples) -> None:
+        now_s = time.monotonic()
+        if now_s < self._next_view_s:
+            return
+        # A fixed grid of times where frames come steadily, so that the rate is the one asked for; anew after a pause.
+        period_s = 1.0 / self._settings.image_rate_hz
+        on_time = now_s < self._next_view_s + period_s
+        self._next_view_s = (self._next_view_s if on_time else now_s) + period_s
+        self._view.header = samples.header
+        pixels = rgb8(
+            self._reconstructor.image,
+            scale=self._settings.image_scale,
+            full_scale_counts=self._settings.image_full_scale_counts,
+        )
+        self._view.data = array("B", pixels)
+        self._view_publisher.publish(self._view)
+
+    def _follow(self, sequence: int) -> None:
+        if self._last_sequence is not None:
+            gap = (sequence - self._last_sequence - 1) % _SEQUENCE_MODULUS
+            # Half the range back is not a gap but a board that began anew.
+            if gap < _SEQUENCE_MODULUS // 2:
+                self._lost += gap
+        self._last_sequence = sequence
+
+    def _reject(self, kind: str, reason: str) -> None:
+        self._rejected[kind] += 1
+        self.get_logger().warning(f"samples dropped: {reason}", throttle_duration_sec=5.0)
+
+    def _report(self) -> Report:
+        now_s = time.monotonic()
+        rejected = self._rejected.total()
+        before_s, frames, rejected_before = self._reported
+        self._reported = (now_s, self._frames, rejected)
+        new_frames, new_rejected = self._frames - frames, rejected - rejected_before
+        rate_hz = new_frames / max(now_s - before_s, 1e-9)
+        values = {
+            "rate_hz": rate_hz,
+            "frames": self._frames,
+            "lost": self._lost,
+            "rejected.wrong_array_size": self._rejected["wrong_array_size"],
+            "rejected.bad_frame": self._rejected["bad_frame"],
+            "frame_us.median": 1e6 * median(self._durations_s) if self._durations_s else 0.0,
+        }
+        if new_rejected:
+            return WARN, f"{new_rejected} messages dropped that do not fit, see the log", values
+        if not new_frames:
+            return WARN, "no samples", values
+        return OK, f"{rate_hz:.0f} frames/s", values
+
+
+def _as_numpy(field: array) -> NDArray[np.uint16]:
+    # numpy refuses to view an empty buffer
+    return np.frombuffer(field, dtype=np.uint16) if len(field) else np.empty(0, dtype=np.uint16)
+
+
+def _empty_image(height: int, width: int, encoding: str, bytes_per_pixel: int) -> Image:
+    return Image(height=height, width=width, encoding=encoding, is_bigendian=0, step=width * bytes_per_pixel)
+
+
+def _make() -> Node:
+    node = ReconstructionNode()
+    # Imports and the compiler leave some 100,000 objects behind; a full collection of them stops the stream for 30 ms.
+    gc.collect()
+    gc.freeze()
+    return node
+
+
+def main() -> None:
+    """Entry point of the executable ``reconstruction``."""
+    sys.exit(run([_make]))

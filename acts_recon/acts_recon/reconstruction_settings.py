@@ -1,0 +1,83 @@
+"""The parameters of the reconstruction node, and what is built from them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from acts_core.array import COUNT_MAX, MAX_SIDE, ArrayGeometry
+from acts_core.force import ForceResponse
+from acts_core.settings import default_of, setting, validate
+from acts_recon.dictionary import load_dictionary
+from acts_recon.reconstructor import Reconstructor, ReconstructorConfig
+from acts_recon.shipped import shipped_dictionary_path
+
+_ARRAY = ArrayGeometry()
+_RESPONSE = ForceResponse()
+
+
+@dataclass(frozen=True)
+class ReconstructionSettings:
+    """Parameters of the node ``reconstruction``."""
+
+    rows: int = setting(_ARRAY.rows, "rows of the array", minimum=1, maximum=MAX_SIDE)
+    cols: int = setting(_ARRAY.cols, "columns of the array", minimum=1, maximum=MAX_SIDE)
+    pitch_m: float = setting(_ARRAY.pitch_m, "distance between neighbouring taxels [m]", minimum=1e-5, maximum=1.0)
+    dictionary: str = setting("", "path of a dictionary file made by `acts train`; empty for the shipped one")
+    touch_counts: int = setting(
+        default_of(ReconstructorConfig, "touch_counts"),
+        "ADC counts above which a taxel is pressed; others are taken as 0",
+        minimum=0,
+        maximum=COUNT_MAX,
+    )
+    patch_step: int = setting(
+        default_of(ReconstructorConfig, "patch_step"),
+        "distance of neighbouring patches in taxels",
+        minimum=1,
+        maximum=64,
+    )
+    sparsity_ratio: float = setting(
+        default_of(ReconstructorConfig, "sparsity_ratio"),
+        "atoms per measured taxel of a patch",
+        minimum=0.01,
+        maximum=1.0,
+    )
+    keep_measured: bool = setting(True, "measured taxels keep their measured value in the image")
+    force_full_scale_counts: float = setting(
+        _RESPONSE.full_scale_counts, "counts of a taxel at infinite force", minimum=1.0, maximum=float(COUNT_MAX)
+    )
+    force_dead_n: float = setting(_RESPONSE.dead_n, "largest force that reads 0 [N]", minimum=0.0, maximum=100.0)
+    force_half_n: float = setting(
+        _RESPONSE.half_n, "force above it that reads half of full scale [N]", minimum=1e-6, maximum=1000.0
+    )
+    image_rate_hz: float = setting(30.0, "largest rate of the topic image [Hz]", minimum=0.1, maximum=1000.0)
+    image_scale: int = setting(10, "pixels along a taxel's side in the topic image", minimum=1, maximum=64)
+    image_full_scale_counts: float = setting(
+        float(COUNT_MAX), "counts shown white in the topic image", minimum=1.0, maximum=float(COUNT_MAX)
+    )
+
+    def __post_init__(self) -> None:
+        validate(self)
+
+    def reconstructor(self) -> Reconstructor:
+        """Load the dictionary and make everything ready for the first frame; takes seconds when not yet compiled.
+
+        Raises
+        ------
+        DictionaryError
+            When the dictionary cannot be used.
+        ArrayError
+            When it does not fit the array.
+        """
+        path = Path(self.dictionary) if self.dictionary else shipped_dictionary_path()
+        return Reconstructor(
+            ArrayGeometry(self.rows, self.cols, self.pitch_m),
+            load_dictionary(path),
+            ReconstructorConfig(
+                touch_counts=self.touch_counts,
+                patch_step=self.patch_step,
+                sparsity_ratio=self.sparsity_ratio,
+                keep_measured=self.keep_measured,
+            ),
+            ForceResponse(self.force_full_scale_counts, self.force_dead_n, self.force_half_n),
+        )

@@ -1,0 +1,264 @@
+"""The node over real DDS; ROS_DOMAIN_IDs 40 to 44."""
+
+import os
+import subprocess
+import sys
+import time
+from array import array
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import rclpy
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import PointStamped
+from numpy.typing import NDArray
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from recon_samples import bump, sample
+from sensor_msgs.msg import Image
+
+from acts_core.array import ArrayGeometry
+from acts_core.errors import ArrayError, DictionaryError, SettingsError
+from acts_msgs.msg import Contact, TactileSamples
+from acts_recon.dictionary import Dictionary, save_dictionary
+from acts_recon.reconstruction_node import ReconstructionNode
+from acts_recon.reconstructor import Reconstructor
+from acts_ros import qos
+
+DEADLINE_S = 30.0
+
+
+@pytest.fixture(scope="module")
+def dictionary_path(dictionary: Dictionary, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("dictionaries") / "test.npz"
+    save_dictionary(dictionary, path)
+    return path
+
+
+class Bench:
+    """The node in namespace /plate, and a node beside it that publishes samples and keeps what comes back."""
+
+    def __init__(self, domain_id: int, dictionary_path: Path, parameters: dict[str, object]) -> None:
+        self.context = Context()
+        rclpy.init(context=self.context, domain_id=domain_id)
+        words = [f"{name}:={value}" for name, value in {"dictionary": dictionary_path, **parameters}.items()]
+        arguments = ["--ros-args", *(part for word in words for part in ("-p", word))]
+        self.nodes: list[Node] = []
+        self.executor = SingleThreadedExecutor(context=self.context)
+        try:
+            self.node = ReconstructionNode(cli_args=arguments, context=self.context, namespace="/plate")
+            self.nodes.append(self.node)
+            self.peer = Node("peer", namespace="/plate", context=self.context)
+            self.nodes.append(self.peer)
+        except BaseException:
+            self.close()
+            raise
+        for node in self.nodes:
+            self.executor.add_node(node)
+        self.publisher = self.peer.create_publisher(TactileSamples, "samples", qos.STREAM)
+        self.received: dict[str, list[Any]] = {}
+        self.listen(Contact, "contact", qos.STREAM)
+        self.until(lambda: self.publisher.get_subscription_count() == 1)
+        self.until(lambda: self.node.count_subscribers("contact") == 1)
+
+    def listen(self, kind: type, topic: str, profile: Any) -> None:
+        messages = self.received.setdefault(topic, [])
+        subscription = self.peer.create_subscription(kind, topic, messages.append, profile)
+        self.until(lambda: subscription.get_publisher_count() > 0)
+
+    def until(self, condition: Callable[[], bool]) -> None:
+        deadline = time.monotonic() + DEADLINE_S
+        while not condition():
+            assert time.monotonic() < deadline, "timed out"
+            self.executor.spin_once(timeout_sec=0.05)
+
+    def send(self, sequence: int, indices: NDArray, counts: NDArray, **fields: Any) -> None:
+        message = TactileSamples(sequence=sequence, rows=32, cols=32, scheme=TactileSamples.SCHEME_ADAPTIVE)
+        message.header.frame_id = "plate"
+        message.header.stamp.sec = 100 + sequence % 1000
+        message.header.stamp.nanosec = 7
+        message.indices = array("H", indices.astype(np.uint16).tobytes())
+        message.counts = array("H", counts.astype(np.uint16).tobytes())
+        for name, value in fields.items():
+            setattr(message, name, value)
+        self.publisher.publish(message)
+
+    def contact(self, sequence: int) -> Contact:
+        """Wait for the contact of one frame."""
+        self.until(lambda: any(message.sequence == sequence for message in self.received["contact"]))
+        return next(message for message in self.received["contact"] if message.sequence == sequence)
+
+    def diagnostics(self, condition: Callable[[Any, dict[str, str]], bool]) -> None:
+        """Wait for a status of the node for which the condition holds."""
+        if "/diagnostics" not in self.received:
+            self.listen(DiagnosticArray, "/diagnostics", 10)
+
+        def holds() -> bool:
+            statuses = [status for message in self.received["/diagnostics"] for status in message.status]
+            mine = [status for status in statuses if status.name == "plate/reconstruction"]
+            return any(condition(status, {value.key: value.value for value in status.values}) for status in mine)
+
+        self.until(holds)
+
+    def close(self) -> None:
+        self.executor.shutdown()
+        for node in self.nodes:
+            node.destroy_node()
+        rclpy.try_shutdown(context=self.context)
+
+
+@pytest.fixture
+def make_bench(dictionary_path: Path) -> Iterator[Callable[..., Bench]]:
+    benches: list[Bench] = []
+
+    def make(domain_id: int, **parameters: object) -> Bench:
+        benches.append(Bench(domain_id, dictionary_path, parameters))
+        return benches[-1]
+
+    yield make
+    for bench in benches:
+        bench.close()
+
+
+def test_contact_cop_and_images_are_those_of_the_samples(
+    make_bench: Callable[..., Bench], dictionary: Dictionary
+) -> None:
+    bench = make_bench(40, image_scale=4, image_rate_hz=1000.0)
+    bench.listen(PointStamped, "cop", qos.STREAM)
+    bench.listen(Image, "image_raw", qos.STREAM)
+    bench.listen(Image, "image", qos.VIEW)
+    bench.until(lambda: bench.node._send_cop and bench.node._send_raw and bench.node._send_view)
+
+    reconstructor = Reconstructor(ArrayGeometry(), dictionary)
+    frame = sample(bump(ArrayGeometry(), 20.2, 11.7), 55)
+    expected = reconstructor.step(*frame)
+    bench.send(3, *frame)
+    contact = bench.contact(3)
+    assert contact.header.frame_id == "plate"
+    assert (contact.header.stamp.sec, contact.header.stamp.nanosec) == (103, 7)
+    assert contact.in_contact
+    assert contact.centre_of_pressure.x == pytest.approx(expected.x_m)
+    assert contact.centre_of_pressure.y == pytest.approx(expected.y_m)
+    assert contact.centre_of_pressure.z == 0
+    assert contact.force == pytest.approx(expected.force_n, rel=1e-6)
+    assert contact.peak == expected.peak_counts
+    assert contact.area == pytest.approx(expected.area_m2, rel=1e-6)
+    assert contact.active_taxels == expected.active_taxels
+    assert contact.spread == pytest.approx(expected.spread_m, rel=1e-6)
+
+    bench.until(lambda: all(bench.received[topic] for topic in ("cop", "image_raw", "image")))
+    (cop,) = bench.received["cop"]
+    assert cop.header == contact.header
+    assert cop.point == contact.centre_of_pressure
+    (raw,) = bench.received["image_raw"]
+    assert raw.header == contact.header
+    assert (raw.height, raw.width, raw.encoding, raw.step, raw.is_bigendian) == (32, 32, "mono16", 64, 0)
+    pixels = np.frombuffer(raw.data, dtype="<u2").reshape(32, 32)
+    assert np.abs(pixels - reconstructor.image).max() <= 0.5
+    (view,) = bench.received["image"]
+    assert view.header == contact.header
+    assert (view.height, view.width, view.encoding, view.step) == (128, 128, "rgb8", 384)
+    assert len(view.data) == 128 * 384
+
+    # Untouched: a contact message that says so, and no centre of pressure.
+    bench.send(4, frame[0], np.zeros(55))
+    assert bench.contact(4) == Contact(header=bench.contact(4).header, sequence=4)
+    bench.until(lambda: len(bench.received["image_raw"]) == 2)
+    assert len(bench.received["cop"]) == 1
+
+
+def test_bad_messages_are_dropped_and_counted_and_nothing_else_is_lost(make_bench: Callable[..., Bench]) -> None:
+    bench = make_bench(41)
+    indices, counts = sample(bump(ArrayGeometry(), 5, 5), 55)
+    out_of_range, too_high, twice = indices.copy(), counts.copy(), indices.copy()
+    out_of_range[-1], too_high[0], twice[0] = 1024, 1024, twice[1]
+    bad: list[tuple[NDArray, NDArray, dict[str, int]]] = [
+        (indices, counts[:-1], {}),
+        (out_of_range, counts, {}),
+        (indices, too_high, {}),
+        (twice, counts, {}),
+        (indices[:0], counts[:0], {}),
+        (indices, counts, {"rows": 16}),
+        (indices, counts, {"cols": 33}),
+    ]
+    sequence = 0
+    for indices_sent, counts_sent, fields in bad:
+        bench.send(sequence, indices_sent, counts_sent, **fields)
+        bench.send(sequence + 1, indices, counts)
+        sequence += 2
+    bench.until(lambda: len(bench.received["contact"]) == len(bad))
+    assert [message.sequence for message in bench.received["contact"]] == list(range(1, sequence, 2))
+    assert all(message.in_contact for message in bench.received["contact"])
+    bench.diagnostics(
+        lambda status, values: (
+            status.level == b"\x01"
+            and "7 messages dropped" in status.message
+            and values["rejected.bad_frame"] == "5"
+            and values["rejected.wrong_array_size"] == "2"
+            and values["frames"] == "7"
+            and values["lost"] == "6"
+        )
+    )
+
+
+def test_frames_lost_are_counted_over_the_wrap_and_not_over_a_restart(make_bench: Callable[..., Bench]) -> None:
+    bench = make_bench(42)
+    indices = np.arange(10)
+    for sequence in (2**32 - 1, 2, 3, 0):  # lost: 0 and 1; then the board begins anew
+        bench.send(sequence, indices, indices, header=Contact().header)
+    bench.until(lambda: len(bench.received["contact"]) == 4)
+    bench.diagnostics(lambda status, values: values["frames"] == "4" and values["lost"] == "2")
+    bench.diagnostics(lambda status, values: status.level == b"\x01" and status.message == "no samples")
+
+
+def test_the_viewer_image_keeps_its_rate_and_costs_nothing_unheard(make_bench: Callable[..., Bench]) -> None:
+    bench = make_bench(43, image_rate_hz=0.1)
+    indices = np.arange(10)
+    bench.send(0, indices, indices)
+    bench.contact(0)
+    assert bench.node._next_view_s == 0
+    bench.listen(Image, "image", qos.VIEW)
+    bench.until(lambda: bench.node._send_view)
+    for sequence in range(1, 20):
+        bench.send(sequence, indices, indices)
+    bench.contact(19)
+    bench.until(lambda: bool(bench.received["image"]))
+    assert len(bench.received["image"]) == 1
+
+
+@pytest.mark.parametrize(
+    ("parameters", "error", "word"),
+    [
+        ({"dictionary": "/no/such/file.npz"}, DictionaryError, "/no/such/file.npz: cannot be read"),
+        ({"dictionary": __file__}, DictionaryError, "not an npz file"),
+        ({"rows": 7}, ArrayError, "do not fit a side of 7"),
+        ({"touch_count": 60}, SettingsError, "'touch_count'.*'touch_counts'"),
+        ({"touch_counts": 1024}, SettingsError, "touch_counts = 1024"),
+        ({"image_rate_hz": "fast"}, SettingsError, "image_rate_hz = 'fast'"),
+        ({"force_half_n": ".nan"}, SettingsError, "force_half_n"),
+    ],
+)
+def test_wrong_parameters_are_refused_at_start(
+    make_bench: Callable[..., Bench], parameters: dict[str, object], error: type[Exception], word: str
+) -> None:
+    with pytest.raises(error, match=word):
+        make_bench(44, **parameters)
+
+
+def test_the_program_ends_with_one_line_and_exit_code_1() -> None:
+    command = [sys.executable, "-c", "from acts_recon.reconstruction_node import main; main()"]
+    environment = {**os.environ, "ROS_DOMAIN_ID": "44"}
+    result = subprocess.run(
+        [*command, "--ros-args", "-p", "dictionary:=/no/such.npz"],
+        env=environment,
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+    assert result.returncode == 1
+    assert "error: /no/such.npz: cannot be read" in result.stderr
+    assert "Traceback" not in result.stderr
