@@ -1,0 +1,173 @@
+"""`acts train`: learn a dictionary from the contact model, or from frames of an npz file."""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import sys
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.errors import RecordingError, SettingsError
+from acts_core.settings import default_of
+from acts_recon.dictionary import Dictionary, save_dictionary
+from acts_recon.ksvd import KsvdConfig, KsvdProgress, learn_dictionary
+from acts_recon.training_patches import prune_coherent, random_patches
+from acts_sim.contact_model import ContactModel, FoamConfig
+from acts_sim.objects import OBJECTS, ContactObject, object_named
+from acts_tools.frames_file import load_frames
+
+_PLACES_PER_PATCH = 40
+"""Places tried for every patch wanted: most of the skin is untouched in most frames."""
+
+_DISTINCT_OF_PATCHES = 2.5
+"""Patches kept for pruning, for every one wanted."""
+
+
+def add_parser(subparsers: Any) -> None:
+    """Add ``acts train`` to the acts command."""
+    parser = subparsers.add_parser(
+        "train",
+        help="train a dictionary for the reconstruction",
+        description="Learn a dictionary by K-SVD and write it to a file that the node reconstruction reads (its "
+        "parameter dictionary). Frames come from the contact model, or from an npz file with `frames` (n, rows, cols).",
+    )
+    parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help="dictionary file to write")
+    parser.add_argument("--frames", type=Path, metavar="NPZ", help="learn from these frames, not the contact model")
+    parser.add_argument("--objects", nargs="+", metavar="NAME", help="objects of the contact model (default: all)")
+    parser.add_argument("--presses", type=int, default=3000, help="frames of the contact model (default: %(default)s)")
+    parser.add_argument("--seed", type=int, default=0, help="of everything random (default: %(default)s)")
+    parser.add_argument("--patches", type=int, default=15000, help="most patches to learn from (default: %(default)s)")
+    parser.add_argument("--patch-size", type=int, default=8, help="side of a patch in taxels (default: %(default)s)")
+    parser.add_argument(
+        "--min-active", type=int, default=4, help="pressed taxels that a patch needs (default: %(default)s; paper: 16)"
+    )
+    parser.add_argument("--touch-counts", type=float, default=60.0, help="pressed is above (default: %(default)s)")
+    parser.add_argument(
+        "--coherence", type=float, default=0.99, help="patches more alike than this are pruned (default: %(default)s)"
+    )
+    for name, text in (
+        ("atoms", "number of atoms"),
+        ("sparsity", "largest number of atoms in a patch"),
+        ("iterations", "rounds of K-SVD"),
+    ):
+        default = default_of(KsvdConfig, name)
+        parser.add_argument(f"--{name}", type=int, default=default, help=f"{text} (default: %(default)s)")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Train as the command line says; returns the exit code.
+
+    Raises
+    ------
+    ActsError
+        When the frames cannot be read, a setting is out of range, or there are too few patches.
+    """
+    _check(arguments)
+    config = KsvdConfig(atoms=arguments.atoms, sparsity=arguments.sparsity, iterations=arguments.iterations)
+    rng = np.random.default_rng(arguments.seed)
+    if arguments.frames is None:
+        objects = [object_named(name) for name in arguments.objects] if arguments.objects else list(OBJECTS.values())
+        print(f"pressing {len(objects)} objects into the contact model {arguments.presses} times", flush=True)
+        frames = model_frames(objects, arguments.presses, arguments.seed)
+        source = f"{arguments.presses} presses of {len(objects)} objects into the ACTS contact model"
+    else:
+        frames = load_frames(arguments.frames).frames
+        digest = hashlib.sha256(arguments.frames.read_bytes()).hexdigest()
+        source = f"{len(frames)} frames of {arguments.frames.name} (sha256 {digest})"
+    patches = choose_patches(
+        frames,
+        arguments.patches,
+        size=arguments.patch_size,
+        touch_counts=arguments.touch_counts,
+        min_active=arguments.min_active,
+        coherence=arguments.coherence,
+        rng=rng,
+    )
+    print(f"{len(patches)} patches; learning {config.atoms} atoms in {config.iterations} iterations", flush=True)
+    atoms = learn_dictionary(patches, config, rng=rng, progress=_show)
+    settings = {
+        **asdict(config),
+        "seed": arguments.seed,
+        "patches": len(patches),
+        "min_active": arguments.min_active,
+        "touch_counts": arguments.touch_counts,
+        "patch_coherence": arguments.coherence,
+    }
+    if arguments.frames is None:
+        settings |= {"presses": arguments.presses, "objects": [item.name for item in objects], **asdict(FoamConfig())}
+    dictionary = Dictionary(atoms, arguments.patch_size, settings, f"Learnt by K-SVD (acts train) from {source}.")
+    save_dictionary(dictionary, arguments.output)
+    size_kb = arguments.output.stat().st_size / 1000
+    print(f"{arguments.output}: {dictionary.n_atoms} atoms, {size_kb:.0f} kB, sha256 {dictionary.sha256}")
+    return 0
+
+
+def model_frames(objects: list[ContactObject], presses: int, seed: int) -> NDArray[np.uint16]:
+    """Frames of random presses of objects in turn; np.ndarray [shape=(presses, 32, 32), dtype=uint16]."""
+    model = ContactModel(seed=seed)
+    return np.stack([model.random_frame(objects[i % len(objects)]) for i in range(presses)])
+
+
+def choose_patches(
+    frames: NDArray[np.uint16],
+    n_patches: int,
+    *,
+    size: int,
+    touch_counts: float,
+    min_active: int,
+    coherence: float,
+    rng: np.random.Generator,
+) -> NDArray[np.float32]:
+    """At most `n_patches` patches of frames, pressed enough and no two alike (paper, "Tactile Dictionary Learning").
+
+    Returns
+    -------
+    np.ndarray [shape=(n, size * size), dtype=float32]
+    """
+    patches = random_patches(
+        frames,
+        _PLACES_PER_PATCH * n_patches,
+        size=size,
+        touch_counts=touch_counts,
+        min_active=min_active,
+        rng=rng,
+    )[: int(_DISTINCT_OF_PATCHES * n_patches)]
+    return patches[prune_coherent(patches, coherence)][:n_patches]
+
+
+def _check(arguments: argparse.Namespace) -> None:
+    pixels = arguments.patch_size**2
+    for name, lowest, highest in (
+        ("presses", 1, 10**6),
+        ("seed", 0, 2**63),
+        ("patches", 2, 10**6),
+        ("patch_size", 2, 32),
+        ("min_active", 1, pixels),
+        ("touch_counts", 0, 1022),
+        ("coherence", 0, 1),
+    ):
+        value = getattr(arguments, name)
+        if not lowest <= value <= highest:
+            option = name.replace("_", "-")
+            raise SettingsError(f"--{option} {value}: allowed is {lowest} to {highest}")
+    if arguments.frames is not None and arguments.objects:
+        raise SettingsError("--objects names objects of the contact model and does not go with --frames; leave one out")
+    if not arguments.output.parent.is_dir():
+        raise RecordingError(f"{arguments.output}: the folder {arguments.output.parent} does not exist; make it first")
+
+
+def _show(progress: KsvdProgress) -> None:
+    last = progress.iteration == progress.iterations
+    text = (
+        f"iteration {progress.iteration} of {progress.iterations}: {100 * progress.relative_error:.2f} % unexplained, "
+        f"{progress.replaced} atoms replaced"
+    )
+    if sys.stdout.isatty():
+        print(f"\r\033[K{text}", end="\n" if last else "", flush=True)
+    else:
+        print(text, flush=True)

@@ -1,0 +1,99 @@
+import argparse
+import hashlib
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from acts_core.errors import ActsError, ArrayError, RecordingError, SettingsError
+from acts_recon.dictionary import load_dictionary
+from acts_tools import train
+from acts_tools.frames_file import load_frames
+
+
+def run(*words: object) -> int:
+    parser = argparse.ArgumentParser()
+    train.add_parser(parser.add_subparsers())
+    return train.run(parser.parse_args(["train", *(str(word) for word in words)]))
+
+
+SMALL = ("--presses", 60, "--patches", 400, "--atoms", 50, "--sparsity", 4, "--iterations", 2)
+
+
+def test_training_from_the_contact_model(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "d.npz"
+    assert run("-o", path, *SMALL, "--seed", 3, "--objects", "coin", "x") == 0
+    output = capsys.readouterr().out
+    assert "iteration 2 of 2" in output
+    dictionary = load_dictionary(path, patch_size=8)
+    assert dictionary.atoms.shape == (64, 50)
+    assert dictionary.settings["seed"] == 3
+    assert dictionary.settings["objects"] == ["coin", "x"]
+    assert dictionary.settings["iterations"] == 2
+    assert "60 presses of 2 objects" in dictionary.provenance
+    assert dictionary.sha256 in output
+    again = tmp_path / "again.npz"
+    run("-o", again, *SMALL, "--seed", 3, "--objects", "coin", "x")
+    assert load_dictionary(again).sha256 == dictionary.sha256
+
+
+def test_training_from_frames(tmp_path: Path) -> None:
+    frames = tmp_path / "frames.npz"
+    row, col = np.indices((12, 10))
+    bumps = [900 * np.exp(-((row - r) ** 2 + (col - c) ** 2) / 9) for r in range(12) for c in range(10)]
+    np.savez(frames, frames=np.array(bumps).astype(np.uint16))
+    path = tmp_path / "d.npz"
+    assert run("-o", path, *SMALL, "--frames", frames, "--patch-size", 6) == 0
+    dictionary = load_dictionary(path, patch_size=6)
+    assert hashlib.sha256(frames.read_bytes()).hexdigest() in dictionary.provenance
+
+
+@pytest.mark.parametrize(
+    ("words", "error", "word"),
+    [
+        (["--atoms", 1], SettingsError, "atoms = 1"),
+        (["--iterations", 0], SettingsError, "iterations = 0"),
+        (["--presses", 0], SettingsError, "--presses 0: allowed is 1"),
+        (["--min-active", 65], SettingsError, "--min-active 65: allowed is 1 to 64"),
+        (["--coherence", "nan"], SettingsError, "--coherence nan"),
+        (["--objects", "cube"], SettingsError, "'cube' does not exist"),
+        (["--objects", "coin", "--frames", "x.npz"], SettingsError, "leave one out"),
+        (["--frames", "/no/such.npz"], RecordingError, "/no/such.npz: cannot be read"),
+        (["--patch-size", 33, "--min-active", 5], SettingsError, "--patch-size 33"),
+        ([*SMALL, "--atoms", 5000], ArrayError, "patches for 5000 atoms"),
+    ],
+)
+def test_wrong_arguments_are_refused(words: list[object], error: type[ActsError], word: str, tmp_path: Path) -> None:
+    with pytest.raises(error, match=word):
+        run("-o", tmp_path / "d.npz", *words)
+    assert not (tmp_path / "d.npz").exists()
+
+
+def test_a_folder_that_does_not_exist_is_told_before_the_work(tmp_path: Path) -> None:
+    with pytest.raises(RecordingError, match="does not exist; make it first"):
+        run("-o", tmp_path / "no" / "d.npz")
+
+
+def test_frames_files(tmp_path: Path) -> None:
+    path = tmp_path / "f.npz"
+    frames = np.zeros((6, 4, 5), dtype=np.uint16)
+    frames[[1, 4]] = 7
+    np.savez(path, frames=frames, start=[0, 3], length=[3, 3])
+    loaded = load_frames(path)
+    assert loaded.live.all()
+    assert loaded.peak_frames().tolist() == frames[[1, 4]].tolist()
+    for changes, word in (
+        ({"frames": frames[0]}, "needed are numbers"),
+        ({"frames": frames[:0]}, "needed are numbers"),
+        ({"frames": np.full((1, 4, 5), np.nan)}, "without NaN"),
+        ({"frames": np.full((1, 4, 5), 1024)}, "between 0 and 1023"),
+        ({"frames": frames, "live": np.ones(3)}, "live"),
+        ({"frames": frames, "start": [4], "length": [3]}, "start and length"),
+        ({"other": frames}, "array `frames`"),
+    ):
+        np.savez(path, **changes)
+        with pytest.raises(RecordingError, match=word):
+            load_frames(path)
+    path.write_bytes(b"nothing")
+    with pytest.raises(RecordingError, match="not an npz file"):
+        load_frames(path)
