@@ -1,0 +1,121 @@
+"""Message types by name: their Python classes, and their definitions and hashes as bags store them."""
+
+from __future__ import annotations
+
+import importlib
+import json
+from pathlib import Path
+from typing import Any
+
+from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
+from rosbags.interfaces import Nodetype
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+
+from acts_core.errors import RecordingError
+
+
+def message_class(name: str) -> type:
+    """Python class of a message type.
+
+    Parameters
+    ----------
+    name : str
+        Such as ``acts_msgs/msg/Contact``.
+
+    Raises
+    ------
+    RecordingError
+        The type is not installed.
+    """
+    package, kind, short = _split(name)
+    try:
+        found = getattr(importlib.import_module(f"{package}.{kind}"), short)
+    except (ImportError, AttributeError) as error:
+        raise RecordingError(
+            f"unknown message type '{name}': install or source the workspace that has package '{package}'"
+        ) from error
+    assert isinstance(found, type)
+    return found
+
+
+class Definitions:
+    """Definitions and type hashes, made from the ``.msg`` files that packages install."""
+
+    def __init__(self) -> None:
+        self._store = get_typestore(Stores.EMPTY)
+        self._known: set[str] = set()
+
+    def describe(self, name: str) -> tuple[str, str]:
+        """Complete definition of a type (with those it contains) and its hash.
+
+        Parameters
+        ----------
+        name : str
+            Such as ``acts_msgs/msg/Contact``.
+
+        Returns
+        -------
+        definition, hash : str
+            In the format of MCAP's ``ros2msg`` schemas, and ``RIHS01_...``.
+
+        Raises
+        ------
+        RecordingError
+            The ``.msg`` file of the type, or of one that it contains, is not installed.
+        """
+        self._load(name)
+        definition, _ = self._store.generate_msgdef(name, ros_version=2)
+        return definition, _installed_hash(name) or self._store.hash_rihs01(name)
+
+    def _load(self, name: str) -> None:
+        if name in self._known:
+            return
+        self._known.add(name)
+        types = get_types_from_msg(_message_file(name).read_text(), name)
+        for _, fields in types.values():
+            for _, field in fields:
+                for inner in _names(field):
+                    self._load(inner)
+        self._store.register({name: value for name, value in types.items() if name not in self._store.fielddefs})
+
+
+def _split(name: str) -> tuple[str, str, str]:
+    parts = name.split("/")
+    if len(parts) != 3:
+        raise RecordingError(f"'{name}' is not the name of a message type, such as acts_msgs/msg/Contact")
+    return parts[0], parts[1], parts[2]
+
+
+def _message_file(name: str) -> Path:
+    package, kind, short = _split(name)
+    try:
+        path = Path(get_package_share_directory(package)) / kind / f"{short}.msg"
+    except (PackageNotFoundError, ValueError) as error:
+        raise RecordingError(f"unknown message type '{name}': there is no package '{package}'") from error
+    if not path.is_file():
+        raise RecordingError(f"no definition of message type '{name}': {path} does not exist")
+    return path
+
+
+def _installed_hash(name: str) -> str | None:
+    """The hash that was computed when the package was built; None before ROS 2 Iron.
+
+    The one that rosbags computes is another for types with ``char`` fields.
+    """
+    path = _message_file(name).with_suffix(".json")
+    if not path.is_file():
+        return None
+    for entry in json.loads(path.read_text())["type_hashes"]:
+        if entry["type_name"] == name:
+            return str(entry["hash_string"])
+    return None
+
+
+def _names(field: Any) -> list[str]:
+    """Message types that a field refers to: itself, or the items of its array or sequence."""
+    kind, content = field
+    if kind == Nodetype.NAME:
+        return [content]
+    if kind in (Nodetype.ARRAY, Nodetype.SEQUENCE):
+        return _names(content[0])
+    return []

@@ -1,0 +1,102 @@
+"""`acts play`: publish a bag's messages again."""
+
+from __future__ import annotations
+
+import argparse
+import time
+from pathlib import Path
+
+from acts_core.errors import RecordingError
+from acts_tools.bags import require_rosbags
+
+
+def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add ``play`` to the acts command."""
+    parser = subparsers.add_parser(
+        "play",
+        help="publish a bag's messages again",
+        description="Publish a bag's messages at the pace and with the quality of service of their recording. "
+        "Reads bags of `acts record` and of ROS 2, also those whose recorder was killed.",
+    )
+    parser.add_argument("bag", type=Path, help="folder of the bag, or an MCAP file")
+    parser.add_argument("-r", "--rate", type=float, default=1.0, help="speed, 2 is twice as fast (default: 1)")
+    parser.add_argument("-l", "--loop", action="store_true", help="start again at the end, until Ctrl-C")
+    parser.add_argument("-t", "--topics", nargs="+", metavar="TOPIC", help="only these topics")
+    parser.add_argument(
+        "--delay",
+        type=float,
+        default=1.0,
+        metavar="SECONDS",
+        help="wait this long before the first message, so that subscribers find the topics (default: 1)",
+    )
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Run ``acts play``; 0 when the bag was played to its end or until Ctrl-C."""
+    if not 0 < arguments.rate < float("inf"):
+        raise RecordingError(f"--rate {arguments.rate:g} is not a positive number")
+    if not 0 <= arguments.delay < float("inf"):
+        raise RecordingError(f"--delay {arguments.delay:g} is not a time in seconds")
+    topics = None if arguments.topics is None else [f"/{name.lstrip('/')}" for name in arguments.topics]
+    play(arguments.bag, arguments.rate, arguments.loop, topics, arguments.delay)
+    return 0
+
+
+def play(path: Path, rate: float, loop: bool, topics: list[str] | None, delay_s: float) -> None:
+    """Play a bag.
+
+    Parameters
+    ----------
+    path : Path
+        Folder of the bag, or an MCAP file.
+    rate : float
+        Speed; 2 plays twice as fast.
+    loop : bool
+        Start again at the end, until the user stops it.
+    topics : list of str or None
+        Full names; None for all.
+    delay_s : float
+        Time before the first message [s].
+
+    Raises
+    ------
+    RecordingError
+        There is no bag, a topic is not in it, or it is damaged (after what is readable has been played).
+    """
+    require_rosbags()
+    # Late: they take time that the other commands need not spend.
+    import rclpy
+    from rclpy.signals import SignalHandlerOptions
+
+    from acts_tools.bags.player import Player
+    from acts_tools.bags.reading import open_bag
+    from acts_tools.bags.stopping import StopFlag
+
+    with open_bag(path) as bag, StopFlag() as stop:
+        if bag.note is not None:
+            _say(bag.note)
+        rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+        node = rclpy.create_node("acts_player", start_parameter_services=False, enable_rosout=False)
+        try:
+            player = Player(node, bag, topics, _say)
+            started_s = time.monotonic() + delay_s
+            try:
+                going = stop.sleep_until(started_s)
+                while going:
+                    before = player.report.published
+                    # A bag without messages ends also a loop.
+                    going = player.play(rate, stop.sleep_until) and loop and player.report.published > before
+            finally:
+                report = player.report
+                _say(
+                    f"{report.published} messages in {max(0.0, time.monotonic() - started_s):.1f} s, "
+                    f"at most {report.worst_lateness_s * 1e3:.1f} ms late"
+                )
+            player.finish()
+        finally:
+            node.destroy_node()
+            rclpy.try_shutdown()
+
+
+def _say(text: str) -> None:
+    print(f"[play] {text}", flush=True)

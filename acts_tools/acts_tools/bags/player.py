@@ -1,0 +1,115 @@
+"""Publish a bag's messages at the pace at which they were recorded."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from rclpy.duration import Duration
+from rclpy.node import Node
+from rclpy.publisher import Publisher
+
+from acts_core.errors import RecordingError
+from acts_tools.bags import qos
+from acts_tools.bags.message_types import message_class
+from acts_tools.bags.reading import Bag
+
+_ACKNOWLEDGE_S = 1.0
+
+
+@dataclass
+class PlayReport:
+    """How playing went.
+
+    Attributes
+    ----------
+    published : int
+        Messages published.
+    worst_lateness_s : float
+        Largest delay of a message against its time [s].
+    """
+
+    published: int = 0
+    worst_lateness_s: float = 0.0
+
+
+class Player:
+    """Publishes the topics of a bag with the quality of service they were recorded with.
+
+    Parameters
+    ----------
+    node : Node
+        Publishes; it need not spin.
+    bag : Bag
+        Open.
+    topics : sequence of str or None
+        Topics to play; None for all.
+    say : callable
+        Takes a line for the user.
+
+    Raises
+    ------
+    RecordingError
+        A topic is not in the bag, or no topic can be played.
+    """
+
+    def __init__(self, node: Node, bag: Bag, topics: Sequence[str] | None, say: Callable[[str], None]) -> None:
+        self.report = PlayReport()
+        self._bag = bag
+        self._publishers: dict[str, Publisher] = {}
+        types = bag.topics()
+        for topic in types if topics is None else topics:
+            if topic not in types:
+                raise RecordingError(f"the bag has no topic '{topic}' (it has: {', '.join(sorted(types)) or 'none'})")
+            try:
+                kind = message_class(types[topic])
+            except RecordingError as error:
+                say(f"not played: {topic}: {error}")
+                continue
+            self._publishers[topic] = node.create_publisher(kind, topic, qos.for_publisher(bag.recorded_qos(topic)))
+        if not self._publishers:
+            raise RecordingError("the bag has no topic that can be played")
+
+    def subscribed(self) -> bool:
+        """Whether every topic has a subscriber."""
+        return all(publisher.get_subscription_count() > 0 for publisher in self._publishers.values())
+
+    def play(self, rate: float, sleep_until: Callable[[float], bool]) -> bool:
+        """Publish all messages once.
+
+        Parameters
+        ----------
+        rate : float
+            Speed; 2 plays twice as fast.
+        sleep_until : callable
+            Sleeps until a time of the monotonic clock [s]; returns False to stop.
+
+        Returns
+        -------
+        bool
+            False when it was stopped.
+
+        Raises
+        ------
+        RecordingError
+            The bag is damaged; everything before the damage has been published.
+        """
+        started_s = time.monotonic()
+        first_ns: int | None = None
+        for topic, stamp_ns, data in self._bag.messages(list(self._publishers)):
+            if first_ns is None:
+                first_ns = stamp_ns
+            # Every deadline counts from the start, so that delays do not add up.
+            deadline_s = started_s + (stamp_ns - first_ns) * 1e-9 / rate
+            if not sleep_until(deadline_s):
+                return False
+            self.report.worst_lateness_s = max(self.report.worst_lateness_s, time.monotonic() - deadline_s)
+            self._publishers[topic].publish(data)
+            self.report.published += 1
+        return True
+
+    def finish(self) -> None:
+        """Give reliable subscribers the time to get the last messages."""
+        for publisher in self._publishers.values():
+            publisher.wait_for_all_acked(Duration(nanoseconds=int(_ACKNOWLEDGE_S * 1e9)))

@@ -1,0 +1,130 @@
+"""Reading bags, also those whose recorder was killed and those that are damaged."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, cast
+
+from rosbags.interfaces import Connection, ConnectionExtRosbag2, Qos
+from rosbags.rosbag2 import Reader
+from rosbags.rosbag2.storage_mcap import McapReader
+
+from acts_core.errors import RecordingError
+from acts_tools.bags.salvage import WholeRecords
+
+
+@dataclass
+class Bag:
+    """An open bag.
+
+    Attributes
+    ----------
+    connections : list of Connection
+        Its topics.
+    note : str or None
+        What the user should know about its state.
+    """
+
+    connections: list[Connection]
+    note: str | None
+    _reader: Reader | McapReader
+    _path: Path
+
+    def topics(self) -> dict[str, str]:
+        """Message type by topic."""
+        return {connection.topic: connection.msgtype for connection in self.connections}
+
+    def recorded_qos(self, topic: str) -> list[Qos]:
+        """What the publishers of a topic offered."""
+        return [
+            profile
+            for connection in self.connections
+            if connection.topic == topic
+            for profile in cast(ConnectionExtRosbag2, connection.ext).offered_qos_profiles
+        ]
+
+    def messages(self, topics: Sequence[str]) -> Iterator[tuple[str, int, bytes]]:
+        """Topic, stamp [ns] and serialised message, in the order of their stamps.
+
+        Raises
+        ------
+        RecordingError
+            The bag is damaged; everything before the damage has been yielded.
+        """
+        wanted = [connection for connection in self.connections if connection.topic in topics]
+        if not wanted:
+            return
+        count = 0
+        reader = self._reader
+        try:
+            messages = reader.messages_scan(wanted) if isinstance(reader, McapReader) else reader.messages(wanted)
+            for connection, stamp_ns, data in messages:
+                yield connection.topic, stamp_ns, bytes(data)
+                count += 1
+        except Exception as error:  # damage shows in whatever way the reader stumbles over it
+            raise RecordingError(f"the bag '{self._path}' is damaged after {count} messages: {error}") from error
+        expected = sum(connection.msgcount for connection in wanted)
+        if count < expected:
+            raise RecordingError(
+                f"the bag '{self._path}' is damaged: {expected - count} of {expected} messages are lost"
+            )
+
+
+@contextmanager
+def open_bag(path: Path) -> Iterator[Bag]:
+    """Open a bag.
+
+    Parameters
+    ----------
+    path : Path
+        Folder in rosbag2's layout (MCAP or SQLite), or an MCAP file.
+
+    Raises
+    ------
+    RecordingError
+        There is no bag, or nothing in it can be read.
+    """
+    if not path.exists():
+        raise RecordingError(f"there is no bag '{path}'")
+    reader, note = _open_reader(path)
+    try:
+        yield Bag(list(reader.connections), note, reader, path)
+    finally:
+        reader.close()
+
+
+def _open_reader(path: Path) -> tuple[Reader | McapReader, str | None]:
+    if path.is_dir() and not (path / "metadata.yaml").exists():
+        return _salvage(path, "no metadata.yaml"), (
+            f"the bag '{path}' was never closed, its recorder was killed; what is whole of it is read"
+        )
+    try:
+        return _open_complete(path), None
+    except RecordingError as error:
+        return _salvage(path, str(error)), f"the bag '{path}' is damaged ({error}); what is whole of it is read"
+
+
+def _open_complete(path: Path) -> Reader:
+    try:
+        reader = Reader(path)
+        reader.open()
+    except Exception as error:
+        raise RecordingError(str(error) or type(error).__name__) from error
+    return reader
+
+
+def _salvage(path: Path, reason: str) -> McapReader:
+    """Read the whole records of an MCAP file that has no index."""
+    files = sorted(path.glob("*.mcap")) if path.is_dir() else [path]
+    if not files:
+        raise RecordingError(f"'{path}' holds no bag that can be read: {reason}, no MCAP file")
+    try:
+        # rosbags asks of a path only that it opens.
+        reader = McapReader(cast(Any, WholeRecords(files[0])))
+        reader.open()
+    except Exception as damage:
+        raise RecordingError(f"nothing in the bag '{path}' can be read: {damage}") from damage
+    return reader

@@ -1,0 +1,117 @@
+"""`acts record`: topics to an MCAP bag in rosbag2's layout."""
+
+from __future__ import annotations
+
+import argparse
+import time
+from contextlib import closing
+from datetime import datetime
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from acts_core.errors import RecordingError
+from acts_tools.bags import require_rosbags
+
+if TYPE_CHECKING:
+    from acts_tools.bags.recorder import Recorder
+    from acts_tools.bags.writing import BagWriter
+
+_TURN_S = 0.25
+
+
+def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add ``record`` to the acts command."""
+    parser = subparsers.add_parser(
+        "record",
+        help="record topics to a bag",
+        description="Record topics to an MCAP bag that `acts play`, `ros2 bag`, Foxglove and rosbags read. "
+        "Topics may appear later. Ctrl-C ends it; should it be killed, what is older than a second is kept.",
+    )
+    parser.add_argument("topics", nargs="*", help="topics, such as /plate/contact")
+    parser.add_argument("-a", "--all", action="store_true", help="all topics that are not hidden")
+    parser.add_argument("-o", "--output", type=Path, metavar="DIR", help="folder to make (default: rosbag2_<time>)")
+    parser.add_argument("-d", "--duration", type=float, metavar="SECONDS", help="end by itself after this time")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Run ``acts record``; 0 when every topic that was asked for has been recorded."""
+    if bool(arguments.topics) == arguments.all:
+        raise RecordingError("say which topics to record: either their names, or -a for all")
+    if arguments.duration is not None and not 0 < arguments.duration < float("inf"):
+        raise RecordingError(f"--duration {arguments.duration:g} is not a positive time in seconds")
+    topics = None if arguments.all else [f"/{name.lstrip('/')}" for name in arguments.topics]
+    path = arguments.output or Path(f"rosbag2_{datetime.now():%Y_%m_%d-%H_%M_%S}")
+    return record(path, topics, arguments.duration)
+
+
+def record(path: Path, topics: list[str] | None, duration_s: float | None) -> int:
+    """Record until the time is over or the user stops it.
+
+    Parameters
+    ----------
+    path : Path
+        Folder of the bag; it must not exist.
+    topics : list of str or None
+        Full names; None for all that are not hidden.
+    duration_s : float or None
+        Longest time [s].
+
+    Returns
+    -------
+    int
+        0 when every topic of the list has been recorded, 1 otherwise.
+
+    Raises
+    ------
+    RecordingError
+        The bag cannot be made or written.
+    """
+    require_rosbags()
+    # Late: they take time that the other commands need not spend.
+    import rclpy
+    from rclpy.signals import SignalHandlerOptions
+    from rclpy.task import Future
+
+    from acts_ros.executor import make_executor
+    from acts_tools.bags.recorder import Recorder
+    from acts_tools.bags.stopping import StopFlag
+    from acts_tools.bags.writing import BagWriter
+
+    bag = BagWriter(path)
+    started_s = time.monotonic()
+    with StopFlag() as stop:
+        rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+        node = rclpy.create_node("acts_recorder", start_parameter_services=False, enable_rosout=False)
+        executor = make_executor()
+        executor.add_node(node)
+        recorder = Recorder(node, bag, topics, _say)
+        _say(f"recording to {path}, Ctrl-C ends it")
+        try:
+            # The bag is closed before the graph is left: should that fail, it is complete already.
+            with closing(bag), closing(recorder):
+                while not stop.is_set and (duration_s is None or time.monotonic() - started_s < duration_s):
+                    recorder.discover()
+                    executor.spin_until_future_complete(Future(), timeout_sec=_TURN_S)
+                    bag.flush()
+        finally:
+            executor.shutdown()
+            node.destroy_node()
+            rclpy.try_shutdown()
+    _summarise(recorder, bag, time.monotonic() - started_s)
+    return 1 if topics is not None and (recorder.missing() or recorder.refused()) else 0
+
+
+def _summarise(recorder: Recorder, bag: BagWriter, elapsed_s: float) -> None:
+    records = sorted(recorder.records.values(), key=lambda record: record.topic)
+    width = max((len(record.topic) for record in records), default=0)
+    for record in records:
+        lost = "loss not known" if record.lost is None else f"{record.lost} lost"
+        _say(f"{record.topic:{width}}  {record.received:8d} messages  {lost}")
+    for topic in recorder.missing():
+        _say(f"never appeared: {topic}")
+    total = sum(record.received for record in records)
+    _say(f"{total} messages in {elapsed_s:.1f} s, {bag.size_bytes() / 1e6:.1f} MB in {bag.path}")
+
+
+def _say(text: str) -> None:
+    print(f"[record] {text}", flush=True)

@@ -1,0 +1,148 @@
+"""Subscribe to topics as they appear and write what they carry, unparsed, to a bag."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.subscription import Subscription
+from rclpy.topic_endpoint_info import TopicEndpointInfo
+
+from acts_core.errors import RecordingError
+from acts_tools.bags import qos
+from acts_tools.bags.message_types import Definitions, message_class
+from acts_tools.bags.writing import BagWriter
+
+try:
+    from rclpy.event_handler import SubscriptionEventCallbacks, UnsupportedEventTypeError
+except ImportError:  # Humble
+    from rclpy.qos_event import SubscriptionEventCallbacks, UnsupportedEventTypeError
+
+
+@dataclass
+class TopicRecord:
+    """What has been recorded of one topic.
+
+    Attributes
+    ----------
+    topic, message_type : str
+        Its name and type.
+    received : int
+        Messages written.
+    lost : int or None
+        Messages that the middleware reports as lost on the way; None when it cannot tell.
+    """
+
+    topic: str
+    message_type: str
+    received: int = 0
+    lost: int | None = 0
+
+
+class Recorder:
+    """Records topics of a graph.
+
+    Parameters
+    ----------
+    node : Node
+        Subscribes; somebody else spins it.
+    bag : BagWriter
+        Takes the messages.
+    topics : sequence of str or None
+        Full names of the topics; None for all that are not hidden.
+    say : callable
+        Takes a line for the user.
+    """
+
+    def __init__(self, node: Node, bag: BagWriter, topics: Sequence[str] | None, say: Callable[[str], None]) -> None:
+        self.records: dict[str, TopicRecord] = {}
+        self._node = node
+        self._bag = bag
+        self._topics = topics
+        self._say = say
+        self._definitions = Definitions()
+        self._handles: dict[str, Any] = {}
+        self._subscriptions: dict[str, Subscription] = {}
+        self._refused: set[str] = set()
+
+    def discover(self) -> None:
+        """Look for new topics and subscribe to them. Call it now and then."""
+        for topic, types in self._node.get_topic_names_and_types():
+            if topic in self._refused or not self._wanted(topic):
+                continue
+            offers = self._node.get_publishers_info_by_topic(topic)
+            if not offers:
+                continue  # its type and quality of service are the publishers' to say
+            if topic in self.records:
+                self._relax(topic, offers)
+                continue
+            try:
+                self._add(topic, types, offers)
+            except RecordingError as error:
+                self._refused.add(topic)
+                self._say(f"not recorded: {topic}: {error}")
+
+    def close(self) -> None:
+        """Unsubscribe; nothing is written any more."""
+        for subscription in self._subscriptions.values():
+            self._node.destroy_subscription(subscription)
+        self._subscriptions.clear()
+
+    def missing(self) -> list[str]:
+        """Topics that were asked for and have not appeared."""
+        return [topic for topic in self._topics or () if topic not in self.records and topic not in self._refused]
+
+    def refused(self) -> list[str]:
+        """Topics that have appeared and cannot be recorded."""
+        return sorted(self._refused)
+
+    def _wanted(self, topic: str) -> bool:
+        if self._topics is not None:
+            return topic in self._topics
+        return not any(part.startswith("_") for part in topic.split("/"))
+
+    def _add(self, topic: str, types: list[str], offers: list[TopicEndpointInfo]) -> None:
+        if len(types) != 1:
+            raise RecordingError(f"it is published with several types: {', '.join(types)}")
+        kind = message_class(types[0])
+        definition, type_hash = self._definitions.describe(types[0])
+        self._handles[topic] = self._bag.add_topic(topic, types[0], definition, type_hash, qos.to_bag(offers))
+        self.records[topic] = TopicRecord(topic, types[0])
+        self._subscribe(topic, kind, qos.for_subscription(offers))
+        self._say(f"recording {topic} ({types[0]})")
+
+    def _relax(self, topic: str, offers: list[TopicEndpointInfo]) -> None:
+        """Subscribe anew when a publisher has come whose offer is too weak for the present subscription."""
+        present, needed = self._subscriptions[topic].qos_profile, qos.for_subscription(offers)
+        too_strict = (
+            present.reliability == ReliabilityPolicy.RELIABLE and needed.reliability != ReliabilityPolicy.RELIABLE
+        ) or (
+            present.durability == DurabilityPolicy.TRANSIENT_LOCAL
+            and needed.durability != DurabilityPolicy.TRANSIENT_LOCAL
+        )
+        if too_strict:
+            self._node.destroy_subscription(self._subscriptions[topic])
+            self._subscribe(topic, message_class(self.records[topic].message_type), needed)
+
+    def _subscribe(self, topic: str, kind: type, profile: QoSProfile) -> None:
+        record = self.records[topic]
+        callback = partial(self._on_message, record, self._handles[topic])
+        events = SubscriptionEventCallbacks(message_lost=partial(_on_lost, record))
+        create = partial(self._node.create_subscription, kind, topic, callback, profile, raw=True)
+        try:
+            self._subscriptions[topic] = create(event_callbacks=events)
+        except UnsupportedEventTypeError:
+            record.lost = None
+            self._subscriptions[topic] = create()
+
+    def _on_message(self, record: TopicRecord, handle: Any, data: bytes) -> None:
+        self._bag.write(handle, data)
+        record.received += 1
+
+
+def _on_lost(record: TopicRecord, status: Any) -> None:
+    record.lost = (record.lost or 0) + int(status.total_count_change)

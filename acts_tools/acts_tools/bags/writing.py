@@ -1,0 +1,89 @@
+"""Writing a bag so that a crash costs no more than the last moment."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from typing import Any
+
+from rosbags.interfaces import Qos
+from rosbags.rosbag2 import StoragePlugin, Writer
+from rosbags.rosbag2.errors import WriterError
+from rosbags.rosbag2.storage_mcap import McapWriter
+
+from acts_core.errors import RecordingError
+from acts_tools import __version__
+
+# The newest rosbag2 metadata; the MCAP file itself is the same in all versions.
+_METADATA_VERSION = 9
+
+
+class BagWriter:
+    """An MCAP bag in rosbag2's layout.
+
+    Parameters
+    ----------
+    path : Path
+        Folder to make; it must not exist.
+
+    Raises
+    ------
+    RecordingError
+        The folder exists, or cannot be made.
+    """
+
+    def __init__(self, path: Path) -> None:
+        if path.exists():
+            raise RecordingError(f"'{path}' exists already and is not overwritten: choose another folder with -o")
+        self.path = path
+        self._last_stamp_ns = 0
+        try:
+            self._writer = Writer(path, version=_METADATA_VERSION, storage_plugin=StoragePlugin.MCAP)
+            # rosbags writes null where rosbag2 expects a map when there is none.
+            self._writer.set_custom_data("recorder", f"acts record {__version__}")
+            self._writer.open()
+        except (OSError, WriterError) as error:
+            raise RecordingError(f"cannot make the bag '{path}': {error}") from error
+
+    def add_topic(self, topic: str, message_type: str, definition: str, type_hash: str, offered: list[Qos]) -> Any:
+        """Add a topic; what is returned is its handle for `write`."""
+        return self._writer.add_connection(
+            topic, message_type, msgdef=definition, rihs01=type_hash, offered_qos_profiles=offered
+        )
+
+    def write(self, topic: Any, data: bytes) -> None:
+        """Write one serialised message, stamped now. Stamps never go back, also when the clock does."""
+        self._last_stamp_ns = max(time.time_ns(), self._last_stamp_ns)
+        try:
+            self._writer.write(topic, self._last_stamp_ns, data)
+        except OSError as error:
+            raise self._write_error(error) from error
+
+    def flush(self) -> None:
+        """Hand everything so far to the operating system: from then on it survives the end of this process."""
+        storage = self._writer.storage
+        assert isinstance(storage, McapWriter)
+        try:
+            # A chunk is whole or lost; one without messages would have no valid times.
+            if storage.chunk.msgs:
+                storage.close_chunk()
+            storage.bio.flush()
+        except OSError as error:
+            raise self._write_error(error) from error
+
+    def close(self) -> None:
+        """Finish the bag with its index and ``metadata.yaml``."""
+        if sum(self._writer.counts.values()) == 0:
+            # Otherwise the metadata say that it starts in the year 2262.
+            self._writer.min_timestamp = self._writer.max_timestamp = 0
+        try:
+            self._writer.close()
+        except OSError as error:
+            raise self._write_error(error) from error
+
+    def size_bytes(self) -> int:
+        """Size of its files."""
+        return sum(path.stat().st_size for path in self.path.iterdir())
+
+    def _write_error(self, error: OSError) -> RecordingError:
+        return RecordingError(f"cannot write to the bag '{self.path}': {error.strerror}. What is in it can be played.")
