@@ -40,14 +40,19 @@ class DriverNode(LifecycleNode):
         self._reader: Reader | None = None
         self._report: DriverReport | None = None
         self._problem = ""
-        self._autostart_timer: Timer | None = None
+        self._autostart_timers: list[Timer] = []
+        self._is_waiting = False
         frame_id = self._settings.frame_id or self.get_namespace().strip("/").replace("/", "_") or "skin"
         self._message = SamplesMessage(frame_id)
         # Not made in on_configure: subscribers then are matched before the first frame.
         self._publisher = self.create_publisher(TactileSamples, "samples", STREAM, qos_overriding_options=OVERRIDABLE)
         self._diagnostics = DiagnosticsReporter(self, self._settings.port, self._make_report)
         if self._settings.autostart:
-            self._autostart()
+            # At once and then again and again. Not in the constructor: a signal would meet a half-made node.
+            self._autostart_timers = [
+                self.create_timer(0.001, self._autostart_at_once),
+                self.create_timer(self._settings.reconnect_s, self._autostart),
+            ]
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Open the port and begin to read."""
@@ -112,18 +117,27 @@ class DriverNode(LifecycleNode):
         if reader is not None:
             reader.stop()
 
+    def _autostart_at_once(self) -> None:
+        if self._autostart_timers:
+            self._autostart_timers[0].cancel()
+            self._autostart()
+
     def _autostart(self) -> None:
+        """Configure and activate, unless that was done or stopped meanwhile."""
+        if not self._autostart_timers:
+            return
         if self.trigger_configure() == SUCCESS:
             self._stop_autostart()
             self.trigger_activate()
-        elif self._autostart_timer is None:
+        elif not self._is_waiting:
+            self._is_waiting = True
             self.get_logger().info(f"waiting for {self._settings.port}")
-            self._autostart_timer = self.create_timer(self._settings.reconnect_s, self._autostart)
 
     def _stop_autostart(self) -> None:
-        timer, self._autostart_timer = self._autostart_timer, None
-        if timer is not None:
-            self.destroy_timer(timer)
+        timers, self._autostart_timers = self._autostart_timers, []
+        for timer in timers:
+            # Not destroyed: this may be called from one of them.
+            timer.cancel()
 
     def _on_frames(self, frames: list[SampleFrame], arrival_ns: int) -> None:
         """Publish; on the reader's thread."""

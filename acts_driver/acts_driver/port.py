@@ -12,6 +12,8 @@ from serial.tools import list_ports
 
 from acts_core.errors import PortError
 
+_LINK_TOLERANCE_NS = 100_000_000
+
 
 def open_port(path: str, baud: int) -> serial.Serial:
     """Open a port for this process alone.
@@ -29,6 +31,11 @@ def open_port(path: str, baud: int) -> serial.Serial:
         With the ports that are present where `path` is missing, who may hold it where it is busy, and which group to
         join where the permission is missing.
     """
+    if is_stale_link(path):
+        raise PortError(
+            f"port {_shown(path)} is not there: the link is older than that terminal, so its board is gone and another "
+            "program has the terminal; start the board again"
+        )
     try:
         return serial.Serial(path, baudrate=baud, timeout=0, exclusive=True)
     except (serial.SerialException, OSError, termios.error, ValueError) as error:
@@ -61,6 +68,22 @@ def explain(path: str, number: int | None, reason: str) -> str:
     if number == errno.ENOTTY:
         return f"{_shown(path)} is no serial port. {ports_present()}"
     return f"port {_shown(path)} cannot be opened: {reason}. {ports_present()}"
+
+
+def is_stale_link(path: str) -> bool:
+    """Whether a link points to a pseudo-terminal that was made after it.
+
+    A simulated board that was killed leaves its link behind, and its terminal's number soon belongs to somebody else,
+    whose input would be taken.
+    """
+    target = os.path.realpath(path)
+    if not Path(path).is_symlink() or not target.startswith("/dev/pts/"):
+        return False
+    try:
+        return Path(target).stat().st_ctime_ns > Path(path).lstat().st_mtime_ns + _LINK_TOLERANCE_NS
+    except OSError:
+        # Gone by now; opening tells.
+        return False
 
 
 def ports_present() -> str:

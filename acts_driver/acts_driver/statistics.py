@@ -9,7 +9,8 @@ _HALF = 1 << 31
 _BIN_NS = 100_000_000
 _BINS = 10
 _RECENT = 64
-_CLOCKS_AGREE_NS = 500_000_000
+_CLOCKS_AGREE_NS = 50_000_000
+_DRIFT_MAX = 500e-6
 
 
 class StreamStatistics:
@@ -61,10 +62,11 @@ class StreamStatistics:
         """
         if self._sequence >= 0:
             missing = (sequence - self._sequence - 1) % _MODULUS
-            if missing >= _HALF and self._came_before(sequence, board_us):
+            was_off = self._reconnected and self._was_off(board_us, arrival_ns)
+            if missing >= _HALF and not was_off and self._came_before(sequence, board_us):
                 self.repeated += 1
                 return False
-            if missing >= _HALF or board_us < self._board_us or self._was_off(board_us, arrival_ns):
+            if missing >= _HALF or board_us < self._board_us or was_off:
                 self.restarts += 1
                 self._recent.clear()
             else:
@@ -100,8 +102,9 @@ class StreamStatistics:
 
     def _was_off(self, board_us: int, arrival_ns: int) -> bool:
         """Whether, after a reconnection, the board's clock tells that the board was without power meanwhile."""
-        board_ns = (board_us - self._board_us) * 1000
-        return self._reconnected and abs(board_ns - (arrival_ns - self._arrival_ns)) > _CLOCKS_AGREE_NS
+        passed_ns = arrival_ns - self._arrival_ns
+        difference_ns = (board_us - self._board_us) * 1000 - passed_ns
+        return abs(difference_ns) > _CLOCKS_AGREE_NS + _DRIFT_MAX * passed_ns
 
     def _count_rate(self, arrival_ns: int) -> None:
         number = arrival_ns // _BIN_NS

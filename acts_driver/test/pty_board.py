@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import select
 import time
 import tty
 from collections.abc import Callable
@@ -53,13 +54,16 @@ class PtyBoard:
         """Open a new pseudo-terminal and set the link."""
         self._master, self._slave = os.openpty()
         tty.setraw(self._slave)
+        os.set_blocking(self._master, False)
         link = self.path.with_suffix(".new")
         link.symlink_to(os.ttyname(self._slave))
         link.replace(self.path)
 
     def write(self, data: bytes) -> None:
-        """Write all of it, however little the reader takes at a time."""
+        """Write all of it, however little the reader takes at a time; fail when nobody reads."""
         while data:
+            _, writable, _ = select.select([], [self._master], [], DEADLINE_S)
+            assert writable, "nobody reads the pseudo-terminal"
             data = data[os.write(self._master, data) :]
 
     def write_frames(self, *frames: SampleFrame) -> None:
@@ -67,7 +71,8 @@ class PtyBoard:
         self.write(b"".join(map(encode_frame, frames)))
 
     def unplug(self) -> None:
-        """Close the pseudo-terminal; the link is left dangling."""
+        """Close the pseudo-terminal and remove the link, as udev does."""
+        self.path.unlink(missing_ok=True)
         for descriptor in (self._slave, self._master):
             if descriptor >= 0:
                 os.close(descriptor)

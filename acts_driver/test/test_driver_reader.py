@@ -13,7 +13,7 @@ from acts_core.errors import PortError
 from acts_core.frames import SampleFrame
 from acts_core.raster_ascii import RasterDecoder
 from acts_core.wire import StreamDecoder, encode_frame
-from acts_driver.port import explain, open_port
+from acts_driver.port import explain, is_stale_link, open_port
 from acts_driver.reader import Reader
 from acts_driver.source import SerialSource
 
@@ -183,6 +183,17 @@ def test_a_dangling_link_tells_where_it_points(tmp_path: Path) -> None:
     (tmp_path / "board").symlink_to("/dev/pts/nothing")
     with pytest.raises(PortError, match=r"board \(a link to /dev/pts/nothing\) is not there"):
         open_port(str(tmp_path / "board"), 115200)
+
+
+def test_a_link_older_than_its_terminal_is_stale(board: PtyBoard, tmp_path: Path) -> None:
+    # As when a board was killed and its terminal's number has gone to another program.
+    link = tmp_path / "stale"
+    link.symlink_to(board.path.readlink())
+    assert not is_stale_link(str(link))
+    os.utime(link, (0, 0), follow_symlinks=False)
+    assert is_stale_link(str(link))
+    with pytest.raises(PortError, match="is not there: the link is older"):
+        open_port(str(link), 115200)
 
 
 def test_a_plain_file_is_no_port(tmp_path: Path) -> None:

@@ -1,0 +1,5 @@
+"""Message fields are checked in every test, however it is started."""
+
+import os
+
+os.environ.setdefault("ROS_PYTHON_CHECK_FIELDS", "1")

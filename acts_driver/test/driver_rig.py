@@ -1,0 +1,153 @@
+"""A driver and a listener on one executor, and driver processes; every rig has its own ROS_DOMAIN_ID (20 to 39)."""
+
+from __future__ import annotations
+
+import itertools
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable
+
+import rclpy
+from diagnostic_msgs.msg import DiagnosticArray
+from lifecycle_msgs.srv import ChangeState, GetState
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+
+from acts_driver.driver_node import DriverNode
+from acts_msgs.msg import TactileSamples
+from acts_ros.qos import STREAM
+
+DEADLINE_S = 20.0
+_domains = itertools.count(20)
+
+
+class Rig:
+    """Spins what a test adds to it, and keeps what arrives."""
+
+    def __init__(self) -> None:
+        self.domain_id = next(_domains)
+        assert self.domain_id < 40
+        self.context = Context()
+        rclpy.init(args=[], context=self.context, domain_id=self.domain_id)
+        self.listener = Node("listener", namespace="/plate", context=self.context)
+        self.executor = SingleThreadedExecutor(context=self.context)
+        self.executor.add_node(self.listener)
+        self.samples: list[TactileSamples] = []
+        self.statuses: list[dict[str, str]] = []
+        self.subscription = self.listener.create_subscription(TactileSamples, "samples", self.samples.append, STREAM)
+        self.listener.create_subscription(DiagnosticArray, "/diagnostics", self._keep_status, 10)
+        self.driver: DriverNode | None = None
+
+    def _keep_status(self, message: DiagnosticArray) -> None:
+        for status in message.status:
+            values = {value.key: value.value for value in status.values}
+            self.statuses.append(
+                {**values, "name": status.name, "level": str(status.level[0]), "message": status.message}
+            )
+
+    def start_driver(self, **parameters: object) -> DriverNode:
+        """A driver in this process."""
+        arguments = ["--ros-args"]
+        for name, value in parameters.items():
+            text = str(value).lower() if isinstance(value, bool) else str(value)
+            arguments += ["-p", f"{name}:={text}"]
+        self.driver = DriverNode(namespace="/plate", context=self.context, cli_args=arguments)
+        self.executor.add_node(self.driver)
+        return self.driver
+
+    def spin_until(self, condition: Callable[[], object], what: str) -> None:
+        """Run callbacks until a condition is true; fail by name when it does not come true."""
+        end = time.monotonic() + DEADLINE_S
+        while not condition():
+            assert time.monotonic() < end, f"waited {DEADLINE_S:g} s for {what}; last status {self.statuses[-1:]}"
+            self.executor.spin_once(timeout_sec=0.02)
+
+    def wait_until_active(self) -> None:
+        """Until the driver publishes and the listener hears it."""
+        self.wait_for_match()
+        self.spin_until(lambda: self.driver is not None and self.driver._active, "the active driver")
+
+    def wait_for_match(self) -> None:
+        """Until the driver's samples reach the listener."""
+        self.spin_until(lambda: self.listener.count_publishers("/plate/samples") == 1, "the publisher")
+        driver = self.driver
+        if driver is not None:
+            self.spin_until(lambda: driver.count_subscribers("/plate/samples") == 1, "the subscription")
+
+    def status_until(self, condition: Callable[[dict[str, str]], object], what: str) -> dict[str, str]:
+        """The first status from now on that fulfils a condition."""
+        self.statuses.clear()
+        self.spin_until(lambda: any(map(condition, self.statuses)), what)
+        return next(filter(condition, self.statuses))
+
+    def change_state(self, transition: int) -> bool:
+        """Ask the driver for a transition over its service; whether it succeeded."""
+        client = self.listener.create_client(ChangeState, "driver/change_state")
+        self.spin_until(client.service_is_ready, "the driver's services")
+        request = ChangeState.Request()
+        request.transition.id = transition
+        future = client.call_async(request)
+        self.spin_until(future.done, f"transition {transition}")
+        self.listener.destroy_client(client)
+        return bool(future.result().success)
+
+    def state(self) -> str:
+        """Label of the driver's state, over its service."""
+        client = self.listener.create_client(GetState, "driver/get_state")
+        self.spin_until(client.service_is_ready, "the driver's services")
+        future = client.call_async(GetState.Request())
+        self.spin_until(future.done, "the state")
+        self.listener.destroy_client(client)
+        return str(future.result().current_state.label)
+
+    def close(self) -> None:
+        """Shut everything down."""
+        self.executor.shutdown()
+        if self.driver is not None:
+            self.driver.close()
+            self.driver.destroy_node()
+        self.listener.destroy_node()
+        rclpy.try_shutdown(context=self.context)
+
+
+def start_process(domain_id: int, *arguments: str) -> subprocess.Popen[str]:
+    """The executable `driver` as a process, in namespace /plate."""
+    code = "from acts_driver.driver_node import main; main()"
+    return subprocess.Popen(
+        [sys.executable, "-c", code, "--ros-args", "-r", "__ns:=/plate", *arguments],
+        env={**os.environ, "ROS_DOMAIN_ID": str(domain_id), "ROS_PYTHON_CHECK_FIELDS": "1"},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+    )
+
+
+def read_until(process: subprocess.Popen[str], words: str) -> str:
+    """What a process prints up to the line with these words; it is killed when that does not come."""
+    assert process.stdout is not None
+    read = ""
+    watchdog = threading.Timer(DEADLINE_S, process.kill)
+    watchdog.start()
+    for line in process.stdout:
+        read += line
+        if words in line:
+            break
+    watchdog.cancel()
+    assert words in read, read
+    return read
+
+
+def end_process(process: subprocess.Popen[str], deadline_s: float = 20.0) -> str:
+    """Ask a process to end and return all it printed; kill it only when it does not."""
+    process.send_signal(signal.SIGINT)
+    try:
+        return process.communicate(timeout=deadline_s)[0]
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.communicate()
+        raise
