@@ -58,7 +58,7 @@ def talker(prefix: Prefix) -> LaunchFile:
 @launch_test(talker)
 def test_a_launched_node_has_its_namespace_parameters_and_remaps(talker: Launched) -> None:
     assert talker.wait_for_message("/plate/said", String).data == "123"
-    assert ("speaker", "/plate") in talker.probe.node.get_node_names_and_namespaces()
+    talker.wait_for_node("/plate/speaker")
     talker.wait_for_output("talking")
     assert len(talker.wait_for_messages("/plate/said", String, count=3)) == 3
     assert talker.stop() == 0

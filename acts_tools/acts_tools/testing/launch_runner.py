@@ -118,6 +118,10 @@ class Launched(ABC):
         """Wait until a text has been written."""
         self.wait_for(lambda: text in self.output, timeout_s, f"`{text}` in the output")
 
+    def wait_for_node(self, name: str, timeout_s: float = 30.0) -> None:
+        """Wait until a node of a full name such as ``/plate/driver`` is there."""
+        self._show_on_failure(lambda: self.probe.wait_for_node(name, timeout_s))
+
     def wait_for_publisher(self, topic: str, timeout_s: float = 30.0) -> None:
         """Wait until somebody publishes a topic."""
         self._show_on_failure(lambda: self.probe.wait_for_publisher(topic, timeout_s))

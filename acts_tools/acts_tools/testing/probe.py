@@ -69,6 +69,13 @@ class Probe:
         """Wait until somebody publishes a topic."""
         self.wait_for(lambda: self.node.count_publishers(topic) > 0, timeout_s, f"a publisher of {topic}")
 
+    def wait_for_node(self, name: str, timeout_s: float = 30.0) -> None:
+        """Wait until a node of a full name such as ``/plate/driver`` is there."""
+        namespace, _, short = name.rpartition("/")
+        wanted = (short, namespace or "/")
+        # It is announced apart from its topics, often later than the first messages.
+        self.wait_for(lambda: wanted in self.node.get_node_names_and_namespaces(), timeout_s, f"the node {name}")
+
     def wait_for_messages(self, topic: str, message_type: type, count: int, timeout_s: float = 30.0) -> list[Any]:
         """Subscribe with the publishers' own quality of service and wait for some messages."""
         self.wait_for_publisher(topic, timeout_s)
