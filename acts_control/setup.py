@@ -18,5 +18,12 @@ setup(
     maintainer_email="acts-maintainers@example.org",
     description="Control by touch: ball balancing on a UR5e.",
     license="Apache-2.0",
-    entry_points={"console_scripts": []},
+    entry_points={
+        "console_scripts": [
+            "ball_balancing = acts_control.ball_balancing:main",
+            "ball_control = acts_control.ball_control_node:main",
+            "ball_state = acts_control.ball_state_node:main",
+            "ball_trajectory = acts_control.ball_trajectory_node:main",
+        ],
+    },
 )

@@ -1,0 +1,155 @@
+"""The node `ball_control`: estimate and reference in, joint angles to the UR5e out."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from geometry_msgs.msg import Vector3Stamped
+from rclpy.node import Node
+from std_srvs.srv import Trigger
+
+from acts_control.controller import BallReport, Phase, ReferenceReport
+from acts_control.loop import ControlLoop, LoopConfig, LoopStatus
+from acts_control.names import (
+    REFERENCE_TOPIC,
+    STATE_TOPIC,
+    STATUS_TOPIC,
+    TILT_TOPIC,
+    frame_of,
+    publish,
+    set_stamp,
+    to_ns,
+)
+from acts_control.pid import Ball, JerkFinder, Reference
+from acts_control.robot import Robot, UrRobot
+from acts_core.settings import setting
+from acts_msgs.msg import BalanceStatus, BallReference, BallState
+from acts_ros.diagnostics import ERROR, OK, WARN, DiagnosticsReporter, Report
+from acts_ros.executor import run
+from acts_ros.parameters import declare, node_options
+from acts_ros.qos import STATE, STREAM
+
+# Nothing older than this means anything; it stands for "never" in the status.
+_LONG_AGO_S = 1e6
+
+_LEVELS = {Phase.CONNECTING: WARN, Phase.STOPPED: ERROR}
+
+
+@dataclass(frozen=True)
+class BallControlSettings(LoopConfig):
+    """Parameters of the node."""
+
+    status_rate_hz: float = setting(50.0, "how often the status is published", minimum=1.0, maximum=500.0)
+    frame_id: str = setting("", "frame of the skin; empty: the name of the namespace")
+
+
+class BallControlNode(Node):
+    """Hands messages to the control loop's thread and publishes what it does.
+
+    Parameters
+    ----------
+    make_robot : callable
+        Makes the arm from the settings; by default a UR5e.
+    """
+
+    def __init__(self, make_robot: Callable[[BallControlSettings], Robot] = UrRobot, **node_arguments: Any) -> None:
+        super().__init__("ball_control", **node_options(), **node_arguments)
+        settings = declare(self, BallControlSettings)
+        self._jerk = JerkFinder()
+        self._told = LoopStatus()
+        frame_id = frame_of(self, settings.frame_id)
+        self._status = BalanceStatus()
+        self._status.header.frame_id = frame_id
+        self._tilt = Vector3Stamped()
+        self._tilt.header.frame_id = frame_id
+        self._status_publisher = self.create_publisher(BalanceStatus, STATUS_TOPIC, STATE)
+        self._tilt_publisher = self.create_publisher(Vector3Stamped, TILT_TOPIC, STREAM)
+        clock = self.get_clock()
+        self._loop = ControlLoop(settings, make_robot(settings), lambda: clock.now().nanoseconds, self._on_step)
+        self.create_subscription(BallState, STATE_TOPIC, self._on_state, STATE)
+        self.create_subscription(BallReference, REFERENCE_TOPIC, self._on_reference, STATE)
+        self.create_service(Trigger, "~/start", self._on_start)
+        self.create_service(Trigger, "~/stop", self._on_stop)
+        self.create_timer(1.0 / settings.status_rate_hz, self._publish_status)
+        self._diagnostics = DiagnosticsReporter(self, settings.robot_ip, self._report)
+        self._loop.launch()
+
+    def close(self) -> None:
+        """Stop the robot in order."""
+        self._loop.close()
+
+    def _on_state(self, message: BallState) -> None:
+        position, velocity = message.position, message.velocity
+        self._loop.ball = BallReport(
+            to_ns(message.header.stamp), message.valid, Ball(position.x, position.y, velocity.x, velocity.y)
+        )
+
+    def _on_reference(self, message: BallReference) -> None:
+        position, velocity, acceleration = message.position, message.velocity, message.acceleration
+        stamp_ns = to_ns(message.header.stamp)
+        reference = Reference(position.x, position.y, velocity.x, velocity.y, acceleration.x, acceleration.y)
+        self._loop.reference = ReferenceReport(stamp_ns, self._jerk.step(stamp_ns, reference))
+
+    def _on_step(self, now_ns: int, tilt_rad: tuple[float, float]) -> None:
+        # From the loop's thread.
+        set_stamp(self._tilt.header.stamp, now_ns)
+        self._tilt.vector.x, self._tilt.vector.y = tilt_rad
+        publish(self, self._tilt_publisher, self._tilt)
+
+    def _on_start(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        response.success = self._loop.start()
+        response.message = "started" if response.success else f"already {self._loop.status.phase.name.lower()}"
+        return response
+
+    def _on_stop(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        response.success = self._loop.stop("stopped by request")
+        response.message = "stopping" if response.success else "already stopped"
+        return response
+
+    def _publish_status(self) -> None:
+        status, message = self._loop.status, self._status
+        if (status.phase, status.reason) != (self._told.phase, self._told.reason):
+            self._tell(status)
+        self._told = status
+        set_stamp(message.header.stamp, self.get_clock().now().nanoseconds)
+        message.state = int(status.phase)
+        message.reason = status.reason
+        message.error.x, message.error.y = status.error_m
+        message.tilt_commanded.x, message.tilt_commanded.y = status.tilt_commanded_rad
+        message.tilt_measured.x, message.tilt_measured.y = status.tilt_measured_rad
+        message.joints_commanded = list(status.joints_rad)
+        message.touch_age = min(status.touch_age_s, _LONG_AGO_S)
+        message.steps = status.steps
+        message.late_steps = status.late_steps
+        publish(self, self._status_publisher, message)
+
+    def _tell(self, status: LoopStatus) -> None:
+        text = f"{status.phase.name.lower()}: {status.reason}"
+        if status.phase is Phase.STOPPED:
+            self.get_logger().warning(text)
+        else:
+            self.get_logger().info(text)
+
+    def _report(self) -> Report:
+        status = self._loop.status
+        values = {
+            "state": status.phase.name,
+            "touch_age_ms": 1e3 * min(status.touch_age_s, _LONG_AGO_S),
+            "error_x_mm": 1e3 * status.error_m[0],
+            "error_y_mm": 1e3 * status.error_m[1],
+            "steps": status.steps,
+            "late_steps": status.late_steps,
+        }
+        return _LEVELS.get(status.phase, OK), f"{status.phase.name.lower()}: {status.reason}", values
+
+
+def main() -> int:
+    """Run the node."""
+    return run([BallControlNode])
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,219 @@
+"""Kalman filter on the centre of pressure: where the ball is and how fast it rolls.
+
+The model is that of the paper's S16: position and velocity along x and y, accelerated by the tilt of the plate. Two
+things are added. A rolling ball feels 5/7 of gravity. And the plate does not turn about its own centre but about wrist
+axes a lever arm L below the ball, so that turning it also carries it sideways under the ball::
+
+    d2x/dt2 = 5/7 (g lean - L d2lean/dt2)          lean = tilt_y for x, -tilt_x for y
+
+The filter therefore follows ``z = x + 5/7 L lean``, for which only gravity is left: ``d2z/dt2 = 5/7 g lean``. A
+controller of x meets a right half-plane zero at sqrt(g / L), 8 rad/s for the default; z has none. Both axes have the
+same noise, so they share one covariance.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import isfinite, sqrt
+from typing import NamedTuple
+
+from acts_control.plate import LEVER_ARM_SETTING, ROLLING, acceleration_of
+from acts_core.settings import setting, validate
+
+_NS = 1e-9
+
+# Speeds a ball may have when it is first touched.
+_START_SPEED_M_S = 0.3
+
+# A stamp this much older than the newest one is a new time base (a driver or clock began anew), not a late message.
+_NEW_TIME_BASE_NS = 1_000_000_000
+
+
+@dataclass(frozen=True)
+class EstimatorConfig:
+    """How far touch is trusted, and for how long the ball may be unseen."""
+
+    measurement_sigma_m: float = setting(
+        0.001, "standard deviation of the centre of pressure of one frame [m]", minimum=1e-5, maximum=0.02
+    )
+    acceleration_noise: float = setting(
+        0.02,
+        "how much the ball accelerates beside the model, square root of the spectral density [m/s^2/sqrt(Hz)]",
+        minimum=1e-5,
+        maximum=10.0,
+    )
+    gate_sigmas: float = setting(
+        5.0, "a centre of pressure farther from the prediction than this many deviations is left out", minimum=1.0
+    )
+    gate_reset_s: float = setting(
+        0.03, "when everything was left out for so long, the estimate begins anew [s]", minimum=0.001, maximum=1.0
+    )
+    lost_after_s: float = setting(
+        0.1, "without contact for longer than this the estimate is not valid [s]", minimum=0.001, maximum=2.0
+    )
+    lever_arm_m: float = LEVER_ARM_SETTING
+
+    def __post_init__(self) -> None:
+        validate(self)
+
+
+class ContactMeasurement(NamedTuple):
+    """What one contact message says.
+
+    Attributes
+    ----------
+    stamp_ns : int
+        Time of measurement [ns].
+    in_contact : bool
+        Whether anything was touched; without it the position is not looked at.
+    x_m, y_m : float
+        Centre of pressure in the skin's frame [m].
+    """
+
+    stamp_ns: int
+    in_contact: bool
+    x_m: float
+    y_m: float
+
+
+@dataclass
+class EstimatorState:
+    """The estimate, and what was counted on the way.
+
+    Attributes
+    ----------
+    stamp_ns : int
+        Time the estimate holds for: the newest accepted message [ns].
+    valid : bool
+        Whether position and velocity may be used; they are 0 otherwise.
+    x_m, y_m : float
+        Position in the skin's frame [m].
+    vx_m_s, vy_m_s : float
+        Velocity in the skin's frame, without the part that the plate has by turning under the ball: dz/dt [m/s]. It is
+        the velocity of the ball against the plate while that keeps its tilt.
+    sigma_m : float
+        One standard deviation of the position along each axis [m].
+    received, without_contact, outliers, not_finite, out_of_order, restarts : int
+        Messages of all kinds; those without contact; outside the gate; with a NaN or infinity; repeated or older than
+        one before; and how often the estimate began anew.
+    """
+
+    stamp_ns: int = 0
+    valid: bool = False
+    x_m: float = 0.0
+    y_m: float = 0.0
+    vx_m_s: float = 0.0
+    vy_m_s: float = 0.0
+    sigma_m: float = 0.0
+    received: int = 0
+    without_contact: int = 0
+    outliers: int = 0
+    not_finite: int = 0
+    out_of_order: int = 0
+    restarts: int = 0
+
+
+class BallEstimator:
+    """Follows one ball.
+
+    Attributes
+    ----------
+    config : EstimatorConfig
+    state : EstimatorState
+        Changed in place by `step`.
+    """
+
+    def __init__(self, config: EstimatorConfig) -> None:
+        self.config = config
+        self.state = EstimatorState()
+        self._lever = ROLLING * config.lever_arm_m
+        self._contact_ns = 0
+        # The filter's own position and velocity along x and y, and its covariance.
+        self._zx = self._zy = self._wx = self._wy = 0.0
+        self._pzz = self._pzw = self._pww = 0.0
+        self._lean_x = self._lean_y = 0.0
+
+    def set_tilt(self, tilt_x_rad: float, tilt_y_rad: float) -> None:
+        """Tell the tilt of the plate from now on; without it the plate is taken to be level.
+
+        Parameters
+        ----------
+        tilt_x_rad, tilt_y_rad : float
+            Rotation vector about the skin's x and y axes [rad]. Ignored when not finite.
+        """
+        if isfinite(tilt_x_rad) and isfinite(tilt_y_rad):
+            self._lean_x, self._lean_y = tilt_y_rad, -tilt_x_rad
+
+    def step(self, measurement: ContactMeasurement) -> None:
+        """Take in one contact message."""
+        state = self.state
+        state.received += 1
+        stamp_ns, in_contact, x, y = measurement
+        if in_contact and not (isfinite(x) and isfinite(y)):
+            state.not_finite += 1
+            return
+        if stamp_ns <= state.stamp_ns:
+            if stamp_ns > state.stamp_ns - _NEW_TIME_BASE_NS:
+                state.out_of_order += 1
+                return
+            state.valid = False
+        dt = (stamp_ns - state.stamp_ns) * _NS
+        state.stamp_ns = stamp_ns
+        if state.valid and (stamp_ns - self._contact_ns) * _NS > self.config.lost_after_s:
+            state.valid = False
+        if state.valid:
+            self._predict(dt)
+        if not in_contact:
+            state.without_contact += 1
+        else:
+            zx, zy = x + self._lever * self._lean_x, y + self._lever * self._lean_y
+            if not state.valid or not self._correct(zx, zy, stamp_ns):
+                self._restart(zx, zy, stamp_ns)
+        self._publish()
+
+    def _restart(self, zx: float, zy: float, stamp_ns: int) -> None:
+        self._zx, self._zy, self._wx, self._wy = zx, zy, 0.0, 0.0
+        self._pzz, self._pzw, self._pww = self.config.measurement_sigma_m**2, 0.0, _START_SPEED_M_S**2
+        self._contact_ns = stamp_ns
+        self.state.valid = True
+        self.state.restarts += 1
+
+    def _predict(self, dt: float) -> None:
+        ax, ay = acceleration_of(-self._lean_y, self._lean_x)
+        self._zx += dt * (self._wx + 0.5 * dt * ax)
+        self._zy += dt * (self._wy + 0.5 * dt * ay)
+        self._wx += dt * ax
+        self._wy += dt * ay
+        # P <- F P F' + Q with Q that of white acceleration of density q.
+        q = self.config.acceleration_noise**2
+        self._pzz += dt * (2.0 * self._pzw + dt * (self._pww + q * dt / 3.0))
+        self._pzw += dt * (self._pww + 0.5 * q * dt)
+        self._pww += q * dt
+
+    def _correct(self, zx: float, zy: float, stamp_ns: int) -> bool:
+        """Take in a position; False when the estimate no longer has to do with what is touched."""
+        ex, ey = zx - self._zx, zy - self._zy
+        s = self._pzz + self.config.measurement_sigma_m**2
+        if ex * ex + ey * ey > self.config.gate_sigmas**2 * s:
+            self.state.outliers += 1
+            return (stamp_ns - self._contact_ns) * _NS <= self.config.gate_reset_s
+        kz, kw = self._pzz / s, self._pzw / s
+        self._zx += kz * ex
+        self._zy += kz * ey
+        self._wx += kw * ex
+        self._wy += kw * ey
+        self._pww -= kw * self._pzw
+        self._pzw -= kz * self._pzw
+        self._pzz -= kz * self._pzz
+        self._contact_ns = stamp_ns
+        return True
+
+    def _publish(self) -> None:
+        state = self.state
+        if not state.valid:
+            state.x_m = state.y_m = state.vx_m_s = state.vy_m_s = state.sigma_m = 0.0
+            return
+        state.x_m = self._zx - self._lever * self._lean_x
+        state.y_m = self._zy - self._lever * self._lean_y
+        state.vx_m_s, state.vy_m_s = self._wx, self._wy
+        state.sigma_m = sqrt(self._pzz)

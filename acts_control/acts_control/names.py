@@ -1,0 +1,41 @@
+"""Names and small translations that the three nodes share."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rclpy.node import Node
+from rclpy.publisher import Publisher
+
+STATE_TOPIC = "ball/state"
+REFERENCE_TOPIC = "ball/reference"
+STATUS_TOPIC = "ball/status"
+TILT_TOPIC = "ball/tilt"
+CONTACT_TOPIC = "contact"
+STATISTICS_TOPIC = "contact_statistics"
+
+_NS_PER_S = 1_000_000_000
+
+
+def to_ns(stamp: Any) -> int:
+    """A builtin_interfaces/Time as nanoseconds."""
+    return int(stamp.sec * _NS_PER_S + stamp.nanosec)
+
+
+def set_stamp(stamp: Any, time_ns: int) -> None:
+    """Write nanoseconds into a builtin_interfaces/Time."""
+    stamp.sec, stamp.nanosec = divmod(time_ns, _NS_PER_S)
+
+
+def frame_of(node: Node, frame_id: str) -> str:
+    """The skin's frame: as set, or else the node's namespace."""
+    return frame_id or node.get_namespace().strip("/").replace("/", "_") or "skin"
+
+
+def publish(node: Node, publisher: Publisher, message: Any) -> None:
+    """Publish, unless the context has gone: a signal ends it while callbacks and the stopping arm still run."""
+    try:
+        publisher.publish(message)
+    except RuntimeError:  # RCLError
+        if node.context.ok():
+            raise

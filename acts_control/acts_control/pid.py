@@ -1,0 +1,195 @@
+"""Two-axis PID from where the ball is to how the plate has to be tilted.
+
+The law, per axis, with L the lever arm (see `acts_control.estimator`) and lean the tilt that the plate has::
+
+    r    = 5/7 c g v_ref / (|v_ref| + v0)              rolling resistance along the reference
+    z    = x + 5/7 L lean                              the coordinate that only gravity accelerates, v = dz/dt
+    e_z  = x_ref + L/g (a_ref + r) - z                 its error and that of its velocity
+    e_v  = v_ref + L/g j_ref - v
+    a    = a_ref + r + kp e_z + ki integral(x_ref - x) + kd e_v
+    tilt = asin(a / (5/7 g))                           limited to the largest tilt
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import hypot
+from typing import NamedTuple
+
+from acts_control.plate import GRAVITY_M_S2, LEVER_ARM_SETTING, ROLLING_GRAVITY_M_S2, acceleration_of, tilt_for
+from acts_core.settings import setting, validate
+
+
+@dataclass(frozen=True)
+class PidConfig:
+    """Gains; tuned in closed-loop simulation, see docs/ball_balancing.md for how far they may be off."""
+
+    kp: float = setting(16.0, "acceleration per error of position [1/s^2]", minimum=0.0, maximum=200.0)
+    ki: float = setting(12.0, "acceleration per integrated error of position [1/s^3]", minimum=0.0, maximum=200.0)
+    kd: float = setting(7.2, "acceleration per error of velocity [1/s]", minimum=0.0, maximum=50.0)
+    integral_zone_m: float = setting(
+        0.010, "the error is integrated only where it is smaller than this [m]", minimum=0.0, maximum=0.2
+    )
+    max_integral_m_s2: float = setting(
+        0.25, "largest acceleration the integral may ask for [m/s^2]", minimum=0.0, maximum=5.0
+    )
+    rolling_resistance: float = setting(
+        0.005, "coefficient of rolling resistance that is compensated along the reference", minimum=0.0, maximum=0.1
+    )
+    resistance_speed_m_s: float = setting(
+        0.005, "reference speed at which half of the resistance is compensated [m/s]", minimum=1e-4, maximum=1.0
+    )
+    lever_arm_m: float = LEVER_ARM_SETTING
+
+    def __post_init__(self) -> None:
+        validate(self)
+
+
+class Ball(NamedTuple):
+    """Where the ball is: position [m] and velocity [m/s] in the skin's frame, as the estimator gives them."""
+
+    x_m: float
+    y_m: float
+    vx_m_s: float
+    vy_m_s: float
+
+
+class Reference(NamedTuple):
+    """Where the ball should be in the skin's frame: position, velocity, acceleration, jerk [m, m/s, m/s^2, m/s^3]."""
+
+    x_m: float
+    y_m: float
+    vx_m_s: float = 0.0
+    vy_m_s: float = 0.0
+    ax_m_s2: float = 0.0
+    ay_m_s2: float = 0.0
+    jx_m_s3: float = 0.0
+    jy_m_s3: float = 0.0
+
+    def after(self, dt: float) -> Reference:
+        """The reference a short time later [s]."""
+        return Reference(
+            self.x_m + dt * (self.vx_m_s + 0.5 * dt * self.ax_m_s2),
+            self.y_m + dt * (self.vy_m_s + 0.5 * dt * self.ay_m_s2),
+            self.vx_m_s + dt * self.ax_m_s2,
+            self.vy_m_s + dt * self.ay_m_s2,
+            self.ax_m_s2 + dt * self.jx_m_s3,
+            self.ay_m_s2 + dt * self.jy_m_s3,
+            self.jx_m_s3,
+            self.jy_m_s3,
+        )
+
+    def at_rest(self) -> Reference:
+        """The same place without motion."""
+        return Reference(self.x_m, self.y_m)
+
+
+class JerkFinder:
+    """Adds the jerk to references that come one after the other, from how their acceleration changes."""
+
+    # Two references farther apart than this do not belong together.
+    _MAX_GAP_S = 0.1
+
+    def __init__(self) -> None:
+        self._stamp_ns = 0
+        self._last = Reference(0.0, 0.0)
+
+    def step(self, stamp_ns: int, reference: Reference) -> Reference:
+        """The reference with its jerk; 0 after a gap, and where the reference rests.
+
+        Parameters
+        ----------
+        stamp_ns : int
+            The time it holds for [ns].
+        reference : Reference
+        """
+        dt = (stamp_ns - self._stamp_ns) * 1e-9
+        if dt <= 0.0:
+            return reference._replace(jx_m_s3=self._last.jx_m_s3, jy_m_s3=self._last.jy_m_s3)
+        jerk_x = jerk_y = 0.0
+        if dt < self._MAX_GAP_S:
+            jerk_x = (reference.ax_m_s2 - self._last.ax_m_s2) / dt
+            jerk_y = (reference.ay_m_s2 - self._last.ay_m_s2) / dt
+        self._stamp_ns, self._last = stamp_ns, reference._replace(jx_m_s3=jerk_x, jy_m_s3=jerk_y)
+        return self._last
+
+
+@dataclass
+class PidState:
+    """The integral's part of the wanted acceleration, all of it [m/s^2], and whether the tilt was limited."""
+
+    integral_x_m_s2: float = 0.0
+    integral_y_m_s2: float = 0.0
+    acceleration_x_m_s2: float = 0.0
+    acceleration_y_m_s2: float = 0.0
+    saturated: bool = False
+
+
+class BallPid:
+    """The control law.
+
+    Parameters
+    ----------
+    config : PidConfig
+    max_tilt_rad : float
+        Where the tilt is limited [rad].
+
+    Attributes
+    ----------
+    state : PidState
+        Changed in place by `step`.
+    """
+
+    def __init__(self, config: PidConfig, max_tilt_rad: float) -> None:
+        self.config = config
+        self.max_tilt_rad = max_tilt_rad
+        self.state = PidState()
+
+    def reset(self) -> None:
+        """Forget the past."""
+        self.state = PidState()
+
+    def step(self, ball: Ball, reference: Reference, tilt: tuple[float, float], dt: float) -> tuple[float, float]:
+        """One control step.
+
+        Parameters
+        ----------
+        ball : Ball
+            The estimate, for now.
+        reference : Reference
+            For now.
+        tilt : (float, float)
+            Tilt the plate has about the skin's x and y axes [rad].
+        dt : float
+            Time since the last step [s].
+
+        Returns
+        -------
+        tilt_x_rad, tilt_y_rad : float
+            Tilt to aim for [rad].
+        """
+        config, state = self.config, self.state
+        speed = hypot(reference.vx_m_s, reference.vy_m_s)
+        push = ROLLING_GRAVITY_M_S2 * config.rolling_resistance / (speed + config.resistance_speed_m_s)
+        resist_x, resist_y = push * reference.vx_m_s, push * reference.vy_m_s
+        error_x, error_y = reference.x_m - ball.x_m, reference.y_m - ball.y_m
+        # L/g: 5/7 L lean is this times the acceleration that the lean causes.
+        lever = config.lever_arm_m / GRAVITY_M_S2
+        now_x, now_y = acceleration_of(*tilt)
+        ez_x = error_x + lever * (reference.ax_m_s2 + resist_x - now_x)
+        ez_y = error_y + lever * (reference.ay_m_s2 + resist_y - now_y)
+        ev_x = reference.vx_m_s + lever * reference.jx_m_s3 - ball.vx_m_s
+        ev_y = reference.vy_m_s + lever * reference.jy_m_s3 - ball.vy_m_s
+        ax = reference.ax_m_s2 + resist_x + config.kp * ez_x + config.kd * ev_x
+        ay = reference.ay_m_s2 + resist_y + config.kp * ez_y + config.kd * ev_y
+        ax += state.integral_x_m_s2
+        ay += state.integral_y_m_s2
+        state.acceleration_x_m_s2, state.acceleration_y_m_s2 = ax, ay
+        wanted = tilt_for(ax, ay, self.max_tilt_rad)
+        state.saturated = hypot(*wanted) >= self.max_tilt_rad * (1.0 - 1e-9)
+        # Anti-windup: no integration where the plate cannot follow or the ball is still far away.
+        if not state.saturated and hypot(error_x, error_y) < config.integral_zone_m:
+            most = config.max_integral_m_s2
+            state.integral_x_m_s2 = min(max(state.integral_x_m_s2 + config.ki * error_x * dt, -most), most)
+            state.integral_y_m_s2 = min(max(state.integral_y_m_s2 + config.ki * error_y * dt, -most), most)
+        return wanted

@@ -1,0 +1,162 @@
+"""The Kalman filter on made-up touch: how exact it is, and what it does with what cannot be."""
+
+import math
+import random
+
+import numpy as np
+import pytest
+
+from acts_control.estimator import BallEstimator, ContactMeasurement, EstimatorConfig
+from acts_control.plate import ROLLING, acceleration_of
+from acts_core.errors import SettingsError
+
+START_NS = 1_700_000_000_000_000_000
+MS = 1_000_000
+
+
+def touch(time_ms: float, x_m: float = 0.01, y_m: float = -0.02, *, touched: bool = True) -> ContactMeasurement:
+    return ContactMeasurement(START_NS + round(time_ms * MS), touched, x_m, y_m)
+
+
+def settled(config: EstimatorConfig | None = None) -> BallEstimator:
+    """An estimator that has followed a ball at rest for 0.3 s."""
+    estimator = BallEstimator(config or EstimatorConfig())
+    for k in range(300):
+        estimator.step(touch(k))
+    return estimator
+
+
+def test_noise_is_averaged_and_velocity_found_at_uneven_times() -> None:
+    rng = random.Random(1)
+    estimator = BallEstimator(EstimatorConfig())
+    time_ms, errors, speeds = 0.0, [], []
+    for k in range(3000):
+        time_ms += rng.choice([0.6, 1.0, 1.4, 3.0])
+        x, y = 0.04 * time_ms * 1e-3 - 0.05, 0.02 - 0.01 * time_ms * 1e-3
+        estimator.step(touch(time_ms, x + rng.gauss(0, 0.001), y + rng.gauss(0, 0.001)))
+        if k > 500:
+            errors.append(math.hypot(estimator.state.x_m - x, estimator.state.y_m - y))
+            speeds.append(estimator.state.vx_m_s)
+    assert np.sqrt(np.mean(np.square(errors))) < 0.0006
+    assert np.mean(speeds) == pytest.approx(0.04, abs=0.001)
+    assert np.std(speeds) < 0.02
+    assert estimator.state.restarts == 1
+
+
+def test_the_deviation_it_tells_is_the_one_it_has() -> None:
+    rng = random.Random(2)
+    estimator = BallEstimator(EstimatorConfig(acceleration_noise=0.02))
+    errors = []
+    for k in range(4000):
+        estimator.step(touch(k, rng.gauss(0, 0.001), rng.gauss(0, 0.001)))
+        if k > 500:
+            errors += [estimator.state.x_m, estimator.state.y_m]
+    # The ball rests, while the filter allows for accelerations: it promises less than it keeps.
+    assert 0.3 * estimator.state.sigma_m < np.std(errors) <= estimator.state.sigma_m
+
+
+@pytest.mark.parametrize(("tilt_x", "tilt_y"), [(0.03, 0.0), (0.0, 0.05), (-0.02, 0.04)])
+def test_a_known_tilt_predicts_where_the_ball_goes_unseen(tilt_x: float, tilt_y: float) -> None:
+    estimator = settled(EstimatorConfig(lever_arm_m=0.0))
+    estimator.set_tilt(tilt_x, tilt_y)
+    for k in range(300, 380):
+        estimator.step(touch(k, touched=False))
+    ax, ay = acceleration_of(tilt_x, tilt_y)
+    t = 0.08
+    assert estimator.state.valid
+    assert estimator.state.x_m == pytest.approx(0.01 + ax * t * t / 2, abs=2e-4)
+    assert estimator.state.y_m == pytest.approx(-0.02 + ay * t * t / 2, abs=2e-4)
+    assert estimator.state.vx_m_s == pytest.approx(ax * t, abs=2e-3)
+    assert estimator.state.without_contact == 80
+
+
+def test_turning_the_plate_is_not_taken_for_velocity() -> None:
+    # The plate turns to 0.05 rad within 0.1 s and carries itself sideways; the ball stays behind by 5/7 L lean.
+    lever = 0.155
+    estimator = settled(EstimatorConfig(lever_arm_m=lever))
+    lean_speed = 0.5
+    moved = ROLLING * lever * lean_speed
+    for k in range(300, 400):
+        lean = lean_speed * (k - 300) * 1e-3
+        estimator.set_tilt(0.0, lean)
+        # Gravity's part is left out of this world, and therefore of the check.
+        estimator.step(touch(k, 0.01 - moved * (k - 300) * 1e-3))
+    assert estimator.state.x_m == pytest.approx(0.01 - moved * 0.099, abs=2e-3)
+    # Against the plate the ball moves at -moved = -0.055 m/s; of that nothing may stay as velocity.
+    assert estimator.state.vx_m_s == pytest.approx(0.0, abs=0.02)
+
+
+def test_without_contact_it_predicts_and_then_is_not_valid() -> None:
+    estimator = settled(EstimatorConfig(lost_after_s=0.05))
+    for k in range(300, 349):
+        estimator.step(touch(k, touched=False))
+    assert estimator.state.valid
+    estimator.step(touch(350, touched=False))
+    state = estimator.state
+    assert not state.valid
+    assert (state.x_m, state.y_m, state.vx_m_s, state.vy_m_s, state.sigma_m) == (0.0,) * 5
+    assert state.stamp_ns == START_NS + 350 * MS
+    estimator.step(touch(351, 0.03, 0.03))
+    assert state.valid
+    assert (state.x_m, state.vx_m_s) == pytest.approx((0.03, 0.0))
+
+
+def test_a_gap_in_the_messages_counts_as_no_contact() -> None:
+    estimator = settled()
+    estimator.step(touch(300 + 150, 0.02, 0.02))
+    assert estimator.state.x_m == pytest.approx(0.02)
+    assert estimator.state.restarts == 2
+
+
+def test_single_outliers_are_left_out() -> None:
+    estimator = settled()
+    for k in range(300, 400):
+        estimator.step(touch(k, 0.06, 0.06) if k % 10 == 0 else touch(k))
+    assert estimator.state.outliers == 10
+    assert estimator.state.restarts == 1
+    assert estimator.state.x_m == pytest.approx(0.01, abs=1e-4)
+
+
+def test_a_ball_that_was_carried_away_is_followed_after_a_moment() -> None:
+    estimator = settled(EstimatorConfig(gate_reset_s=0.03))
+    for k in range(300, 329):
+        estimator.step(touch(k, -0.05, 0.05))
+    assert estimator.state.x_m > 0.0
+    for k in range(329, 335):
+        estimator.step(touch(k, -0.05, 0.05))
+    assert estimator.state.x_m == pytest.approx(-0.05, abs=1e-3)
+    assert estimator.state.restarts == 2
+
+
+@pytest.mark.parametrize("bad", [float("nan"), float("inf")])
+def test_what_is_not_finite_is_counted_and_changes_nothing(bad: float) -> None:
+    estimator = settled()
+    stamp_ns, x_m = estimator.state.stamp_ns, estimator.state.x_m
+    estimator.step(touch(300, bad, 0.0))
+    estimator.step(touch(301, 0.0, bad))
+    estimator.set_tilt(bad, 0.0)
+    # The stamp stays: such messages do not count as touch.
+    assert (estimator.state.stamp_ns, estimator.state.x_m, estimator.state.not_finite) == (stamp_ns, x_m, 2)
+    estimator.step(touch(302))
+    assert estimator.state.x_m == pytest.approx(0.01, abs=1e-4)
+
+
+def test_repeated_and_older_stamps_are_ignored_and_counted() -> None:
+    estimator = settled()
+    stamp_ns, x_m = estimator.state.stamp_ns, estimator.state.x_m
+    for late in (299, 298, 100):
+        estimator.step(touch(late, 0.05, 0.05))
+    assert (estimator.state.stamp_ns, estimator.state.x_m, estimator.state.out_of_order) == (stamp_ns, x_m, 3)
+
+
+def test_a_new_time_base_is_taken_over() -> None:
+    estimator = settled()
+    estimator.step(touch(-5000, 0.03, 0.03))
+    assert estimator.state.valid
+    assert estimator.state.x_m == pytest.approx(0.03)
+    assert estimator.state.stamp_ns == START_NS - 5000 * MS
+
+
+def test_settings_out_of_range_are_refused() -> None:
+    with pytest.raises(SettingsError, match="measurement_sigma_m"):
+        EstimatorConfig(measurement_sigma_m=0.0)

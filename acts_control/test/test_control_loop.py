@@ -1,0 +1,275 @@
+"""The control loop's thread on an arm in this process: every way from connecting to a stop."""
+
+import itertools
+import time
+from collections.abc import Callable, Iterator, Sequence
+
+import pytest
+
+from acts_control.controller import BallController, BallReport, Phase, ReferenceReport
+from acts_control.loop import ControlLoop, LoopConfig
+from acts_control.pid import Ball, Reference
+from acts_control.robot import RobotConfig, RobotStoppedError
+from acts_control.safety import RobotReading
+from acts_core.errors import RobotError, SettingsError
+from acts_core.ur5e import LEVEL_Q_RAD, tilt_of
+
+DEADLINE_S = 20.0
+
+
+class ArmInProcess:
+    """Follows at once; notes the calls; can be made to fail."""
+
+    def __init__(self) -> None:
+        self.q = [0.1, *LEVEL_Q_RAD[1:]]
+        self.calls: list[str] = []
+        self.commands: list[tuple[float, ...]] = []
+        self.connect_errors: list[RobotError] = []
+        self.connected = True
+        self.safety_bits = 1
+        self.runtime_state = 2
+        self.frozen = False
+        self.moves = True
+        self._time = itertools.count()
+        self._timestamp = 0.0
+
+    def connect(self) -> None:
+        self.calls.append("connect")
+        if self.connect_errors:
+            raise self.connect_errors.pop(0)
+
+    def read(self) -> RobotReading:
+        if not self.frozen:
+            self._timestamp = 0.002 * next(self._time)
+        return RobotReading(self.connected, self._timestamp, tuple(self.q), self.safety_bits, self.runtime_state)
+
+    def begin_move(self, q_rad: Sequence[float]) -> None:
+        self.calls.append("begin_move")
+        if self.moves:
+            self.q = list(q_rad)
+
+    def end_move(self) -> None:
+        self.calls.append("end_move")
+
+    def servo(self, q_rad: Sequence[float]) -> None:
+        self.commands.append(tuple(q_rad))
+        self.q = list(q_rad)
+
+    def end_servo(self) -> None:
+        self.calls.append("end_servo")
+
+    def disconnect(self, *, lost: bool) -> None:
+        self.calls.append("abandon" if lost else "disconnect")
+
+
+Make = Callable[..., ControlLoop]
+
+
+def wait_for(condition: Callable[[], bool], what: str) -> None:
+    deadline = time.monotonic() + DEADLINE_S
+    while not condition():
+        assert time.monotonic() < deadline, f"waited in vain for: {what}"
+        time.sleep(0.002)
+
+
+@pytest.fixture
+def arm() -> ArmInProcess:
+    return ArmInProcess()
+
+
+@pytest.fixture
+def make(arm: ArmInProcess) -> Iterator[Make]:
+    loops: list[ControlLoop] = []
+
+    def make_one(**settings: object) -> ControlLoop:
+        # Loaded machines: touch may be late here without that being the test's subject.
+        defaults: dict[str, object] = {"connect_retry_s": 0.05, "touch_stale_after_s": 1.0, "touch_stop_after_s": 5.0}
+        loop = ControlLoop(LoopConfig(**(defaults | settings)), arm, time.time_ns)
+        loops.append(loop)
+        loop.launch()
+        return loop
+
+    yield make_one
+    for loop in loops:
+        loop.close()
+
+
+def feel(loop: ControlLoop, x_m: float = 0.02, age_s: float = 0.0) -> None:
+    """A ball at rest, and the centre as reference."""
+    now_ns = time.time_ns()
+    loop.ball = BallReport(now_ns - round(age_s * 1e9), True, Ball(x_m, 0.0, 0.0, 0.0))
+    loop.reference = ReferenceReport(now_ns, Reference(0.0, 0.0))
+
+
+def balance(loop: ControlLoop) -> None:
+    """Keep touch fresh until the loop is closed and the plate tilted."""
+
+    def tilted() -> bool:
+        feel(loop)
+        return loop.status.phase is Phase.BALANCING and abs(loop.status.tilt_commanded_rad[1]) > 0.02
+
+    wait_for(tilted, f"balancing, {loop.status}")
+
+
+def await_stop(loop: ControlLoop) -> str:
+    wait_for(lambda: loop.status.phase is Phase.STOPPED, f"a stop, {loop.status}")
+    return loop.status.reason
+
+
+def test_from_connecting_to_balancing_and_back_to_level(arm: ArmInProcess, make: Make) -> None:
+    loop = make()
+    wait_for(lambda: loop.status.phase is Phase.WAITING, "waiting")
+    assert arm.calls == ["connect", "begin_move"]
+    assert loop.status.reason == "waiting for touch"
+    balance(loop)
+    assert loop.status.error_m == pytest.approx((0.02, 0.0), abs=1e-3)
+    # A ball at +x is brought back by a tilt about -y.
+    assert tilt_of(arm.commands[-1])[1] < 0.0
+    assert loop.stop("stopped by request")
+    assert await_stop(loop) == "stopped by request"
+    assert arm.calls[-2:] == ["end_servo", "disconnect"]
+    assert tilt_of(arm.commands[-1]) == pytest.approx((0.0, 0.0), abs=1e-5)
+    assert not loop.stop("again")
+    assert loop.start()
+    assert not loop.start()
+    wait_for(lambda: arm.calls.count("begin_move") == 2, "a second start")
+
+
+def test_a_robot_that_is_not_there_yet_is_tried_again(arm: ArmInProcess, make: Make) -> None:
+    arm.connect_errors = [RobotError("no UR controller at 127.0.2.9"), RobotError("no UR controller at 127.0.2.9")]
+    loop = make(connect_retry_s=0.2)
+    wait_for(lambda: "127.0.2.9" in loop.status.reason, "the error in the status")
+    assert loop.status.phase is Phase.CONNECTING
+    wait_for(lambda: loop.status.phase is Phase.WAITING, "waiting")
+    assert arm.calls.count("connect") == 3
+
+
+def test_connecting_can_be_given_up(arm: ArmInProcess, make: Make) -> None:
+    arm.connect_errors = [RobotError("not there")] * 1000
+    loop = make(connect_retry_s=60.0)
+    wait_for(lambda: loop.status.reason == "not there", "the error in the status")
+    loop.stop("stopped by request")
+    assert await_stop(loop) == "stopped by request"
+
+
+def test_a_robot_held_by_a_safety_function_is_not_waited_for(arm: ArmInProcess, make: Make) -> None:
+    # It would begin to move at the moment a person releases it.
+    arm.connect_errors = [RobotStoppedError("protective stop")]
+    loop = make()
+    assert await_stop(loop) == "protective stop"
+    assert "begin_move" not in arm.calls
+
+
+def test_without_autostart_nothing_moves_until_it_is_asked_for(arm: ArmInProcess, make: Make) -> None:
+    loop = make(autostart=False)
+    assert (loop.status.phase, loop.status.reason) == (Phase.STOPPED, "not started")
+    assert arm.calls == []
+    assert loop.start()
+    wait_for(lambda: loop.status.phase is Phase.WAITING, "waiting")
+
+
+def test_homing_can_be_broken_off(arm: ArmInProcess, make: Make) -> None:
+    arm.moves = False
+    loop = make()
+    wait_for(lambda: "begin_move" in arm.calls, "homing")
+    loop.stop("stopped by request")
+    assert await_stop(loop) == "stopped by request"
+    assert arm.calls == ["connect", "begin_move", "end_move", "disconnect"]
+
+
+@pytest.mark.parametrize(
+    ("fault", "value", "words"),
+    [
+        ("safety_bits", 0x404, "robot: protective stop"),
+        ("safety_bits", 0x4C0, "robot: emergency stop"),
+        ("runtime_state", 1, "the robot's program is not running (stopped)"),
+        ("connected", False, "connection to the robot lost"),
+        ("frozen", True, "no data from the robot for"),
+    ],
+)
+@pytest.mark.parametrize("when", ["homing", "balancing"])
+def test_a_robot_that_stops_gets_no_further_command(
+    arm: ArmInProcess, make: Make, fault: str, value: object, words: str, when: str
+) -> None:
+    arm.moves = when == "balancing"
+    loop = make()
+    if when == "balancing":
+        balance(loop)
+    else:
+        wait_for(lambda: "begin_move" in arm.calls, "homing")
+    setattr(arm, fault, value)
+    assert await_stop(loop).startswith(words)
+    sent = len(arm.commands)
+    # Neither servoStop nor stopScript: nothing is sent any more.
+    assert arm.calls == ["connect", "begin_move", "abandon"]
+    loop.close()
+    assert len(arm.commands) == sent
+
+
+def test_stale_touch_levels_the_plate_and_ends_the_servo(arm: ArmInProcess, make: Make) -> None:
+    loop = make(touch_stale_after_s=0.1, touch_stop_after_s=0.3)
+    balance(loop)
+    reason = await_stop(loop)
+    assert reason.startswith("touch is stale: none for")
+    assert arm.calls[-2:] == ["end_servo", "disconnect"]
+    assert tilt_of(arm.commands[-1]) == pytest.approx((0.0, 0.0), abs=1e-5)
+
+
+def test_a_command_that_is_not_finite_ends_motion_and_is_not_sent(
+    arm: ArmInProcess, make: Make, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    loop = make()
+    balance(loop)
+    monkeypatch.setattr(BallController, "step", lambda self, inputs, dt: (float("nan"), 0.0))
+    assert "tilt = (nan, 0.0)" in await_stop(loop)
+    assert arm.calls[-2:] == ["end_servo", "disconnect"]
+    assert all(angle == angle for command in arm.commands for angle in command)
+
+
+def test_a_single_bad_command_levels_the_plate(arm: ArmInProcess, make: Make, monkeypatch: pytest.MonkeyPatch) -> None:
+    loop = make()
+    balance(loop)
+    step = BallController.step
+    left = [1]
+
+    def once_bad(self: BallController, inputs: object, dt: float) -> tuple[float, float]:
+        tilt = step(self, inputs, dt)  # type: ignore[arg-type]
+        if left:
+            left.pop()
+            return (0.3, 0.0)
+        return tilt
+
+    monkeypatch.setattr(BallController, "step", once_bad)
+    assert "rad off the level pose" in await_stop(loop)
+    assert tilt_of(arm.commands[-1]) == pytest.approx((0.0, 0.0), abs=1e-5)
+    assert max(abs(tilt_of(command)[0]) for command in arm.commands) < 0.2
+
+
+def test_a_mistake_in_the_program_still_ends_the_robots_program(
+    arm: ArmInProcess, make: Make, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    loop = make()
+    balance(loop)
+    monkeypatch.setattr("threading.excepthook", lambda arguments: None)
+    monkeypatch.setattr(BallController, "step", lambda self, inputs, dt: 1 / 0)
+    assert await_stop(loop) == "the control loop failed"
+    assert arm.calls[-1] == "disconnect"
+    assert not loop.start()
+
+
+def test_closing_stops_the_robot_in_order(arm: ArmInProcess, make: Make) -> None:
+    loop = make()
+    balance(loop)
+    loop.close()
+    assert (loop.status.phase, loop.status.reason) == (Phase.STOPPED, "shutting down")
+    assert arm.calls[-2:] == ["end_servo", "disconnect"]
+    assert tilt_of(arm.commands[-1]) == pytest.approx((0.0, 0.0), abs=1e-5)
+
+
+def test_settings_of_the_robot_are_checked() -> None:
+    with pytest.raises(SettingsError, match="control_rate_hz = 300: allowed is 125, 250, 500"):
+        RobotConfig(control_rate_hz=300)
+    with pytest.raises(SettingsError, match=r"tilted by 1\.571 rad"):
+        LoopConfig(level_q_rad=(0.0, -1.5708, 1.5708, -1.5708, 0.0, 0.0))
+    with pytest.raises(SettingsError, match="6 values"):
+        LoopConfig(level_q_rad=(0.0,))

@@ -1,0 +1,155 @@
+"""Tilt and acceleration, the PID, and the limits of the tilt's motion."""
+
+from math import hypot, radians
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from acts_control.limiter import LimiterConfig, TiltLimiter
+from acts_control.pid import Ball, BallPid, JerkFinder, PidConfig, Reference
+from acts_control.plate import GRAVITY_M_S2, ROLLING_GRAVITY_M_S2, acceleration_of, tilt_for
+from acts_core.errors import SettingsError
+
+LIMIT = radians(6)
+LEVEL = (0.0, 0.0)
+CENTRE = Reference(0.0, 0.0)
+
+
+@given(st.floats(-0.5, 0.5), st.floats(-0.5, 0.5))
+def test_the_tilt_for_an_acceleration_causes_it(ax: float, ay: float) -> None:
+    assert acceleration_of(*tilt_for(ax, ay, LIMIT)) == pytest.approx((ax, ay), abs=1e-12)
+
+
+def test_signs_and_size_of_the_acceleration() -> None:
+    ax, ay = acceleration_of(0.0, 0.1)
+    assert ax == pytest.approx(5 / 7 * 9.81 * 0.0998334, rel=1e-5)
+    assert ay == 0.0
+    assert acceleration_of(0.1, 0.0)[1] < 0.0
+    assert acceleration_of(*LEVEL) == LEVEL
+    assert tilt_for(0.0, 0.0, LIMIT) == LEVEL
+
+
+@given(st.floats(-50, 50), st.floats(-50, 50))
+def test_the_tilt_is_limited_and_keeps_its_direction(ax: float, ay: float) -> None:
+    tilt_x, tilt_y = tilt_for(ax, ay, LIMIT)
+    assert hypot(tilt_x, tilt_y) <= LIMIT * (1 + 1e-12)
+    assert ax * tilt_x + ay * tilt_y == pytest.approx(0.0, abs=1e-6)
+    assert ax * tilt_y - ay * tilt_x >= 0.0
+
+
+def test_the_pid_pushes_the_ball_towards_the_reference_and_brakes_it() -> None:
+    pid = BallPid(PidConfig(), LIMIT)
+    tilt_x, tilt_y = pid.step(Ball(0.02, 0.0, 0.0, 0.0), CENTRE, LEVEL, 0.004)
+    assert tilt_y < 0.0
+    assert tilt_x == 0.0
+    tilt_x, tilt_y = pid.step(Ball(0.0, 0.0, 0.0, 0.1), CENTRE, LEVEL, 0.004)
+    assert tilt_x > 0.0
+    assert tilt_y == pytest.approx(0.0, abs=1e-12)
+
+
+def test_on_a_perfect_course_only_the_reference_is_fed_forward() -> None:
+    config = PidConfig(rolling_resistance=0.0)
+    reference = Reference(0.01, 0.02, 0.03, -0.01, 0.1, -0.05)
+    tilt = tilt_for(0.1, -0.05, LIMIT)
+    wanted = BallPid(config, LIMIT).step(Ball(0.01, 0.02, 0.03, -0.01), reference, tilt, 0.004)
+    assert wanted == pytest.approx(tilt, abs=1e-12)
+
+
+def test_rolling_resistance_is_compensated_along_the_reference() -> None:
+    config = PidConfig(rolling_resistance=0.01, resistance_speed_m_s=0.0001, lever_arm_m=0.0)
+    moving = Reference(0.0, 0.0, -0.05, 0.0)
+    ax, ay = acceleration_of(*BallPid(config, LIMIT).step(Ball(0.0, 0.0, -0.05, 0.0), moving, LEVEL, 0.004))
+    assert ax == pytest.approx(-0.01 * ROLLING_GRAVITY_M_S2, rel=0.01)
+    assert ay == pytest.approx(0.0, abs=1e-12)
+
+
+def test_the_lean_that_the_plate_has_counts_as_position() -> None:
+    config = PidConfig(lever_arm_m=0.15, ki=0.0)
+    tilt = tilt_for(0.2, 0.0, LIMIT)
+    with_lean = acceleration_of(*BallPid(config, LIMIT).step(Ball(0.0, 0.0, 0.0, 0.0), CENTRE, tilt, 0.004))
+    assert with_lean[0] == pytest.approx(-config.kp * 0.15 / GRAVITY_M_S2 * 0.2, rel=1e-6)
+
+
+def test_the_integral_removes_a_standing_error_and_is_bounded() -> None:
+    config = PidConfig(max_integral_m_s2=0.1)
+    pid = BallPid(config, LIMIT)
+    for _ in range(10_000):
+        pid.step(Ball(-0.002, 0.0, 0.0, 0.0), CENTRE, LEVEL, 0.004)
+    assert pid.state.integral_x_m_s2 == 0.1
+    pid.reset()
+    assert pid.state.integral_x_m_s2 == 0.0
+
+
+@pytest.mark.parametrize("ball", [Ball(-0.02, 0.0, 0.0, 0.0), Ball(-0.005, 0.0, -1.0, 0.0)])
+def test_nothing_is_integrated_far_away_or_while_the_tilt_is_limited(ball: Ball) -> None:
+    pid = BallPid(PidConfig(), LIMIT)
+    pid.step(ball, CENTRE, LEVEL, 0.004)
+    assert pid.state.integral_x_m_s2 == 0.0
+    assert pid.state.saturated == (ball.vx_m_s != 0.0)
+
+
+def test_the_jerk_is_found_and_gaps_and_repeats_do_no_harm() -> None:
+    finder = JerkFinder()
+    assert finder.step(10**9, Reference(0, 0, 0, 0, 1.0, 2.0)).jx_m_s3 == 0.0
+    found = finder.step(10**9 + 8_000_000, Reference(0, 0, 0, 0, 1.08, 1.92))
+    assert (found.jx_m_s3, found.jy_m_s3) == pytest.approx((10.0, -10.0))
+    assert finder.step(10**9 + 8_000_000, Reference(0, 0, 0, 0, 5.0, 5.0)).jx_m_s3 == pytest.approx(10.0)
+    assert finder.step(2 * 10**9, Reference(0, 0, 0, 0, 9.0, 9.0)).jx_m_s3 == 0.0
+
+
+def test_a_reference_can_be_carried_on() -> None:
+    later = Reference(1.0, 0.0, 2.0, 0.0, 3.0, 0.0, 4.0).after(0.1)
+    assert later.x_m == pytest.approx(1.0 + 0.2 + 0.015)
+    assert later.vx_m_s == pytest.approx(2.3)
+    assert later.ax_m_s2 == pytest.approx(3.4)
+    assert later.at_rest() == Reference(later.x_m, 0.0)
+
+
+TARGETS = st.lists(st.tuples(st.floats(-0.5, 0.5), st.floats(-0.5, 0.5)), min_size=1, max_size=30)
+
+
+@given(TARGETS, st.sampled_from([0.002, 0.004, 0.008, 0.016]))
+def test_tilt_rate_and_acceleration_keep_their_limits(targets: list[tuple[float, float]], dt: float) -> None:
+    config = LimiterConfig()
+    limiter = TiltLimiter(config)
+    last, last_rate = (0.0, 0.0), (0.0, 0.0)
+    for target in targets:
+        for _ in range(5):
+            tilt = limiter.step(*target, dt)
+            assert hypot(*tilt) <= config.max_tilt_rad * (1 + 1e-9)
+            rate = ((tilt[0] - last[0]) / dt, (tilt[1] - last[1]) / dt)
+            if hypot(*tilt) < config.max_tilt_rad * (1 - 1e-6):
+                assert max(map(abs, rate)) <= config.max_tilt_rate_rad_s * (1 + 1e-6)
+                change = max(abs(rate[0] - last_rate[0]), abs(rate[1] - last_rate[1]))
+                assert change <= config.max_tilt_acceleration_rad_s2 * dt * (1 + 1e-6)
+            last, last_rate = tilt, (limiter.state.rate_x_rad_s, limiter.state.rate_y_rad_s)
+
+
+@given(st.floats(-0.1, 0.1), st.sampled_from([0.002, 0.0043, 0.008, 0.016]))
+def test_a_tilt_that_stays_is_reached_without_overshoot(target: float, dt: float) -> None:
+    limiter = TiltLimiter(LimiterConfig())
+    path = [limiter.step(target, 0.0, dt)[0] for _ in range(round(0.5 / dt))]
+    assert path[-1] == pytest.approx(target, abs=1e-6)
+    assert max(map(abs, path)) <= abs(target) + 1e-9
+    for _ in range(round(0.5 / dt)):
+        limiter.step(0.0, 0.0, dt)
+    assert limiter.is_level
+
+
+@pytest.mark.parametrize("bad", [float("nan"), float("inf"), float("-inf")])
+def test_a_target_that_is_not_finite_means_level(bad: float) -> None:
+    limiter = TiltLimiter(LimiterConfig())
+    for _ in range(100):
+        limiter.step(0.05, -0.05, 0.004)
+    for _ in range(100):
+        tilt = limiter.step(bad, 0.05, 0.004)
+        assert hypot(*tilt) < 1.0
+    assert limiter.is_level
+
+
+def test_settings_out_of_range_are_refused() -> None:
+    with pytest.raises(SettingsError, match=r"kp = -1.0.*0 to 200"):
+        PidConfig(kp=-1.0)
+    with pytest.raises(SettingsError, match="max_tilt_rad"):
+        LimiterConfig(max_tilt_rad=1.0)

@@ -1,0 +1,273 @@
+"""What ends motion: the gate, the watch on the robot, and the controller's ways from one phase to another."""
+
+import math
+
+import pytest
+
+from acts_control.controller import BallController, BallReport, ControlInput, ControllerConfig, Phase, ReferenceReport
+from acts_control.pid import Ball, Reference
+from acts_control.safety import CommandGate, RobotReading, RobotWatch, SafetyConfig, touch_age_s
+from acts_core.errors import SettingsError
+from acts_core.ur5e import LEVEL_Q_RAD
+
+NOW_NS = 1_700_000_000_000_000_000
+MS = 1_000_000
+DT = 0.004
+NAN = float("nan")
+LEVEL = (0.0, 0.0)
+NORMAL = RobotReading(connected=True, timestamp_s=0.0, q_rad=LEVEL_Q_RAD, safety_bits=1, runtime_state=2)
+
+
+def pose(wrist_1: float = 0.0, wrist_2: float = 0.0, elbow: float = 0.0) -> list[float]:
+    q = list(LEVEL_Q_RAD)
+    q[2] += elbow
+    q[3] += wrist_1
+    q[4] += wrist_2
+    return q
+
+
+# --- the gate
+
+
+def test_the_gate_lets_small_tilts_pass() -> None:
+    gate = CommandGate(SafetyConfig(), LEVEL_Q_RAD)
+    for k in range(4):
+        assert gate.fault(pose(0.03 * k, -0.03 * k)) == ""
+
+
+@pytest.mark.parametrize(
+    ("q", "words"),
+    [
+        (pose(NAN), "joint 3 is nan"),
+        (pose(0.0, math.inf), "joint 4 is inf"),
+        (pose(0.0, 0.0, NAN), "joint 2 is nan"),
+        (pose(0.2), "joint 3 is \\+0.2000 rad off the level pose, allowed is 0.14"),
+        (pose(0.0, -0.2), "joint 4 is -0.2000 rad off"),
+        (pose(0.0, 0.0, 0.001), "joint 2 is \\+0.0010 rad off"),
+        (pose(0.1), "joint 3 jumps by \\+0.1000 rad, allowed is 0.05"),
+        (pose()[:5], "5 joints"),
+    ],
+)
+def test_the_gate_stops_what_must_not_reach_the_robot(q: list[float], words: str) -> None:
+    gate = CommandGate(SafetyConfig(), LEVEL_Q_RAD)
+    with pytest.raises(AssertionError, match=words):
+        assert gate.fault(q) == ""
+    assert gate.fault(pose()) == ""
+
+
+# --- the watch
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"connected": False}, "connection to the robot lost"),
+        ({"safety_bits": 0x404}, "robot: protective stop"),
+        ({"safety_bits": 0x4C0}, "robot: emergency stop"),
+        ({"safety_bits": 0x410}, "robot: safeguard stop"),
+        ({"runtime_state": 1}, "the robot's program is not running (stopped)"),
+        ({"runtime_state": 4}, "the robot's program is not running (paused)"),
+        ({"q_rad": (NAN,) * 6}, "the robot reports joint angles (nan, nan, nan, nan, nan, nan)"),
+        ({"q_rad": (0.0,) * 5}, "the robot reports joint angles (0.0, 0.0, 0.0, 0.0, 0.0)"),
+    ],
+)
+def test_the_watch_tells_why_the_robot_stopped(changes: dict[str, object], words: str) -> None:
+    watch = RobotWatch(SafetyConfig())
+    assert watch.step(NORMAL, DT) == ""
+    assert watch.step(NORMAL._replace(**changes), DT) == words  # type: ignore[arg-type]
+
+
+def test_a_clock_that_stands_still_is_a_lost_connection() -> None:
+    watch = RobotWatch(SafetyConfig(robot_stale_after_s=0.1))
+    for k in range(100):
+        assert watch.step(NORMAL._replace(timestamp_s=0.008 * (k // 2)), DT) == ""
+    words = [watch.step(NORMAL._replace(timestamp_s=1.0), DT) for _ in range(30)]
+    assert words[24] == ""
+    assert words[27].startswith("no data from the robot for 0.1")
+
+
+def test_the_age_of_touch() -> None:
+    assert touch_age_s(NOW_NS, NOW_NS - 7 * MS) == pytest.approx(0.007)
+    assert touch_age_s(NOW_NS, NOW_NS + MS) == pytest.approx(-0.001)
+    assert touch_age_s(NOW_NS, NOW_NS + 60 * MS) == math.inf
+
+
+# --- the controller
+
+
+class Scene:
+    """A controller with everything fresh; `step` lets time pass."""
+
+    def __init__(self, config: ControllerConfig | None = None) -> None:
+        self.controller = BallController(config or ControllerConfig())
+        self.now_ns = NOW_NS
+        self.ball = Ball(0.02, 0.0, 0.0, 0.0)
+        self.valid = True
+        self.touch_age_ms: float | None = 5.0
+        self.reference = Reference(0.0, 0.0)
+        self.reference_age_ms: float | None = 5.0
+        self.largest_tilt = 0.0
+
+    @property
+    def phase(self) -> Phase:
+        return self.controller.state.phase
+
+    @property
+    def reason(self) -> str:
+        return self.controller.state.reason
+
+    def step(self, seconds: float = DT) -> tuple[float, float]:
+        tilt = LEVEL
+        for _ in range(max(round(seconds / DT), 1)):
+            self.now_ns += round(DT * 1e9)
+            ball = reference = None
+            if self.touch_age_ms is not None:
+                ball = BallReport(self.now_ns - round(self.touch_age_ms * MS), self.valid, self.ball)
+            if self.reference_age_ms is not None:
+                reference = ReferenceReport(self.now_ns - round(self.reference_age_ms * MS), self.reference)
+            tilt = self.controller.step(ControlInput(self.now_ns, ball, reference, LEVEL), DT)
+            assert all(map(math.isfinite, tilt))
+            self.largest_tilt = max(self.largest_tilt, math.hypot(*tilt))
+        return tilt
+
+    def go_silent(self, seconds: float) -> None:
+        """No new message for a while: the last one grows old."""
+        for _ in range(round(seconds / DT)):
+            assert self.touch_age_ms is not None
+            self.touch_age_ms += DT * 1e3
+            self.step()
+
+
+def balancing() -> Scene:
+    scene = Scene()
+    scene.step(0.3)
+    assert scene.phase is Phase.BALANCING
+    assert math.hypot(*scene.controller.state.tilt_rad) > 0.01
+    assert scene.controller.state.error_m == pytest.approx((0.02, 0.0))
+    return scene
+
+
+def test_it_waits_level_for_touch_ball_and_reference() -> None:
+    scene = Scene()
+    scene.touch_age_ms = None
+    scene.step(1.0)
+    assert (scene.phase, scene.reason) == (Phase.WAITING, "waiting for touch")
+    scene.touch_age_ms, scene.valid = 5.0, False
+    scene.step(1.0)
+    assert (scene.phase, scene.reason) == (Phase.WAITING, "waiting for a ball")
+    scene.valid, scene.reference_age_ms = True, None
+    scene.step(1.0)
+    assert (scene.phase, scene.reason) == (Phase.WAITING, "waiting for a reference")
+    assert scene.largest_tilt == 0.0
+    scene.reference_age_ms = 5.0
+    scene.step(0.2)
+    assert (scene.phase, scene.reason) == (Phase.BALANCING, "balancing")
+
+
+def test_a_ball_felt_for_a_moment_only_does_not_close_the_loop() -> None:
+    scene = Scene()
+    for _ in range(20):
+        scene.valid = True
+        scene.step(0.08)
+        scene.valid = False
+        scene.step(0.08)
+    assert scene.phase is Phase.WAITING
+
+
+def test_touch_that_grows_stale_levels_the_plate_and_then_ends_motion() -> None:
+    scene = balancing()
+    scene.go_silent(0.04)
+    assert scene.reason == "balancing"
+    scene.go_silent(0.06)
+    assert (scene.phase, scene.reason) == (Phase.BALANCING, "touch is stale: levelling the plate")
+    scene.go_silent(0.8)
+    assert scene.phase is Phase.STOPPED
+    assert scene.reason.startswith("touch is stale: none for 0.25")
+    assert scene.controller.state.tilt_rad == pytest.approx(LEVEL, abs=1e-6)
+    scene.touch_age_ms = 5.0
+    scene.step(1.0)
+    assert scene.phase is Phase.STOPPED
+
+
+def test_touch_that_comes_back_in_time_is_gone_on_with() -> None:
+    scene = balancing()
+    scene.go_silent(0.15)
+    scene.touch_age_ms = 5.0
+    scene.step(0.1)
+    assert (scene.phase, scene.reason) == (Phase.BALANCING, "balancing")
+
+
+def test_a_stamp_from_the_future_is_stale_touch() -> None:
+    scene = balancing()
+    scene.touch_age_ms = -1000.0
+    scene.step(0.6)
+    assert scene.phase is Phase.STOPPED
+
+
+def test_a_lost_ball_levels_the_plate_and_is_waited_for() -> None:
+    scene = balancing()
+    scene.valid = False
+    scene.step(0.4)
+    assert (scene.phase, scene.reason) == (Phase.BALANCING, "no contact: levelling the plate")
+    assert scene.controller.state.tilt_rad == pytest.approx(LEVEL, abs=1e-6)
+    scene.step(0.2)
+    assert (scene.phase, scene.reason) == (Phase.WAITING, "waiting for a ball")
+    scene.valid = True
+    scene.step(0.2)
+    assert scene.phase is Phase.BALANCING
+
+
+@pytest.mark.parametrize("bad", [Ball(NAN, 0.0, 0.0, 0.0), Ball(0.0, 0.0, 0.0, math.inf)])
+def test_an_estimate_that_is_not_finite_is_no_ball(bad: Ball) -> None:
+    scene = balancing()
+    scene.ball = bad
+    scene.step(0.6)
+    assert scene.phase is Phase.WAITING
+    assert scene.controller.state.tilt_rad == pytest.approx(LEVEL, abs=1e-6)
+
+
+def test_a_reference_that_is_not_finite_is_none() -> None:
+    scene = balancing()
+    scene.reference = Reference(NAN, 0.0)
+    scene.step(0.6)
+    assert (scene.phase, scene.reason) == (Phase.WAITING, "waiting for a reference")
+
+
+def test_without_new_references_the_ball_is_held_at_the_last() -> None:
+    scene = balancing()
+    scene.reference = Reference(0.0, 0.0, 1.0, 1.0, 5.0, 5.0)
+    scene.reference_age_ms = 300.0
+    scene.step()
+    assert scene.controller.state.error_m == pytest.approx((0.02, 0.0))
+    assert scene.phase is Phase.BALANCING
+
+
+def test_a_request_ends_motion_level_and_the_first_reason_stays() -> None:
+    scene = balancing()
+    scene.controller.end("stopped by request")
+    scene.controller.end("something else")
+    scene.step(0.004)
+    assert scene.phase is Phase.BALANCING
+    scene.step(1.0)
+    assert (scene.phase, scene.reason) == (Phase.STOPPED, "stopped by request")
+    assert scene.controller.state.tilt_rad == pytest.approx(LEVEL, abs=1e-6)
+
+
+def test_the_tilt_stays_within_its_limit_whatever_the_error() -> None:
+    scene = Scene()
+    scene.ball = Ball(5.0, -5.0, 50.0, -50.0)
+    scene.step(2.0)
+    assert scene.largest_tilt == pytest.approx(ControllerConfig().max_tilt_rad, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("settings", "words"),
+    [
+        ({"max_wrist_offset_rad": 0.1}, "max_wrist_offset_rad = 0.1: allowed is 0.1152 or more"),
+        ({"touch_stop_after_s": 0.01}, "touch_stop_after_s = 0.01: allowed is touch_stale_after_s = 0.05 or more"),
+        ({"kd": NAN}, "kd = nan"),
+    ],
+)
+def test_settings_that_contradict_each_other_are_refused(settings: dict[str, float], words: str) -> None:
+    with pytest.raises(SettingsError, match=words):
+        ControllerConfig(**settings)
