@@ -1,0 +1,35 @@
+"""Test hooks: what a person at the robot could do, over a port of its own, in lines."""
+
+from __future__ import annotations
+
+import json
+
+from acts_sim.ur.controller import Controller
+
+_KNOWN = "protective_stop [reason], emergency_stop, clear, state"
+
+
+def answer(controller: Controller, line: str) -> str:
+    """Carry out a line; ``ok``, a JSON object for ``state``, or ``error: ...``."""
+    word, _, rest = line.partition(" ")
+    if word == "protective_stop":
+        controller.protective_stop(rest or "test hook")
+    elif word == "emergency_stop":
+        controller.emergency_stop()
+    elif word == "clear":
+        controller.clear_stops()
+    elif word == "state":
+        return json.dumps(
+            {
+                "time_s": controller.time_s,
+                "q_rad": controller.joints.q,
+                "qd_rad_s": controller.joints.qd,
+                "motion": type(controller.motion).__name__,
+                "runtime": controller.runtime.name,
+                "safety": controller.safety.name,
+                "robot_mode": controller.robot_mode.name,
+            }
+        )
+    else:
+        return f"error: unknown {word!r}; known are {_KNOWN}"
+    return "ok"

@@ -1,0 +1,158 @@
+"""``ur_controller``: the command line of the simulated UR5e controller."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import gc
+import signal
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+from types import FrameType
+
+import numpy as np
+
+from acts_core.errors import ActsError
+from acts_core.settings import default_of, describe, from_mapping
+from acts_sim.timed_ring import TimedRingWriter
+from acts_sim.ur import dashboard, hooks
+from acts_sim.ur.config import ControllerConfig
+from acts_sim.ur.controller import Controller
+from acts_sim.ur.script import ScriptSession
+from acts_sim.ur.server import Port, Server
+from acts_sim.ur.session import RtdePort
+from acts_sim.ur.textport import LineSession
+
+RTDE_PORT, DASHBOARD_PORT, SCRIPT_PORT = 30004, 29999, 30003
+
+JOINT_RING_WIDTH = 12
+"""Values in a slot of the joint ring: six angles [rad], six speeds [rad/s]."""
+
+
+class _Log:
+    """Lines to standard error: the same one at most once a second, and not more than 20 a second."""
+
+    def __init__(self, host: str) -> None:
+        self._prefix = f"ur_controller {host}:"
+        self._since_s = 0.0
+        self._said: set[str] = set()
+
+    def __call__(self, text: str) -> None:
+        now_s = time.monotonic()
+        if now_s - self._since_s >= 1.0:
+            self._since_s = now_s
+            self._said.clear()
+        if text in self._said or len(self._said) >= 20:
+            return
+        self._said.add(text)
+        with contextlib.suppress(OSError):  # nobody reads it
+            print(self._prefix, text, file=sys.stderr, flush=True)
+
+
+def parse(arguments: Sequence[str]) -> argparse.Namespace:
+    """The command line; what stands from ``--ros-args`` on is ROS's and is left out."""
+    parser = argparse.ArgumentParser(prog="ur_controller", description="Simulated UR5e controller for ur_rtde.")
+    parser.add_argument("--host", default="127.0.0.1", help="address to listen on; another robot takes 127.0.0.2 ...")
+    parser.add_argument("--joint-ring", type=Path, help="file to write q(6), qd(6) to every cycle as a shared ring")
+    parser.add_argument(
+        "--hook-port", type=int, default=0, help="port of the test hooks; 0: none. Lines: protective_stop, state ..."
+    )
+    for name, info in describe(ControllerConfig).items():
+        default = default_of(ControllerConfig, name)
+        allowed = f" ({info.allowed})" if info.allowed else ""
+        parser.add_argument(
+            _option(name),
+            default=default,
+            type=_floats if isinstance(default, tuple) else float,
+            help=info.description + allowed,
+        )
+    own = list(arguments)
+    if "--ros-args" in own:
+        del own[own.index("--ros-args") :]
+    return parser.parse_args(own)
+
+
+def _option(setting_name: str) -> str:
+    return "--q0" if setting_name == "q0_rad" else "--" + setting_name.replace("_", "-")
+
+
+def _floats(text: str) -> tuple[float, ...]:
+    return tuple(float(word) for word in text.replace(",", " ").split())
+
+
+def run(options: argparse.Namespace) -> None:
+    """Serve until SIGTERM or SIGINT.
+
+    Raises
+    ------
+    ActsError
+        When a setting is out of range, a port is taken or the ring cannot be written.
+    """
+    names = describe(ControllerConfig)
+    values = {name: getattr(options, "q0" if name == "q0_rad" else name) for name in names}
+    config = from_mapping(ControllerConfig, values, "ur_controller")
+    log = _Log(options.host)
+    controller = Controller(config, log)
+    rtde = RtdePort(controller)
+    ports = [
+        Port(RTDE_PORT, "RTDE", rtde.session),
+        Port(SCRIPT_PORT, "script", lambda: ScriptSession(controller)),
+        Port(
+            DASHBOARD_PORT,
+            "dashboard",
+            lambda: LineSession(lambda line: dashboard.answer(controller, line), dashboard.GREETING),
+        ),
+    ]
+    if options.hook_port:
+        ports.append(Port(options.hook_port, "hook", lambda: LineSession(lambda line: hooks.answer(controller, line))))
+
+    with contextlib.ExitStack() as stack:
+        ring: TimedRingWriter | None = None
+        ring_values = np.zeros(JOINT_RING_WIDTH)
+
+        def cycle(time_ns: int) -> None:
+            controller.tcp_wanted = rtde.needs_tcp
+            controller.tick()
+            if ring is not None:
+                ring_values[:6] = controller.joints.q
+                ring_values[6:] = controller.joints.qd
+                ring.write(time_ns, ring_values)
+
+        server = stack.enter_context(contextlib.closing(Server(options.host, ports, cycle, log)))
+
+        def stop(number: int, frame: FrameType | None) -> None:
+            server.stop()
+
+        signal.signal(signal.SIGTERM, stop)
+        signal.signal(signal.SIGINT, stop)
+        if options.joint_ring is not None:
+            ring = stack.enter_context(_open_ring(options.joint_ring))
+        # What exists by now lives as long as the process; there is no use in going through it again and again.
+        gc.freeze()
+        print("ready", flush=True)
+        server.run()
+
+
+def _open_ring(path: Path) -> TimedRingWriter:
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        return TimedRingWriter(path, JOINT_RING_WIDTH)
+    except OSError as error:
+        raise ActsError(f"{path}: the joint ring cannot be written ({error.strerror}); give another file") from error
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the simulated controller; 0 after a signal, 1 when it could not start."""
+    options = parse(sys.argv[1:] if arguments is None else arguments)
+    try:
+        run(options)
+    except ActsError as error:
+        print(f"ur_controller: {error}", file=sys.stderr, flush=True)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

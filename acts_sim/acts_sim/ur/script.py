@@ -1,0 +1,74 @@
+"""The script port: text of URScript programs in, programs out."""
+
+from __future__ import annotations
+
+import re
+
+from acts_sim.ur.controller import Controller
+from acts_sim.ur.program import ControlProgram
+
+MAX_PROGRAM_BYTES = 1_000_000
+"""The control script has about 42 kB."""
+
+CONTROL_PROGRAM = "rtde_control"
+
+_HEAD = re.compile(rb"^(def|sec)[ \t]+(\w+)[ \t]*\([^\n]*\n", re.MULTILINE)
+_END = b"\nend\n"
+_OFFSET = re.compile(rb"reg_offset_int[ \t]*=[ \t]*#[^\n]*\n[ \t]*(\d+)")
+
+
+class ScriptReader:
+    """Cuts a stream of text into programs: from a line ``def name():`` to a line ``end``; other text is dropped."""
+
+    def __init__(self) -> None:
+        self._buffer = bytearray()
+
+    def feed(self, data: bytes) -> list[tuple[str, bytes]]:
+        """The programs that are whole once `data` has arrived, as (name, text)."""
+        searched_from = max(len(self._buffer) - len(_END), 0)
+        self._buffer += data
+        programs = []
+        while (end := self._buffer.find(_END, searched_from)) >= 0:
+            text = bytes(self._buffer[: end + len(_END)])
+            del self._buffer[: end + len(_END)]
+            searched_from = 0
+            head = _HEAD.search(text)
+            if head is not None:
+                programs.append((head.group(2).decode(), text[head.start() :]))
+        if len(self._buffer) > MAX_PROGRAM_BYTES:
+            self._buffer.clear()
+        return programs
+
+
+class ScriptSession:
+    """One client of the script port."""
+
+    greeting = b""
+    streaming = False
+
+    def __init__(self, controller: Controller) -> None:
+        self._controller = controller
+        self._reader = ScriptReader()
+
+    def receive(self, data: bytes) -> bytes:
+        """Start the programs that have become whole; there is no reply."""
+        for name, text in self._reader.feed(data):
+            if name == CONTROL_PROGRAM:
+                found = _OFFSET.search(text)
+                offset = int(found.group(1)) if found else 0
+                if offset in (0, 24):
+                    self._controller.load_program(ControlProgram(name, offset))
+                else:
+                    self._controller.log(
+                        f"control script with register offset {offset} not started; allowed are 0 and 24"
+                    )
+            else:
+                self._controller.log(f"program {name!r} not started: only the control script of ur_rtde is simulated")
+        return b""
+
+    def tick(self) -> bytes:
+        """Nothing is ever due."""
+        return b""
+
+    def close(self) -> None:
+        """The program runs on without the connection."""

@@ -1,0 +1,253 @@
+"""The sockets and the clock: one thread, one `select` loop, a cycle every 2 ms.
+
+`select` and not `epoll`: Python rounds the timeout of the latter to whole milliseconds.
+"""
+
+from __future__ import annotations
+
+import select
+import socket
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol
+
+from acts_core.errors import PacketError, RobotError
+from acts_sim.ur.config import CYCLE_HZ
+
+MAX_CONNECTIONS = 200
+"""Per port. `select` itself cannot watch descriptors from 1024 on."""
+
+_CYCLE_NS = 1_000_000_000 // CYCLE_HZ
+
+# After a longer pause of the process the missed cycles are not made up for: the robot's time stood still.
+_MAX_CATCH_UP_CYCLES = 50
+
+# In one cycle, 680 servo commands: far more than a client that does not wait for anything can send.
+_READ_BYTES = 65536
+
+# About a tenth of a second of data packages: a client that was held up soon sees the present again.
+_SEND_BUFFER_BYTES = 65536
+
+# A client that lets so much pile up has stopped reading.
+_MAX_PENDING_BYTES = 1 << 20
+
+
+class Session(Protocol):
+    """What the server needs to know of one client."""
+
+    @property
+    def greeting(self) -> bytes:
+        """Sent to begin with."""
+
+    @property
+    def streaming(self) -> bool:
+        """Whether what the client sends counts from the next cycle on.
+
+        Then it is read once a cycle instead of waking the process.
+        """
+
+    def receive(self, data: bytes) -> bytes:
+        """Replies to bytes from the client; raises `PacketError` when the connection is to be closed."""
+
+    def tick(self) -> bytes:
+        """What is due to the client after a cycle."""
+
+    def close(self) -> None:
+        """The connection has gone."""
+
+
+@dataclass(frozen=True)
+class Port:
+    """A port to listen on.
+
+    Attributes
+    ----------
+    number : int
+        TCP port.
+    name : str
+        What it is for, for messages.
+    session : callable
+        Makes the session of a new client.
+    """
+
+    number: int
+    name: str
+    session: Callable[[], Session]
+
+
+class _Connection:
+    """A client: its socket, its session and what has not yet been sent."""
+
+    def __init__(self, connected: socket.socket, port: Port, session: Session) -> None:
+        self.socket = connected
+        self.port = port
+        self.session = session
+        self.pending = b""
+
+    def fileno(self) -> int:
+        return self.socket.fileno()
+
+    def send(self, data: bytes) -> bool:
+        """Send, keeping what does not fit; False when the connection is lost."""
+        self.pending += data
+        return self.flush()
+
+    def flush(self) -> bool:
+        if not self.pending:
+            return True
+        try:
+            sent = self.socket.send(self.pending)
+        except (BlockingIOError, InterruptedError):
+            sent = 0
+        except OSError:
+            return False
+        self.pending = self.pending[sent:]
+        return len(self.pending) <= _MAX_PENDING_BYTES
+
+
+class Server:
+    """Listens on all ports of one robot.
+
+    Parameters
+    ----------
+    host : str
+        Address to bind to.
+    ports : list of Port
+        What to listen on.
+    cycle : callable
+        Called once every 2 ms with the time the cycle stands for (CLOCK_MONOTONIC) [ns].
+    log : callable
+        Takes a line of text.
+
+    Raises
+    ------
+    RobotError
+        When a port cannot be bound.
+    """
+
+    def __init__(self, host: str, ports: list[Port], cycle: Callable[[int], None], log: Callable[[str], None]) -> None:
+        self._cycle = cycle
+        self._log = log
+        self._stopping = False
+        self._connections: list[_Connection] = []
+        self._listeners: dict[socket.socket, Port] = {}
+        try:
+            for port in ports:
+                self._listeners[_listen(host, port)] = port
+        except RobotError:
+            self.close()
+            raise
+
+    def stop(self) -> None:
+        """Let `run` return; may be called from a signal handler."""
+        self._stopping = True
+
+    def close(self) -> None:
+        """Close every socket."""
+        for connection in self._connections:
+            connection.socket.close()
+        for listener in self._listeners:
+            listener.close()
+
+    def run(self) -> None:
+        """Serve until `stop` is called."""
+        due_ns = time.monotonic_ns()
+        while not self._stopping:
+            now_ns = time.monotonic_ns()
+            if now_ns >= due_ns:
+                missed = (now_ns - due_ns) // _CYCLE_NS
+                if missed > _MAX_CATCH_UP_CYCLES:
+                    self._log(f"the process stood still for {missed * _CYCLE_NS / 1e9:.2f} s; so did the robot")
+                    due_ns = now_ns
+                for connection in list(self._connections):
+                    if connection.session.streaming:
+                        self._read(connection)
+                self._cycle(due_ns)
+                due_ns += _CYCLE_NS
+                for connection in list(self._connections):
+                    self._tick(connection)
+                continue
+            self._wait((due_ns - now_ns) / 1e9)
+
+    def _wait(self, timeout_s: float) -> None:
+        """Serve the sockets until the next cycle is due or something has come in."""
+        writers = [connection for connection in self._connections if connection.pending]
+        readers: list[socket.socket | _Connection] = list(self._listeners)
+        readers += [connection for connection in self._connections if not connection.session.streaming]
+        readable, writable, _ = select.select(readers, writers, [], timeout_s)
+        for connection in writable:
+            if not connection.flush():
+                self._drop(connection)
+        for ready in readable:
+            if isinstance(ready, _Connection):
+                self._read(ready)
+            else:
+                self._accept(ready)
+
+    def _accept(self, listener: socket.socket) -> None:
+        try:
+            connected, _ = listener.accept()
+        except OSError:
+            return  # gone again before it was accepted, or no descriptor left
+        port = self._listeners[listener]
+        if sum(connection.port is port for connection in self._connections) >= MAX_CONNECTIONS:
+            self._log(f"more than {MAX_CONNECTIONS} connections to the {port.name} port; refused one")
+            connected.close()
+            return
+        connected.setblocking(False)
+        connected.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        connected.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, _SEND_BUFFER_BYTES)
+        connection = _Connection(connected, port, port.session())
+        self._connections.append(connection)
+        if not connection.send(connection.session.greeting):
+            self._drop(connection)
+
+    def _read(self, connection: _Connection) -> None:
+        if connection.fileno() < 0:
+            return  # dropped a moment ago
+        try:
+            data = connection.socket.recv(_READ_BYTES)
+        except (BlockingIOError, InterruptedError):
+            return
+        except OSError:
+            data = b""
+        if not data:
+            self._drop(connection)
+            return
+        try:
+            replies = connection.session.receive(data)
+        except PacketError as error:
+            self._log(f"{connection.port.name} port: {error}; closing that connection")
+            self._drop(connection)
+            return
+        if replies and not connection.send(replies):
+            self._drop(connection)
+
+    def _tick(self, connection: _Connection) -> None:
+        data = connection.session.tick()
+        # To a client that does not keep up whole packages are skipped, never cut.
+        if data and not connection.pending and not connection.send(data):
+            self._drop(connection)
+
+    def _drop(self, connection: _Connection) -> None:
+        if connection in self._connections:
+            self._connections.remove(connection)
+            connection.session.close()
+            connection.socket.close()
+
+
+def _listen(host: str, port: Port) -> socket.socket:
+    listener = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+    try:
+        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        listener.bind((host, port.number))
+        listener.listen(MAX_CONNECTIONS)
+        listener.setblocking(False)
+    except (OSError, OverflowError, UnicodeError) as error:
+        listener.close()
+        raise RobotError(
+            f"cannot listen on {host} port {port.number} ({port.name}): {error}. "
+            "Is another simulated robot already there? Several of them take --host 127.0.0.2, 127.0.0.3 ..."
+        ) from error
+    return listener

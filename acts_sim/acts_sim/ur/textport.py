@@ -1,0 +1,43 @@
+"""What the dashboard and the test hooks share: lines in, one line of answer each."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+MAX_LINE_BYTES = 4096
+
+
+class LineSession:
+    """One client of a port that speaks in lines.
+
+    Parameters
+    ----------
+    answer : callable
+        Takes a line without its end, gives the line of answer.
+    greeting : str
+        Line sent to a new client; none when empty.
+    """
+
+    streaming = False
+
+    def __init__(self, answer: Callable[[str], str], greeting: str = "") -> None:
+        self.greeting = greeting.encode() + b"\n" if greeting else b""
+        self._answer = answer
+        self._buffer = b""
+
+    def receive(self, data: bytes) -> bytes:
+        """Answers to the lines that have become whole. A line that is too long is dropped."""
+        *lines, rest = (self._buffer + data).split(b"\n")
+        self._buffer = rest if len(rest) <= MAX_LINE_BYTES else b""
+        answers = []
+        for line in lines:
+            text = line[:MAX_LINE_BYTES].decode("ascii", errors="replace").strip()
+            answers.append(self._answer(text).encode("ascii", errors="replace") + b"\n")
+        return b"".join(answers)
+
+    def tick(self) -> bytes:
+        """Nothing is ever due."""
+        return b""
+
+    def close(self) -> None:
+        """Nothing is kept."""
