@@ -36,6 +36,10 @@ def spin(executor: Executor) -> None:
             executor.spin_until_future_complete(Future(), timeout_sec=_SPIN_S)
     except stopped:
         return
+    except RuntimeError:
+        # A signal in the middle of a callback can reach us as an exception of pybind11 that says nothing of it.
+        if rclpy.ok():
+            raise
 
 
 def _stop_errors() -> tuple[type[BaseException], ...]:

@@ -17,7 +17,7 @@ import rclpy
 from rclpy.executors import Executor
 from rclpy.task import Future
 
-from acts_control.trajectory import TrajectoryConfig, make_trajectory
+from acts_control.trajectory import Trajectory, TrajectoryConfig
 from acts_core.array import ArrayGeometry
 from acts_core.errors import ActsError, LaunchError
 from acts_msgs.msg import BalanceStatus
@@ -61,7 +61,7 @@ def plan(seconds: float | None) -> tuple[str, float]:
     segments = ["hold", "N", "B", "I"]
     while True:
         trajectory = ",".join(segments)
-        duration_s = make_trajectory(TrajectoryConfig(trajectory=trajectory)).duration_s
+        duration_s = Trajectory(TrajectoryConfig(trajectory=trajectory)).duration_s
         if seconds is None or duration_s <= seconds or len(segments) == 1:
             return trajectory, duration_s
         segments.pop()
@@ -70,7 +70,7 @@ def plan(seconds: float | None) -> tuple[str, float]:
 @contextmanager
 def launched(arguments: list[str], log_path: Path) -> Iterator[subprocess.Popen[bytes]]:
     """Run a launch file in a process group of its own; at the end stop it as Ctrl-C would."""
-    command = [sys.executable, "-m", "acts_tools", "launch", "acts_bringup", "ball_balancing.launch.xml", *arguments]
+    command = [sys.executable, "-m", "acts_tools", "launch", "--own", "acts_bringup", "ball_balancing.launch.xml", *arguments]
     with log_path.open("wb") as log:
         process = subprocess.Popen(command, stdout=log, stderr=subprocess.STDOUT, start_new_session=True)
         try:

@@ -1,0 +1,137 @@
+"""The whole chain without processes, clocks or ROS: joints, ball, skin, sampling, recovery, estimate, control.
+
+The same modules as in the processes, stepped a millisecond at a time, so that the quality of control can be tested on any
+machine, however busy: what is left out is only what scheduling adds, and that is set (`Delays`).
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from acts_control.controller import BallController, BallReport, ControlInput, ControllerConfig, ReferenceReport
+from acts_control.estimator import BallEstimator, ContactMeasurement, EstimatorConfig
+from acts_control.pid import Ball, JerkFinder
+from acts_control.robot import RobotConfig
+from acts_control.trajectory import Trajectory, TrajectoryConfig
+from acts_core.array import COUNT_MAX, ArrayGeometry
+from acts_core.sampling import Sampler, SamplingConfig, measure_in
+from acts_core.ur5e import LEVEL_Q_RAD, tilt_of, wrist_angles_for_tilt
+from acts_recon.dictionary import load_dictionary
+from acts_recon.reconstructor import Reconstructor
+from acts_recon.shipped import shipped_dictionary_path
+from acts_sim.ball_plate import JointMotion
+from acts_sim.ur.joints import JointState, Servo
+from acts_sim.world import Phase, World, WorldConfig
+from acts_tools.demo.recording import Recording
+
+STEP_S = 0.001
+_SPEED_LIMIT_RAD_S = np.pi
+_ACCELERATION_LIMIT_RAD_S2 = 40.0
+_WRISTS = (3, 4)
+
+
+@dataclass(frozen=True)
+class Chain:
+    """Settings of all stages.
+
+    Attributes
+    ----------
+    touch_delay_ms, command_delay_ms : int
+        From the last measurement to the estimate, and from the control step to the robot's servo.
+    """
+
+    world: WorldConfig = field(default_factory=lambda: WorldConfig(diameter_m=0.060, start_after_s=0.1))
+    estimator: EstimatorConfig = field(default_factory=EstimatorConfig)
+    controller: ControllerConfig = field(default_factory=ControllerConfig)
+    robot: RobotConfig = field(default_factory=RobotConfig)
+    trajectory: TrajectoryConfig = field(default_factory=TrajectoryConfig)
+    sampling: SamplingConfig = field(
+        default_factory=lambda: SamplingConfig("adaptive", 32, 32, 55, threshold_counts=60)
+    )
+    noise_counts: float = 1.5
+    touch_delay_ms: int = 2
+    command_delay_ms: int = 3
+    seed: int = 1
+
+
+def run(chain: Chain, limit_s: float = 60.0) -> Recording:
+    """Balance until the trajectory has ended.
+
+    Returns
+    -------
+    Recording
+        Truth, reference and estimate over time; `stop_reason` where it did not come to its end.
+    """
+    rng = np.random.default_rng(chain.seed)
+    geometry = ArrayGeometry()
+    world = World(chain.world)
+    sampler = Sampler(chain.sampling)
+    reconstructor = Reconstructor(geometry, load_dictionary(shipped_dictionary_path()))
+    estimator = BallEstimator(chain.estimator)
+    controller = BallController(chain.controller)
+    trajectory = Trajectory(chain.trajectory)
+    jerk = JerkFinder()
+    joints = JointState(LEVEL_Q_RAD, _SPEED_LIMIT_RAD_S, _ACCELERATION_LIMIT_RAD_S2)
+    servo = Servo()
+    control_every = round(1000 / chain.robot.control_rate_hz)
+    touches: deque[tuple[int, ContactMeasurement]] = deque()
+    commands: deque[tuple[int, list[float]]] = deque([(0, list(LEVEL_Q_RAD))])
+    recording = Recording()
+    started_ms: int | None = None
+    for now_ms in range(1, round(limit_s / STEP_S)):
+        while commands and commands[0][0] <= now_ms:
+            servo.set(commands.popleft()[1], chain.robot.servo_lookahead_s)
+        servo.step(joints, STEP_S)
+        motion = JointMotion(np.array(joints.q), np.array(joints.qd), np.array(joints.qdd))
+        state = world.step(motion, STEP_S)
+
+        noisy = world.counts + rng.normal(0.0, chain.noise_counts, world.counts.shape)
+        counts = np.clip(np.rint(noisy), 0, COUNT_MAX).astype(np.uint16)
+        indices, values = sampler.frame(measure_in(counts.reshape(geometry.rows, geometry.cols)))
+        contact = reconstructor.step(indices, values)
+        stamp_ns = now_ms * 1_000_000
+        measurement = ContactMeasurement(stamp_ns, contact.in_contact, contact.x_m, contact.y_m)
+        touches.append((now_ms + chain.touch_delay_ms, measurement))
+        while touches and touches[0][0] <= now_ms:
+            estimator.step(touches.popleft()[1])
+
+        if now_ms % control_every:
+            continue
+        tilt = tilt_of(joints.q)
+        estimator.set_tilt(*tilt)
+        estimate = estimator.state
+        ball = Ball(estimate.x_m, estimate.y_m, estimate.vx_m_s, estimate.vy_m_s)
+        time_s = 0.0 if started_ms is None else (now_ms - started_ms) * STEP_S
+        wanted = trajectory.at(time_s)
+        report = ReferenceReport(stamp_ns, jerk.step(stamp_ns, wanted.reference))
+        aim = controller.step(
+            ControlInput(stamp_ns, BallReport(estimate.stamp_ns, estimate.valid, ball), report, tilt),
+            control_every * STEP_S,
+        )
+        q_rad = list(LEVEL_Q_RAD)
+        q_rad[_WRISTS[0]], q_rad[_WRISTS[1]] = wrist_angles_for_tilt(LEVEL_Q_RAD, *aim)
+        commands.append((now_ms + chain.command_delay_ms, q_rad))
+
+        if controller.state.phase.name != "BALANCING":
+            if started_ms is not None:
+                recording.stop_reason = controller.state.reason
+                break
+            continue
+        if started_ms is None:
+            started_ms = now_ms
+        if state.phase is not Phase.ROLLING:
+            recording.stop_reason = f"the ball is {state.phase.value}"
+            break
+        seconds = now_ms * STEP_S
+        recording.truth.add(seconds, state.ball.x_m, state.ball.y_m)
+        if estimate.valid:
+            recording.estimate.add(seconds, estimate.x_m, estimate.y_m)
+        recording.reference.add(seconds, wanted.reference.x_m, wanted.reference.y_m)
+        recording.segments.append(wanted.segment)
+        if wanted.finished:
+            recording.finished = True
+            break
+    return recording
