@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from ament_index_python.packages import get_package_prefix
 from driver_rig import Rig, end_process, read_until, start_process
+from lifecycle_msgs.msg import Transition
 
 from acts_core.raster_ascii import RasterDecoder
 from acts_driver.source import SerialSource
@@ -52,6 +53,9 @@ def test_a_thousand_frames_a_second_without_a_loss_on_the_way(board: VirtualBoar
     try:
         rig.spin_until(lambda: len(rig.samples) >= 3000, "3000 messages")
         status = rig.status_until(lambda status: int(status.get("frames", "0")) >= 3000, "the report")
+        assert rig.state() == "active"
+        assert rig.change_state(Transition.TRANSITION_DEACTIVATE)
+        assert rig.state() == "inactive"
     finally:
         end_process(process)
     assert process.returncode == 0
