@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 
-import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -14,10 +12,8 @@ from acts_core.ur5e import LEVEL_Q_RAD, forward_kinematics
 from acts_sim.ur import dashboard, hooks
 from acts_sim.ur.config import ControllerConfig
 from acts_sim.ur.controller import Controller, RobotMode, RuntimeState, SafetyMode
-from acts_sim.ur.pose import pose_from_transform, transform_from_pose
+from acts_sim.ur.pose import transform_from_pose
 from acts_sim.ur.program import ControlProgram
-from acts_sim.ur.script import ScriptReader, ScriptSession
-from acts_sim.ur.textport import LineSession
 
 READY, DONE = 1, 2
 
@@ -25,12 +21,11 @@ READY, DONE = 1, 2
 class Robot:
     """A controller with a program that runs, and the client's side of the registers."""
 
-    def __init__(self, offset: int = 0, running: bool = True) -> None:
+    def __init__(self, offset: int = 0) -> None:
         self.log: list[str] = []
         self.offset = offset
         self.controller = Controller(ControllerConfig(start_delay_s=0.01, unlock_after_s=1.0), self.log.append)
-        if running:
-            self.start()
+        self.start()
 
     def start(self) -> None:
         self.write(0)
@@ -310,7 +305,6 @@ def test_speed_of_the_tool_is_that_of_its_pose() -> None:
     assert robot.controller.output.get("actual_TCP_speed") == (0.0,) * 6
 
 
-finite = st.floats(-1e3, 1e3)
 any_double = st.floats(allow_nan=True, allow_infinity=True)
 
 
@@ -330,61 +324,3 @@ def test_no_command_breaks_the_controller(commands: list[tuple[int, list[float],
         if controller.runtime != RuntimeState.PLAYING:
             controller.clear_stops()
             robot.start()
-
-
-@given(st.lists(st.floats(-1.8, 1.8), min_size=6, max_size=6))
-def test_pose_and_transform_are_inverse(pose: list[float]) -> None:
-    transform = transform_from_pose(pose)
-    assert transform_from_pose(pose_from_transform(transform)) == pytest.approx(transform, abs=1e-9)
-    if np.linalg.norm(pose[3:]) < math.pi - 1e-3:
-        assert pose_from_transform(transform) == pytest.approx(pose, abs=1e-7)
-
-
-@pytest.mark.parametrize("axis", [[1, 0, 0], [0, 1, 0], [0, 0, -1], [0.6, -0.8, 0], [0.48, 0.6, -0.64]])
-def test_half_turns(axis: list[float]) -> None:
-    transform = transform_from_pose([0.0, 0.0, 0.0, *(math.pi * value for value in axis)])
-    assert transform_from_pose(pose_from_transform(transform)) == pytest.approx(transform, abs=1e-9)
-
-
-PROGRAM = b"def rtde_control():\n    global reg_offset_int = # int register offset\n24\n    x = 1\n\nend\n"
-
-
-@given(st.binary(max_size=60), st.lists(st.integers(0, len(PROGRAM)), max_size=5))
-def test_programs_are_found_in_any_pieces(before: bytes, cuts: list[int]) -> None:
-    stream = before.replace(b"end", b"") + b"\n" + PROGRAM
-    edges = [0, *sorted(cuts), len(stream)]
-    reader, found = ScriptReader(), []
-    for start, end in itertools.pairwise(edges):
-        found += reader.feed(stream[start:end])
-    assert len(found) == 1
-    assert found[0] == ("rtde_control", PROGRAM)
-
-
-def test_control_script_is_started_with_its_offset_and_others_are_refused() -> None:
-    robot = Robot(running=False)
-    session = ScriptSession(robot.controller)
-    session.receive(b"def dance():\n  movej([0,0,0,0,0,0])\nend\n")
-    robot.cycles(10)
-    assert robot.controller.runtime == RuntimeState.STOPPED
-    assert "'dance' not started" in robot.log[-1]
-    session.receive(PROGRAM)
-    robot.cycles(10)
-    assert robot.controller.runtime == RuntimeState.PLAYING
-    assert robot.controller.output.get("output_int_register_24") == (READY,)
-    session.receive(b"x" * 2_000_000)
-    session.receive(PROGRAM.replace(b"\n24\n", b"\n7\n"))
-    assert "offset 7" in robot.log[-1]
-
-
-@given(st.binary(max_size=500))
-def test_lines_are_answered_one_by_one(data: bytes) -> None:
-    session = LineSession(lambda line: f"<{line}>", "hello")
-    assert session.greeting == b"hello\n"
-    assert session.receive(data).count(b"\n") == data.count(b"\n")
-
-
-def test_a_line_without_end_does_not_pile_up() -> None:
-    session = LineSession(lambda line: str(len(line)))
-    for _ in range(10):
-        assert session.receive(b"x" * 4000) == b""
-    assert session.receive(b"y\n").count(b"\n") == 1
