@@ -30,23 +30,19 @@ def spin(executor: Executor) -> None:
 
     Not ``executor.spin()``: the events executor of the Kilted wheels never calls back from it.
     """
-    stopped = _stop_errors()
     try:
         while rclpy.ok():
             executor.spin_until_future_complete(Future(), timeout_sec=_SPIN_S)
-    except stopped:
+    except _STOPPED:
         return
     except RuntimeError:
-        # A signal in the middle of a callback can reach us as an exception of pybind11 that says nothing of it.
+        # A signal shuts the context down at once. Whatever was under way then fails with one of rclpy's errors, or one
+        # of pybind11's that does not even say of what; all of them are RuntimeErrors.
         if rclpy.ok():
             raise
 
 
-def _stop_errors() -> tuple[type[BaseException], ...]:
-    # InvalidHandle is what the events executor raises when the context went away under it.
-    from rclpy._rclpy_pybind11 import InvalidHandle
-
-    return (KeyboardInterrupt, ExternalShutdownException, InvalidHandle)
+_STOPPED = (KeyboardInterrupt, ExternalShutdownException)
 
 
 def run(factories: Sequence[Callable[[], Node]], args: Sequence[str] | None = None) -> int:
@@ -77,7 +73,12 @@ def run(factories: Sequence[Callable[[], Node]], args: Sequence[str] | None = No
     except ActsError as error:
         print(f"error: {error}", file=sys.stderr, flush=True)
         return 1
-    except _stop_errors():
+    except _STOPPED:
+        return 0
+    except RuntimeError:
+        # While a node was made: see `spin`.
+        if rclpy.ok():
+            raise
         return 0
     finally:
         for node in reversed(nodes):
