@@ -84,6 +84,7 @@ def chest(tmp_path: Path) -> LaunchFile:
         "run_dir": str(tmp_path / "run"),
         "recording": str(disc_recording(tmp_path)),
         "namespace": "chest_left",
+        "ball": "false",
         "protocol": "raster_ascii",
     }
     return LaunchFile(PACKAGE, "tactile.launch.xml", 111, arguments)
@@ -96,6 +97,20 @@ def test_the_published_raster_sketch_on_another_skin(chest: Launched) -> None:
     assert {len(message.counts) for message in samples} == {1024}
     assert chest.wait_for_message("/chest_left/contact", Contact).in_contact
     assert chest.stop() == 0
+
+
+@launch_fixture
+def rolling(tmp_path: Path) -> LaunchFile:
+    return LaunchFile(PACKAGE, "tactile.launch.xml", 119, {"run_dir": str(tmp_path / "run")})
+
+
+@launch_test(rolling)
+def test_without_arguments_a_ball_is_felt(rolling: Launched) -> None:
+    def felt() -> bool:
+        return bool(rolling.wait_for_message("/plate/contact", Contact, START_S).in_contact)
+
+    rolling.wait_for(felt, START_S, "contact with the ball")
+    assert rolling.stop() == 0
 
 
 @launch_fixture

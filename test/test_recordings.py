@@ -77,6 +77,7 @@ def replay(npy: Path, rate_hz: float, domain_id: int, run_dir: Path) -> list[See
         "tactile.launch.xml",
         domain_id=domain_id,
         run_dir=str(run_dir),
+        ball="false",
         recording=str(npy),
         recording_rate_hz=str(rate_hz),
     ) as launch:
