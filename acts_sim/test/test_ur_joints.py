@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from acts_sim.ur.config import CYCLE_S
@@ -44,6 +44,7 @@ motions = st.one_of(
 
 @settings(deadline=None)
 @given(angles, st.lists(st.tuples(motions, st.integers(1, 60)), min_size=1, max_size=8))
+@example([0.0] * 5 + [0.5556307571763623], [(servo([0.0] * 6, 0.125), 32), (servo([0.0] * 6, 0.09122768051940741), 31)])
 def test_limits_hold_whatever_is_asked(start: list[float], commands: list[tuple[Motion, int]]) -> None:
     state = joints(start)
     for motion, cycles in commands:

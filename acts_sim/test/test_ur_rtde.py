@@ -21,6 +21,7 @@ SERVO_NAMES = ["input_int_register_0", *(f"input_double_register_{index}" for in
 packets = st.lists(st.tuples(st.sampled_from(PacketType), st.binary(max_size=200)), max_size=8)
 
 
+@settings(deadline=None)
 @given(packets, st.data())
 def test_packets_survive_any_cutting(sent: list[tuple[PacketType, bytes]], data: st.DataObject) -> None:
     stream = b"".join(encode(kind, payload) for kind, payload in sent)
@@ -32,6 +33,7 @@ def test_packets_survive_any_cutting(sent: list[tuple[PacketType, bytes]], data:
     assert received == sent
 
 
+@settings(deadline=None)
 @given(st.binary(max_size=300))
 def test_garbage_is_refused_or_waited_for(garbage: bytes) -> None:
     with contextlib.suppress(PacketError):
@@ -51,6 +53,7 @@ def test_packet_that_does_not_fit() -> None:
         encode(PacketType.DATA_PACKAGE, bytes(65533))
 
 
+@settings(deadline=None)
 @given(st.lists(st.sampled_from(sorted(INPUT_TYPES)), min_size=1, max_size=30, unique=True), st.binary(max_size=400))
 def test_input_recipe_takes_whole_fields_only(names: list[str], payload: bytes) -> None:
     recipe = InputRecipe(names, [INPUT_TYPES[name] for name in names])
@@ -62,6 +65,7 @@ def test_input_recipe_takes_whole_fields_only(names: list[str], payload: bytes) 
     assert taken.size <= len(payload)
 
 
+@settings(deadline=None)
 @given(st.integers(-(2**31), 2**31 - 1), st.lists(st.floats(allow_nan=False), min_size=11, max_size=11))
 def test_servo_command_round_trip(command: int, values: list[float]) -> None:
     recipe = InputRecipe(SERVO_NAMES, ["INT32", *["DOUBLE"] * 11])
@@ -70,6 +74,7 @@ def test_servo_command_round_trip(command: int, values: list[float]) -> None:
     assert list(decoded.values.values()) == [command, *values]
 
 
+@settings(deadline=None)
 @given(st.lists(st.sampled_from(sorted(OUTPUT_TYPES)), min_size=1, max_size=20))
 def test_output_package_holds_the_values_in_the_order_asked_for(names: list[str]) -> None:
     image = OutputImage()
@@ -161,7 +166,7 @@ def test_packages_come_at_the_rate_asked_for(asked_hz: float, due_in_a_second: i
         assert stamps == pytest.approx([0.002 * (index + 1) for index in range(500)])
 
 
-@settings(max_examples=50)
+@settings(deadline=None, max_examples=50)
 @given(st.lists(st.tuples(st.sampled_from(PacketType), st.binary(max_size=150)), max_size=20))
 def test_no_packet_breaks_a_session(sent: list[tuple[PacketType, bytes]]) -> None:
     controller, port = make()

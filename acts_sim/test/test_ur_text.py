@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from acts_sim.ur.config import ControllerConfig
@@ -17,6 +17,7 @@ from acts_sim.ur.script import ScriptReader, ScriptSession
 from acts_sim.ur.textport import LineSession
 
 
+@settings(deadline=None)
 @given(st.lists(st.floats(-1.8, 1.8), min_size=6, max_size=6))
 def test_pose_and_transform_are_inverse(pose: list[float]) -> None:
     transform = transform_from_pose(pose)
@@ -34,6 +35,7 @@ def test_half_turns(axis: list[float]) -> None:
 PROGRAM = b"def rtde_control():\n    global reg_offset_int = # int register offset\n24\n    x = 1\n\nend\n"
 
 
+@settings(deadline=None)
 @given(st.binary(max_size=60), st.lists(st.integers(0, len(PROGRAM)), max_size=5))
 def test_programs_are_found_in_any_pieces(before: bytes, cuts: list[int]) -> None:
     stream = before.replace(b"end", b"") + b"\n" + PROGRAM
@@ -64,6 +66,7 @@ def test_control_script_is_started_with_its_offset_and_others_are_refused() -> N
     assert "offset 7" in log[-1]
 
 
+@settings(deadline=None)
 @given(st.binary(max_size=500))
 def test_lines_are_answered_one_by_one(data: bytes) -> None:
     session = LineSession(lambda line: f"<{line}>", "hello")

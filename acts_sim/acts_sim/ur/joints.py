@@ -45,7 +45,9 @@ class JointState:
         step = self.acceleration_limit_rad_s2 * dt_s
         limited = min(max(speed, before - step), before + step)
         limited = min(max(limited, -self.speed_limit_rad_s), self.speed_limit_rad_s)
-        if angle is None or limited != speed:
+        # A speed may also pass its limit between the ends of a cycle.
+        furthest = self.speed_limit_rad_s * dt_s
+        if angle is None or limited != speed or abs(angle - self.q[index]) > furthest:
             angle = self.q[index] + 0.5 * (before + limited) * dt_s
         self.q[index] = angle
         self.qd[index] = limited
