@@ -1,7 +1,7 @@
 """`ball_balancing`: state, trajectory and control in one process, on one executor.
 
-``ball_balancing [--robot-ip ADDRESS] [--trajectory LIST] [--ros-args ...]``. A ROS parameter on the command line of a process
-goes to all its nodes, and those that do not have it refuse it; hence these options of its own.
+``ball_balancing [--robot-ip ADDRESS] [--trajectory LIST] [--ros-args ...]``. A ROS parameter on the command line of a
+process goes to all its nodes, and those that do not have it refuse it; hence these options of its own.
 """
 
 from __future__ import annotations

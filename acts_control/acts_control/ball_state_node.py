@@ -62,7 +62,7 @@ class BallStateNode(Node):
         stamp_ns = to_ns(message.header.stamp)
         self._counter.step(message.sequence, (self._clock.now().nanoseconds - stamp_ns) * 1e-9)
         centre = message.centre_of_pressure
-        self._estimator.step(ContactMeasurement(stamp_ns, message.in_contact, centre.x, centre.y))
+        self._estimator.step(ContactMeasurement(stamp_ns, message.in_contact, centre.x, centre.y, message.force))
         state_ns = self._estimator.state.stamp_ns
         if state_ns >= self._due_ns or state_ns < self._due_ns - 2 * self._period_ns:
             # Kept on a grid, so that the rate is right on average whatever the contacts' own rate.

@@ -1,29 +1,37 @@
 """Kalman filter on the centre of pressure: where the ball is and how fast it rolls.
 
-The model is that of the paper's S16: position and velocity along x and y, accelerated by the tilt of the plate. Two
-things are added. A rolling ball feels 5/7 of gravity. And the plate does not turn about its own centre but about wrist
-axes a lever arm L below the ball, so that turning it also carries it sideways under the ball::
+The model is that of the paper's S16: position and velocity along x and y, accelerated by the tilt of the plate. Three
+things are added. A rolling ball feels 5/7 of gravity. Rolling resistance slows it. And the plate does not turn about
+its own centre but about wrist axes a lever arm L below the ball, so that turning it also carries it sideways under the
+ball::
 
-    d2x/dt2 = 5/7 (g lean - L d2lean/dt2)          lean = tilt_y for x, -tilt_x for y
+    d2x/dt2 = 5/7 (g lean - L d2lean/dt2) - resistance          lean = tilt_y for x, -tilt_x for y
 
 The filter therefore follows ``z = x + 5/7 L lean``, for which only gravity is left: ``d2z/dt2 = 5/7 g lean``. A
 controller of x meets a right half-plane zero at sqrt(g / L), 8 rad/s for the default; z has none. Both axes have the
 same noise, so they share one covariance.
+
+How far a centre of pressure is trusted depends on the force found with it: a subsampled frame may hit only the edge of
+the contact, and then both are wrong.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import isfinite, sqrt
+from math import hypot, isfinite, sqrt
 from typing import NamedTuple
 
-from acts_control.plate import LEVER_ARM_SETTING, ROLLING, acceleration_of
+from acts_control.plate import LEVER_ARM_SETTING, RESISTANCE_SETTING, ROLLING, acceleration_of, resistance_per_speed
 from acts_core.settings import setting, validate
 
 _NS = 1e-9
 
 # Speeds a ball may have when it is first touched.
 _START_SPEED_M_S = 0.3
+
+# How quickly a larger force is believed to be the ball's weight, and a smaller one.
+_FORCE_RISE_S = 0.1
+_FORCE_FALL_S = 5.0
 
 # A stamp this much older than the newest one is a new time base (a driver or clock began anew), not a late message.
 _NEW_TIME_BASE_NS = 1_000_000_000
@@ -34,7 +42,7 @@ class EstimatorConfig:
     """How far touch is trusted, and for how long the ball may be unseen."""
 
     measurement_sigma_m: float = setting(
-        0.001, "standard deviation of the centre of pressure of one frame [m]", minimum=1e-5, maximum=0.02
+        0.002, "standard deviation of the centre of pressure of one frame [m]", minimum=1e-5, maximum=0.02
     )
     acceleration_noise: float = setting(
         0.02,
@@ -42,15 +50,25 @@ class EstimatorConfig:
         minimum=1e-5,
         maximum=10.0,
     )
+    partial_sigma_m: float = setting(
+        0.2,
+        "the same, added where the samples found nearly nothing of the contact; the less, the more they found [m]",
+        minimum=0.0,
+        maximum=1.0,
+    )
     gate_sigmas: float = setting(
-        5.0, "a centre of pressure farther from the prediction than this many deviations is left out", minimum=1.0
+        6.0, "a centre of pressure farther from the prediction than this many deviations is left out", minimum=1.0
     )
     gate_reset_s: float = setting(
-        0.03, "when everything was left out for so long, the estimate begins anew [s]", minimum=0.001, maximum=1.0
+        0.05, "when everything was left out for so long, the estimate begins anew [s]", minimum=0.001, maximum=1.0
     )
     lost_after_s: float = setting(
-        0.1, "without contact for longer than this the estimate is not valid [s]", minimum=0.001, maximum=2.0
+        0.25,
+        "without contact for longer than this the prediction is not trusted any more [s]",
+        minimum=0.001,
+        maximum=2.0,
     )
+    rolling_resistance: float = RESISTANCE_SETTING
     lever_arm_m: float = LEVER_ARM_SETTING
 
     def __post_init__(self) -> None:
@@ -68,12 +86,15 @@ class ContactMeasurement(NamedTuple):
         Whether anything was touched; without it the position is not looked at.
     x_m, y_m : float
         Centre of pressure in the skin's frame [m].
+    force_n : float
+        Total force of the contact [N]; 0 where it is not known.
     """
 
     stamp_ns: int
     in_contact: bool
     x_m: float
     y_m: float
+    force_n: float = 0.0
 
 
 @dataclass
@@ -132,6 +153,7 @@ class BallEstimator:
         self._zx = self._zy = self._wx = self._wy = 0.0
         self._pzz = self._pzw = self._pww = 0.0
         self._lean_x = self._lean_y = 0.0
+        self._usual_force = 0.0
 
     def set_tilt(self, tilt_x_rad: float, tilt_y_rad: float) -> None:
         """Tell the tilt of the plate from now on; without it the plate is taken to be level.
@@ -148,8 +170,8 @@ class BallEstimator:
         """Take in one contact message."""
         state = self.state
         state.received += 1
-        stamp_ns, in_contact, x, y = measurement
-        if in_contact and not (isfinite(x) and isfinite(y)):
+        stamp_ns, in_contact, x, y, force = measurement
+        if in_contact and not (isfinite(x) and isfinite(y) and isfinite(force)):
             state.not_finite += 1
             return
         if stamp_ns <= state.stamp_ns:
@@ -167,19 +189,39 @@ class BallEstimator:
             state.without_contact += 1
         else:
             zx, zy = x + self._lever * self._lean_x, y + self._lever * self._lean_y
-            if not state.valid or not self._correct(zx, zy, stamp_ns):
-                self._restart(zx, zy, stamp_ns)
+            variance = self._variance(force, dt if state.valid else 0.0)
+            if not state.valid or not self._correct(zx, zy, variance, stamp_ns):
+                self._restart(zx, zy, variance, stamp_ns)
         self._publish()
 
-    def _restart(self, zx: float, zy: float, stamp_ns: int) -> None:
+    def _variance(self, force: float, dt: float) -> float:
+        """Variance of a centre of pressure along each axis [m^2], from how much of the contact was seen.
+
+        Where a frame's samples hit only the edge of the contact, its centre is drawn there and its force is too small.
+        The usual force is followed quickly upwards and slowly downwards.
+        """
+        usual = self._usual_force
+        if force > usual:
+            usual += (force - usual) * (min(dt / _FORCE_RISE_S, 1.0) if usual > 0.0 else 1.0)
+        else:
+            usual += (force - usual) * min(dt / _FORCE_FALL_S, 1.0)
+        self._usual_force = usual
+        missing = max(1.0 - force / usual, 0.0) if usual > 0.0 else 0.0
+        return self.config.measurement_sigma_m**2 + (missing * self.config.partial_sigma_m) ** 2
+
+    def _restart(self, zx: float, zy: float, variance: float, stamp_ns: int) -> None:
         self._zx, self._zy, self._wx, self._wy = zx, zy, 0.0, 0.0
-        self._pzz, self._pzw, self._pww = self.config.measurement_sigma_m**2, 0.0, _START_SPEED_M_S**2
+        self._pzz, self._pzw, self._pww = variance, 0.0, _START_SPEED_M_S**2
         self._contact_ns = stamp_ns
         self.state.valid = True
         self.state.restarts += 1
 
     def _predict(self, dt: float) -> None:
         ax, ay = acceleration_of(-self._lean_y, self._lean_x)
+        slowing = resistance_per_speed(self.config.rolling_resistance, hypot(self._wx, self._wy))
+        # Not farther than to rest, however long the step.
+        slowing = min(slowing, 1.0 / dt)
+        ax, ay = ax - slowing * self._wx, ay - slowing * self._wy
         self._zx += dt * (self._wx + 0.5 * dt * ax)
         self._zy += dt * (self._wy + 0.5 * dt * ay)
         self._wx += dt * ax
@@ -190,10 +232,10 @@ class BallEstimator:
         self._pzw += dt * (self._pww + 0.5 * q * dt)
         self._pww += q * dt
 
-    def _correct(self, zx: float, zy: float, stamp_ns: int) -> bool:
+    def _correct(self, zx: float, zy: float, variance: float, stamp_ns: int) -> bool:
         """Take in a position; False when the estimate no longer has to do with what is touched."""
         ex, ey = zx - self._zx, zy - self._zy
-        s = self._pzz + self.config.measurement_sigma_m**2
+        s = self._pzz + variance
         if ex * ex + ey * ey > self.config.gate_sigmas**2 * s:
             self.state.outliers += 1
             return (stamp_ns - self._contact_ns) * _NS <= self.config.gate_reset_s

@@ -16,28 +16,40 @@ from dataclasses import dataclass
 from math import hypot
 from typing import NamedTuple
 
-from acts_control.plate import GRAVITY_M_S2, LEVER_ARM_SETTING, ROLLING_GRAVITY_M_S2, acceleration_of, tilt_for
+from acts_control.plate import (
+    GRAVITY_M_S2,
+    LEVER_ARM_SETTING,
+    RESISTANCE_SETTING,
+    RESISTANCE_SPEED_M_S,
+    acceleration_of,
+    resistance_per_speed,
+    tilt_for,
+)
 from acts_core.settings import setting, validate
+
+# The adapted coefficient of rolling resistance stays below this.
+_MOST_RESISTANCE = 0.05
 
 
 @dataclass(frozen=True)
 class PidConfig:
     """Gains; tuned in closed-loop simulation, see docs/ball_balancing.md for how far they may be off."""
 
-    kp: float = setting(16.0, "acceleration per error of position [1/s^2]", minimum=0.0, maximum=200.0)
-    ki: float = setting(12.0, "acceleration per integrated error of position [1/s^3]", minimum=0.0, maximum=200.0)
-    kd: float = setting(7.2, "acceleration per error of velocity [1/s]", minimum=0.0, maximum=50.0)
+    kp: float = setting(18.0, "acceleration per error of position [1/s^2]", minimum=0.0, maximum=200.0)
+    ki: float = setting(15.0, "acceleration per integrated error of position [1/s^3]", minimum=0.0, maximum=200.0)
+    kd: float = setting(7.6, "acceleration per error of velocity [1/s]", minimum=0.0, maximum=50.0)
     integral_zone_m: float = setting(
         0.010, "the error is integrated only where it is smaller than this [m]", minimum=0.0, maximum=0.2
     )
     max_integral_m_s2: float = setting(
         0.25, "largest acceleration the integral may ask for [m/s^2]", minimum=0.0, maximum=5.0
     )
-    rolling_resistance: float = setting(
-        0.005, "coefficient of rolling resistance that is compensated along the reference", minimum=0.0, maximum=0.1
-    )
-    resistance_speed_m_s: float = setting(
-        0.005, "reference speed at which half of the resistance is compensated [m/s]", minimum=1e-4, maximum=1.0
+    rolling_resistance: float = RESISTANCE_SETTING
+    resistance_adaptation: float = setting(
+        2.0,
+        "how quickly the compensated resistance grows while the ball lags behind a moving reference [1/(m s)]",
+        minimum=0.0,
+        maximum=20.0,
     )
     lever_arm_m: float = LEVER_ARM_SETTING
 
@@ -116,13 +128,26 @@ class JerkFinder:
 
 @dataclass
 class PidState:
-    """The integral's part of the wanted acceleration, all of it [m/s^2], and whether the tilt was limited."""
+    """What the law remembers and did.
+
+    Attributes
+    ----------
+    integral_x_m_s2, integral_y_m_s2 : float
+        The integral's part of the wanted acceleration [m/s^2].
+    acceleration_x_m_s2, acceleration_y_m_s2 : float
+        All of it [m/s^2].
+    saturated : bool
+        Whether the tilt was limited.
+    resistance : float
+        Coefficient of rolling resistance that is compensated, as adapted.
+    """
 
     integral_x_m_s2: float = 0.0
     integral_y_m_s2: float = 0.0
     acceleration_x_m_s2: float = 0.0
     acceleration_y_m_s2: float = 0.0
     saturated: bool = False
+    resistance: float = 0.0
 
 
 class BallPid:
@@ -143,11 +168,11 @@ class BallPid:
     def __init__(self, config: PidConfig, max_tilt_rad: float) -> None:
         self.config = config
         self.max_tilt_rad = max_tilt_rad
-        self.state = PidState()
+        self.state = PidState(resistance=config.rolling_resistance)
 
     def reset(self) -> None:
-        """Forget the past."""
-        self.state = PidState()
+        """Forget the past, except for how hard the ball rolls."""
+        self.state = PidState(resistance=self.state.resistance)
 
     def step(self, ball: Ball, reference: Reference, tilt: tuple[float, float], dt: float) -> tuple[float, float]:
         """One control step.
@@ -170,7 +195,7 @@ class BallPid:
         """
         config, state = self.config, self.state
         speed = hypot(reference.vx_m_s, reference.vy_m_s)
-        push = ROLLING_GRAVITY_M_S2 * config.rolling_resistance / (speed + config.resistance_speed_m_s)
+        push = resistance_per_speed(state.resistance, speed)
         resist_x, resist_y = push * reference.vx_m_s, push * reference.vy_m_s
         error_x, error_y = reference.x_m - ball.x_m, reference.y_m - ball.y_m
         # L/g: 5/7 L lean is this times the acceleration that the lean causes.
@@ -192,4 +217,9 @@ class BallPid:
             most = config.max_integral_m_s2
             state.integral_x_m_s2 = min(max(state.integral_x_m_s2 + config.ki * error_x * dt, -most), most)
             state.integral_y_m_s2 = min(max(state.integral_y_m_s2 + config.ki * error_y * dt, -most), most)
+            if speed > RESISTANCE_SPEED_M_S:
+                lag = (error_x * reference.vx_m_s + error_y * reference.vy_m_s) / speed
+                state.resistance = min(
+                    max(state.resistance + config.resistance_adaptation * lag * dt, 0.0), _MOST_RESISTANCE
+                )
         return wanted

@@ -28,6 +28,22 @@ LEVER_ARM_SETTING = setting(
 """A setting of estimator and controller, which have to agree. The default is for a skin 20 mm over the flange and a
 ball of 50 mm. (7/5: the plate's turning also spins the ball, 2/5 of its radius more than its centre's height.)"""
 
+RESISTANCE_SETTING = setting(
+    0.005,
+    "coefficient of rolling resistance of the ball on the skin: force over weight",
+    minimum=0.0,
+    maximum=0.1,
+)
+"""A setting of estimator and controller. The default is assumed: steel on a rail has 0.001, a tyre on asphalt 0.01."""
+
+RESISTANCE_SPEED_M_S = 0.005
+"""Speed at which half of the rolling resistance counts: it turns round smoothly, not at once [m/s]."""
+
+
+def resistance_per_speed(coefficient: float, speed_m_s: float) -> float:
+    """Deceleration of a ball by rolling resistance, over its speed [1/s]."""
+    return ROLLING_GRAVITY_M_S2 * coefficient / (speed_m_s + RESISTANCE_SPEED_M_S)
+
 
 def acceleration_of(tilt_x_rad: float, tilt_y_rad: float) -> tuple[float, float]:
     """Acceleration of the ball in the skin's plane [m/s^2] on a plate tilted by this rotation vector [rad]."""

@@ -44,7 +44,10 @@ class SafetyConfig:
         0.25, "and when none has come for so long, motion ends: STOPPED [s]", minimum=0.005, maximum=10.0
     )
     ball_lost_after_s: float = setting(
-        0.5, "messages but no contact for longer: back to waiting for a ball, level [s]", minimum=0.0, maximum=10.0
+        0.25,
+        "messages but no valid estimate for longer: back to waiting for a ball, level [s]",
+        minimum=0.0,
+        maximum=10.0,
     )
     robot_stale_after_s: float = setting(
         0.2, "the robot's clock standing still for longer is a lost connection [s]", minimum=0.02, maximum=5.0

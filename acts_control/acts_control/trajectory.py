@@ -40,9 +40,12 @@ class TrajectoryConfig:
     letter_height_m: float = setting(0.064, "height of the letters [m]", minimum=0.005, maximum=1.0)
     letter_width_m: float = setting(0.040, "width of N and B [m]", minimum=0.005, maximum=1.0)
     circle_radius_m: float = setting(0.030, "radius of the circle [m]", minimum=0.005, maximum=1.0)
-    speed_m_s: float = setting(0.058, "largest speed of the reference [m/s]", minimum=0.001, maximum=1.0)
+    speed_m_s: float = setting(0.060, "largest speed of the reference [m/s]", minimum=0.001, maximum=1.0)
     acceleration_m_s2: float = setting(
         0.2, "largest acceleration along a stroke, and across it in its bends [m/s^2]", minimum=0.001, maximum=5.0
+    )
+    shortest_stroke_s: float = setting(
+        1.0, "no stroke and no move takes less, however short it is [s]", minimum=0.01, maximum=60.0
     )
     reach_m: float = setting(
         0.045, "the reference never goes farther from the centre than this in x or y [m]", minimum=0.005, maximum=1.0
@@ -180,7 +183,11 @@ class Trajectory:
             return config.hold_s
         bend = max(hypot(*stroke.at(length * k / _CHECKED)[4:]) for k in range(_CHECKED + 1))
         speed = min(config.speed_m_s, sqrt(config.acceleration_m_s2 / bend) if bend > 0.0 else config.speed_m_s)
-        return max(_PEAK_SPEED * length / speed, sqrt(_PEAK_ACCELERATION * length / config.acceleration_m_s2))
+        return max(
+            _PEAK_SPEED * length / speed,
+            sqrt(_PEAK_ACCELERATION * length / config.acceleration_m_s2),
+            config.shortest_stroke_s,
+        )
 
     def _check_reach(self) -> None:
         reach = self._config.reach_m

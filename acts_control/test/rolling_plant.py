@@ -27,7 +27,7 @@ class PlantConfig:
     """The world; defaults are those of the simulated robot and ball.
 
     `height_m` is from the flange to where the ball feels the plate's turning: the skin's surface (20 mm) and 7/5 of the
-    ball's radius.
+    ball's radius. `partial` is how much of the contact is not found at the worst places, as it happens to subsampling.
     """
 
     x_m: float = 0.020
@@ -39,6 +39,7 @@ class PlantConfig:
     noise_m: float = 0.0008
     ripple_m: float = 0.0
     no_contact: float = 0.02
+    partial: float = 0.0
     level_error_rad: float = 0.0
     seed: int = 1
 
@@ -88,13 +89,16 @@ class Plant:
     def touch(self, time_s: float) -> ContactMeasurement | None:
         """Measure now; what was measured `delay_s` ago arrives."""
         config, noise = self.config, self._random
+        # Places where the samples hit only a part of the contact: the rest of it draws the centre to its side.
+        missing = config.partial * max(sin(2 * pi * self.x / 0.023) * sin(2 * pi * self.y / 0.031), 0.0)
         ripple = [config.ripple_m * sin(2 * pi * place / 0.004375) for place in (self.x, self.y)]
         stamp_ns = START_NS + round((time_s + noise.uniform(-1e-4, 1e-4)) * 1e9)
         measured = ContactMeasurement(
             stamp_ns,
             noise.random() >= config.no_contact,
-            self.x + ripple[0] + noise.gauss(0.0, config.noise_m),
+            self.x + 0.009 * missing + ripple[0] + noise.gauss(0.0, config.noise_m),
             self.y + ripple[1] + noise.gauss(0.0, config.noise_m),
+            8.0 * (1.0 - missing) * noise.uniform(0.97, 1.03),
         )
         self._on_the_way.append((time_s + config.delay_s, measured))
         if self._on_the_way[0][0] <= time_s:

@@ -45,6 +45,8 @@ def test_letters_are_traced(seed: int) -> None:
         PlantConfig(rolling_resistance=0.01),
         PlantConfig(ripple_m=0.001),
         PlantConfig(noise_m=0.002, no_contact=0.1),
+        PlantConfig(partial=0.7),
+        PlantConfig(partial=0.7, rolling_resistance=0.0),
         PlantConfig(level_error_rad=np.deg2rad(0.5)),
     ],
     ids=lambda world: str({k: v for k, v in vars(world).items() if v != getattr(PlantConfig(), k)}),
@@ -70,6 +72,14 @@ def test_without_the_lever_arm_in_the_law_the_ball_is_not_held() -> None:
         estimator_config=EstimatorConfig(lever_arm_m=0.0),
     )
     assert result.rms_of_mm("hold") > 3 * HOLD_MM
+
+
+def test_partly_found_contacts_mislead_less_where_their_force_is_looked_at() -> None:
+    world = PlantConfig(partial=0.7)
+    with_force = run(world, trajectory="hold,N,B,I")
+    without = run(world, trajectory="hold,N,B,I", estimator_config=EstimatorConfig(partial_sigma_m=0.0))
+    for name in ("N", "B"):
+        assert with_force.rms_of_mm(name) < 0.7 * without.rms_of_mm(name)
 
 
 def test_a_push_is_recovered_from() -> None:

@@ -14,8 +14,10 @@ START_NS = 1_700_000_000_000_000_000
 MS = 1_000_000
 
 
-def touch(time_ms: float, x_m: float = 0.01, y_m: float = -0.02, *, touched: bool = True) -> ContactMeasurement:
-    return ContactMeasurement(START_NS + round(time_ms * MS), touched, x_m, y_m)
+def touch(
+    time_ms: float, x_m: float = 0.01, y_m: float = -0.02, force_n: float = 8.0, *, touched: bool = True
+) -> ContactMeasurement:
+    return ContactMeasurement(START_NS + round(time_ms * MS), touched, x_m, y_m, force_n)
 
 
 def settled(config: EstimatorConfig | None = None) -> BallEstimator:
@@ -28,7 +30,8 @@ def settled(config: EstimatorConfig | None = None) -> BallEstimator:
 
 def test_noise_is_averaged_and_velocity_found_at_uneven_times() -> None:
     rng = random.Random(1)
-    estimator = BallEstimator(EstimatorConfig())
+    # It rolls at a constant speed on a level plate.
+    estimator = BallEstimator(EstimatorConfig(rolling_resistance=0.0))
     time_ms, errors, speeds = 0.0, [], []
     for k in range(3000):
         time_ms += rng.choice([0.6, 1.0, 1.4, 3.0])
@@ -118,7 +121,7 @@ def test_single_outliers_are_left_out() -> None:
 
 
 def test_a_ball_that_was_carried_away_is_followed_after_a_moment() -> None:
-    estimator = settled(EstimatorConfig(gate_reset_s=0.03))
+    estimator = settled(EstimatorConfig(gate_reset_s=0.03, measurement_sigma_m=0.001))
     for k in range(300, 329):
         estimator.step(touch(k, -0.05, 0.05))
     assert estimator.state.x_m > 0.0
@@ -134,11 +137,46 @@ def test_what_is_not_finite_is_counted_and_changes_nothing(bad: float) -> None:
     stamp_ns, x_m = estimator.state.stamp_ns, estimator.state.x_m
     estimator.step(touch(300, bad, 0.0))
     estimator.step(touch(301, 0.0, bad))
+    estimator.step(touch(301, 0.0, 0.0, bad))
     estimator.set_tilt(bad, 0.0)
     # The stamp stays: such messages do not count as touch.
-    assert (estimator.state.stamp_ns, estimator.state.x_m, estimator.state.not_finite) == (stamp_ns, x_m, 2)
+    assert (estimator.state.stamp_ns, estimator.state.x_m, estimator.state.not_finite) == (stamp_ns, x_m, 3)
     estimator.step(touch(302))
     assert estimator.state.x_m == pytest.approx(0.01, abs=1e-4)
+
+
+def test_a_centre_found_with_little_force_hardly_counts() -> None:
+    full, part = settled(), settled()
+    for k in range(300, 350):
+        full.step(touch(k, 0.014, -0.02, 8.0))
+        part.step(touch(k, 0.014, -0.02, 4.0))
+    assert full.state.x_m == pytest.approx(0.0135, abs=1e-3)
+    assert part.state.x_m == pytest.approx(0.010, abs=5e-4)
+    assert part.state.sigma_m > full.state.sigma_m
+
+
+def test_a_lighter_ball_is_believed_in_time_and_no_force_at_all_is_no_doubt() -> None:
+    lighter = settled()
+    for k in range(300, 300 + 30_000, 3):
+        lighter.step(touch(k, 0.01, -0.02, 2.0))
+    for k in range(30_300, 30_350):
+        lighter.step(touch(k, 0.014, -0.02, 2.0))
+    assert lighter.state.x_m == pytest.approx(0.014, abs=1e-3)
+    unknown = BallEstimator(EstimatorConfig())
+    for k in range(100):
+        unknown.step(touch(k, 0.01, -0.02, 0.0))
+    assert unknown.state.x_m == pytest.approx(0.01, abs=1e-6)
+    assert unknown.state.sigma_m < 0.001
+
+
+def test_rolling_resistance_slows_an_unseen_ball_to_rest_and_not_back() -> None:
+    estimator = BallEstimator(EstimatorConfig(rolling_resistance=0.05))
+    for k in range(100):
+        estimator.step(touch(k, 0.05 * k * 1e-3, 0.0))
+    moving = estimator.state.vx_m_s
+    for k in range(100, 300, 20):
+        estimator.step(touch(k, touched=False))
+    assert 0.0 <= estimator.state.vx_m_s < 0.2 * moving
 
 
 def test_repeated_and_older_stamps_are_ignored_and_counted() -> None:

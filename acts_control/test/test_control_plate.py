@@ -57,9 +57,9 @@ def test_on_a_perfect_course_only_the_reference_is_fed_forward() -> None:
 
 
 def test_rolling_resistance_is_compensated_along_the_reference() -> None:
-    config = PidConfig(rolling_resistance=0.01, resistance_speed_m_s=0.0001, lever_arm_m=0.0)
-    moving = Reference(0.0, 0.0, -0.05, 0.0)
-    ax, ay = acceleration_of(*BallPid(config, LIMIT).step(Ball(0.0, 0.0, -0.05, 0.0), moving, LEVEL, 0.004))
+    config = PidConfig(rolling_resistance=0.01, lever_arm_m=0.0)
+    moving = Reference(0.0, 0.0, -0.5, 0.0)
+    ax, ay = acceleration_of(*BallPid(config, LIMIT).step(Ball(0.0, 0.0, -0.5, 0.0), moving, LEVEL, 0.004))
     assert ax == pytest.approx(-0.01 * ROLLING_GRAVITY_M_S2, rel=0.01)
     assert ay == pytest.approx(0.0, abs=1e-12)
 
@@ -79,6 +79,18 @@ def test_the_integral_removes_a_standing_error_and_is_bounded() -> None:
     assert pid.state.integral_x_m_s2 == 0.1
     pid.reset()
     assert pid.state.integral_x_m_s2 == 0.0
+
+
+def test_a_ball_that_lags_behind_rolls_harder_than_was_thought() -> None:
+    for lag_m, adapted in ((0.003, 0.02), (-0.003, 0.0)):
+        pid = BallPid(PidConfig(), LIMIT)
+        for _ in range(300):
+            pid.step(Ball(0.0, -lag_m, 0.0, 0.05), Reference(0.0, 0.0, 0.0, 0.05), LEVEL, 0.008)
+        assert pid.state.resistance == pytest.approx(adapted, abs=0.003)
+        pid.reset()
+        assert pid.state.resistance == pytest.approx(adapted, abs=0.003)
+        pid.step(Ball(0.0, 0.003, 0.0, 0.0), CENTRE, LEVEL, 1.0)
+        assert pid.state.resistance == pytest.approx(adapted, abs=0.003)
 
 
 @pytest.mark.parametrize("ball", [Ball(-0.02, 0.0, 0.0, 0.0), Ball(-0.005, 0.0, -1.0, 0.0)])

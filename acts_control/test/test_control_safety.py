@@ -207,7 +207,7 @@ def test_a_stamp_from_the_future_is_stale_touch() -> None:
 def test_a_lost_ball_levels_the_plate_and_is_waited_for() -> None:
     scene = balancing()
     scene.valid = False
-    scene.step(0.4)
+    scene.step(0.2)
     assert (scene.phase, scene.reason) == (Phase.BALANCING, "no contact: levelling the plate")
     assert scene.controller.state.tilt_rad == pytest.approx(LEVEL, abs=1e-6)
     scene.step(0.2)
