@@ -70,7 +70,16 @@ def plan(seconds: float | None) -> tuple[str, float]:
 @contextmanager
 def launched(arguments: list[str], log_path: Path) -> Iterator[subprocess.Popen[bytes]]:
     """Run a launch file in a process group of its own; at the end stop it as Ctrl-C would."""
-    command = [sys.executable, "-m", "acts_tools", "launch", "--own", "acts_bringup", "ball_balancing.launch.xml", *arguments]
+    command = [
+        sys.executable,
+        "-m",
+        "acts_tools",
+        "launch",
+        "--own",
+        "acts_bringup",
+        "ball_balancing.launch.xml",
+        *arguments,
+    ]
     with log_path.open("wb") as log:
         process = subprocess.Popen(command, stdout=log, stderr=subprocess.STDOUT, start_new_session=True)
         try:
