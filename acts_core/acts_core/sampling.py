@@ -4,11 +4,12 @@ The firmware (``acts_firmware``, C++) does this on the board. This is its refere
 readable, and usable where there is no board. A test compares the two on random and on recorded fields.
 
 A new scheme is a function from what it needs to row-major taxel indices in the order of measurement, none twice, plus
-a branch in `Sampler.frame`, and the same in the C++ core.
+a branch in `Sampler.frame`, and the same in the C++ core. One that remembers is a class (`acts_core.tracking`).
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
@@ -20,11 +21,18 @@ from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import ArrayError, SettingsError
 from acts_core.frames import Scheme
 from acts_core.settings import setting, validate
+from acts_core.tracking import Tracking
 
 Measure = Callable[[int, int], int]
 """Measures one taxel: row and column to ADC counts."""
 
-SCHEMES = {"adaptive": Scheme.ADAPTIVE, "uniform": Scheme.UNIFORM, "random": Scheme.RANDOM, "raster": Scheme.RASTER}
+SCHEMES = {
+    "adaptive": Scheme.ADAPTIVE,
+    "tracking": Scheme.TRACKING,
+    "uniform": Scheme.UNIFORM,
+    "random": Scheme.RANDOM,
+    "raster": Scheme.RASTER,
+}
 
 NEIGHBOURS: dict[str, tuple[tuple[int, int], ...]] = {
     # Columns outer, the taxel's own first: the published sketches.
@@ -46,9 +54,18 @@ class SamplingConfig:
     rows: int = setting(32, "rows of the array", minimum=1, maximum=MAX_SIDE)
     cols: int = setting(32, "columns of the array", minimum=1, maximum=MAX_SIDE)
     m: int = setting(55, "taxels measured per frame; raster measures all", minimum=1, maximum=MAX_SIDE**2)
-    threshold_counts: int = setting(180, "counts above which the neighbours are searched", minimum=0, maximum=COUNT_MAX)
+    threshold_counts: int = setting(
+        180,
+        "counts above which adaptive searches a taxel's neighbours and tracking follows it",
+        minimum=0,
+        maximum=COUNT_MAX,
+    )
     neighbour_order: str = setting("columns", "order of the neighbour search", choices=tuple(NEIGHBOURS))
     seed: int = setting(1, "seed of random sampling", minimum=0, maximum=2**64 - 1)
+    # Smaller shares would all mean the same: one taxel of even the largest array.
+    search_share: float = setting(
+        0.2, "share of a tracking frame that is kept for the search", minimum=0.0001, maximum=1.0
+    )
 
     def __post_init__(self) -> None:
         validate(self)
@@ -59,14 +76,27 @@ class SamplingConfig:
         if self.scheme == "uniform":
             uniform_spacing(self.rows, self.cols, self.m)
 
+    @property
+    def search_quota(self) -> int:
+        """Taxels of a tracking frame that are kept for the search: ``ceil(search_share * m)``, 1 to `m`."""
+        return math.ceil(self.search_share * self.m)
+
 
 class Sampler:
-    """Samples frame after frame; holds what goes from one to the next (uniform offset, random numbers)."""
+    """Samples frame after frame; holds what goes from one to the next (uniform offset, random numbers, flags)."""
 
     def __init__(self, config: SamplingConfig) -> None:
         self.config = config
         self._frame = 0
         self._random = RandomTaxels(config.rows, config.cols, config.seed)
+        self._tracking = Tracking(
+            division_order(config.rows, config.cols),
+            config.rows,
+            config.cols,
+            config.m,
+            search_quota=config.search_quota,
+            threshold_counts=config.threshold_counts,
+        )
 
     def frame(self, measure: Measure) -> tuple[NDArray[np.uint16], NDArray[np.uint16]]:
         """Sample one frame.
@@ -91,6 +121,8 @@ class Sampler:
                 threshold_counts=config.threshold_counts,
                 neighbour_order=config.neighbour_order,
             )
+        if config.scheme == "tracking":
+            return self._tracking.frame(measure)
         if config.scheme == "uniform":
             indices = uniform(config.rows, config.cols, config.m, self._frame)
         elif config.scheme == "random":

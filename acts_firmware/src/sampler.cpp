@@ -1,6 +1,7 @@
 #include "acts_firmware/sampler.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace acts {
 
@@ -20,6 +21,18 @@ constexpr Steps kRowsOuter = {{{-1, -1}, {-1, 0}, {-1, 1}, {0, -1}, {0, 1}, {1, 
 
 constexpr int divide_up(int a, int b) {
   return (a + b - 1) / b;
+}
+
+constexpr bool known(Scheme scheme) {
+  switch (scheme) {
+    case Scheme::kUniform:
+    case Scheme::kRandom:
+    case Scheme::kAdaptive:
+    case Scheme::kRaster:
+    case Scheme::kTracking:
+      return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -47,6 +60,10 @@ Spacing uniform_spacing(int rows, int cols, int m) {
   return best;
 }
 
+int search_quota(double share, int m) {
+  return static_cast<int>(std::ceil(share * m));
+}
+
 Sampler::Sampler() : random_(config_.seed, kRandomStream) {
   configure(config_);
 }
@@ -55,7 +72,7 @@ ConfigError Sampler::configure(const SamplingConfig& config) {
   if (config.rows < 1 || config.rows > kMaxSide || config.cols < 1 || config.cols > kMaxSide) {
     return ConfigError::kSize;
   }
-  if (config.scheme < Scheme::kUniform || config.scheme > Scheme::kRaster) {
+  if (!known(config.scheme)) {
     return ConfigError::kScheme;
   }
   const int taxels = config.rows * config.cols;
@@ -69,6 +86,9 @@ ConfigError Sampler::configure(const SamplingConfig& config) {
   if (config.scheme == Scheme::kUniform && spacing.row == 0) {
     return ConfigError::kUniformM;
   }
+  if (config.scheme == Scheme::kTracking && (config.search_quota < 1 || config.search_quota > config.m)) {
+    return ConfigError::kSearchQuota;
+  }
   config_ = config;
   spacing_ = spacing;
   order_.build(config.rows, config.cols);
@@ -79,6 +99,10 @@ ConfigError Sampler::configure(const SamplingConfig& config) {
   }
   mark_.fill(0);
   frame_mark_ = 0;
+  pressed_.fill(false);
+  pressed_near_.fill(0);
+  cursor_ = 0;
+  walk_ = 0;
   return ConfigError::kNone;
 }
 
@@ -100,6 +124,16 @@ void Sampler::sample(TaxelReader& reader, SampleFrame& frame) {
     case Scheme::kRaster:
       raster(reader, frame);
       break;
+    case Scheme::kTracking:
+      tracking(reader, frame);
+      break;
+  }
+}
+
+void Sampler::begin_marks() {
+  if (++frame_mark_ == 0) {
+    mark_.fill(0);
+    frame_mark_ = 1;
   }
 }
 
@@ -115,10 +149,7 @@ bool Sampler::touched(TaxelReader& reader, SampleFrame& frame, int index) {
 void Sampler::adaptive(TaxelReader& reader, SampleFrame& frame) {
   const Steps& steps = config_.neighbour_order == NeighbourOrder::kRows ? kRowsOuter : kColumnsOuter;
   const int m = config_.m;
-  if (++frame_mark_ == 0) {
-    mark_.fill(0);
-    frame_mark_ = 1;
-  }
+  begin_marks();
   for (int rank = 0; rank < order_.size() && !frame.full(m); ++rank) {
     const int centre = order_[rank];
     if (mark_[static_cast<std::size_t>(centre)] == frame_mark_ || !touched(reader, frame, centre)) {
@@ -143,6 +174,63 @@ void Sampler::adaptive(TaxelReader& reader, SampleFrame& frame) {
       if (mark_[static_cast<std::size_t>(index)] != frame_mark_ && touched(reader, frame, index)) {
         stack_[depth++] = {static_cast<std::uint16_t>(index), 0};
       }
+    }
+  }
+}
+
+// Candidates are what was pressed, and its neighbours. They get at most m - search_quota taxels of a frame, in turns; a
+// search that goes on from frame to frame gets the rest. So every taxel is measured at least once in any
+// ceil(rows * cols / search_quota) frames, and every lasting candidate at least once in any
+// ceil(candidates / (m - search_quota)).
+void Sampler::tracking(TaxelReader& reader, SampleFrame& frame) {
+  begin_marks();
+  const int followed = list_candidates(config_.m - config_.search_quota);
+  for (int i = 0; i < followed; ++i) {
+    track(reader, frame, candidates_[static_cast<std::size_t>(i)]);
+  }
+  while (!frame.full(config_.m)) {
+    const int index = order_[walk_];
+    walk_ = walk_ + 1 == order_.size() ? 0 : walk_ + 1;
+    if (mark_[static_cast<std::size_t>(index)] != frame_mark_) {
+      track(reader, frame, index);
+    }
+  }
+}
+
+// Lists up to `limit` candidates, row by row and cyclically from the cursor on, before measurements change them. The
+// first one left out is where the next frame begins.
+int Sampler::list_candidates(int limit) {
+  const int taxels = order_.size();
+  int listed = 0;
+  int index = cursor_;
+  cursor_ = 0;
+  for (int seen = 0; seen < taxels; ++seen) {
+    if (pressed_near_[static_cast<std::size_t>(index)] > 0) {
+      if (listed == limit) {
+        cursor_ = index;
+        break;
+      }
+      candidates_[static_cast<std::size_t>(listed++)] = static_cast<std::uint16_t>(index);
+    }
+    index = index + 1 == taxels ? 0 : index + 1;
+  }
+  return listed;
+}
+
+// Measures a taxel and notes whether it is pressed.
+void Sampler::track(TaxelReader& reader, SampleFrame& frame, int index) {
+  const bool now = touched(reader, frame, index);
+  bool& before = pressed_[static_cast<std::size_t>(index)];
+  if (now == before) {
+    return;
+  }
+  before = now;
+  const int row = index / config_.cols;
+  const int col = index % config_.cols;
+  for (int r = std::max(row - 1, 0); r <= std::min(row + 1, config_.rows - 1); ++r) {
+    for (int c = std::max(col - 1, 0); c <= std::min(col + 1, config_.cols - 1); ++c) {
+      std::uint8_t& near = pressed_near_[static_cast<std::size_t>(r * config_.cols + c)];
+      near = static_cast<std::uint8_t>(now ? near + 1 : near - 1);
     }
   }
 }

@@ -34,11 +34,12 @@ def library() -> ctypes.CDLL:
     u16, u8, i32 = ctypes.c_void_p, ctypes.c_char_p, ctypes.c_int
     u32, u64, size = ctypes.c_uint32, ctypes.c_uint64, ctypes.c_size_t
     signatures = {
-        "probe_new": (ctypes.c_void_p, [i32, i32, i32, i32, i32, i32, u64]),
+        "probe_new": (ctypes.c_void_p, [i32, i32, i32, i32, i32, i32, u64, i32]),
         "probe_free": (None, [ctypes.c_void_p]),
         "probe_sample": (i32, [ctypes.c_void_p, u16, u16, u16]),
         "probe_division_order": (i32, [i32, i32, u16]),
         "probe_spacing": (None, [i32, i32, i32, ctypes.POINTER(i32)]),
+        "probe_search_quota": (i32, [ctypes.c_double, i32]),
         "probe_random": (None, [u64, u64, u32, i32, ctypes.c_void_p]),
         "probe_cobs_encode": (size, [u8, size, ctypes.c_void_p]),
         "probe_cobs_decode": (size, [u8, size, ctypes.c_void_p]),
@@ -63,6 +64,7 @@ class CoreSampler:
             config.threshold_counts,
             NEIGHBOUR_ORDERS[config.neighbour_order],
             config.seed,
+            config.search_quota,
         )
         assert self._probe, f"the core refuses {config}"
 
@@ -92,6 +94,10 @@ def uniform_spacing(rows: int, cols: int, m: int) -> tuple[int, int] | None:
     pair = (ctypes.c_int * 2)()
     library().probe_spacing(rows, cols, m, pair)
     return (pair[0], pair[1]) if pair[0] else None
+
+
+def search_quota(share: float, m: int) -> int:
+    return int(library().probe_search_quota(share, m))
 
 
 def random_numbers(seed: int, stream: int, bound: int, count: int) -> list[int]:

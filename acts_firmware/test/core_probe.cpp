@@ -45,7 +45,8 @@ struct Probe {
 
 extern "C" {
 
-Probe* probe_new(int rows, int cols, int scheme, int m, int threshold, int neighbour_order, std::uint64_t seed) {
+Probe* probe_new(int rows, int cols, int scheme, int m, int threshold, int neighbour_order, std::uint64_t seed,
+                 int search_quota) {
   acts::SamplingConfig config;
   config.rows = rows;
   config.cols = cols;
@@ -54,6 +55,7 @@ Probe* probe_new(int rows, int cols, int scheme, int m, int threshold, int neigh
   config.threshold = threshold;
   config.neighbour_order = static_cast<acts::NeighbourOrder>(neighbour_order);
   config.seed = seed;
+  config.search_quota = search_quota;
   auto probe = std::make_unique<Probe>(config);
   return probe->error == acts::ConfigError::kNone ? probe.release() : nullptr;
 }
@@ -83,6 +85,10 @@ void probe_spacing(int rows, int cols, int m, int* out) {
   const acts::Spacing spacing = acts::uniform_spacing(rows, cols, m);
   out[0] = spacing.row;
   out[1] = spacing.col;
+}
+
+int probe_search_quota(double share, int m) {
+  return acts::search_quota(share, m);
 }
 
 void probe_random(std::uint64_t seed, std::uint64_t stream, std::uint32_t bound, int count, std::uint32_t* out) {

@@ -255,9 +255,38 @@ void test_settings_are_checked() {
   config.m = 53;
   CHECK(sampler->configure(config) == acts::ConfigError::kUniformM);
   config = {};
-  config.scheme = static_cast<acts::Scheme>(9);
-  CHECK(sampler->configure(config) == acts::ConfigError::kScheme);
+  for (const int unknown : {0, 5, 9}) {
+    config.scheme = static_cast<acts::Scheme>(unknown);
+    CHECK(sampler->configure(config) == acts::ConfigError::kScheme);
+  }
+  config = {};
+  config.scheme = acts::Scheme::kTracking;
+  for (const int quota : {0, 56}) {
+    config.search_quota = quota;
+    CHECK(sampler->configure(config) == acts::ConfigError::kSearchQuota);
+  }
   CHECK(sampler->config().rows == 32 && sampler->frame_size() == 55);  // refused settings change nothing
+}
+
+class PressedReader final : public acts::TaxelReader {
+ public:
+  std::uint16_t measure(int /*row*/, int /*col*/) override { return acts::kCountMax; }
+};
+
+void test_new_settings_forget_what_was_pressed() {
+  auto sampler = std::make_unique<acts::Sampler>();
+  auto frame = std::make_unique<acts::SampleFrame>();
+  PressedReader reader;
+  acts::SamplingConfig config;
+  config.scheme = acts::Scheme::kTracking;
+  CHECK(sampler->configure(config) == acts::ConfigError::kNone);
+  sampler->sample(reader, *frame);
+  const auto first = frame->indices;
+  sampler->sample(reader, *frame);
+  CHECK(frame->indices != first);
+  CHECK(sampler->configure(config) == acts::ConfigError::kNone);
+  sampler->sample(reader, *frame);
+  CHECK(frame->indices == first);
 }
 
 void test_published_ascii() {
@@ -292,6 +321,7 @@ int main() {
   test_queue_keeps_messages_whole();
   test_overruns_are_counted_and_numbered();
   test_settings_are_checked();
+  test_new_settings_forget_what_was_pressed();
   test_published_ascii();
   if (failures > 0) {
     std::cerr << failures << " checks failed\n";

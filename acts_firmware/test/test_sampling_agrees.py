@@ -77,6 +77,38 @@ def test_adaptive_on_the_published_array(m: int, order: str) -> None:
     compare(SamplingConfig(m=m, neighbour_order=order), np.stack([blobs(rng, 32, 32) for _ in range(20)]))
 
 
+@settings(max_examples=150, deadline=None)
+@given(
+    st.integers(1, 40),
+    st.integers(1, 40),
+    st.floats(0.0001, 1.0),
+    st.integers(0, 1023),
+    st.integers(0, 2**32 - 1),
+    st.sampled_from(["noise", "sliding", "coming and going"]),
+)
+def test_tracking_on_changing_fields(rows: int, cols: int, share: float, threshold: int, seed: int, kind: str) -> None:
+    rng = np.random.default_rng(seed)
+    m = int(rng.integers(1, min(rows * cols, 200) + 1))
+    frames = 25
+    contact, other = blobs(rng, rows, cols), blobs(rng, rows, cols)
+    fields = {
+        "noise": lambda: rng.integers(0, 1024, (frames, rows, cols)),
+        "sliding": lambda: np.stack([np.roll(contact, (i // 4, i // 3), axis=(0, 1)) for i in range(frames)]),
+        "coming and going": lambda: np.stack([(contact, 0 * contact, other)[i // 3 % 3] for i in range(frames)]),
+    }[kind]()
+    config = SamplingConfig("tracking", rows, cols, m, threshold, seed=seed, search_share=share)
+    assert core_library.search_quota(share, m) == config.search_quota
+    compare(config, fields)
+
+
+@settings(max_examples=300, deadline=None)
+@given(st.floats(0.0001, 1.0), st.integers(1, 4096))
+def test_search_quota(share: float, m: int) -> None:
+    quota = core_library.search_quota(share, m)
+    assert 1 <= quota <= m
+    assert quota == SamplingConfig("tracking", 64, 64, m, search_share=share).search_quota
+
+
 @pytest.mark.parametrize("m", [36, 49, 55, 64, 160])
 def test_uniform_through_all_its_offsets(m: int) -> None:
     s, t = uniform_spacing(32, 32, m)
@@ -117,6 +149,16 @@ def test_on_recorded_grasps(order: str) -> None:
         frames = archive["frames"]
     pressed = frames[frames.max(axis=(1, 2)) > 180]
     compare(SamplingConfig(m=56, neighbour_order=order), pressed[:: max(1, len(pressed) // 150)])
+
+
+def test_tracking_of_a_recorded_grasp() -> None:
+    path = SHARED / "sdh_weiss/grasps_canvas.npz"
+    if not path.is_file():
+        pytest.skip(f"{path} is absent: recordings are not part of the project")
+    with np.load(path) as archive:
+        frames = archive["frames"]
+    first = int(np.argmax(frames.max(axis=(1, 2)) > 180))
+    compare(SamplingConfig("tracking", m=56), frames[max(first - 10, 0) : first + 200])
 
 
 def test_on_published_frames() -> None:

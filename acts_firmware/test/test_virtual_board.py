@@ -13,6 +13,7 @@ from core_library import installed
 
 from acts_core.frames import SampleFrame, Scheme
 from acts_core.raster_ascii import RasterDecoder
+from acts_core.sampling import SCHEMES
 
 
 def check_stream(frames: list[SampleFrame]) -> None:
@@ -41,7 +42,9 @@ def test_stream_of_the_published_settings(tmp_path: Path) -> None:
         assert frame.counts.max() < 10  # untouched: noise only
 
 
-@pytest.mark.parametrize(("scheme", "m"), [("uniform", 48), ("random", 40), ("adaptive", 120), ("raster", 176)])
+@pytest.mark.parametrize(
+    ("scheme", "m"), [("uniform", 48), ("random", 40), ("tracking", 60), ("adaptive", 120), ("raster", 176)]
+)
 def test_schemes_and_their_pace(tmp_path: Path, scheme: str, m: int) -> None:
     with BoardProcess(tmp_path, "--scheme", scheme, "--m", m, "--rows", 11, "--cols=16", "--sample-us", 10) as board:
         board.open_port()
@@ -49,6 +52,7 @@ def test_schemes_and_their_pace(tmp_path: Path, scheme: str, m: int) -> None:
     # A frame takes m * 10 us or the time the rate cap asks for, whichever is longer.
     period_us = max(m * 10, 1000)
     assert [len(frame.indices) for frame in frames] == [m] * len(frames)
+    assert {frame.scheme for frame in frames} == {SCHEMES[scheme]}
     for before, frame in pairwise(frames):
         steps = frame.sequence - before.sequence
         assert abs(frame.board_us - before.board_us - steps * period_us) <= 1
@@ -143,8 +147,10 @@ def test_what_the_host_sends_is_taken_and_disturbs_nothing(tmp_path: Path) -> No
         (["--cols", "3x"], "--cols 3x"),
         (["--m", "0"], "--m 0"),
         (["--rows", "5", "--cols", "5"], "--m 55: an array of 5 x 5 has 25 taxels"),
-        (["--scheme", "spiral"], "adaptive, uniform, random, raster"),
+        (["--scheme", "spiral"], "adaptive, tracking, uniform, random, raster"),
         (["--scheme", "uniform", "--m", "53"], "--m 53: no uniform grid"),
+        (["--search-share", "0"], "--search-share 0: allowed is a number from 0.0001 to 1"),
+        (["--search-share", "1.01"], "--search-share 1.01"),
         (["--threshold", "1024"], "--threshold 1024"),
         (["--neighbour-order", "diagonal"], "columns, rows"),
         (["--rate-hz", "nan"], "--rate-hz nan"),

@@ -15,6 +15,9 @@ namespace {
 // The authors' raster sketch: 17,509 us for 1024 taxels.
 constexpr double kRasterSketchSampleUs = 17.098;
 
+// Smaller shares would all mean the same: one taxel of even the largest array.
+constexpr double kMinSearchShare = 0.0001;
+
 struct Option {
   const char* name;
   const char* value;  // what stands for the value in the help; empty for a switch
@@ -77,6 +80,7 @@ std::string path_or_none(const std::string& text) {
 
 const std::vector<std::pair<const char*, Scheme>>& schemes() {
   static const std::vector<std::pair<const char*, Scheme>> kSchemes = {{"adaptive", Scheme::kAdaptive},
+                                                                       {"tracking", Scheme::kTracking},
                                                                        {"uniform", Scheme::kUniform},
                                                                        {"random", Scheme::kRandom},
                                                                        {"raster", Scheme::kRaster}};
@@ -100,7 +104,7 @@ std::vector<Option> make_options(Options& o, bool& sample_us_given) {
        [&s](const std::string& v) { s.rows = whole("--rows", v, 1, kMaxSide); }},
       {"--cols", "N", "columns of the array, 1 to 64 (32)",
        [&s](const std::string& v) { s.cols = whole("--cols", v, 1, kMaxSide); }},
-      {"--scheme", "NAME", "adaptive, uniform, random or raster (adaptive)",
+      {"--scheme", "NAME", "adaptive, tracking, uniform, random or raster (adaptive)",
        [&s](const std::string& v) { s.scheme = word<Scheme>("--scheme", v, schemes()); }},
       {"--m", "M", "taxels measured per frame (55); raster measures all",
        [&s](const std::string& v) { s.m = whole("--m", v, 1, kMaxTaxels); }},
@@ -111,13 +115,16 @@ std::vector<Option> make_options(Options& o, bool& sample_us_given) {
          o.sample_us = number("--sample-us", v, 0.1, 1000.0);
          sample_us_given = true;
        }},
-      {"--threshold", "COUNTS", "counts above which the adaptive scheme searches the neighbours (180)",
+      {"--threshold", "COUNTS",
+       "counts above which adaptive searches a taxel's neighbours and tracking follows it (180)",
        [&s](const std::string& v) { s.threshold = whole("--threshold", v, 0, kCountMax); }},
       {"--neighbour-order", "ORDER", "of that search: columns or rows (columns)",
        [&s](const std::string& v) {
          s.neighbour_order = word<NeighbourOrder>(
              "--neighbour-order", v, {{"columns", NeighbourOrder::kColumns}, {"rows", NeighbourOrder::kRows}});
        }},
+      {"--search-share", "F", "share of a tracking frame that is kept for the search (0.2)",
+       [&o](const std::string& v) { o.search_share = number("--search-share", v, kMinSearchShare, 1.0); }},
       {"--noise-counts", "S", "standard deviation of the noise in counts (1.5)",
        [&o](const std::string& v) { o.noise_counts = number("--noise-counts", v, 0.0, 1000.0); }},
       {"--seed", "N", "of the noise and of random sampling (1)",
@@ -199,6 +206,7 @@ Options parse_options(int argc, const char* const* argv) {
   if (options.sampling.scheme == Scheme::kRaster) {
     options.sampling.m = options.sampling.rows * options.sampling.cols;
   }
+  options.sampling.search_quota = search_quota(options.search_share, options.sampling.m);
   check_sampling(options);
   return options;
 }

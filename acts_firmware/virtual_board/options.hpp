@@ -18,6 +18,7 @@ struct Options {
   double recording_rate_hz = 1000.0;
   bool loop = false;
   SamplingConfig sampling;
+  double search_share = 0.2;
   double rate_hz = 1000.0;
   double sample_us = 17.877;  // published: 55,936 samples a second
   double noise_counts = 1.5;

@@ -21,7 +21,7 @@ enum class Protocol : std::uint8_t {
   kRasterAscii,  // the authors' published raster sketch
 };
 
-// Large (about 250 KB): make it static, or on the heap at the start.
+// Large (about 260 KB): make it static, or on the heap at the start.
 class Firmware {
  public:
   Firmware(Board& board, const Wiring& wiring, Protocol protocol);

@@ -21,12 +21,13 @@ struct SamplingConfig {
   int cols = 32;
   Scheme scheme = Scheme::kAdaptive;
   int m = 55;           // taxels per frame; raster measures all
-  int threshold = 180;  // counts; above it the neighbours are searched
+  int threshold = 180;  // counts; above it adaptive searches the neighbours, tracking follows the taxel
   NeighbourOrder neighbour_order = NeighbourOrder::kColumns;
   std::uint64_t seed = 1;  // of random sampling
+  int search_quota = 11;   // taxels of a tracking frame that are kept for the search, 1 to m
 };
 
-enum class ConfigError : std::uint8_t { kNone, kSize, kM, kThreshold, kUniformM, kScheme };
+enum class ConfigError : std::uint8_t { kNone, kSize, kM, kThreshold, kUniformM, kScheme, kSearchQuota };
 
 // Spacing of rows and columns of a uniform grid of m taxels; zeros where the array has none of that many. Of all grids
 // ceil(rows / s) * ceil(cols / t) == m the one with the most equal spacings, the larger one along the rows.
@@ -36,7 +37,10 @@ struct Spacing {
 };
 Spacing uniform_spacing(int rows, int cols, int m);
 
-// Samples frame after frame; holds what goes from one to the next (uniform offset, random numbers).
+// The search quota that is a share (above 0, up to 1) of m taxels, rounded up.
+int search_quota(double share, int m);
+
+// Samples frame after frame; holds what goes from one to the next (uniform offset, random numbers, what to follow).
 //
 // A new scheme is a number in `Scheme`, a private function beside `adaptive`, a branch in `sample`, and its twin in
 // acts_core/sampling.py.
@@ -61,10 +65,14 @@ class Sampler {
   };
 
   void adaptive(TaxelReader& reader, SampleFrame& frame);
+  void tracking(TaxelReader& reader, SampleFrame& frame);
   void uniform(TaxelReader& reader, SampleFrame& frame);
   void random(TaxelReader& reader, SampleFrame& frame);
   void raster(TaxelReader& reader, SampleFrame& frame);
+  void begin_marks();
   bool touched(TaxelReader& reader, SampleFrame& frame, int index);
+  void track(TaxelReader& reader, SampleFrame& frame, int index);
+  int list_candidates(int limit);
 
   SamplingConfig config_;
   DivisionOrder order_;
@@ -76,6 +84,12 @@ class Sampler {
   std::array<std::uint16_t, kMaxTaxels> mark_{};
   std::uint16_t frame_mark_ = 0;
   std::array<Visit, kMaxTaxels> stack_{};
+  // Of tracking: what was pressed when last measured, and how many of a taxel and its neighbours were.
+  std::array<bool, kMaxTaxels> pressed_{};
+  std::array<std::uint8_t, kMaxTaxels> pressed_near_{};
+  std::array<std::uint16_t, kMaxTaxels> candidates_{};
+  int cursor_ = 0;  // the taxel from which candidates are taken
+  int walk_ = 0;    // rank in the division order at which the search goes on
 };
 
 }  // namespace acts

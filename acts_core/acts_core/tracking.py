@@ -1,0 +1,88 @@
+"""Sampling that follows what is pressed and goes on searching everywhere else.
+
+ACTS' own, beyond the paper, whose discussion asks for combinations of sampling schemes. Adaptive sampling begins every
+frame anew: a contact between the first taxels of the search is found in no frame, and one that is large uses up a frame
+before the others are found. Here frames remember: a part of each goes to the taxels that were pressed and to those
+around them, the rest to a search that is taken up where the last frame left it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+class Tracking:
+    """Chooses the taxels of tracking sampling, frame after frame (C++ twin: ``Sampler::tracking``).
+
+    A taxel is flagged as pressed when it was above the threshold the last time it was measured. Candidates are the
+    flagged taxels and their eight neighbours, as they stand when the frame begins. Of the `m` taxels of a frame, up to
+    ``m - search_quota`` are candidates, row by row, cyclically from the first one that the frame before left out. All
+    others follow the order of search from where it stopped, without those that this frame has measured already.
+
+    So in every frame `m` taxels are measured, none twice, and
+
+    - every taxel at least once in any ``ceil(rows * cols / search_quota)`` frames,
+    - every taxel that stays a candidate at least once in any ``ceil(c / (m - search_quota))`` frames, where c taxels
+      were candidates in that time.
+
+    Parameters
+    ----------
+    order : np.ndarray [shape=(rows * cols,), dtype=uint16]
+        Order of search, every taxel once, as row-major indices.
+    rows, cols : int
+        Size of the array.
+    m : int
+        Taxels measured per frame, 1 to ``rows * cols``.
+    search_quota : int
+        Taxels of each frame that are kept for the search, 1 to `m`.
+    threshold_counts : int
+        ADC counts above which a taxel is pressed.
+    """
+
+    def __init__(
+        self, order: NDArray[np.uint16], rows: int, cols: int, m: int, *, search_quota: int, threshold_counts: int
+    ) -> None:
+        self._order: list[int] = order.tolist()
+        self._m = m
+        self._search_quota = search_quota
+        self._threshold_counts = threshold_counts
+        self._pressed = np.zeros((rows, cols), dtype=bool)
+        self._cursor = 0
+        self._walk = 0
+
+    def frame(self, measure: Callable[[int, int], int]) -> tuple[NDArray[np.uint16], NDArray[np.uint16]]:
+        """Sample one frame; as `acts_core.sampling.Sampler.frame`."""
+        cols = self._pressed.shape[1]
+        followed = self._follow()
+        measured: dict[int, int] = {}
+
+        def take(index: int) -> None:
+            row, col = divmod(index, cols)
+            measured[index] = measure(row, col)
+            self._pressed[row, col] = measured[index] > self._threshold_counts
+
+        for index in followed:
+            take(index)
+        while len(measured) < self._m:
+            index = self._order[self._walk]
+            self._walk = (self._walk + 1) % len(self._order)
+            if index not in measured:
+                take(index)
+        return np.array(list(measured), dtype=np.uint16), np.array(list(measured.values()), dtype=np.uint16)
+
+    def _follow(self) -> list[int]:
+        """The candidates that this frame measures; moves the cursor to the first that it leaves out."""
+        rows, cols = self._pressed.shape
+        padded = np.pad(self._pressed, 1)
+        near = np.zeros_like(self._pressed)
+        for row in range(3):
+            for col in range(3):
+                near |= padded[row : row + rows, col : col + cols]
+        candidates = np.flatnonzero(near)
+        from_cursor = np.roll(candidates, -int(np.searchsorted(candidates, self._cursor))).tolist()
+        limit = self._m - self._search_quota
+        self._cursor = from_cursor[limit] if limit < len(from_cursor) else 0
+        return from_cursor[:limit]
