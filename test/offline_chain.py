@@ -1,7 +1,7 @@
 """The whole chain without processes, clocks or ROS: joints, ball, skin, sampling, recovery, estimate, control.
 
-The same modules as in the processes, stepped a millisecond at a time, so that the quality of control can be tested on any
-machine, however busy: what is left out is only what scheduling adds, and that is set (`Delays`).
+The same modules as in the processes, stepped a millisecond at a time, so that the quality of control can be tested on
+any machine, however busy. What scheduling and transport add is set as fixed delays.
 """
 
 from __future__ import annotations
@@ -39,18 +39,18 @@ class Chain:
 
     Attributes
     ----------
+    scheme : str
+        How the board samples.
     touch_delay_ms, command_delay_ms : int
         From the last measurement to the estimate, and from the control step to the robot's servo.
     """
 
-    world: WorldConfig = field(default_factory=lambda: WorldConfig(diameter_m=0.060, start_after_s=0.1))
+    world: WorldConfig = field(default_factory=lambda: WorldConfig(start_after_s=0.1))
     estimator: EstimatorConfig = field(default_factory=EstimatorConfig)
     controller: ControllerConfig = field(default_factory=ControllerConfig)
     robot: RobotConfig = field(default_factory=RobotConfig)
     trajectory: TrajectoryConfig = field(default_factory=TrajectoryConfig)
-    sampling: SamplingConfig = field(
-        default_factory=lambda: SamplingConfig("adaptive", 32, 32, 55, threshold_counts=60)
-    )
+    scheme: str = "tracking"
     noise_counts: float = 1.5
     touch_delay_ms: int = 2
     command_delay_ms: int = 3
@@ -68,7 +68,7 @@ def run(chain: Chain, limit_s: float = 60.0) -> Recording:
     rng = np.random.default_rng(chain.seed)
     geometry = ArrayGeometry()
     world = World(chain.world)
-    sampler = Sampler(chain.sampling)
+    sampler = Sampler(SamplingConfig(chain.scheme, geometry.rows, geometry.cols, 55, threshold_counts=60))
     reconstructor = Reconstructor(geometry, load_dictionary(shipped_dictionary_path()))
     estimator = BallEstimator(chain.estimator)
     controller = BallController(chain.controller)
