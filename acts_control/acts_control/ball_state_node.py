@@ -55,7 +55,7 @@ class BallStateNode(Node):
         self._diagnostics = DiagnosticsReporter(self, "ball", self._report)
 
     def _on_tilt(self, message: Vector3Stamped) -> None:
-        self._estimator.set_tilt(message.vector.x, message.vector.y)
+        self._estimator.set_tilt(to_ns(message.header.stamp), message.vector.x, message.vector.y)
 
     def _on_contact(self, message: Contact) -> None:
         # A thousand times a second: nothing here that is not needed.

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import IntEnum
-from math import isfinite
+from math import isfinite, isinf
 from typing import NamedTuple
 
 from acts_control.limiter import LimiterConfig, TiltLimiter
 from acts_control.pid import Ball, BallPid, PidConfig, Reference
+from acts_control.prediction import TiltHistory
 from acts_control.safety import SafetyConfig, touch_age_s
 from acts_core.errors import SettingsError
 from acts_core.settings import setting, validate
 
-# An estimate is carried on to now with its velocity, but not for longer than this.
+# A reference is carried on to now, but not for longer than this.
 _MAX_ADVANCE_S = 0.05
 
 
@@ -47,11 +48,6 @@ class ControllerConfig(PidConfig, LimiterConfig, SafetyConfig):
             raise SettingsError(
                 f"max_wrist_offset_rad = {self.max_wrist_offset_rad:g}: allowed is {1.1 * self.max_tilt_rad:.4f} or "
                 f"more, 1.1 times max_tilt_rad, or the limit of the tilt would trip it"
-            )
-        if self.touch_stop_after_s < self.touch_stale_after_s:
-            raise SettingsError(
-                f"touch_stop_after_s = {self.touch_stop_after_s:g}: allowed is touch_stale_after_s = "
-                f"{self.touch_stale_after_s:g} or more"
             )
 
 
@@ -147,6 +143,8 @@ class BallController:
         self._ball_s = 0.0
         self._no_ball_s = 0.0
         self._level_s = 0.0
+        self._stale_s = 0.0
+        self._tilts = TiltHistory(config.lever_arm_m, 2.0 * config.touch_stale_after_s)
 
     def end(self, reason: str) -> None:
         """Bring the plate to level and stop there; the first reason is kept."""
@@ -176,6 +174,10 @@ class BallController:
             report.ball if report is not None and fresh and report.valid and all(map(isfinite, report.ball)) else None
         )
         reference = self._reference(inputs)
+        self._stale_s = 0.0 if fresh else self._stale_s + dt
+        self._tilts.add(inputs.now_ns, *inputs.tilt_rad)
+        if ball is not None and report is not None:
+            ball = self._tilts.carry_on(ball, report.stamp_ns)
         state.error_m = (0.0, 0.0)
         target = (0.0, 0.0)
         if state.ending or state.phase is Phase.STOPPED:
@@ -217,8 +219,6 @@ class BallController:
         state = self.state
         self._no_ball_s = 0.0
         state.reason = "balancing"
-        advance_s = min(max(state.touch_age_s, 0.0), _MAX_ADVANCE_S)
-        ball = ball._replace(x_m=ball.x_m + advance_s * ball.vx_m_s, y_m=ball.y_m + advance_s * ball.vy_m_s)
         state.error_m = (ball.x_m - reference.x_m, ball.y_m - reference.y_m)
         return self._pid.step(ball, reference, inputs.tilt_rad, dt)
 
@@ -226,8 +226,8 @@ class BallController:
         """The loop is open: the plate goes level, and on the way it is decided what this is."""
         state, config = self.state, self.config
         if not fresh:
-            if state.touch_age_s > config.touch_stop_after_s:
-                self.end(f"touch is stale: none for {state.touch_age_s:.2f} s")
+            if self._stale_s > config.touch_stop_after_s:
+                self.end(f"touch is stale: {self._stale_in_words()}")
             else:
                 state.reason = "touch is stale: levelling the plate"
             return
@@ -237,6 +237,12 @@ class BallController:
             state.phase = Phase.WAITING
             state.reason = "ball lost: waiting for a ball"
             self._ball_s = 0.0
+
+    def _stale_in_words(self) -> str:
+        age_s = self.state.touch_age_s
+        if isinf(age_s):
+            return "its stamps lie in the future, the clocks differ"
+        return f"the newest is {age_s:.2f} s old, and none was younger than {self.config.touch_stale_after_s:g} s"
 
     def _finish(self, dt: float) -> None:
         self._level_s = self._level_s + dt if self._limiter.is_level else 0.0

@@ -17,6 +17,7 @@ the contact, and then both are wrong.
 
 from __future__ import annotations
 
+from collections import deque
 from dataclasses import dataclass
 from math import hypot, isfinite, sqrt
 from typing import NamedTuple
@@ -32,6 +33,8 @@ _START_SPEED_M_S = 0.3
 # How quickly a larger force is believed to be the ball's weight, and a smaller one.
 _FORCE_RISE_S = 0.1
 _FORCE_FALL_S = 5.0
+
+_MAX_TILTS = 1000
 
 # A stamp this much older than the newest one is a new time base (a driver or clock began anew), not a late message.
 _NEW_TIME_BASE_NS = 1_000_000_000
@@ -153,18 +156,22 @@ class BallEstimator:
         self._zx = self._zy = self._wx = self._wy = 0.0
         self._pzz = self._pzw = self._pww = 0.0
         self._lean_x = self._lean_y = 0.0
+        # Newest last; bounded, in case tilts come without contacts.
+        self._tilts: deque[tuple[int, float, float]] = deque(maxlen=_MAX_TILTS)
         self._usual_force = 0.0
 
-    def set_tilt(self, tilt_x_rad: float, tilt_y_rad: float) -> None:
-        """Tell the tilt of the plate from now on; without it the plate is taken to be level.
+    def set_tilt(self, stamp_ns: int, tilt_x_rad: float, tilt_y_rad: float) -> None:
+        """Tell the tilt of the plate; before the first it is taken to be level.
 
         Parameters
         ----------
+        stamp_ns : int
+            When it was measured [ns]. Contacts come later than tilts: each is given the tilt of its own time.
         tilt_x_rad, tilt_y_rad : float
             Rotation vector about the skin's x and y axes [rad]. Ignored when not finite.
         """
         if isfinite(tilt_x_rad) and isfinite(tilt_y_rad):
-            self._lean_x, self._lean_y = tilt_y_rad, -tilt_x_rad
+            self._tilts.append((stamp_ns, tilt_y_rad, -tilt_x_rad))
 
     def step(self, measurement: ContactMeasurement) -> None:
         """Take in one contact message."""
@@ -183,6 +190,9 @@ class BallEstimator:
         state.stamp_ns = stamp_ns
         if state.valid and (stamp_ns - self._contact_ns) * _NS > self.config.lost_after_s:
             state.valid = False
+        tilts = self._tilts
+        while tilts and tilts[0][0] <= stamp_ns:
+            _, self._lean_x, self._lean_y = tilts.popleft()
         if state.valid:
             self._predict(dt)
         if not in_contact:

@@ -27,6 +27,9 @@ _STANDING_STILL_POLLS = 5
 _MAX_PERIODS = 4
 _MIN_STEP_S = 1e-4
 
+# How long after a refused command its reason is looked for.
+_REASON_S = 0.1
+
 
 @dataclass(frozen=True)
 class LoopConfig(ControllerConfig, RobotConfig):
@@ -253,7 +256,7 @@ class ControlLoop:
             if fault:
                 controller.end(fault)
             else:
-                robot.servo(joints)
+                self._send(watch, joints)
             state = controller.state
             self.status = LoopStatus(
                 # The robot counts as stopped only once the servo has ended.
@@ -270,6 +273,17 @@ class ControlLoop:
             self._on_step(now_ns, measured)
         robot.end_servo()
         return controller.state.reason
+
+    def _send(self, watch: RobotWatch, joints: list[float]) -> None:
+        try:
+            self._robot.servo(joints)
+        except RobotError as error:
+            # That a command was refused is often known a packet earlier than why.
+            end = time.monotonic() + _REASON_S
+            while time.monotonic() < end:
+                self._checked(watch, 0.0)
+                time.sleep(0.002)
+            raise error
 
     def _aim(self, joints: list[float], tilt: tuple[float, float]) -> str:
         """Write the wrist angles of a tilt into `joints`; why that cannot be, or nothing."""

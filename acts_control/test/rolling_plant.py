@@ -168,7 +168,7 @@ def run(
         reference = plan.at(clock_s)
         if row % every == 0:
             tilt = tilt_of(plant.q)
-            estimator.set_tilt(*tilt)
+            estimator.set_tilt(now_ns, *tilt)
             inputs = ControlInput(now_ns, report, ReferenceReport(now_ns, jerk.step(now_ns, reference.reference)), tilt)
             wanted = controller.step(inputs, 1.0 / control_hz)
             plant.command[3:5] = wrist_angles_for_tilt(LEVEL_Q_RAD, *wanted)

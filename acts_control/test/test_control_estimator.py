@@ -61,7 +61,7 @@ def test_the_deviation_it_tells_is_the_one_it_has() -> None:
 @pytest.mark.parametrize(("tilt_x", "tilt_y"), [(0.03, 0.0), (0.0, 0.05), (-0.02, 0.04)])
 def test_a_known_tilt_predicts_where_the_ball_goes_unseen(tilt_x: float, tilt_y: float) -> None:
     estimator = settled(EstimatorConfig(lever_arm_m=0.0))
-    estimator.set_tilt(tilt_x, tilt_y)
+    estimator.set_tilt(START_NS + 300 * MS, tilt_x, tilt_y)
     for k in range(300, 380):
         estimator.step(touch(k, touched=False))
     ax, ay = acceleration_of(tilt_x, tilt_y)
@@ -81,7 +81,7 @@ def test_turning_the_plate_is_not_taken_for_velocity() -> None:
     moved = ROLLING * lever * lean_speed
     for k in range(300, 400):
         lean = lean_speed * (k - 300) * 1e-3
-        estimator.set_tilt(0.0, lean)
+        estimator.set_tilt(START_NS + k * MS, 0.0, lean)
         # Gravity's part is left out of this world, and therefore of the check.
         estimator.step(touch(k, 0.01 - moved * (k - 300) * 1e-3))
     assert estimator.state.x_m == pytest.approx(0.01 - moved * 0.099, abs=2e-3)
@@ -138,7 +138,7 @@ def test_what_is_not_finite_is_counted_and_changes_nothing(bad: float) -> None:
     estimator.step(touch(300, bad, 0.0))
     estimator.step(touch(301, 0.0, bad))
     estimator.step(touch(301, 0.0, 0.0, bad))
-    estimator.set_tilt(bad, 0.0)
+    estimator.set_tilt(START_NS + 300 * MS, bad, 0.0)
     # The stamp stays: such messages do not count as touch.
     assert (estimator.state.stamp_ns, estimator.state.x_m, estimator.state.not_finite) == (stamp_ns, x_m, 3)
     estimator.step(touch(302))

@@ -30,6 +30,7 @@ class ArmInProcess:
         self.runtime_state = 2
         self.frozen = False
         self.moves = True
+        self.refuses: Callable[[], None] | None = None
         self._time = itertools.count()
         self._timestamp = 0.0
 
@@ -52,6 +53,9 @@ class ArmInProcess:
         self.calls.append("end_move")
 
     def servo(self, q_rad: Sequence[float]) -> None:
+        if self.refuses:
+            self.refuses()
+            raise RobotError("servoJ refused")
         self.commands.append(tuple(q_rad))
         self.q = list(q_rad)
 
@@ -206,11 +210,23 @@ def test_a_robot_that_stops_gets_no_further_command(
     assert len(arm.commands) == sent
 
 
+@pytest.mark.parametrize(("bits", "words"), [(1, "servoJ refused"), (0x404, "robot: protective stop")])
+def test_a_refused_command_ends_motion_with_the_reason_if_there_is_one(
+    arm: ArmInProcess, make: Make, bits: int, words: str
+) -> None:
+    loop = make()
+    balance(loop)
+    # The command is refused before the stop is told.
+    arm.refuses = lambda: setattr(arm, "safety_bits", bits)
+    assert await_stop(loop) == words
+    assert arm.calls[-1] == "abandon"
+
+
 def test_stale_touch_levels_the_plate_and_ends_the_servo(arm: ArmInProcess, make: Make) -> None:
     loop = make(touch_stale_after_s=0.1, touch_stop_after_s=0.3)
     balance(loop)
     reason = await_stop(loop)
-    assert reason.startswith("touch is stale: none for")
+    assert reason.startswith("touch is stale: the newest is")
     assert arm.calls[-2:] == ["end_servo", "disconnect"]
     assert tilt_of(arm.commands[-1]) == pytest.approx((0.0, 0.0), abs=1e-5)
 

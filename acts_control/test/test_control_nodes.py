@@ -15,6 +15,7 @@ from geometry_msgs.msg import Vector3Stamped
 
 from acts_control.ball_state_node import BallStateNode
 from acts_control.ball_trajectory_node import BallTrajectoryNode
+from acts_control.names import set_stamp
 from acts_control.stream_statistics import StreamCounter
 from acts_msgs.msg import BalanceStatus
 from acts_ros.qos import STATE, STREAM
@@ -86,6 +87,7 @@ def test_state_uses_the_tilt_and_tells_when_the_ball_is_gone(bench: Bench) -> No
     wait_for(lambda: len(bench.states) >= 100, "states")
     tilt = Vector3Stamped()
     tilt.vector.y = 0.1
+    set_stamp(tilt.header.stamp, bench.now_ns())
     tilts.publish(tilt)
     last_ns = bench.now_ns()
 
