@@ -1,6 +1,5 @@
 # make demo and make test do all the set-up they need, in this checkout, and say what they do.
-PYTHON ?= python3
-export PYTHON
+# `make PYTHON=/path/to/python3 ...` chooses the interpreter.
 
 .PHONY: help setup demo test lint format clean
 

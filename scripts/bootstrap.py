@@ -24,6 +24,7 @@ STATE = ROOT / ".acts"
 VENV = STATE / "venv"
 INSTALL = STATE / "install"
 LOCK = ROOT / "requirements.lock"
+PYTHON_RECORD = VENV / "acts.python"
 
 MINIMUM_PYTHON = (3, 10)
 # Raise it when `create_venv` changes, so that existing checkouts make theirs anew.
@@ -94,12 +95,22 @@ def run(command: list[str], log_name: str, env: dict[str, str] | None = None) ->
         raise SetupError(f"`{shlex.join(command[:4])} ...` ended with code {code}; its output is in {log_path}")
 
 
+def base_python() -> str:
+    """This interpreter; inside a virtual environment, ours perhaps, the one that made that."""
+    python = Path(sys.base_prefix) / "bin" / f"python{sys.version_info.major}.{sys.version_info.minor}"
+    return str(python) if python.is_file() else sys.executable
+
+
+def hand_over_to_recorded_python() -> None:
+    """Go on in the interpreter the environment was made with: another `python3` first on PATH is no reason to redo it."""
+    recorded = PYTHON_RECORD.read_text() if PYTHON_RECORD.is_file() else ""
+    if recorded and recorded != base_python() and os.access(recorded, os.X_OK):
+        os.execv(recorded, [recorded, __file__, *sys.argv[1:]])
+
+
 def create_venv() -> None:
     """Install the locked wheels into a fresh virtual environment and make it a ROS prefix."""
-    # Called from inside a virtual environment, ours perhaps, the interpreter is still the one that made that.
-    python = str(Path(sys.base_prefix) / "bin" / f"python{sys.version_info.major}.{sys.version_info.minor}")
-    if not Path(python).is_file():
-        python = sys.executable
+    python = base_python()
     wanted = digest([LOCK], VENV_RECIPE, sys.version, python, str(ROOT))
     stamp = VENV / "acts.stamp"
     if up_to_date(stamp, wanted):
@@ -114,6 +125,7 @@ def create_venv() -> None:
     run([*pip, "-r", str(LOCK)], "pip.log", env={**os.environ, "PYTHONDONTWRITEBYTECODE": ""})
     say(f"wheels installed in {time.monotonic() - started:.0f} s")
     relocate_cmake_exports()
+    PYTHON_RECORD.write_text(python)
     stamp.write_text(wanted)
 
 
@@ -234,7 +246,10 @@ def build_workspace() -> None:
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--quiet", action="store_true", help="say nothing when there is nothing to do")
+    parser.add_argument("--this-python", action="store_true", help="use this interpreter, whatever was used before")
     arguments = parser.parse_args()
+    if not arguments.this_python:
+        hand_over_to_recorded_python()
     try:
         check_machine()
         STATE.mkdir(exist_ok=True)

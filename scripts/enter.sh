@@ -14,7 +14,7 @@ acts_is_sourced() {
 }
 
 if ! command -v ros2 >/dev/null 2>&1; then
-  "${PYTHON:-python3}" "$acts_root/scripts/bootstrap.py" --quiet
+  "${PYTHON:-python3}" "$acts_root/scripts/bootstrap.py" --quiet ${PYTHON:+--this-python}
   # shellcheck disable=SC1091
   source "$acts_root/.acts/env.sh"
 elif ! acts_is_sourced; then
