@@ -102,7 +102,7 @@ def base_python() -> str:
 
 
 def hand_over_to_recorded_python() -> None:
-    """Go on in the interpreter the environment was made with: another `python3` first on PATH is no reason to redo it."""
+    """Go on in the interpreter the environment was made with, whichever `python3` is first on PATH today."""
     recorded = PYTHON_RECORD.read_text() if PYTHON_RECORD.is_file() else ""
     if recorded and recorded != base_python() and os.access(recorded, os.X_OK):
         os.execv(recorded, [recorded, __file__, *sys.argv[1:]])
