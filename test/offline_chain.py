@@ -93,7 +93,7 @@ def run(chain: Chain, limit_s: float = 60.0) -> Recording:
         indices, values = sampler.frame(measure_in(counts.reshape(geometry.rows, geometry.cols)))
         contact = reconstructor.step(indices, values)
         stamp_ns = now_ms * 1_000_000
-        measurement = ContactMeasurement(stamp_ns, contact.in_contact, contact.x_m, contact.y_m)
+        measurement = ContactMeasurement(stamp_ns, contact.in_contact, contact.x_m, contact.y_m, contact.force_n)
         touches.append((now_ms + chain.touch_delay_ms, measurement))
         while touches and touches[0][0] <= now_ms:
             estimator.step(touches.popleft()[1])
@@ -101,7 +101,7 @@ def run(chain: Chain, limit_s: float = 60.0) -> Recording:
         if now_ms % control_every:
             continue
         tilt = tilt_of(joints.q)
-        estimator.set_tilt(*tilt)
+        estimator.set_tilt(stamp_ns, *tilt)
         estimate = estimator.state
         ball = Ball(estimate.x_m, estimate.y_m, estimate.vx_m_s, estimate.vy_m_s)
         time_s = 0.0 if started_ms is None else (now_ms - started_ms) * STEP_S

@@ -136,7 +136,7 @@ class Scene:
     """A controller with everything fresh; `step` lets time pass."""
 
     def __init__(self, config: ControllerConfig | None = None) -> None:
-        self.controller = BallController(config or ControllerConfig())
+        self.controller = BallController(config or ControllerConfig(touch_stale_after_s=0.1, touch_stop_after_s=0.3))
         self.now_ns = NOW_NS
         self.ball = Ball(0.02, 0.0, 0.0, 0.0)
         self.valid = True
