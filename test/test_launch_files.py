@@ -1,9 +1,12 @@
-"""Every launch file, started for real: processes, topics, faults, orderly end. ROS_DOMAIN_ID 110 to 119."""
+"""Every launch file, started for real: processes, topics, faults, orderly end. ROS_DOMAIN_ID 90 to 99."""
 
 import os
 import re
+import select
 import signal
 import socket
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +17,7 @@ from geometry_msgs.msg import PointStamped
 from sensor_msgs.msg import Image
 
 from acts_core.array import ArrayGeometry
-from acts_core.frames import Scheme
+from acts_core.frames import SampleFrame, Scheme
 from acts_core.wire import StreamDecoder
 from acts_msgs.msg import BalanceStatus, Contact, TactileSamples
 from acts_tools.testing.launch_runner import HAS_LAUNCH_PYTEST, Launched, LaunchFile, launch_fixture, launch_test
@@ -56,7 +59,7 @@ def tactile(tmp_path: Path) -> LaunchFile:
         "recording": str(disc_recording(tmp_path)),
         "recording_rate_hz": "30",
     }
-    return LaunchFile(PACKAGE, "tactile.launch.xml", 110, arguments)
+    return LaunchFile(PACKAGE, "tactile.launch.xml", 90, arguments)
 
 
 @launch_test(tactile)
@@ -87,7 +90,7 @@ def chest(tmp_path: Path) -> LaunchFile:
         "ball": "false",
         "protocol": "raster_ascii",
     }
-    return LaunchFile(PACKAGE, "tactile.launch.xml", 111, arguments)
+    return LaunchFile(PACKAGE, "tactile.launch.xml", 91, arguments)
 
 
 @launch_test(chest)
@@ -101,7 +104,7 @@ def test_the_published_raster_sketch_on_another_skin(chest: Launched) -> None:
 
 @launch_fixture
 def rolling(tmp_path: Path) -> LaunchFile:
-    return LaunchFile(PACKAGE, "tactile.launch.xml", 119, {"run_dir": str(tmp_path / "run")})
+    return LaunchFile(PACKAGE, "tactile.launch.xml", 99, {"run_dir": str(tmp_path / "run")})
 
 
 @launch_test(rolling)
@@ -115,7 +118,7 @@ def test_without_arguments_a_ball_is_felt(rolling: Launched) -> None:
 
 @launch_fixture
 def no_board(tmp_path: Path) -> LaunchFile:
-    return LaunchFile(PACKAGE, "tactile.launch.xml", 112, {"sim": "false", "port": str(tmp_path / "missing_port")})
+    return LaunchFile(PACKAGE, "tactile.launch.xml", 92, {"sim": "false", "port": str(tmp_path / "missing_port")})
 
 
 @launch_test(no_board)
@@ -135,7 +138,7 @@ def test_a_missing_board_is_reported_and_waited_for(no_board: Launched) -> None:
 def wrong_parameters(tmp_path: Path) -> LaunchFile:
     path = tmp_path / "params.yaml"
     path.write_text("/**/driver:\n  ros__parameters:\n    porrt: /dev/ttyACM0\n")
-    return LaunchFile(PACKAGE, "tactile.launch.xml", 113, {"run_dir": str(tmp_path / "run"), "params_file": str(path)})
+    return LaunchFile(PACKAGE, "tactile.launch.xml", 93, {"run_dir": str(tmp_path / "run"), "params_file": str(path)})
 
 
 @launch_test(wrong_parameters)
@@ -149,7 +152,7 @@ def test_a_misspelt_parameter_is_named_and_nothing_else_suffers(wrong_parameters
 
 @launch_fixture
 def board(tmp_path: Path) -> LaunchFile:
-    return LaunchFile(PACKAGE, "simulated_board.launch.xml", 114, {"run_dir": str(tmp_path / "run"), "m": "64"})
+    return LaunchFile(PACKAGE, "simulated_board.launch.xml", 94, {"run_dir": str(tmp_path / "run"), "m": "64"})
 
 
 @launch_test(board)
@@ -157,11 +160,16 @@ def test_the_simulated_board_speaks_on_its_port(board: Launched, tmp_path: Path)
     port = tmp_path / "run" / "board"
     board.wait_for(port.exists, START_S, "the board's port")
     decoder = StreamDecoder()
-    frames = []
+    frames: list[SampleFrame] = []
+
+    def enough() -> bool:
+        if select.select([descriptor], [], [], 0.1)[0]:
+            frames.extend(decoder.feed(os.read(descriptor, 4096)))
+        return len(frames) >= 20
+
     descriptor = os.open(port, os.O_RDONLY | os.O_NOCTTY)
     try:
-        while len(frames) < 20:
-            frames += decoder.feed(os.read(descriptor, 4096))
+        board.wait_for(enough, LONG_S, "20 frames")
     finally:
         os.close(descriptor)
     assert {len(frame.indices) for frame in frames} == {64}
@@ -172,7 +180,7 @@ def test_the_simulated_board_speaks_on_its_port(board: Launched, tmp_path: Path)
 @launch_fixture
 def robot(tmp_path: Path) -> LaunchFile:
     arguments = {"run_dir": str(tmp_path / "run"), "robot_ip": "127.0.6.1"}
-    return LaunchFile(PACKAGE, "simulated_robot.launch.xml", 115, arguments)
+    return LaunchFile(PACKAGE, "simulated_robot.launch.xml", 95, arguments)
 
 
 @launch_test(robot)
@@ -188,7 +196,24 @@ def test_the_simulated_robot_listens_and_the_ball_lies_on_the_plate(robot: Launc
 @launch_fixture
 def balancing(tmp_path: Path) -> LaunchFile:
     arguments = {"run_dir": str(tmp_path / "run"), "robot_ip": "127.0.6.2", "trajectory": "hold"}
-    return LaunchFile(PACKAGE, "ball_balancing.launch.xml", 116, arguments)
+    return LaunchFile(PACKAGE, "ball_balancing.launch.xml", 96, arguments)
+
+
+def test_without_sim_false_no_robot_of_another_address_is_moved(tmp_path: Path) -> None:
+    def started(*words: str) -> str:
+        command = [sys.executable, "-m", "acts_tools", "launch", "--own", "--print", PACKAGE]
+        return subprocess.run(
+            [*command, "ball_balancing.launch.xml", f"run_dir:={tmp_path}", *words],
+            capture_output=True,
+            text=True,
+            timeout=60,
+            check=True,
+        ).stdout
+
+    for composed in ("true", "false"):
+        assert "acts_control" not in started("robot_ip:=192.168.1.10", f"composed:={composed}")
+        assert "acts_control" in started("robot_ip:=127.0.6.5", f"composed:={composed}")
+        assert "acts_control" in started("robot_ip:=192.168.1.10", f"composed:={composed}", "sim:=false")
 
 
 def wait_for_state(launched: Launched, state: int, timeout_s: float) -> BalanceStatus:
@@ -223,7 +248,7 @@ def separate(tmp_path: Path) -> LaunchFile:
         "trajectory": "hold",
         "composed": "false",
     }
-    return LaunchFile(PACKAGE, "ball_balancing.launch.xml", 117, arguments)
+    return LaunchFile(PACKAGE, "ball_balancing.launch.xml", 97, arguments)
 
 
 @launch_test(separate)
@@ -243,7 +268,7 @@ def test_in_separate_processes_a_lost_board_ends_motion_level(separate: Launched
 @launch_fixture
 def robot_lost(tmp_path: Path) -> LaunchFile:
     arguments = {"run_dir": str(tmp_path / "run"), "robot_ip": "127.0.6.4", "trajectory": "hold"}
-    return LaunchFile(PACKAGE, "ball_balancing.launch.xml", 118, arguments)
+    return LaunchFile(PACKAGE, "ball_balancing.launch.xml", 98, arguments)
 
 
 @launch_test(robot_lost)
