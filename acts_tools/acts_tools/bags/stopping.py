@@ -1,4 +1,4 @@
-"""Ctrl-C and SIGTERM as a flag, so that a loop ends between two messages and never within one."""
+"""Ctrl-C, SIGTERM and the end of the terminal as a flag, so that a loop ends between two steps, never within one."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ _SLICE_S = 0.1
 
 
 class StopFlag:
-    """While entered, the first SIGINT or SIGTERM sets the flag.
+    """While entered, the first SIGINT, SIGTERM or SIGHUP sets the flag; a SIGHUP that nohup lets be ignored stays so.
 
     rclpy's own handlers must be off: ``rclpy.init(signal_handler_options=SignalHandlerOptions.NO)``.
     """
@@ -21,7 +21,9 @@ class StopFlag:
 
     def __enter__(self) -> StopFlag:
         """Install the handlers."""
-        for number in (signal.SIGINT, signal.SIGTERM):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            if number is signal.SIGHUP and signal.getsignal(number) is signal.SIG_IGN:
+                continue
             self._previous[number] = signal.signal(number, self._set)
         return self
 

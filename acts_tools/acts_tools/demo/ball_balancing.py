@@ -5,16 +5,19 @@ from __future__ import annotations
 import json
 import os
 import signal
+import socket
 import subprocess
 import sys
 import tempfile
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from ipaddress import AddressValueError, IPv4Address
 from pathlib import Path
 
 import rclpy
 from rclpy.executors import Executor
+from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
 
 from acts_control.trajectory import Trajectory, TrajectoryConfig
@@ -22,17 +25,21 @@ from acts_core.array import ArrayGeometry
 from acts_core.errors import ActsError, LaunchError
 from acts_msgs.msg import BalanceStatus
 from acts_ros.executor import make_executor
+from acts_tools.bags.stopping import StopFlag
 from acts_tools.demo.collector import Collector
 from acts_tools.demo.picture import draw
 from acts_tools.demo.processes import LoadMeter
 from acts_tools.demo.recording import Recording
 from acts_tools.demo.score import score, table
+from acts_tools.launch.processes import leave_with_parent
 
 START_TIMEOUT_S = 60.0
 STOP_TIMEOUT_S = 20.0
 _REFRESH_S = 0.2
 _PLAIN_REFRESH_S = 5.0
 NAMESPACE = "/plate"
+_RTDE_PORT = 30004
+_DOMAIN_IDS = range(215, 232)
 
 _STATE_NAMES = {
     BalanceStatus.STATE_CONNECTING: "connecting",
@@ -69,7 +76,7 @@ def plan(seconds: float | None) -> tuple[str, float]:
 
 @contextmanager
 def launched(arguments: list[str], log_path: Path) -> Iterator[subprocess.Popen[bytes]]:
-    """Run a launch file in a process group of its own; at the end stop it as Ctrl-C would."""
+    """Run a launch file in a session of its own; at the end, or should this process be killed, it is stopped."""
     command = [
         sys.executable,
         "-m",
@@ -81,7 +88,13 @@ def launched(arguments: list[str], log_path: Path) -> Iterator[subprocess.Popen[
         *arguments,
     ]
     with log_path.open("wb") as log:
-        process = subprocess.Popen(command, stdout=log, stderr=subprocess.STDOUT, start_new_session=True)
+        process = subprocess.Popen(
+            command,
+            stdout=log,
+            stderr=subprocess.STDOUT,
+            start_new_session=True,
+            preexec_fn=leave_with_parent(os.getpid()),
+        )
         try:
             yield process
         finally:
@@ -98,11 +111,17 @@ class Watcher:
     """Spins the collector, shows the status line, and notices when something ends."""
 
     def __init__(
-        self, executor: Executor, collector: Collector, launch: subprocess.Popen[bytes], total_s: float
+        self,
+        executor: Executor,
+        collector: Collector,
+        launch: subprocess.Popen[bytes],
+        stop: StopFlag,
+        total_s: float,
     ) -> None:
         self._executor = executor
         self._collector = collector
         self._launch = launch
+        self._stop = stop
         self._total_s = total_s
         self._live = sys.stdout.isatty()
         self._shown_s = 0.0
@@ -135,6 +154,9 @@ class Watcher:
 
     def _step(self) -> None:
         self._executor.spin_until_future_complete(Future(), timeout_sec=0.1)
+        if self._stop.is_set:
+            self.end()
+            raise KeyboardInterrupt
         if self._launch.poll() is not None:
             raise LaunchError(f"the launch ended early with code {self._launch.returncode}")
         now_s = time.monotonic()
@@ -166,20 +188,60 @@ def _median_and_p99(collector: Collector) -> tuple[float, float]:
 
 
 def free_domain_id() -> int:
-    """A ROS domain of the demo's own, so that it neither disturbs nor is disturbed by what else runs here."""
-    # 102 to 199: free of the default domain and below the ids whose ports collide with ephemeral ports on Linux.
-    return 102 + os.getpid() % 98
+    """A ROS domain of the demo's own, so that it neither disturbs nor is disturbed by what else runs here.
+
+    The highest ones, because nobody counts up to them; their ports lie above Linux's ephemeral ones. One is free where
+    nobody has the port of its first participant.
+    """
+    for step in range(len(_DOMAIN_IDS)):
+        domain_id = _DOMAIN_IDS[(os.getpid() + step) % len(_DOMAIN_IDS)]
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+            try:
+                probe.bind(("", 7400 + 250 * domain_id + 10))
+            except OSError:
+                continue
+        return domain_id
+    raise LaunchError(
+        f"ROS domains {_DOMAIN_IDS[0]} to {_DOMAIN_IDS[-1]} are all in use here; choose one: export ROS_DOMAIN_ID=1"
+    )
 
 
-def watch(arguments: list[str], duration_s: float, recording: Recording, log_path: Path) -> None:
-    """Launch the chain and watch it to the end of the trajectory."""
-    rclpy.init(args=[])
+def check_robot_ip(robot_ip: str) -> None:
+    """Refuse an address where a real robot may be, or where a simulated one is already.
+
+    Raises
+    ------
+    LaunchError
+        Saying which.
+    """
+    try:
+        loopback = IPv4Address(robot_ip).is_loopback
+    except AddressValueError:
+        loopback = False
+    if not loopback:
+        raise LaunchError(
+            f"--robot-ip {robot_ip}: the demo moves simulated robots only, at 127.0.0.1 to 127.255.255.254"
+        )
+    with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as probe:
+        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            probe.bind((robot_ip, _RTDE_PORT))
+        except OSError as error:
+            raise LaunchError(
+                f"there is a robot at {robot_ip} already ({error.strerror}); "
+                "end that program, or choose another address: --robot-ip 127.0.0.2"
+            ) from error
+
+
+def watch(arguments: list[str], duration_s: float, recording: Recording, log_path: Path, stop: StopFlag) -> None:
+    """Launch the chain and watch it to the end of the trajectory, or until it is to stop (KeyboardInterrupt)."""
+    rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
     executor = make_executor()
     collector = Collector(NAMESPACE, recording)
     executor.add_node(collector)
     try:
         with launched(arguments, log_path) as launch:
-            watcher = Watcher(executor, collector, launch, duration_s)
+            watcher = Watcher(executor, collector, launch, stop, duration_s)
             watcher.until_balancing()
             meter = LoadMeter(launch.pid)
             meter.start()
@@ -202,21 +264,25 @@ def run(seconds: float | None, out: Path, robot_ip: str) -> int:
     out : Path
         Folder for the results.
     robot_ip : str
-        Loopback address of the simulated robot.
+        Loopback address of the simulated robot; no other is accepted.
     """
     if seconds is not None and not 5.0 <= seconds <= 600.0:
         raise ActsError(f"--seconds {seconds:g}: allowed is 5 to 600")
-    out.mkdir(parents=True, exist_ok=True)
+    check_robot_ip(robot_ip)
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise ActsError(f"--out {out}: the folder cannot be made ({error.strerror})") from error
     trajectory, duration_s = plan(seconds)
     os.environ.setdefault("ROS_DOMAIN_ID", str(free_domain_id()))
     print(f"Ball balancing with simulated skin, ball and UR5e: {trajectory.replace(',', ', ')}; {duration_s:.0f} s")
     print("The same nodes run on the real robot; only launch arguments differ. Everything below is measured live.")
     recording = Recording()
     log_path = out / "ball_balancing.log"
-    with tempfile.TemporaryDirectory(prefix="acts_demo_", dir=_shared_memory()) as run_dir:
+    with StopFlag() as stop, tempfile.TemporaryDirectory(prefix="acts_demo_", dir=_shared_memory()) as run_dir:
         launch_arguments = [f"trajectory:={trajectory}", f"run_dir:={run_dir}", f"robot_ip:={robot_ip}"]
         try:
-            watch(launch_arguments, duration_s, recording, log_path)
+            watch(launch_arguments, duration_s, recording, log_path, stop)
         except LaunchError as error:
             print()
             print("\n".join(log_path.read_text(errors="replace").splitlines()[-30:]), file=sys.stderr)

@@ -107,6 +107,8 @@ class Collector(Node):
             if status.name != name:
                 continue
             values = {value.key: value.value for value in status.values}
+            if "lost" not in values:
+                continue  # it has not found its port yet
             lost, crc_errors = int(values["lost"]), int(values["crc_errors"])
             if self._frames_lost_before is None or not self._balancing:
                 self._frames_lost_before, self._crc_errors_before = lost, crc_errors

@@ -1,6 +1,6 @@
 """Run the processes of a launch: start, watch, respawn, and stop them so that none is left behind.
 
-One thread only: a child is told when its parent's thread ends (`_leave_with_parent`), and that must be the main one.
+One thread only: a child is told when its parent's thread ends (`leave_with_parent`), and that must be the main one.
 """
 
 from __future__ import annotations
@@ -108,9 +108,12 @@ class Launcher:
     def _signal_wakeup(self) -> Iterator[None]:
         """Signals only set a note and wake the loop, so that nothing is interrupted half-way."""
         read_end, write_end = os.pipe2(os.O_NONBLOCK | os.O_CLOEXEC)
-        handlers = {number: signal.getsignal(number) for number in (*_STOP_SIGNALS, signal.SIGCHLD)}
+        # Under nohup the end of the terminal is none of our business.
+        nohup = signal.getsignal(signal.SIGHUP) is signal.SIG_IGN
+        stop_signals = [number for number in _STOP_SIGNALS if not (nohup and number is signal.SIGHUP)]
+        handlers = {number: signal.getsignal(number) for number in (*stop_signals, signal.SIGCHLD)}
         previous_fd = signal.set_wakeup_fd(write_end, warn_on_full_buffer=False)
-        for number in _STOP_SIGNALS:
+        for number in stop_signals:
             signal.signal(number, lambda number, _frame: self._signals.append(number))
         signal.signal(signal.SIGCHLD, lambda _number, _frame: None)
         self._selector.register(read_end, selectors.EVENT_READ, None)
@@ -163,7 +166,7 @@ class Launcher:
                 stderr=subprocess.PIPE,
                 # A session of its own: the terminal's Ctrl-C must not reach it besides the signal that we send.
                 start_new_session=True,
-                preexec_fn=_leave_with_parent(os.getpid()),
+                preexec_fn=leave_with_parent(os.getpid()),
             )
         except (OSError, subprocess.SubprocessError) as error:
             child.failure = f"could not be started: {error}"
@@ -214,6 +217,10 @@ class Launcher:
         with suppress(ProcessLookupError):
             os.killpg(popen.pid, signal.SIGTERM)  # what it has started itself and left behind
         code = popen.wait()
+        try:
+            os.killpg(popen.pid, 0)
+        except ProcessLookupError:
+            self._groups.discard(popen.pid)  # from now on the number may become anyone's
         for stream in self._streams():
             if stream.child is child:
                 self._read(stream)
@@ -303,8 +310,8 @@ def _describe_code(code: int) -> str:
     return f"exit code {code}" if code >= 0 else f"exit code {code} ({signal.Signals(-code).name})"
 
 
-def _leave_with_parent(parent_pid: int) -> Callable[[], None]:
-    """What a child runs before its program: it gets SIGTERM should the launcher itself be killed."""
+def leave_with_parent(parent_pid: int) -> Callable[[], None]:
+    """What a child runs before its program: it gets SIGTERM should the parent be killed."""
     libc = ctypes.CDLL(None, use_errno=True)
 
     def prepare() -> None:
