@@ -87,12 +87,12 @@ def play(path: Path, rate: float, loop: bool, topics: list[str] | None, delay_s:
                     # A bag without messages ends also a loop.
                     going = player.play(rate, stop.sleep_until) and loop and player.report.published > before
             finally:
+                player.finish()
                 report = player.report
                 _say(
                     f"{report.published} messages in {max(0.0, time.monotonic() - started_s):.1f} s, "
                     f"at most {report.worst_lateness_s * 1e3:.1f} ms late"
                 )
-            player.finish()
         finally:
             node.destroy_node()
             rclpy.try_shutdown()
