@@ -1,6 +1,6 @@
 """Real touch through the whole chain: recordings -> virtual board -> pseudo-terminal -> driver -> reconstruction.
 
-Writes a picture of a few frames to out/. ROS_DOMAIN_ID 121 and 122. The recordings are not part of the project
+Writes a picture of a few frames to out/. ROS_DOMAIN_ID 72 and 73. The recordings are not part of the project
 (licences): without them these tests are skipped.
 """
 
@@ -180,7 +180,7 @@ def test_real_grasps_arrive_as_they_were_pressed(tmp_path: Path, run_dir: Path) 
         busiest = int(np.argmax([load[s : s + n].mean() for s, n in zip(data["start"], data["length"], strict=True)]))
     exported = export_recording(GRASPS, tmp_path / "grasp.npy", recordings=[busiest])
     field = TrueField(exported.path, exported.rate_hz)
-    seen = replay(exported.path, exported.rate_hz, 121, run_dir)
+    seen = replay(exported.path, exported.rate_hz, 72, run_dir)
     check(seen, field)
     errors = relative_errors(seen, field)
     assert errors.size > 0
@@ -197,7 +197,7 @@ def test_real_grasps_arrive_as_they_were_pressed(tmp_path: Path, run_dir: Path) 
 def test_the_papers_frame_arrives_as_it_was_pressed(tmp_path: Path, run_dir: Path) -> None:
     exported = export_recording(FIGURES, tmp_path / "figure.npy", kind="full_raster", repeat=2)
     field = TrueField(exported.path, exported.rate_hz)
-    seen = replay(exported.path, exported.rate_hz, 122, run_dir)
+    seen = replay(exported.path, exported.rate_hz, 73, run_dir)
     check(seen, field)
     assert relative_errors(seen, field).mean() < FIGURE_ERROR_LIMIT
     rows = [(f"paper, {name}", seen[i], field.at(0.0)) for i, name in enumerate(exported.labels)]

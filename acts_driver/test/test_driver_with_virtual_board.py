@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import json
 import subprocess
+import time
 from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
 from ament_index_python.packages import get_package_prefix
-from driver_rig import Rig, end_process, read_until, start_process
+from driver_rig import DEADLINE_S, Rig, end_process, read_until, start_process
 from lifecycle_msgs.msg import Transition
 
 from acts_core.raster_ascii import RasterDecoder
@@ -102,7 +103,9 @@ def test_the_virtual_boards_raster_text(tmp_path: Path) -> None:
     try:
         source.open()
         frames = []
+        deadline_s = time.monotonic() + DEADLINE_S
         while len(frames) < 5:
+            assert time.monotonic() < deadline_s, "no frames"
             frames += decoder.feed(source.read())
     finally:
         source.close()

@@ -1,4 +1,4 @@
-"""The node over real DDS, with a fake robot writing joints; ROS_DOMAIN_IDs 100 to 102."""
+"""The node over real DDS, with a fake robot writing joints; ROS_DOMAIN_IDs 79, 100 and 101."""
 
 import os
 import signal
@@ -196,7 +196,7 @@ ball_world_node.main()
 
 
 def test_a_world_that_fails_ends_the_node(tmp_path: Path) -> None:
-    environment = {**os.environ, "ROS_DOMAIN_ID": "102", "ROS_PYTHON_CHECK_FIELDS": "1"}
+    environment = {**os.environ, "ROS_DOMAIN_ID": "79", "ROS_PYTHON_CHECK_FIELDS": "1"}
     finished = subprocess.run(
         [sys.executable, "-c", FAILING, str(tmp_path)], env=environment, capture_output=True, text=True, timeout=60
     )
