@@ -170,6 +170,9 @@ class DriverNode(LifecycleNode):
         return (ERROR, self._problem, values) if self._problem else (OK, "unconfigured", values)
 
     def _log(self, level: str, message: str) -> None:
+        # On the way out the port may go before the node does, and there is nobody left to tell.
+        if not self.context.ok():
+            return
         # A line each: rclpy refuses a line that changes its severity.
         if level == "error":
             self.get_logger().error(message)

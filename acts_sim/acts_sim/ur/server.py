@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import errno
 import select
 import socket
 import time
@@ -246,8 +247,9 @@ def _listen(host: str, port: Port) -> socket.socket:
         listener.setblocking(False)
     except (OSError, OverflowError, UnicodeError) as error:
         listener.close()
-        raise RobotError(
-            f"cannot listen on {host} port {port.number} ({port.name}): {error}. "
-            "Is another simulated robot already there? Several of them take --host 127.0.0.2, 127.0.0.3 ..."
-        ) from error
+        if isinstance(error, OSError) and error.errno == errno.EADDRINUSE:
+            advice = "Is another simulated robot already there? Several of them take --host 127.0.0.2, 127.0.0.3 ..."
+        else:
+            advice = "A simulated robot takes an address of this machine, such as --host 127.0.0.2"
+        raise RobotError(f"cannot listen on {host} port {port.number} ({port.name}): {error}. {advice}") from error
     return listener
