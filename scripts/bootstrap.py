@@ -15,6 +15,7 @@ import shlex
 import shutil
 import subprocess
 import sys
+import sysconfig
 import time
 from collections.abc import Iterable
 from pathlib import Path
@@ -60,13 +61,16 @@ def check_machine() -> None:
     if sys.version_info < MINIMUM_PYTHON:
         raise SetupError(
             f"Python {sys.version.split()[0]} is too old: ACTS needs 3.10 or newer. "
-            "Install one and call `make PYTHON=/path/to/python3 ...`."
+            "Install one and call, once, `make setup PYTHON=/path/to/python3`."
         )
     packages = [package for tool, package in TOOLS.items() if shutil.which(tool) is None]
     missing = [tool for tool in TOOLS if shutil.which(tool) is None]
     if importlib.util.find_spec("ensurepip") is None or importlib.util.find_spec("venv") is None:
         missing.append("the Python module venv")
         packages.append("python3-venv")
+    if not (Path(sysconfig.get_paths()["include"]) / "Python.h").is_file():
+        missing.append("Python.h")
+        packages.append("python3-dev")
     if missing:
         raise SetupError(f"missing: {', '.join(missing)}. Install with: sudo apt-get install {' '.join(packages)}")
 
@@ -115,6 +119,8 @@ def create_venv() -> None:
     stamp = VENV / "acts.stamp"
     if up_to_date(stamp, wanted):
         return
+    # Gone while the work is under way: an interrupted one must not pass for whole when its inputs change back.
+    stamp.unlink(missing_ok=True)
     say(f"virtual environment with Python {sys.version.split()[0]} in .acts/venv")
     shutil.rmtree(VENV, ignore_errors=True)
     run([python, "-m", "venv", str(VENV)], "venv.log")
@@ -138,8 +144,6 @@ def relocate_cmake_exports() -> None:
 
     The wheels were built against `/opt/python/cpXY-cpXY`; without this, interface packages cannot be built on them.
     """
-    import sysconfig
-
     tag = f"cp{sys.version_info.major}{sys.version_info.minor}"
     version = f"python{sys.version_info.major}.{sys.version_info.minor}"
     built_with = f"/opt/python/{tag}-{tag}"
@@ -154,9 +158,6 @@ def relocate_cmake_exports() -> None:
             changed = changed.replace(old, new)
         if changed != text:
             path.write_text(changed)
-    headers = Path(sysconfig.get_paths()["include"]) / "Python.h"
-    if not headers.is_file():
-        raise SetupError(f"missing: {headers}. Install with: sudo apt-get install python3-dev")
 
 
 def environment() -> dict[str, str]:
@@ -190,7 +191,10 @@ def write_environment() -> None:
     # What the user has set stays: these are defaults only.
     lines.append('export ROS_AUTOMATIC_DISCOVERY_RANGE="${ROS_AUTOMATIC_DISCOVERY_RANGE:-LOCALHOST}"')
     lines.append(f'export ROS_LOG_DIR="${{ROS_LOG_DIR:-{STATE}/log/ros}}"')
-    (STATE / "env.sh").write_text("\n".join(lines) + "\n")
+    # In one step: another command may be reading it.
+    fresh = STATE / "env.sh.new"
+    fresh.write_text("\n".join(lines) + "\n")
+    fresh.replace(STATE / "env.sh")
 
 
 def packages() -> list[Path]:
@@ -212,6 +216,7 @@ def build_workspace() -> None:
     stamp = STATE / "build.stamp"
     if up_to_date(stamp, wanted):
         return
+    stamp.unlink(missing_ok=True)
     say(f"colcon build of {len(packages())} packages (half a minute)")
     started = time.monotonic()
     env = {**os.environ, **environment()}
@@ -255,13 +260,20 @@ def main() -> int:
         STATE.mkdir(exist_ok=True)
         # Two commands at once must not build into one another.
         with (STATE / "lock").open("w") as lock:
-            fcntl.flock(lock, fcntl.LOCK_EX)
+            try:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                say("waiting for another set-up of this checkout to end")
+                fcntl.flock(lock, fcntl.LOCK_EX)
             create_venv()
             write_environment()
             build_workspace()
     except SetupError as error:
         print(f"[setup] {error}", file=sys.stderr)
         return 1
+    except KeyboardInterrupt:
+        print("[setup] interrupted; the same command does again what is not finished", file=sys.stderr)
+        return 130
     if not arguments.quiet:
         say("ready: ./acts --help")
     return 0

@@ -14,6 +14,10 @@ acts_is_sourced() {
 }
 
 if ! command -v ros2 >/dev/null 2>&1; then
+  if ! command -v "${PYTHON:-python3}" >/dev/null; then
+    echo "[setup] missing: ${PYTHON:-python3}. Install with: sudo apt-get install python3 python3-venv python3-dev" >&2
+    exit 1
+  fi
   "${PYTHON:-python3}" "$acts_root/scripts/bootstrap.py" --quiet ${PYTHON:+--this-python}
   # shellcheck disable=SC1091
   source "$acts_root/.acts/env.sh"
