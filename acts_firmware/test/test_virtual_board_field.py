@@ -122,26 +122,38 @@ def test_recording_is_interpolated_between_its_frames(tmp_path: Path, loop: bool
 
 def test_noise_is_seeded_and_of_the_size_asked_for(tmp_path: Path) -> None:
     np.save(tmp_path / "frames.npy", np.full((1, ROWS, COLS), 500, dtype=np.uint16))
-    options = ("--recording", tmp_path / "frames.npy", "--scheme", "raster", "--noise-counts", 4)
-    with ExitStack() as stack:
-        boards = [
-            stack.enter_context(BoardProcess(tmp_path / str(i), *SMALL, *options, "--seed", seed))
-            for i, seed in enumerate((1, 1, 2))
-        ]
-        for board in boards:
-            board.open_port()
-        runs: list[dict[int, NDArray[np.uint16]]] = [{}, {}, {}]
-        common: set[int] = set()
-        while len(common) < 100:
-            for board, run in zip(boards, runs, strict=True):
-                # A frame that a stall of the machine made the board skip draws no noise: no comparison after that.
-                run.update({f.sequence: f.counts for f in board.read_frames(1) if f.overruns == 0})
-            common = runs[0].keys() & runs[1].keys() & runs[2].keys()
+    # A stall of the machine makes a board skip frames, which draw no noise: then nothing can be compared any more.
+    for _ in range(10):
+        runs = noisy_frames(tmp_path)
+        common = runs[0].keys() & runs[1].keys() & runs[2].keys()
+        if len(common) >= 100:
+            break
+    assert len(common) >= 100, "the machine stalled in every run"
     values = np.concatenate(list(runs[0].values())).astype(float)
     assert values.mean() == pytest.approx(500, abs=0.5)
     assert values.std() == pytest.approx(4, rel=0.1)
     assert all((runs[0][k] == runs[1][k]).all() for k in common)
     assert not any((runs[0][k] == runs[2][k]).all() for k in common)
+
+
+def noisy_frames(folder: Path) -> list[dict[int, NDArray[np.uint16]]]:
+    """Counts by sequence number from boards of seeds 1, 1 and 2; 100 in common, or fewer where one of them stalled."""
+    options = ("--recording", folder / "frames.npy", "--scheme", "raster", "--noise-counts", 4)
+    runs: list[dict[int, NDArray[np.uint16]]] = [{}, {}, {}]
+    with ExitStack() as stack:
+        boards = [
+            stack.enter_context(BoardProcess(folder / str(i), *SMALL, *options, "--seed", seed))
+            for i, seed in enumerate((1, 1, 2))
+        ]
+        for board in boards:
+            board.open_port()
+        while len(runs[0].keys() & runs[1].keys() & runs[2].keys()) < 100:
+            for board, run in zip(boards, runs, strict=True):
+                frames = board.read_frames(1)
+                if frames[-1].overruns:
+                    return runs
+                run.update({frame.sequence: frame.counts for frame in frames})
+    return runs
 
 
 @pytest.mark.parametrize(

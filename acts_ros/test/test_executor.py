@@ -4,6 +4,8 @@ import os
 import signal
 import subprocess
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 import pytest
 
@@ -37,24 +39,29 @@ sys.exit(run([Example]))
 """
 
 
-def start(*arguments: str) -> subprocess.Popen[str]:
+@contextmanager
+def started(*arguments: str) -> Iterator[subprocess.Popen[str]]:
     environment = {**os.environ, "ROS_DOMAIN_ID": "11", "ROS_PYTHON_CHECK_FIELDS": "1"}
-    return subprocess.Popen(
+    with subprocess.Popen(
         [sys.executable, "-c", NODE, *arguments],
         env=environment,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
-    )
+    ) as process:
+        try:
+            yield process
+        finally:
+            process.kill()
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_ends_the_node_in_order(number: signal.Signals) -> None:
-    process = start()
-    assert process.stdout is not None
-    assert process.stdout.readline() == "ticking\n"
-    process.send_signal(number)
-    output, errors = process.communicate(timeout=20)
+    with started() as process:
+        assert process.stdout is not None
+        assert process.stdout.readline() == "ticking\n"
+        process.send_signal(number)
+        output, errors = process.communicate(timeout=60)
     assert output == "closed\n"
     # rclpy itself may say that a callback was interrupted.
     assert "Traceback" not in errors
@@ -62,18 +69,18 @@ def test_a_signal_ends_the_node_in_order(number: signal.Signals) -> None:
 
 
 def test_a_signal_while_a_node_is_made_is_an_orderly_end() -> None:
-    process = start("slow")
-    assert process.stdout is not None
-    assert process.stdout.readline() == "starting\n"
-    process.send_signal(signal.SIGINT)
-    _, errors = process.communicate(timeout=60)
+    with started("slow") as process:
+        assert process.stdout is not None
+        assert process.stdout.readline() == "starting\n"
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=60)
     assert "Traceback" not in errors
     assert process.returncode == 0
 
 
 def test_an_error_at_start_is_one_line_and_exit_code_1() -> None:
-    process = start("fail")
-    output, errors = process.communicate(timeout=20)
+    with started("fail") as process:
+        output, errors = process.communicate(timeout=60)
     assert process.returncode == 1
     assert errors == "error: rate_hz = 0: allowed is 1 to 1000\n"
     assert output == ""
