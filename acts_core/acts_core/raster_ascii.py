@@ -25,8 +25,8 @@ class RasterDecoder(DelimitedDecoder):
 
     The first line after construction or `reset` is dropped and counted as `partial`: were it cut within a number,
     nothing would tell. Every other line, also a refused one, takes a sequence number, so that a refused line shows as a
-    gap. `board_us` is the sum of the scan times, which
-    leaves out the time the board spends printing: it is no clock (`has_board_clock` is False).
+    gap. `board_us` is the sum of the scan times, which leaves out the time the board spends printing: it is no clock
+    (`has_board_clock` is False).
 
     Parameters
     ----------
@@ -59,6 +59,10 @@ class RasterDecoder(DelimitedDecoder):
             )
         if b"" in words:
             raise PacketError(f"line with an empty value, number {words.index(b'') + 1} of {len(words)}")
+        longest = max(words, key=len)
+        if len(longest) > _DURATION_DIGITS:
+            # Also: int() refuses thousands of digits with an error of its own.
+            raise PacketError(f"number {_shown(longest)} of {len(longest)} digits")
         *counts, duration_us = map(int, words)
         if max(counts) > COUNT_MAX:
             raise PacketError(f"count {max(counts)} of taxel {counts.index(max(counts))} is above {COUNT_MAX}")

@@ -118,7 +118,7 @@ def checked(name: str, value: Any, default: SettingValue, info: SettingInfo) -> 
     """Return `value` in the type of `default`, or raise `SettingsError` where type or range do not fit."""
     try:
         converted = _converted(value, default)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise _error(name, value, f"a value of type {_type_name(default)}", info) from None
     if info.choices and converted not in info.choices:
         raise _error(name, value, "", info)
@@ -128,7 +128,8 @@ def checked(name: str, value: Any, default: SettingValue, info: SettingInfo) -> 
     for number in numbers:
         if isinstance(number, bool) or not isinstance(number, (int, float)):
             continue
-        if not math.isfinite(number):
+        # Not asked of whole numbers: they always are, and one of 400 digits is no float.
+        if isinstance(number, float) and not math.isfinite(number):
             raise _error(name, value, "a finite number", info)
         if (info.minimum is not None and number < info.minimum) or (info.maximum is not None and number > info.maximum):
             raise _error(name, value, "", info)

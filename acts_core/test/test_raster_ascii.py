@@ -61,6 +61,7 @@ def test_the_first_line_is_never_used_since_it_may_be_cut_within_a_number() -> N
         (b"1,2,3,4,,6,100\r\n", "empty value, number 5"),
         (b"1,2,3,4,5,6,\r\n", "empty value, number 7"),
         (b"1,2,3,4,5,6,4294967296\r\n", "4294967296 us"),
+        (b"1,2,3,4,5,6,00000000100\r\n", "of 11 digits"),
         (b"\r\n", "1 numbers"),
         (b"bin dur: 12\r\n", "something else"),
         (b"1" * 200 + b"\r\n", "no delimiter within"),
@@ -73,6 +74,15 @@ def test_a_bad_line_is_counted_and_leaves_a_gap(bad: bytes, words: str) -> None:
     assert [frame.sequence for frame in received] == [0, 2]
     assert (decoder.frames, decoder.malformed, decoder.crc_errors) == (2, 1, 0)
     assert words in decoder.last_error
+
+
+def test_a_number_of_thousands_of_digits_is_malformed() -> None:
+    decoder = RasterDecoder(64, 64)
+    good = line([7] * 4096)
+    decoder.feed(good)
+    assert len(decoder.feed(b"1," * 4096 + b"9" * 6000 + b"\r\n" + good)) == 1
+    assert decoder.malformed == 1
+    assert "of 6000 digits" in decoder.last_error
 
 
 @given(st.binary(max_size=200), st.lists(st.integers(0, 1023), min_size=6, max_size=6))
