@@ -30,6 +30,7 @@ import mmap
 import os
 import struct
 import time
+from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
 
@@ -83,14 +84,19 @@ class TimedRingWriter:
         temporary = path.with_name(f"{path.name}.{os.getpid()}.new")
         try:
             with temporary.open("w+b") as file:
-                file.truncate(total)
+                # Space is taken now: a memory file system that is full later ends the process with a bus error.
+                os.posix_fallocate(file.fileno(), 0, total)
                 self._map = mmap.mmap(file.fileno(), total)
                 self._identity = _identity_of(os.fstat(file.fileno()))
+            self._map[: _HEADER.size] = _HEADER.pack(_MAGIC, _VERSION, slots, width, 0)
+            temporary.replace(path)
         except OSError as error:
+            with suppress(OSError):
+                temporary.unlink()
             raise ActsError(
-                f"{path}: the shared ring cannot be created ({error.strerror}); its folder must exist"
+                f"{path}: the shared ring cannot be created ({error.strerror}); its folder must exist and have room "
+                f"for {total} bytes"
             ) from error
-        self._map[: _HEADER.size] = _HEADER.pack(_MAGIC, _VERSION, slots, width, 0)
         self._written = np.frombuffer(self._map, dtype="<u8", count=1, offset=_WRITTEN_OFFSET)
         self._slots = np.frombuffer(self._map, dtype=dtype, count=slots, offset=_HEADER_BYTES)
         self._lock = self._slots["lock"]
@@ -98,7 +104,6 @@ class TimedRingWriter:
         self._values = self._slots["values"]
         self._count = 0
         self._newest_ns: int | None = None
-        temporary.replace(path)
 
     def write(self, time_ns: int, values: NDArray[np.float64]) -> None:
         """Append one slot.

@@ -1,5 +1,7 @@
 """The shared ring: between two processes, replaced while being read, and refused where it is none."""
 
+import errno
+import os
 import struct
 import subprocess
 import sys
@@ -177,6 +179,20 @@ def test_a_writer_refuses_what_a_reader_could_not_use(path: Path) -> None:
         TimedRingWriter(path / "missing" / "test.ring", 3)
     with pytest.raises(ActsError, match="2 slots and 1 value"):
         TimedRingWriter(path, 3, slots=1)
+
+
+def test_a_ring_that_cannot_be_made_leaves_nothing_behind(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path.mkdir()
+    with pytest.raises(ActsError, match="directory"):
+        TimedRingWriter(path, 3)
+
+    def full(descriptor: int, offset: int, length: int) -> None:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(os, "posix_fallocate", full)
+    with pytest.raises(ActsError, match=r"No space left on device.*room for 5184 bytes"):
+        TimedRingWriter(path.with_name("other.ring"), 3)
+    assert list(path.parent.iterdir()) == [path]
 
 
 def test_a_stuck_writer_is_reported(path: Path) -> None:
