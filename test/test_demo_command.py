@@ -27,10 +27,10 @@ def test_the_demo_leaves_figures_and_a_picture(tmp_path: Path) -> None:
     # Rates are figures of the machine, not of the code: `make demo` judges them, a test does not. The exit code has to
     # say the same as the file.
     assert finished.returncode == (0 if results["ok"] else 1), said
-    assert results["contacts_received"] > 0
-    assert results["latency_ms"]["median"] > 0
     # A machine that stands still for a quarter of a second ends the motion, as it has to.
     if not any("touch is stale" in failure for failure in results["failures"]):
+        assert results["contacts_received"] > 0
+        assert results["latency_ms"]["median"] > 0
         assert results["rms_mm"]["hold"] is not None, said
         assert results["rms_mm"]["hold"] < 10
     assert results["rms_mm"]["N"] is None
