@@ -19,6 +19,7 @@ import sysconfig
 import time
 from collections.abc import Iterable
 from pathlib import Path
+from typing import IO
 
 ROOT = Path(__file__).resolve().parent.parent
 STATE = ROOT / ".acts"
@@ -248,6 +249,19 @@ def build_workspace() -> None:
     stamp.write_text(wanted)
 
 
+def acquire(lock: IO[str]) -> None:
+    """Take the lock; say so where that takes longer than another command's look at what is up to date."""
+    deadline_s = time.monotonic() + 2.0
+    while time.monotonic() < deadline_s:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            return
+        except BlockingIOError:
+            time.sleep(0.02)
+    say("waiting for another set-up of this checkout to end")
+    fcntl.flock(lock, fcntl.LOCK_EX)
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--quiet", action="store_true", help="say nothing when there is nothing to do")
@@ -260,11 +274,7 @@ def main() -> int:
         STATE.mkdir(exist_ok=True)
         # Two commands at once must not build into one another.
         with (STATE / "lock").open("w") as lock:
-            try:
-                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            except BlockingIOError:
-                say("waiting for another set-up of this checkout to end")
-                fcntl.flock(lock, fcntl.LOCK_EX)
+            acquire(lock)
             create_venv()
             write_environment()
             build_workspace()
