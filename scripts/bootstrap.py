@@ -24,6 +24,7 @@ from typing import IO
 ROOT = Path(__file__).resolve().parent.parent
 STATE = ROOT / ".acts"
 VENV = STATE / "venv"
+BUILD = STATE / "build"
 INSTALL = STATE / "install"
 LOCK = ROOT / "requirements.lock"
 PYTHON_RECORD = VENV / "acts.python"
@@ -123,7 +124,9 @@ def create_venv() -> None:
     # Gone while the work is under way: an interrupted one must not pass for whole when its inputs change back.
     stamp.unlink(missing_ok=True)
     say(f"virtual environment with Python {sys.version.split()[0]} in .acts/venv")
-    shutil.rmtree(VENV, ignore_errors=True)
+    # What was built, too: CMake remembers the interpreter and the place of the checkout.
+    for folder in (VENV, BUILD, INSTALL):
+        shutil.rmtree(folder, ignore_errors=True)
     run([python, "-m", "venv", str(VENV)], "venv.log")
     count = sum(1 for line in LOCK.read_text().splitlines() if line and not line.startswith("#"))
     say(f"installing about {count} wheels, ROS 2 Kilted among them (one to three minutes, 1 GB)")
@@ -165,7 +168,7 @@ def environment() -> dict[str, str]:
     """The variables that make the venv and the installed workspace one ROS environment, overlay first."""
     version = f"python{sys.version_info.major}.{sys.version_info.minor}"
     # Python packages are linked (--symlink-install): the modules are found through their build folders.
-    linked = [str(STATE / "build" / package.name) for package in packages() if (package / "setup.py").is_file()]
+    linked = [str(BUILD / package.name) for package in packages() if (package / "setup.py").is_file()]
     vendored = sorted(str(folder) for folder in site_packages().glob("ros_*.libs"))
     return {
         "VIRTUAL_ENV": str(VENV),
@@ -233,7 +236,7 @@ def build_workspace() -> None:
             "--base-paths",
             *[str(package) for package in packages()],
             "--build-base",
-            str(STATE / "build"),
+            str(BUILD),
             "--install-base",
             str(INSTALL),
             "--merge-install",
@@ -245,8 +248,19 @@ def build_workspace() -> None:
         "build.log",
         env=env,
     )
+    find_python_on_path()
     say(f"built in {time.monotonic() - started:.0f} s")
     stamp.write_text(wanted)
+
+
+def find_python_on_path() -> None:
+    """Let the nodes' scripts take Python from PATH: their first line cannot hold a path that is long or has a space."""
+    for script in INSTALL.glob("lib/*/*"):
+        if script.is_dir() or script.is_symlink():
+            continue
+        first, _, rest = script.read_bytes().partition(b"\n")
+        if first.startswith(b"#!") and bytes(VENV) in first:
+            script.write_bytes(b"#!/usr/bin/env python3\n" + rest)
 
 
 def acquire(lock: IO[str]) -> None:
