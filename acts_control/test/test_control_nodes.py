@@ -21,6 +21,8 @@ from acts_msgs.msg import BalanceStatus
 from acts_ros.qos import STATE, STREAM
 
 MS = 1_000_000
+# What the bench subscribes to of ball_state.
+HEARD = ("/plate/ball/state", "/plate/contact_statistics")
 
 
 @pytest.fixture
@@ -35,7 +37,10 @@ def start_state_node(bench: Bench, *parameters: str) -> BallStateNode:
     bench.add(node)
     bench.start()
     wait_for(lambda: bench.contacts.get_subscription_count() == 1, "the node's subscription")
-    wait_for(lambda: bench.node.count_publishers("/plate/ball/state") == 1, "the node's publisher")
+    # Matched, not only known to the graph: what is published before is lost for good.
+    heard = [publisher for publisher in node.publishers if publisher.topic_name in HEARD]
+    assert len(heard) == len(HEARD)
+    wait_for(lambda: all(publisher.get_subscription_count() == 1 for publisher in heard), "the subscriptions to it")
     return node
 
 

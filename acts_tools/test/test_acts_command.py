@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from conftest import Prefix
+from fake_prefix import Prefix
 
 from acts_tools import __version__
 from acts_tools.cli import COMMANDS, main

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 import yaml
-from conftest import Prefix
+from fake_prefix import Prefix
 
 from acts_core.errors import LaunchError
 from acts_tools.launch.evaluate import Plan, evaluate

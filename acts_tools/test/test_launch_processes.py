@@ -13,7 +13,7 @@ from contextlib import AbstractContextManager
 from pathlib import Path
 
 import psutil
-from conftest import Prefix
+from fake_prefix import Prefix
 
 from acts_tools.testing.launch_runner import ProcessLaunch, launched
 

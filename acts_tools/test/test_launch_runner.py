@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from conftest import Prefix
+from fake_prefix import Prefix
 from std_msgs.msg import String
 
 from acts_tools.testing.launch_runner import Launched, LaunchFile, launch_fixture, launch_test, launched
