@@ -17,7 +17,7 @@ from acts_msgs.msg import BallState, Contact, StreamStatistics
 from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
 from acts_ros.parameters import declare, node_options
-from acts_ros.qos import OVERRIDABLE, STATE, STREAM
+from acts_ros.qos import STATE, STREAM, overridable
 
 _STATISTICS_PERIOD_S = 1.0
 
@@ -48,9 +48,7 @@ class BallStateNode(Node):
         self._state_publisher = self.create_publisher(BallState, STATE_TOPIC, STATE)
         self._statistics_publisher = self.create_publisher(StreamStatistics, STATISTICS_TOPIC, STATE)
         self.create_subscription(Vector3Stamped, TILT_TOPIC, self._on_tilt, STREAM)
-        self._contacts = self.create_subscription(
-            Contact, CONTACT_TOPIC, self._on_contact, STREAM, qos_overriding_options=OVERRIDABLE
-        )
+        self._contacts = self.create_subscription(Contact, CONTACT_TOPIC, self._on_contact, **overridable(STREAM))
         self.create_timer(_STATISTICS_PERIOD_S, self._publish_statistics)
         self._diagnostics = DiagnosticsReporter(self, "ball", self._report)
 

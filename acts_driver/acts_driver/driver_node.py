@@ -20,7 +20,7 @@ from acts_msgs.msg import TactileSamples
 from acts_ros.diagnostics import ERROR, OK, DiagnosticsReporter, Report
 from acts_ros.executor import run
 from acts_ros.parameters import declare, node_options
-from acts_ros.qos import OVERRIDABLE, STREAM
+from acts_ros.qos import STREAM, overridable
 
 SUCCESS = TransitionCallbackReturn.SUCCESS
 FAILURE = TransitionCallbackReturn.FAILURE
@@ -45,7 +45,7 @@ class DriverNode(LifecycleNode):
         frame_id = self._settings.frame_id or self.get_namespace().strip("/").replace("/", "_") or "skin"
         self._message = SamplesMessage(frame_id)
         # Not made in on_configure: subscribers then are matched before the first frame.
-        self._publisher = self.create_publisher(TactileSamples, "samples", STREAM, qos_overriding_options=OVERRIDABLE)
+        self._publisher = self.create_publisher(TactileSamples, "samples", **overridable(STREAM))
         self._diagnostics = DiagnosticsReporter(self, self._settings.port, self._make_report)
         if self._settings.autostart:
             # At once and then again and again. Not in the constructor: a signal would meet a half-made node.

@@ -45,11 +45,10 @@ class ReconstructionNode(Node):
         self._settings = declare(self, ReconstructionSettings)
         self.get_logger().info("loading the dictionary and compiling (the first time on a machine takes some seconds)")
         self._reconstructor = self._settings.reconstructor()
-        overridable = {"qos_overriding_options": qos.OVERRIDABLE}
-        self._contact_publisher = self.create_publisher(ContactMessage, "contact", qos.STREAM, **overridable)
-        self._cop_publisher = self.create_publisher(PointStamped, "cop", qos.STREAM, **overridable)
-        self._raw_publisher = self.create_publisher(Image, "image_raw", qos.STREAM, **overridable)
-        self._view_publisher = self.create_publisher(Image, "image", qos.VIEW, **overridable)
+        self._contact_publisher = self.create_publisher(ContactMessage, "contact", **qos.overridable(qos.STREAM))
+        self._cop_publisher = self.create_publisher(PointStamped, "cop", **qos.overridable(qos.STREAM))
+        self._raw_publisher = self.create_publisher(Image, "image_raw", **qos.overridable(qos.STREAM))
+        self._view_publisher = self.create_publisher(Image, "image", **qos.overridable(qos.VIEW))
         # Filled anew for every frame: making messages costs more than sending them.
         self._contact = ContactMessage()
         self._cop = PointStamped()
@@ -68,7 +67,7 @@ class ReconstructionNode(Node):
         self._look_for_subscribers()
         self.create_timer(_SUBSCRIBERS_PERIOD_S, self._look_for_subscribers)
         self._diagnostics = DiagnosticsReporter(self, self.resolve_topic_name("samples"), self._report)
-        self.create_subscription(TactileSamples, "samples", self._on_samples, qos.STREAM, **overridable)
+        self.create_subscription(TactileSamples, "samples", self._on_samples, **qos.overridable(qos.STREAM))
         self.get_logger().info(f"ready: array of {self._settings.rows} x {self._settings.cols}")
 
     def _look_for_subscribers(self) -> None:

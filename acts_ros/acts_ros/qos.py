@@ -1,8 +1,11 @@
 """Quality of service of the ACTS topics.
 
-1 kHz topics are best effort, what a viewer shows is reliable, what describes a skin is kept for late joiners. Users
-override them with the standard ``qos_overrides`` parameters where `OVERRIDABLE` is passed to a publisher.
+1 kHz topics are best effort, what a viewer shows is reliable, what describes a skin is kept for late joiners. Where a
+publisher or subscription is made with `overridable`, a params file changes that by the standard ``qos_overrides``.
 """
+
+from copy import copy
+from typing import Any
 
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.qos_overriding_options import QoSOverridingOptions
@@ -40,5 +43,10 @@ LATCHED = QoSProfile(
 )
 """Settings and baselines: the last one reaches late joiners."""
 
-OVERRIDABLE = QoSOverridingOptions.with_default_policies()
-"""Lets a params file override history, depth and reliability of a topic."""
+
+def overridable(profile: QoSProfile) -> dict[str, Any]:
+    """Keyword arguments for a publisher or subscription whose quality of service a params file may override.
+
+    The profile is copied: rclpy writes the overrides into the one it is given, and so into every later user's.
+    """
+    return {"qos_profile": copy(profile), "qos_overriding_options": QoSOverridingOptions.with_default_policies()}
