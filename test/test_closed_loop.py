@@ -12,8 +12,8 @@ from acts_control.trajectory import TrajectoryConfig
 from acts_sim.world import WorldConfig
 from acts_tools.demo.score import HOLD_SETTLE_S, LETTERS, rms_error_mm
 
-# Measured with seeds 1 and 2: held within 0.15 mm, N within 1.02, B 1.45, I 1.00; the slow chain holds within 0.49 mm, the
-# paper's scheme within 0.39.
+# Measured with seeds 1 and 2: held within 0.15 mm, N within 1.02, B 1.45, I 1.00; the slow chain holds within
+# 0.49 mm, the paper's scheme within 0.39.
 HOLD_LIMIT_MM = 1.0
 LETTER_LIMIT_MM = 2.5
 

@@ -149,8 +149,8 @@ class DriverNode(LifecycleNode):
         for frame, stamp_ns in accepted:
             try:
                 self._publisher.publish(self._message.fill(frame, stamp_ns))
-            except Exception:
-                # A signal may end the context between two frames.
+            except RuntimeError:
+                # A signal may end the context between two frames; all of rclpy's own errors are RuntimeErrors.
                 if self.context.ok():
                     raise
                 return
