@@ -38,7 +38,7 @@ def run(title: str, command: list[str], env: dict[str, str] | None = None) -> bo
 
 def lint() -> bool:
     """Every linter, also after one has failed, so that one run shows all there is."""
-    firmware = [f"-I{ROOT}/acts_firmware/{folder}" for folder in ("include", "virtual_board")]
+    firmware = [f"-I{ROOT}/acts_firmware/{folder}" for folder in ("src", "virtual_board")]
     passed = [
         run("ruff: rules", ["ruff", "check", "."]),
         run("ruff: format", ["ruff", "format", "--check", "--quiet", "."]),

@@ -3,11 +3,11 @@
 #include <cstdint>
 #include <memory>
 
-#include "acts_firmware/division_order.hpp"
-#include "acts_firmware/packet.hpp"
-#include "acts_firmware/random.hpp"
-#include "acts_firmware/sampler.hpp"
-#include "acts_firmware/wiring.hpp"
+#include "acts_firmware/board/wiring.hpp"
+#include "acts_firmware/sampling/division_order.hpp"
+#include "acts_firmware/sampling/random.hpp"
+#include "acts_firmware/sampling/sampler.hpp"
+#include "acts_firmware/wire/packet.hpp"
 #include "wired_board.hpp"
 
 namespace {

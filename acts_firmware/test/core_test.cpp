@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "acts_firmware/clock.hpp"
+#include "acts_firmware/board/clock.hpp"
 #include "acts_firmware/firmware.hpp"
 #include "wired_board.hpp"
 

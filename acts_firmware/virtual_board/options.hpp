@@ -6,7 +6,7 @@
 #include <string>
 
 #include "acts_firmware/firmware.hpp"
-#include "acts_firmware/sampler.hpp"
+#include "acts_firmware/sampling/sampler.hpp"
 
 namespace acts {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "acts_firmware/random.hpp"
+#include "acts_firmware/sampling/random.hpp"
 #include "field.hpp"
 #include "wired_board.hpp"
 

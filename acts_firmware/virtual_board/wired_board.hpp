@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "acts_firmware/board.hpp"
+#include "acts_firmware/board/board.hpp"
 #include "acts_firmware/limits.hpp"
 
 namespace acts {

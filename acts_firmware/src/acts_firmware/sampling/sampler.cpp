@@ -1,4 +1,4 @@
-#include "acts_firmware/sampler.hpp"
+#include "acts_firmware/sampling/sampler.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "acts_firmware/division_order.hpp"
+#include "acts_firmware/sampling/division_order.hpp"
 
 namespace acts {
 

@@ -1,4 +1,4 @@
-#include "acts_firmware/published_ascii.hpp"
+#include "acts_firmware/wire/published_ascii.hpp"
 
 namespace acts {
 

@@ -1,4 +1,4 @@
-#include "acts_firmware/transmit_queue.hpp"
+#include "acts_firmware/wire/transmit_queue.hpp"
 
 #include <algorithm>
 #include <cstring>

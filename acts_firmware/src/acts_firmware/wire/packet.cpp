@@ -1,4 +1,4 @@
-#include "acts_firmware/packet.hpp"
+#include "acts_firmware/wire/packet.hpp"
 
 #include <array>
 

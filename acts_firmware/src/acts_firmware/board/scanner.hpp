@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "acts_firmware/board.hpp"
-#include "acts_firmware/wiring.hpp"
+#include "acts_firmware/board/board.hpp"
+#include "acts_firmware/board/wiring.hpp"
 
 namespace acts {
 

@@ -1,4 +1,4 @@
-#include "acts_firmware/wiring.hpp"
+#include "acts_firmware/board/wiring.hpp"
 
 namespace acts {
 

@@ -4,10 +4,10 @@
 #include <array>
 #include <cstdint>
 
-#include "acts_firmware/division_order.hpp"
+#include "acts_firmware/board/scanner.hpp"
 #include "acts_firmware/frame.hpp"
-#include "acts_firmware/random.hpp"
-#include "acts_firmware/scanner.hpp"
+#include "acts_firmware/sampling/division_order.hpp"
+#include "acts_firmware/sampling/random.hpp"
 
 namespace acts {
 

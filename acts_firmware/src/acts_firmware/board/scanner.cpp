@@ -1,4 +1,4 @@
-#include "acts_firmware/scanner.hpp"
+#include "acts_firmware/board/scanner.hpp"
 
 namespace acts {
 

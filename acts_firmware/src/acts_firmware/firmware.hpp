@@ -4,15 +4,15 @@
 #include <array>
 #include <cstdint>
 
-#include "acts_firmware/board.hpp"
-#include "acts_firmware/clock.hpp"
+#include "acts_firmware/board/board.hpp"
+#include "acts_firmware/board/clock.hpp"
+#include "acts_firmware/board/scanner.hpp"
+#include "acts_firmware/board/wiring.hpp"
 #include "acts_firmware/frame.hpp"
-#include "acts_firmware/packet.hpp"
-#include "acts_firmware/published_ascii.hpp"
-#include "acts_firmware/sampler.hpp"
-#include "acts_firmware/scanner.hpp"
-#include "acts_firmware/transmit_queue.hpp"
-#include "acts_firmware/wiring.hpp"
+#include "acts_firmware/sampling/sampler.hpp"
+#include "acts_firmware/wire/packet.hpp"
+#include "acts_firmware/wire/published_ascii.hpp"
+#include "acts_firmware/wire/transmit_queue.hpp"
 
 namespace acts {
 
