@@ -10,13 +10,14 @@ from numpy.typing import NDArray
 
 
 class Scheme(IntEnum):
-    """How the taxels of a frame are chosen. 1 to 3 are the mode numbers of the published firmware; 5 is kept free."""
+    """How the taxels of a frame are chosen. 1 to 3 are the mode numbers of the published firmware."""
 
     UNKNOWN = 0
     UNIFORM = 1
     RANDOM = 2
     ADAPTIVE = 3
     RASTER = 4
+    HYBRID = 5
     TRACKING = 6
 
 

@@ -29,6 +29,7 @@ Measure = Callable[[int, int], int]
 SCHEMES = {
     "adaptive": Scheme.ADAPTIVE,
     "tracking": Scheme.TRACKING,
+    "hybrid": Scheme.HYBRID,
     "uniform": Scheme.UNIFORM,
     "random": Scheme.RANDOM,
     "raster": Scheme.RASTER,
@@ -56,15 +57,18 @@ class SamplingConfig:
     m: int = setting(55, "taxels measured per frame; raster measures all", minimum=1, maximum=MAX_SIDE**2)
     threshold_counts: int = setting(
         180,
-        "counts above which adaptive searches a taxel's neighbours and tracking follows it",
+        "counts above which adaptive and hybrid search a taxel's neighbours and tracking follows it",
         minimum=0,
         maximum=COUNT_MAX,
     )
     neighbour_order: str = setting("columns", "order of the neighbour search", choices=tuple(NEIGHBOURS))
-    seed: int = setting(1, "seed of random sampling", minimum=0, maximum=2**64 - 1)
+    seed: int = setting(1, "seed of random and hybrid sampling", minimum=0, maximum=2**64 - 1)
     # Smaller shares would all mean the same: one taxel of even the largest array.
     search_share: float = setting(
         0.2, "share of a tracking frame that is kept for the search", minimum=0.0001, maximum=1.0
+    )
+    adaptive_share: float = setting(
+        0.5, "share of a hybrid frame that is chosen adaptively", minimum=0.0001, maximum=1.0
     )
 
     def __post_init__(self) -> None:
@@ -80,6 +84,11 @@ class SamplingConfig:
     def search_quota(self) -> int:
         """Taxels of a tracking frame that are kept for the search: ``ceil(search_share * m)``, 1 to `m`."""
         return math.ceil(self.search_share * self.m)
+
+    @property
+    def adaptive_quota(self) -> int:
+        """Taxels of a hybrid frame that are chosen adaptively: ``ceil(adaptive_share * m)``, 1 to `m`."""
+        return math.ceil(self.adaptive_share * self.m)
 
 
 class Sampler:
@@ -113,14 +122,9 @@ class Sampler:
         """
         config = self.config
         if config.scheme == "adaptive":
-            return adaptive(
-                measure,
-                config.rows,
-                config.cols,
-                config.m,
-                threshold_counts=config.threshold_counts,
-                neighbour_order=config.neighbour_order,
-            )
+            return self._adaptive(measure, config.m)
+        if config.scheme == "hybrid":
+            return self._hybrid(measure)
         if config.scheme == "tracking":
             return self._tracking.frame(measure)
         if config.scheme == "uniform":
@@ -130,8 +134,28 @@ class Sampler:
         else:
             indices = raster(config.rows, config.cols)
         self._frame += 1
-        counts = [measure(*divmod(int(index), config.cols)) for index in indices]
-        return indices, np.array(counts, dtype=np.uint16)
+        return indices, self._measure(measure, indices)
+
+    def _adaptive(self, measure: Measure, m: int) -> tuple[NDArray[np.uint16], NDArray[np.uint16]]:
+        config = self.config
+        return adaptive(
+            measure,
+            config.rows,
+            config.cols,
+            m,
+            threshold_counts=config.threshold_counts,
+            neighbour_order=config.neighbour_order,
+        )
+
+    def _hybrid(self, measure: Measure) -> tuple[NDArray[np.uint16], NDArray[np.uint16]]:
+        """Adaptive sampling for its quota, then random taxels among those that this frame has not measured."""
+        found, found_counts = self._adaptive(measure, self.config.adaptive_quota)
+        drawn = self._random.draw(self.config.m - len(found), measured=found)
+        return np.concatenate((found, drawn)), np.concatenate((found_counts, self._measure(measure, drawn)))
+
+    def _measure(self, measure: Measure, indices: NDArray[np.uint16]) -> NDArray[np.uint16]:
+        counts = [measure(*divmod(int(index), self.config.cols)) for index in indices]
+        return np.array(counts, dtype=np.uint16)
 
 
 def measure_in(field: ArrayLike) -> Measure:
@@ -330,6 +354,9 @@ class Pcg32:
         return product >> 32
 
 
+_NONE = np.empty(0, dtype=np.uint16)
+
+
 class RandomTaxels:
     """Draws distinct taxels, frame after frame (the first steps of a Fisher-Yates shuffle that is never undone)."""
 
@@ -337,10 +364,17 @@ class RandomTaxels:
         self._taxels = raster(rows, cols)
         self._random = Pcg32(seed, RANDOM_STREAM)
 
-    def draw(self, m: int) -> NDArray[np.uint16]:
-        """`m` distinct taxel indices; shape (m,), uint16."""
+    def draw(self, m: int, *, measured: NDArray[np.uint16] = _NONE) -> NDArray[np.uint16]:
+        """`m` distinct taxel indices, none of those in `measured`; shape (m,), uint16."""
         taxels = self._taxels
-        for i in range(m):
-            j = i + self._random.below(len(taxels) - i)
-            taxels[i], taxels[j] = taxels[j], taxels[i]
-        return taxels[:m].copy()
+        # Those that are not to be drawn go to the front, in their order, where the shuffle begins behind them.
+        for i, index in enumerate(measured):
+            self._swap(i, int(np.flatnonzero(taxels == index)[0]))
+        first = len(measured)
+        for i in range(first, first + m):
+            self._swap(i, i + self._random.below(len(taxels) - i))
+        return taxels[first : first + m].copy()
+
+    def _swap(self, i: int, j: int) -> None:
+        taxels = self._taxels
+        taxels[i], taxels[j] = taxels[j], taxels[i]

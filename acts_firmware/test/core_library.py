@@ -34,12 +34,12 @@ def library() -> ctypes.CDLL:
     u16, u8, i32 = ctypes.c_void_p, ctypes.c_char_p, ctypes.c_int
     u32, u64, size = ctypes.c_uint32, ctypes.c_uint64, ctypes.c_size_t
     signatures = {
-        "probe_new": (ctypes.c_void_p, [i32, i32, i32, i32, i32, i32, u64, i32]),
+        "probe_new": (ctypes.c_void_p, [i32, i32, i32, i32, i32, i32, u64, i32, i32]),
         "probe_free": (None, [ctypes.c_void_p]),
         "probe_sample": (i32, [ctypes.c_void_p, u16, u16, u16]),
         "probe_division_order": (i32, [i32, i32, u16]),
         "probe_spacing": (None, [i32, i32, i32, ctypes.POINTER(i32)]),
-        "probe_search_quota": (i32, [ctypes.c_double, i32]),
+        "probe_quota_of": (i32, [ctypes.c_double, i32]),
         "probe_random": (None, [u64, u64, u32, i32, ctypes.c_void_p]),
         "probe_cobs_encode": (size, [u8, size, ctypes.c_void_p]),
         "probe_cobs_decode": (size, [u8, size, ctypes.c_void_p]),
@@ -65,6 +65,7 @@ class CoreSampler:
             NEIGHBOUR_ORDERS[config.neighbour_order],
             config.seed,
             config.search_quota,
+            config.adaptive_quota,
         )
         assert self._probe, f"the core refuses {config}"
 
@@ -96,8 +97,8 @@ def uniform_spacing(rows: int, cols: int, m: int) -> tuple[int, int] | None:
     return (pair[0], pair[1]) if pair[0] else None
 
 
-def search_quota(share: float, m: int) -> int:
-    return int(library().probe_search_quota(share, m))
+def quota_of(share: float, m: int) -> int:
+    return int(library().probe_quota_of(share, m))
 
 
 def random_numbers(seed: int, stream: int, bound: int, count: int) -> list[int]:

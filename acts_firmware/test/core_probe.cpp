@@ -46,7 +46,7 @@ struct Probe {
 extern "C" {
 
 Probe* probe_new(int rows, int cols, int scheme, int m, int threshold, int neighbour_order, std::uint64_t seed,
-                 int search_quota) {
+                 int search_quota, int adaptive_quota) {
   acts::SamplingConfig config;
   config.rows = rows;
   config.cols = cols;
@@ -56,6 +56,7 @@ Probe* probe_new(int rows, int cols, int scheme, int m, int threshold, int neigh
   config.neighbour_order = static_cast<acts::NeighbourOrder>(neighbour_order);
   config.seed = seed;
   config.search_quota = search_quota;
+  config.adaptive_quota = adaptive_quota;
   auto probe = std::make_unique<Probe>(config);
   return probe->error == acts::ConfigError::kNone ? probe.release() : nullptr;
 }
@@ -87,8 +88,8 @@ void probe_spacing(int rows, int cols, int m, int* out) {
   out[1] = spacing.col;
 }
 
-int probe_search_quota(double share, int m) {
-  return acts::search_quota(share, m);
+int probe_quota_of(double share, int m) {
+  return acts::quota_of(share, m);
 }
 
 void probe_random(std::uint64_t seed, std::uint64_t stream, std::uint32_t bound, int count, std::uint32_t* out) {

@@ -255,7 +255,7 @@ void test_settings_are_checked() {
   config.m = 53;
   CHECK(sampler->configure(config) == acts::ConfigError::kUniformM);
   config = {};
-  for (const int unknown : {0, 5, 9}) {
+  for (const int unknown : {0, 7, 9}) {
     config.scheme = static_cast<acts::Scheme>(unknown);
     CHECK(sampler->configure(config) == acts::ConfigError::kScheme);
   }
@@ -264,6 +264,12 @@ void test_settings_are_checked() {
   for (const int quota : {0, 56}) {
     config.search_quota = quota;
     CHECK(sampler->configure(config) == acts::ConfigError::kSearchQuota);
+  }
+  config = {};
+  config.scheme = acts::Scheme::kHybrid;
+  for (const int quota : {0, 56}) {
+    config.adaptive_quota = quota;
+    CHECK(sampler->configure(config) == acts::ConfigError::kAdaptiveQuota);
   }
   CHECK(sampler->config().rows == 32 && sampler->frame_size() == 55);  // refused settings change nothing
 }

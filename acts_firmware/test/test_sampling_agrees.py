@@ -97,16 +97,17 @@ def test_tracking_on_changing_fields(rows: int, cols: int, share: float, thresho
         "coming and going": lambda: np.stack([(contact, 0 * contact, other)[i // 3 % 3] for i in range(frames)]),
     }[kind]()
     config = SamplingConfig("tracking", rows, cols, m, threshold, seed=seed, search_share=share)
-    assert core_library.search_quota(share, m) == config.search_quota
+    assert core_library.quota_of(share, m) == config.search_quota
     compare(config, fields)
 
 
 @settings(max_examples=300, deadline=None)
 @given(st.floats(0.0001, 1.0), st.integers(1, 4096))
-def test_search_quota(share: float, m: int) -> None:
-    quota = core_library.search_quota(share, m)
+def test_quotas(share: float, m: int) -> None:
+    quota = core_library.quota_of(share, m)
     assert 1 <= quota <= m
     assert quota == SamplingConfig("tracking", 64, 64, m, search_share=share).search_quota
+    assert quota == SamplingConfig("hybrid", 64, 64, m, adaptive_share=share).adaptive_quota
 
 
 @pytest.mark.parametrize("m", [36, 49, 55, 64, 160])

@@ -43,7 +43,8 @@ def test_stream_of_the_published_settings(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("scheme", "m"), [("uniform", 48), ("random", 40), ("tracking", 60), ("adaptive", 120), ("raster", 176)]
+    ("scheme", "m"),
+    [("uniform", 48), ("random", 40), ("tracking", 60), ("hybrid", 80), ("adaptive", 120), ("raster", 176)],
 )
 def test_schemes_and_their_pace(tmp_path: Path, scheme: str, m: int) -> None:
     with BoardProcess(tmp_path, "--scheme", scheme, "--m", m, "--rows", 11, "--cols=16", "--sample-us", 10) as board:
@@ -147,10 +148,11 @@ def test_what_the_host_sends_is_taken_and_disturbs_nothing(tmp_path: Path) -> No
         (["--cols", "3x"], "--cols 3x"),
         (["--m", "0"], "--m 0"),
         (["--rows", "5", "--cols", "5"], "--m 55: an array of 5 x 5 has 25 taxels"),
-        (["--scheme", "spiral"], "adaptive, tracking, uniform, random, raster"),
+        (["--scheme", "spiral"], "adaptive, tracking, hybrid, uniform, random, raster"),
         (["--scheme", "uniform", "--m", "53"], "--m 53: no uniform grid"),
         (["--search-share", "0"], "--search-share 0: allowed is a number from 0.0001 to 1"),
         (["--search-share", "1.01"], "--search-share 1.01"),
+        (["--adaptive-share", "0"], "--adaptive-share 0: allowed is a number from 0.0001 to 1"),
         (["--threshold", "1024"], "--threshold 1024"),
         (["--neighbour-order", "diagonal"], "columns, rows"),
         (["--rate-hz", "nan"], "--rate-hz nan"),

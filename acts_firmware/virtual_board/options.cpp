@@ -16,7 +16,7 @@ namespace {
 constexpr double kRasterSketchSampleUs = 17.098;
 
 // Smaller shares would all mean the same: one taxel of even the largest array.
-constexpr double kMinSearchShare = 0.0001;
+constexpr double kMinShare = 0.0001;
 
 struct Option {
   const char* name;
@@ -79,11 +79,9 @@ std::string path_or_none(const std::string& text) {
 }
 
 const std::vector<std::pair<const char*, Scheme>>& schemes() {
-  static const std::vector<std::pair<const char*, Scheme>> kSchemes = {{"adaptive", Scheme::kAdaptive},
-                                                                       {"tracking", Scheme::kTracking},
-                                                                       {"uniform", Scheme::kUniform},
-                                                                       {"random", Scheme::kRandom},
-                                                                       {"raster", Scheme::kRaster}};
+  static const std::vector<std::pair<const char*, Scheme>> kSchemes = {
+      {"adaptive", Scheme::kAdaptive}, {"tracking", Scheme::kTracking}, {"hybrid", Scheme::kHybrid},
+      {"uniform", Scheme::kUniform},   {"random", Scheme::kRandom},     {"raster", Scheme::kRaster}};
   return kSchemes;
 }
 
@@ -104,7 +102,7 @@ std::vector<Option> make_options(Options& o, bool& sample_us_given) {
        [&s](const std::string& v) { s.rows = whole("--rows", v, 1, kMaxSide); }},
       {"--cols", "N", "columns of the array, 1 to 64 (32)",
        [&s](const std::string& v) { s.cols = whole("--cols", v, 1, kMaxSide); }},
-      {"--scheme", "NAME", "adaptive, tracking, uniform, random or raster (adaptive)",
+      {"--scheme", "NAME", "adaptive, tracking, hybrid, uniform, random or raster (adaptive)",
        [&s](const std::string& v) { s.scheme = word<Scheme>("--scheme", v, schemes()); }},
       {"--m", "M", "taxels measured per frame (55); raster measures all",
        [&s](const std::string& v) { s.m = whole("--m", v, 1, kMaxTaxels); }},
@@ -116,7 +114,7 @@ std::vector<Option> make_options(Options& o, bool& sample_us_given) {
          sample_us_given = true;
        }},
       {"--threshold", "COUNTS",
-       "counts above which adaptive searches a taxel's neighbours and tracking follows it (180)",
+       "counts above which adaptive and hybrid search a taxel's neighbours and tracking follows it (180)",
        [&s](const std::string& v) { s.threshold = whole("--threshold", v, 0, kCountMax); }},
       {"--neighbour-order", "ORDER", "of that search: columns or rows (columns)",
        [&s](const std::string& v) {
@@ -124,10 +122,12 @@ std::vector<Option> make_options(Options& o, bool& sample_us_given) {
              "--neighbour-order", v, {{"columns", NeighbourOrder::kColumns}, {"rows", NeighbourOrder::kRows}});
        }},
       {"--search-share", "F", "share of a tracking frame that is kept for the search (0.2)",
-       [&o](const std::string& v) { o.search_share = number("--search-share", v, kMinSearchShare, 1.0); }},
+       [&o](const std::string& v) { o.search_share = number("--search-share", v, kMinShare, 1.0); }},
+      {"--adaptive-share", "F", "share of a hybrid frame that is chosen adaptively (0.5)",
+       [&o](const std::string& v) { o.adaptive_share = number("--adaptive-share", v, kMinShare, 1.0); }},
       {"--noise-counts", "S", "standard deviation of the noise in counts (1.5)",
        [&o](const std::string& v) { o.noise_counts = number("--noise-counts", v, 0.0, 1000.0); }},
-      {"--seed", "N", "of the noise and of random sampling (1)",
+      {"--seed", "N", "of the noise and of random and hybrid sampling (1)",
        [&s](const std::string& v) { s.seed = seed("--seed", v); }},
       {"--drift-ppm", "D", "how much faster the board's clock runs than the host's, in millionths (0)",
        [&o](const std::string& v) { o.drift_ppm = number("--drift-ppm", v, -10000.0, 10000.0); }},
@@ -206,7 +206,8 @@ Options parse_options(int argc, const char* const* argv) {
   if (options.sampling.scheme == Scheme::kRaster) {
     options.sampling.m = options.sampling.rows * options.sampling.cols;
   }
-  options.sampling.search_quota = search_quota(options.search_share, options.sampling.m);
+  options.sampling.search_quota = quota_of(options.search_share, options.sampling.m);
+  options.sampling.adaptive_quota = quota_of(options.adaptive_share, options.sampling.m);
   check_sampling(options);
   return options;
 }

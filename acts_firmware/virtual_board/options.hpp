@@ -19,6 +19,7 @@ struct Options {
   bool loop = false;
   SamplingConfig sampling;
   double search_share = 0.2;
+  double adaptive_share = 0.5;
   double rate_hz = 1000.0;
   double sample_us = 17.877;  // published: 55,936 samples a second
   double noise_counts = 1.5;

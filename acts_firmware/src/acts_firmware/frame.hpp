@@ -8,8 +8,8 @@
 
 namespace acts {
 
-// Numbers on the wire; 1 to 3 are the mode numbers of the published firmware, 5 is kept free.
-enum class Scheme : std::uint8_t { kUniform = 1, kRandom = 2, kAdaptive = 3, kRaster = 4, kTracking = 6 };
+// Numbers on the wire; 1 to 3 are the mode numbers of the published firmware.
+enum class Scheme : std::uint8_t { kUniform = 1, kRandom = 2, kAdaptive = 3, kRaster = 4, kHybrid = 5, kTracking = 6 };
 
 struct SampleFrame {
   std::uint32_t sequence = 0;

@@ -29,6 +29,7 @@ constexpr bool known(Scheme scheme) {
     case Scheme::kRandom:
     case Scheme::kAdaptive:
     case Scheme::kRaster:
+    case Scheme::kHybrid:
     case Scheme::kTracking:
       return true;
   }
@@ -60,7 +61,7 @@ Spacing uniform_spacing(int rows, int cols, int m) {
   return best;
 }
 
-int search_quota(double share, int m) {
+int quota_of(double share, int m) {
   return static_cast<int>(std::ceil(share * m));
 }
 
@@ -89,6 +90,9 @@ ConfigError Sampler::configure(const SamplingConfig& config) {
   if (config.scheme == Scheme::kTracking && (config.search_quota < 1 || config.search_quota > config.m)) {
     return ConfigError::kSearchQuota;
   }
+  if (config.scheme == Scheme::kHybrid && (config.adaptive_quota < 1 || config.adaptive_quota > config.m)) {
+    return ConfigError::kAdaptiveQuota;
+  }
   config_ = config;
   spacing_ = spacing;
   order_.build(config.rows, config.cols);
@@ -96,6 +100,7 @@ ConfigError Sampler::configure(const SamplingConfig& config) {
   random_ = Pcg32(config.seed, kRandomStream);
   for (int i = 0; i < taxels; ++i) {
     shuffled_[static_cast<std::size_t>(i)] = static_cast<std::uint16_t>(i);
+    place_[static_cast<std::size_t>(i)] = static_cast<std::uint16_t>(i);
   }
   mark_.fill(0);
   frame_mark_ = 0;
@@ -113,7 +118,10 @@ void Sampler::sample(TaxelReader& reader, SampleFrame& frame) {
   frame.m = 0;
   switch (config_.scheme) {
     case Scheme::kAdaptive:
-      adaptive(reader, frame);
+      adaptive(reader, frame, config_.m);
+      break;
+    case Scheme::kHybrid:
+      hybrid(reader, frame);
       break;
     case Scheme::kUniform:
       uniform(reader, frame);
@@ -146,9 +154,8 @@ bool Sampler::touched(TaxelReader& reader, SampleFrame& frame, int index) {
 
 // Paper, Supplemental Algorithm 1, with the two points in which the published firmware differs from it: exactly m
 // taxels are measured, and the threshold itself does not count as a touch.
-void Sampler::adaptive(TaxelReader& reader, SampleFrame& frame) {
+void Sampler::adaptive(TaxelReader& reader, SampleFrame& frame, int m) {
   const Steps& steps = config_.neighbour_order == NeighbourOrder::kRows ? kRowsOuter : kColumnsOuter;
-  const int m = config_.m;
   begin_marks();
   for (int rank = 0; rank < order_.size() && !frame.full(m); ++rank) {
     const int centre = order_[rank];
@@ -250,14 +257,31 @@ void Sampler::uniform(TaxelReader& reader, SampleFrame& frame) {
   offset_ = (offset_ + 1) % (spacing_.row * spacing_.col);
 }
 
-// The first m steps of a Fisher-Yates shuffle that is never undone.
+// Adaptive sampling for its quota, then random taxels among those that this frame has not measured.
+void Sampler::hybrid(TaxelReader& reader, SampleFrame& frame) {
+  adaptive(reader, frame, config_.adaptive_quota);
+  random(reader, frame);
+}
+
+// The first m steps of a Fisher-Yates shuffle that is never undone. What the frame holds already goes to the front,
+// in its order: the draw begins behind it.
 void Sampler::random(TaxelReader& reader, SampleFrame& frame) {
   const auto taxels = static_cast<std::uint32_t>(config_.rows * config_.cols);
-  for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(config_.m); ++i) {
-    std::swap(shuffled_[i], shuffled_[i + random_.below(taxels - i)]);
+  const std::uint32_t first = frame.m;
+  for (std::uint32_t i = 0; i < first; ++i) {
+    shuffle_swap(i, place_[frame.indices[i]]);
+  }
+  for (std::uint32_t i = first; i < static_cast<std::uint32_t>(config_.m); ++i) {
+    shuffle_swap(i, i + random_.below(taxels - i));
     const int index = shuffled_[i];
     frame.append(index, reader.measure(index / config_.cols, index % config_.cols));
   }
+}
+
+void Sampler::shuffle_swap(std::uint32_t i, std::uint32_t j) {
+  std::swap(shuffled_[i], shuffled_[j]);
+  place_[shuffled_[i]] = static_cast<std::uint16_t>(i);
+  place_[shuffled_[j]] = static_cast<std::uint16_t>(j);
 }
 
 void Sampler::raster(TaxelReader& reader, SampleFrame& frame) {

@@ -21,13 +21,23 @@ struct SamplingConfig {
   int cols = 32;
   Scheme scheme = Scheme::kAdaptive;
   int m = 55;           // taxels per frame; raster measures all
-  int threshold = 180;  // counts; above it adaptive searches the neighbours, tracking follows the taxel
+  int threshold = 180;  // counts; above it adaptive and hybrid search the neighbours, tracking follows the taxel
   NeighbourOrder neighbour_order = NeighbourOrder::kColumns;
-  std::uint64_t seed = 1;  // of random sampling
-  int search_quota = 11;   // taxels of a tracking frame that are kept for the search, 1 to m
+  std::uint64_t seed = 1;   // of random and hybrid sampling
+  int search_quota = 11;    // taxels of a tracking frame that are kept for the search, 1 to m
+  int adaptive_quota = 28;  // taxels of a hybrid frame that are chosen adaptively, 1 to m
 };
 
-enum class ConfigError : std::uint8_t { kNone, kSize, kM, kThreshold, kUniformM, kScheme, kSearchQuota };
+enum class ConfigError : std::uint8_t {
+  kNone,
+  kSize,
+  kM,
+  kThreshold,
+  kUniformM,
+  kScheme,
+  kSearchQuota,
+  kAdaptiveQuota
+};
 
 // Spacing of rows and columns of a uniform grid of m taxels; zeros where the array has none of that many. Of all grids
 // ceil(rows / s) * ceil(cols / t) == m the one with the most equal spacings, the larger one along the rows.
@@ -37,8 +47,8 @@ struct Spacing {
 };
 Spacing uniform_spacing(int rows, int cols, int m);
 
-// The search quota that is a share (above 0, up to 1) of m taxels, rounded up.
-int search_quota(double share, int m);
+// The quota that is a share (above 0, up to 1) of m taxels, rounded up.
+int quota_of(double share, int m);
 
 // Samples frame after frame; holds what goes from one to the next (uniform offset, random numbers, what to follow).
 //
@@ -64,10 +74,12 @@ class Sampler {
     std::uint8_t next;  // which neighbour comes next
   };
 
-  void adaptive(TaxelReader& reader, SampleFrame& frame);
+  void adaptive(TaxelReader& reader, SampleFrame& frame, int m);
+  void hybrid(TaxelReader& reader, SampleFrame& frame);
   void tracking(TaxelReader& reader, SampleFrame& frame);
   void uniform(TaxelReader& reader, SampleFrame& frame);
   void random(TaxelReader& reader, SampleFrame& frame);
+  void shuffle_swap(std::uint32_t i, std::uint32_t j);
   void raster(TaxelReader& reader, SampleFrame& frame);
   void begin_marks();
   bool touched(TaxelReader& reader, SampleFrame& frame, int index);
@@ -80,6 +92,7 @@ class Sampler {
   int offset_ = 0;  // of uniform sampling, 0 to spacing.row * spacing.col - 1
   Pcg32 random_;
   std::array<std::uint16_t, kMaxTaxels> shuffled_{};
+  std::array<std::uint16_t, kMaxTaxels> place_{};  // of each taxel in shuffled_
   // A taxel was measured in this frame when it carries the frame's mark; so nothing is cleared between frames.
   std::array<std::uint16_t, kMaxTaxels> mark_{};
   std::uint16_t frame_mark_ = 0;
