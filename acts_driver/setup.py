@@ -10,6 +10,7 @@ setup(
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
         (f"share/{PACKAGE}", ["package.xml"]),
+        (f"share/{PACKAGE}/udev", ["udev/60-acts-teensy.rules"]),
     ],
     install_requires=["setuptools"],
     extras_require={"test": ["pytest"]},

@@ -80,7 +80,7 @@ class DriverNode(LifecycleNode):
         self._report = DriverReport(self._reader, decoder, self._stream, (settings.rows, settings.cols), settings.port)
         self._wrong_size_told = (0, 0)
         self._reader.start(is_open=True)
-        self.get_logger().info(f"reading {settings.port} ({settings.protocol})")
+        self.get_logger().info(f"reading {source.name} ({settings.protocol})")
         return SUCCESS
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import errno
+import grp
 import os
+import pwd
+import stat
 import termios
 from pathlib import Path
 
@@ -11,11 +14,12 @@ import serial
 from serial.tools import list_ports
 
 from acts_core.errors import PortError
+from acts_driver.port_choice import Lister, ports_present
 
 _LINK_TOLERANCE_NS = 100_000_000
 
 
-def open_port(path: str, baud: int) -> serial.Serial:
+def open_port(path: str, baud: int, lister: Lister = list_ports.comports) -> serial.Serial:
     """Open a port for this process alone.
 
     Parameters
@@ -24,12 +28,14 @@ def open_port(path: str, baud: int) -> serial.Serial:
         Device file, or a link to one.
     baud : int
         Bits per second; of no effect on USB boards and pseudo-terminals.
+    lister : callable
+        Lists the ports that are present, for the error.
 
     Raises
     ------
     PortError
-        With the ports that are present where `path` is missing, who may hold it where it is busy, and which group to
-        join where the permission is missing.
+        With the ports that are present where `path` is missing, who may hold it where it is busy, and what to do where
+        the permission is missing.
     """
     if is_stale_link(path):
         raise PortError(
@@ -39,10 +45,10 @@ def open_port(path: str, baud: int) -> serial.Serial:
     try:
         return serial.Serial(path, baudrate=baud, timeout=0, exclusive=True)
     except (serial.SerialException, OSError, termios.error, ValueError) as error:
-        raise PortError(explain(path, _errno_of(error), str(error))) from error
+        raise PortError(explain(path, _errno_of(error), str(error), lister)) from error
 
 
-def explain(path: str, number: int | None, reason: str) -> str:
+def explain(path: str, number: int | None, reason: str, lister: Lister = list_ports.comports) -> str:
     """Words for a port that cannot be opened.
 
     Parameters
@@ -53,21 +59,20 @@ def explain(path: str, number: int | None, reason: str) -> str:
         errno of the failure, if there is one.
     reason : str
         What the operating system or the serial library said, used where `number` has no explanation of its own.
+    lister : callable
+        Lists the ports that are present.
     """
     if number in (errno.ENOENT, errno.ENODEV, errno.ENXIO, errno.EIO):
-        return f"port {_shown(path)} is not there; plug the board in or set the parameter port. {ports_present()}"
+        return f"port {_shown(path)} is not there; plug the board in or set the parameter port. {ports_present(lister)}"
     if number in (errno.EBUSY, errno.EAGAIN):
         held_by = holders(path)
         who = f"by {', '.join(held_by)}" if held_by else f"by another program (`lsof {path}` tells which)"
         return f"port {_shown(path)} is held {who}; stop that program first"
     if number in (errno.EACCES, errno.EPERM):
-        return (
-            f"port {_shown(path)}: permission denied; join its group with `sudo usermod -a -G dialout $USER`, then log "
-            "out and in again"
-        )
+        return f"port {_shown(path)}: permission denied; {_how_to_be_permitted(path)}"
     if number == errno.ENOTTY:
-        return f"{_shown(path)} is no serial port. {ports_present()}"
-    return f"port {_shown(path)} cannot be opened: {reason}. {ports_present()}"
+        return f"{_shown(path)} is no serial port. {ports_present(lister)}"
+    return f"port {_shown(path)} cannot be opened: {reason}. {ports_present(lister)}"
 
 
 def is_stale_link(path: str) -> bool:
@@ -86,15 +91,6 @@ def is_stale_link(path: str) -> bool:
         return False
 
 
-def ports_present() -> str:
-    """A sentence that lists the serial ports of this machine."""
-    ports = [
-        f"{port.device} ({port.description})" if port.description not in ("", "n/a") else port.device
-        for port in sorted(list_ports.comports(), key=lambda port: port.device)
-    ]
-    return f"Ports present: {', '.join(ports)}." if ports else "No serial ports are present."
-
-
 def holders(path: str) -> list[str]:
     """Names and process numbers of the programs that have a port open, as far as this user may see."""
     device = os.path.realpath(path)
@@ -109,6 +105,26 @@ def holders(path: str) -> list[str]:
             # Another user's process, or one that has just ended.
             continue
     return sorted(found)
+
+
+def _how_to_be_permitted(path: str) -> str:
+    rule = "install the udev rule of acts_driver (docs/driver.md) and plug the board in again"
+    try:
+        status = Path(path).stat()
+        group = grp.getgrgid(status.st_gid).gr_name
+        user = pwd.getpwuid(os.geteuid()).pw_name
+        members = grp.getgrgid(status.st_gid).gr_mem
+    except (OSError, KeyError):
+        # What most machines have; the port may be gone by now.
+        status, group, user, members = None, "dialout", "", []
+    if status is not None and (group == "root" or status.st_mode & 0o060 != 0o060):
+        return f"its mode is {stat.filemode(status.st_mode)}, its group {group}: {rule}"
+    if user in members:
+        return f"your user {user} has joined its group {group} after this session began: log out and in again"
+    known = "" if status is not None else " (uucp on Arch Linux)"
+    return (
+        f"join its group {group}{known} with `sudo usermod -a -G {group} $USER`, then log out and in again, or {rule}"
+    )
 
 
 def _errno_of(error: BaseException | None) -> int | None:

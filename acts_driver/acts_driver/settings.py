@@ -9,13 +9,16 @@ from acts_core.delimited import DelimitedDecoder
 from acts_core.raster_ascii import RasterDecoder
 from acts_core.settings import setting, validate
 from acts_core.wire import StreamDecoder
+from acts_driver.port_choice import check_port
 
 
 @dataclass(frozen=True)
 class DriverSettings:
     """See the descriptions; `docs/driver.md` lists them."""
 
-    port: str = setting("/dev/ttyACM0", "serial port of the board, or a link to it")
+    port: str = setting(
+        "auto", "serial port of the board: a path, auto (the only Teensy), or serial:NUMBER (its USB serial number)"
+    )
     protocol: str = setting(
         "binary",
         "what the board speaks: binary (ACTS) or raster_ascii (the published raster sketch)",
@@ -35,6 +38,7 @@ class DriverSettings:
 
     def __post_init__(self) -> None:
         validate(self)
+        check_port(self.port)
 
     def make_decoder(self) -> DelimitedDecoder:
         """The decoder of the protocol."""

@@ -7,9 +7,11 @@ import select
 from typing import Protocol
 
 import serial
+from serial.tools import list_ports
 
 from acts_core.errors import PortError
 from acts_driver.port import open_port
+from acts_driver.port_choice import Lister, resolve
 
 READ_TIMEOUT_S = 0.1
 """Longest time that `Source.read` blocks, so that a reader can be stopped."""
@@ -46,28 +48,35 @@ class SerialSource:
 
     Parameters
     ----------
-    path : str
-        Device file, or a link to one; a link is followed anew at every opening.
+    port : str
+        A path, `auto` or `serial:NUMBER` (see `acts_driver.port_choice.resolve`); what it means is found out anew at
+        every opening.
     baud : int
         Bits per second; of no effect on USB boards.
+    lister : callable
+        Lists the ports of this machine.
     """
 
-    def __init__(self, path: str, baud: int = 115200) -> None:
-        self._path = path
+    def __init__(self, port: str, baud: int = 115200, lister: Lister = list_ports.comports) -> None:
+        self._wanted = port
+        self._path = port
         self._baud = baud
+        self._lister = lister
         self._port: serial.Serial | None = None
         self._poll = select.poll()
         self._fd = -1
 
     @property
     def name(self) -> str:
-        """Path of the port."""
-        return self._path
+        """The port as it was asked for, and its path where that was another one."""
+        return self._wanted if self._path == self._wanted else f"{self._wanted} ({self._path})"
 
     def open(self) -> None:
         """Open the port, or raise `PortError`."""
         self.close()
-        self._port = open_port(self._path, self._baud)
+        self._path = self._wanted
+        self._path = resolve(self._wanted, self._lister)
+        self._port = open_port(self._path, self._baud, self._lister)
         self._fd = self._port.fileno()
         self._poll = select.poll()
         self._poll.register(self._fd, select.POLLIN)
@@ -75,7 +84,7 @@ class SerialSource:
     def read(self) -> bytes:
         """Return what has arrived, waiting up to `READ_TIMEOUT_S`, or raise `PortError` when the port was lost."""
         if self._port is None:
-            raise PortError(f"port {self._path} is not open")
+            raise PortError(f"port {self.name} is not open")
         # Not pyserial's read(n): it waits for all n bytes, and reading what is there takes it four system calls.
         try:
             if not self._poll.poll(READ_TIMEOUT_S * 1000):
@@ -84,10 +93,10 @@ class SerialSource:
         except BlockingIOError:
             return b""
         except OSError as error:
-            raise PortError(f"port {self._path} was lost: {error.strerror}") from error
+            raise PortError(f"port {self.name} was lost: {error.strerror}") from error
         if not data:
             # An unplugged port is always ready and has nothing to give.
-            raise PortError(f"port {self._path} was lost: end of stream")
+            raise PortError(f"port {self.name} was lost: end of stream")
         return data
 
     def close(self) -> None:

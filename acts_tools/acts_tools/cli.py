@@ -25,7 +25,7 @@ _EPILOG = """\
 examples:
   acts demo ball_balancing                                          see the whole chain at work, no hardware needed
   acts launch acts_bringup tactile.launch.xml --show-args           what a launch file lets you choose
-  acts launch acts_bringup tactile.launch.xml sim:=false port:=/dev/ttyACM0
+  acts launch acts_bringup tactile.launch.xml sim:=false port:=auto
   acts record -o touch /plate/samples /plate/contact                Ctrl-C ends it
   acts play touch
 
