@@ -1,13 +1,16 @@
+from pathlib import Path
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from acts_core.errors import SettingsError
-from acts_core.force import ForceResponse
+from acts_core.force import ForceResponse, MeasuredForceResponse, force_table
 
 GRAVITY = 9.81
 ASSUMED_FOOT_TAXELS = 16
+MEASURED = Path(__file__).resolve().parents[3] / "shared/data/paper/force_response.npz"
 
 
 def test_follows_the_published_response() -> None:
@@ -40,3 +43,85 @@ def test_saturated_counts_give_a_finite_force() -> None:
 def test_impossible_response_is_refused_by_name(wrong: dict[str, float]) -> None:
     with pytest.raises(SettingsError, match=next(iter(wrong))):
         ForceResponse(**wrong)
+
+
+def test_default_has_the_shape_of_the_published_measurement() -> None:
+    if not MEASURED.exists():
+        pytest.skip(f"the paper's data are not here ({MEASURED})")
+    with np.load(MEASURED) as archive:
+        grams, counts = archive["weight_g"].astype(float), archive["output_per_taxel_AU"]
+    force_n = grams / 1000 * GRAVITY / ASSUMED_FOOT_TAXELS
+    assert np.abs(ForceResponse().counts(force_n) - counts).max() < 50
+    measured = MeasuredForceResponse(force_n, counts)
+    loaded = counts > 60
+    assert np.allclose(measured.force_n(counts[loaded]), force_n[loaded])
+    # Within the range that was measured, the fit errs by less than what the foot's area is known by.
+    assert np.abs(ForceResponse().force_n(counts[loaded]) / force_n[loaded] - 1).max() < 0.6
+
+
+@pytest.mark.parametrize("suffix", ["csv", "npz"])
+def test_a_measured_response_is_read_and_interpolated(tmp_path: Path, suffix: str) -> None:
+    path = tmp_path / f"response.{suffix}"
+    newtons, counts = [0.0, 0.01, 0.02, 0.1, 0.5], [0.0, 0.0, 10.0, 200.0, 600.0]
+    if suffix == "npz":
+        np.savez(path, newtons=newtons, counts=counts)
+    else:
+        points = "".join(f"{n}, {c}, x\n" for n, c in zip(newtons, counts, strict=True))
+        path.write_text("# measured on a Monday\nnewtons, counts, note\n" + points)
+    response = ForceResponse.from_file(path)
+    assert response.counts([0.0, 0.01, 0.015, 0.06, 0.5, 0.7]) == pytest.approx([0, 0, 5, 105, 600, 800])
+    assert response.force_n([0, 5, 105, 600, 800]) == pytest.approx([0, 0.015, 0.06, 0.5, 0.7])
+    # Beyond the ADC's full scale there is nothing to read.
+    assert response.counts(100.0) == 1023
+    assert response.force_n(5000.0) == pytest.approx(0.5 + 0.001 * 423)
+    table = force_table(response)
+    assert table[1:-1] == pytest.approx(response.force_n(np.arange(1, 1024)))
+    assert (table[0], table[-1]) == (pytest.approx(0.01), table[-2])
+
+
+def test_the_table_of_the_default_is_the_default() -> None:
+    counts = np.arange(1, 1000, 0.5)
+    table = force_table(ForceResponse())
+    assert np.interp(counts, np.arange(1025), table) == pytest.approx(ForceResponse().force_n(counts), rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("newtons", "counts", "words"),
+    [
+        ([0.0, 1.0], [0.0], "as many"),
+        ([0.0], [0.0], "two or more"),
+        ([0.0, np.nan], [0.0, 5.0], "not finite"),
+        ([-1.0, 1.0], [0.0, 5.0], "newtons must begin"),
+        ([0.0, 1.0, 1.0], [0.0, 5.0, 6.0], "newtons must"),
+        ([0.0, 1.0], [0.0, 1024.0], "allowed are 0 to 1023"),
+        ([0.0, 1.0, 2.0], [0.0, 5.0, 4.0], r"fall or stay at 4 \(2 N\)"),
+        ([0.0, 1.0, 2.0], [0.0, 5.0, 5.0], "fall or stay"),
+        ([0.0, 1.0], [0.0, 0.0], "all counts are 0"),
+    ],
+)
+def test_points_that_are_no_response_are_refused(
+    tmp_path: Path, newtons: list[float], counts: list[float], words: str
+) -> None:
+    np.savez(tmp_path / "bad.npz", newtons=newtons, counts=counts)
+    with pytest.raises(SettingsError, match=words):
+        ForceResponse.from_file(tmp_path / "bad.npz")
+
+
+def test_files_that_are_no_response_are_refused(tmp_path: Path) -> None:
+    def refusal(name: str, content: bytes | None) -> str:
+        if content is not None:
+            (tmp_path / name).write_bytes(content)
+        with pytest.raises(SettingsError) as caught:
+            ForceResponse.from_file(tmp_path / name)
+        assert name in str(caught.value)
+        return str(caught.value)
+
+    assert "cannot be read" in refusal("none.csv", None)
+    assert "needed is a first line `newtons,counts`" in refusal("nameless.csv", b"0,0\n1,5\n")
+    assert "point 2, counts: 'much'" in refusal("word.csv", b"newtons,counts\n0,0\n1,much\n")
+    assert "point 1, counts: None" in refusal("short.csv", b"newtons,counts\n0\n")
+    assert "damaged" in refusal("binary.csv", b"newtons,counts\n\xff\xfe")
+    assert "damaged" in refusal("text.npz", b"newtons,counts\n0,0\n")
+    assert ".csv or .npz" in refusal("response.txt", b"newtons,counts\n0,0\n")
+    np.savez(tmp_path / "other.npz", grams=[1.0])
+    assert "no array 'newtons'" in refusal("other.npz", None)

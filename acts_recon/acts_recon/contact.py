@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
-from acts_core.force import ForceResponse
+from acts_core.force import ForceResponse, MeasuredForceResponse
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,11 @@ NO_CONTACT = Contact()
 
 
 def find_contact(
-    image: NDArray[np.floating], geometry: ArrayGeometry, response: ForceResponse, *, touch_counts: float = 60.0
+    image: NDArray[np.floating],
+    geometry: ArrayGeometry,
+    response: ForceResponse | MeasuredForceResponse,
+    *,
+    touch_counts: float = 60.0,
 ) -> Contact:
     """Describe the contact in an image; the plain twin of `acts_recon.contact_kernels.find_contact`.
 
@@ -62,7 +66,7 @@ def find_contact(
     image : np.ndarray [shape=(rows, cols), dtype=float]
         Counts, finite.
     geometry : ArrayGeometry
-    response : ForceResponse
+    response : ForceResponse or MeasuredForceResponse
         From counts to newtons.
     touch_counts : float
     """

@@ -15,9 +15,7 @@ def find_contact(
     image: NDArray[np.float32],
     cols: int,
     touch_counts: float,
-    full_scale: float,
-    dead_n: float,
-    half_n: float,
+    force_n: NDArray[np.float64],
     results: NDArray[np.float64],
 ) -> None:
     """Describe the contact in units of taxels.
@@ -25,11 +23,11 @@ def find_contact(
     Parameters
     ----------
     image : np.ndarray [shape=(rows * cols,), dtype=float32]
-        Counts.
+        Counts, 0 to 1023.
     cols : int
     touch_counts : float
-    full_scale, dead_n, half_n : float
-        Of `acts_core.force.ForceResponse`.
+    force_n : np.ndarray [shape=(1025,), dtype=float64]
+        The table of `acts_core.force.force_table`; values between two counts are interpolated.
     results : np.ndarray [shape=(RESULTS,), dtype=float64]
         Written: mean column and row, force [N], peak [counts], pressed taxels, mean square distance [taxels^2]; all 0
         without contact.
@@ -46,8 +44,8 @@ def find_contact(
             continue
         row = t // cols
         col = t - row * cols
-        share = min(value / full_scale, 0.99)
-        weight = dead_n + half_n * share / (1.0 - share)
+        whole = int(value)
+        weight = force_n[whole] + (value - whole) * (force_n[whole + 1] - force_n[whole])
         total += weight
         by_col += weight * col
         by_row += weight * row

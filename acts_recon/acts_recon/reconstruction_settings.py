@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from acts_core.array import COUNT_MAX, MAX_SIDE, ArrayGeometry
-from acts_core.force import ForceResponse
+from acts_core.force import ForceResponse, MeasuredForceResponse
 from acts_core.settings import default_of, setting, validate
 from acts_recon.dictionary import load_dictionary
 from acts_recon.reconstructor import Reconstructor, ReconstructorConfig
@@ -50,6 +50,10 @@ class ReconstructionSettings:
     force_half_n: float = setting(
         _RESPONSE.half_n, "force above it that reads half of full scale [N]", minimum=1e-6, maximum=1000.0
     )
+    force_response: str = setting(
+        "",
+        "path of a measured force response, csv or npz of newtons and counts, used instead of the three force_* values",
+    )
     image_rate_hz: float = setting(30.0, "largest rate of the topic image [Hz]", minimum=0.1, maximum=1000.0)
     image_scale: int = setting(10, "pixels along a taxel's side in the topic image", minimum=1, maximum=64)
     image_full_scale_counts: float = setting(
@@ -68,6 +72,8 @@ class ReconstructionSettings:
             When the dictionary cannot be used.
         ArrayError
             When it does not fit the array.
+        SettingsError
+            When the force response cannot be used.
         """
         path = Path(self.dictionary) if self.dictionary else shipped_dictionary_path()
         return Reconstructor(
@@ -79,5 +85,10 @@ class ReconstructionSettings:
                 sparsity_ratio=self.sparsity_ratio,
                 keep_measured=self.keep_measured,
             ),
-            ForceResponse(self.force_full_scale_counts, self.force_dead_n, self.force_half_n),
+            self._response(),
         )
+
+    def _response(self) -> ForceResponse | MeasuredForceResponse:
+        if self.force_response:
+            return ForceResponse.from_file(Path(self.force_response))
+        return ForceResponse(self.force_full_scale_counts, self.force_dead_n, self.force_half_n)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX, ArrayGeometry
 from acts_core.errors import ArrayError
-from acts_core.force import ForceResponse
+from acts_core.force import ForceResponse, MeasuredForceResponse, force_table
 from acts_core.settings import setting, validate
 from acts_recon import contact_kernels
 from acts_recon import fastomp_kernels as kernels
@@ -40,7 +40,7 @@ class Reconstructor:
     geometry : ArrayGeometry
     dictionary : Dictionary
     config : ReconstructorConfig
-    response : ForceResponse
+    response : ForceResponse or MeasuredForceResponse
         From counts to newtons.
 
     Raises
@@ -54,11 +54,12 @@ class Reconstructor:
         geometry: ArrayGeometry,
         dictionary: Dictionary,
         config: ReconstructorConfig | None = None,
-        response: ForceResponse | None = None,
+        response: ForceResponse | MeasuredForceResponse | None = None,
     ) -> None:
         self.geometry = geometry
         self.config = config or ReconstructorConfig()
         self.response = response or ForceResponse()
+        self._force_n = force_table(self.response)
         layout = patch_layout(geometry.rows, geometry.cols, size=dictionary.patch_size, step=self.config.patch_step)
         n_pixels = dictionary.patch_size**2
         self._model = (
@@ -116,14 +117,12 @@ class Reconstructor:
         return self._contact()
 
     def _contact(self) -> Contact:
-        response, geometry, results = self.response, self.geometry, self._results
+        geometry, results = self.geometry, self._results
         contact_kernels.find_contact(
             self._flat,
             geometry.cols,
             float(self.config.touch_counts),
-            response.full_scale_counts,
-            response.dead_n,
-            response.half_n,
+            self._force_n,
             results,
         )
         col, row, force_n, peak, pressed, square = results.tolist()

@@ -9,12 +9,15 @@ from numpy.typing import NDArray
 from recon_samples import bump
 
 from acts_core.array import ArrayGeometry
-from acts_core.force import ForceResponse
+from acts_core.force import ForceResponse, MeasuredForceResponse, force_table
 from acts_recon import contact_kernels
 from acts_recon.contact import NO_CONTACT, Contact, find_contact
 
 GEOMETRY = ArrayGeometry(rows=12, cols=9, pitch_m=0.005)
 RESPONSE = ForceResponse()
+TABLE = force_table(RESPONSE)
+# What the kernel looks up, as the twin reads it: exactly the same response between two counts, too.
+BY_TABLE = MeasuredForceResponse(TABLE[:-1], np.arange(1024.0))
 
 
 def by_kernel(image: NDArray[np.float32], geometry: ArrayGeometry, touch_counts: float) -> list[float]:
@@ -23,9 +26,7 @@ def by_kernel(image: NDArray[np.float32], geometry: ArrayGeometry, touch_counts:
         image.ravel(),
         geometry.cols,
         touch_counts,
-        RESPONSE.full_scale_counts,
-        RESPONSE.dead_n,
-        RESPONSE.half_n,
+        TABLE,
         results,
     )
     return results.tolist()
@@ -33,7 +34,7 @@ def by_kernel(image: NDArray[np.float32], geometry: ArrayGeometry, touch_counts:
 
 def assert_kernel_equals_twin(image: NDArray[np.float32], touch_counts: float) -> None:
     col, row, force_n, peak, pressed, square = by_kernel(image, GEOMETRY, touch_counts)
-    contact = find_contact(image, GEOMETRY, RESPONSE, touch_counts=touch_counts)
+    contact = find_contact(image, GEOMETRY, BY_TABLE, touch_counts=touch_counts)
     assert pressed == contact.active_taxels
     assert peak == contact.peak_counts
     assert force_n == pytest.approx(contact.force_n, rel=1e-6)

@@ -240,6 +240,7 @@ def test_the_viewer_image_keeps_its_rate_and_costs_nothing_unheard(make_bench: C
         ({"touch_counts": 1024}, SettingsError, "touch_counts = 1024"),
         ({"image_rate_hz": "fast"}, SettingsError, "image_rate_hz = 'fast'"),
         ({"force_half_n": ".nan"}, SettingsError, "force_half_n"),
+        ({"force_response": "/no/response.csv"}, SettingsError, "/no/response.csv: cannot be read"),
     ],
 )
 def test_wrong_parameters_are_refused_at_start(
