@@ -6,10 +6,7 @@ from abc import ABC, abstractmethod
 
 from acts_core.errors import PacketError
 from acts_core.frames import SampleFrame
-
-
-class ChecksumError(PacketError):
-    """A packet of the right length whose checksum does not match its content."""
+from acts_core.packets import ChecksumError
 
 
 class DelimitedDecoder(ABC):
@@ -60,8 +57,8 @@ class DelimitedDecoder(ABC):
         self.last_error = ""
 
     @abstractmethod
-    def _decode(self, packet: bytes) -> SampleFrame:
-        """Decode one packet, given without its delimiter, or raise `PacketError`."""
+    def _decode(self, packet: bytes) -> SampleFrame | None:
+        """Decode one packet, given without its delimiter, or raise `PacketError`; None where it is no frame."""
 
     def reset(self) -> None:
         """Tell that the stream was (re)opened: what is pending is dropped, and the first packet may be a cut one.
@@ -121,7 +118,8 @@ class DelimitedDecoder(ABC):
             else:
                 self.malformed += 1
             return None
-        self.frames += 1
+        if frame is not None:
+            self.frames += 1
         return frame
 
     def _keep(self, tail: bytes) -> None:

@@ -1,6 +1,7 @@
 """The binary stream of the board: frames to bytes and back. `docs/wire_protocol.md` is its description.
 
-A packet is little-endian, ends with a CRC-32, is stuffed (see `acts_core.cobs`) and followed by one zero byte::
+Frames are one of the packets of `acts_core.packets`; the others are in `acts_core.commands` and
+`acts_core.board_messages`::
 
     frame = SampleFrame(...)
     decoder = StreamDecoder()
@@ -11,27 +12,27 @@ from __future__ import annotations
 
 import struct
 import zlib
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
 
 from acts_core import cobs
 from acts_core.array import COUNT_MAX, MAX_SIDE
+from acts_core.board_messages import BoardMessage, decode_message
 from acts_core.cobs_kernels import decode_into, encode_into
-from acts_core.delimited import ChecksumError, DelimitedDecoder
+from acts_core.delimited import DelimitedDecoder
 from acts_core.errors import PacketError
 from acts_core.frames import SampleFrame, Scheme
+from acts_core.packets import CRC, VERSION, ChecksumError, PacketType, wrong_release
 from acts_core.wire_kernels import COUNT_RANGE, INDEX_RANGE, INDEX_REPEATED, first_fault
-
-PACKET_TYPE_SAMPLES = 1
-VERSION = 1
 
 # type, version, length, sequence, board_us, duration_us, overruns, scheme, rows, cols, flags, m, reserved
 _HEADER = struct.Struct("<BBHIQIIBBBBHH")
-_CRC = struct.Struct("<I")
 _U2 = np.dtype("<u2")
+_SAMPLES = int(PacketType.SAMPLES)
 
-PACKET_SIZE_MIN = _HEADER.size + _CRC.size
+PACKET_SIZE_MIN = _HEADER.size + CRC.size
 PACKET_SIZE_MAX = PACKET_SIZE_MIN + 2 * 2 * MAX_SIDE**2
 """Bytes of the largest packet before stuffing: every taxel of a 64 x 64 array."""
 
@@ -66,7 +67,7 @@ def encode_frame(frame: SampleFrame) -> bytes:
     if not 0 <= frame.board_us < 1 << 64:
         raise PacketError(f"board_us = {frame.board_us}: the board's clock has 64 bits and starts at 0")
     packet = _HEADER.pack(
-        PACKET_TYPE_SAMPLES,
+        PacketType.SAMPLES,
         VERSION,
         PACKET_SIZE_MIN + 4 * len(indices),
         frame.sequence & 0xFFFFFFFF,
@@ -81,7 +82,7 @@ def encode_frame(frame: SampleFrame) -> bytes:
         0,
     )
     packet += indices.astype(_U2).tobytes() + counts.astype(_U2).tobytes()
-    packet += _CRC.pack(zlib.crc32(packet))
+    packet += CRC.pack(zlib.crc32(packet))
     encoded = np.empty(cobs.encoded_size_max(len(packet)), dtype=np.uint8)
     return encoded[: encode_into(packet, encoded)].tobytes() + cobs.DELIMITER
 
@@ -115,34 +116,48 @@ class StreamDecoder(DelimitedDecoder):
     """Frames out of the board's bytes; counters and resynchronisation as in `DelimitedDecoder`.
 
     A frame is yielded only when its length, CRC-32, version and every field and sample are valid.
+
+    Parameters
+    ----------
+    on_message : callable, optional
+        Called within `feed` with everything else that the board says: `Reply`, `BoardImage` or `BoardObject`, in the
+        order of the stream. It must not raise.
+
+    Attributes
+    ----------
+    messages : int
+        Valid packets that are not frames.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, on_message: Callable[[BoardMessage], None] | None = None) -> None:
         super().__init__(cobs.DELIMITER, cobs.encoded_size_max(PACKET_SIZE_MAX))
+        self.messages = 0
+        self._on_message = on_message
         self._seen = np.zeros(MAX_SIDE**2, dtype=np.uint32)
         self._mark = 0
 
-    def _decode(self, packet: bytes) -> SampleFrame:
+    def _decode(self, packet: bytes) -> SampleFrame | None:
         buffer = np.empty(len(packet), dtype=np.uint8)
         view = buffer.data
         size = decode_into(packet, buffer)
         if size < 0:
             raise PacketError("byte stuffing is broken")
         if size < PACKET_SIZE_MIN:
-            raise PacketError(f"packet of {size} bytes; the shortest has {PACKET_SIZE_MIN}")
-        body_end = size - _CRC.size
+            self._take_message(view[:size])
+            return None
+        body_end = size - CRC.size
         kind, version, length, sequence, board_us, duration_us, overruns, scheme, rows, cols, flags, m, reserved = (
             _HEADER.unpack_from(view)
         )
+        if kind != _SAMPLES:
+            self._take_message(view[:size])
+            return None
         if length != size:
             raise PacketError(f"packet of {size} bytes says it has {length}")
-        if zlib.crc32(view[:body_end]) != _CRC.unpack_from(view, body_end)[0]:
+        if zlib.crc32(view[:body_end]) != CRC.unpack_from(view, body_end)[0]:
             raise ChecksumError(f"CRC-32 of a packet of {size} bytes does not match")
-        if kind != PACKET_TYPE_SAMPLES or version != VERSION:
-            raise PacketError(
-                f"packet type {kind}, version {version}; this decoder reads type {PACKET_TYPE_SAMPLES}, "
-                f"version {VERSION}: install firmware and driver of the same release"
-            )
+        if version != VERSION:
+            raise wrong_release(f"packet type {kind}, version {version}; this release reads version {VERSION}")
         if scheme not in _SCHEMES or flags != 0 or reserved != 0:
             raise PacketError(
                 f"scheme {scheme}, flags {flags}, reserved {reserved}; version {VERSION} has schemes 0 to "
@@ -162,6 +177,12 @@ class StreamDecoder(DelimitedDecoder):
                 )
             )
         return SampleFrame(sequence, board_us, duration_us, _SCHEMES[scheme], rows, cols, overruns, indices, counts)
+
+    def _take_message(self, packet: memoryview) -> None:
+        message = decode_message(packet.tobytes())
+        self.messages += 1
+        if self._on_message is not None:
+            self._on_message(message)
 
 
 def _check_size(rows: int, cols: int, m: int) -> None:
