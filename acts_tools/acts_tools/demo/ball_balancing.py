@@ -28,10 +28,12 @@ from acts_ros.executor import make_executor
 from acts_tools.bags.stopping import StopFlag
 from acts_tools.demo.collector import Collector
 from acts_tools.demo.picture import draw
-from acts_tools.demo.processes import LoadMeter
 from acts_tools.demo.recording import Recording
 from acts_tools.demo.score import score, table
 from acts_tools.launch.processes import leave_with_parent
+from acts_tools.process_load import LoadMeter
+from acts_tools.ros_domain import use_free_domain
+from acts_tools.run_folder import shared_memory
 
 START_TIMEOUT_S = 60.0
 STOP_TIMEOUT_S = 20.0
@@ -39,7 +41,6 @@ _REFRESH_S = 0.2
 _PLAIN_REFRESH_S = 5.0
 NAMESPACE = "/plate"
 _RTDE_PORT = 30004
-_DOMAIN_IDS = range(215, 232)
 
 _STATE_NAMES = {
     BalanceStatus.STATE_CONNECTING: "connecting",
@@ -187,25 +188,6 @@ def _median_and_p99(collector: Collector) -> tuple[float, float]:
     return ordered[len(ordered) // 2], ordered[min(len(ordered) - 1, int(len(ordered) * 0.99))]
 
 
-def free_domain_id() -> int:
-    """A ROS domain of the demo's own, so that it neither disturbs nor is disturbed by what else runs here.
-
-    The highest ones, because nobody counts up to them; their ports lie above Linux's ephemeral ones. One is free where
-    nobody has the port of its first participant.
-    """
-    for step in range(len(_DOMAIN_IDS)):
-        domain_id = _DOMAIN_IDS[(os.getpid() + step) % len(_DOMAIN_IDS)]
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-            try:
-                probe.bind(("", 7400 + 250 * domain_id + 10))
-            except OSError:
-                continue
-        return domain_id
-    raise LaunchError(
-        f"ROS domains {_DOMAIN_IDS[0]} to {_DOMAIN_IDS[-1]} are all in use here; choose one: export ROS_DOMAIN_ID=1"
-    )
-
-
 def check_robot_ip(robot_ip: str) -> None:
     """Refuse an address where a real robot may be, or where a simulated one is already.
 
@@ -274,12 +256,12 @@ def run(seconds: float | None, out: Path, robot_ip: str) -> int:
     except OSError as error:
         raise ActsError(f"--out {out}: the folder cannot be made ({error.strerror})") from error
     trajectory, duration_s = plan(seconds)
-    os.environ.setdefault("ROS_DOMAIN_ID", str(free_domain_id()))
+    use_free_domain()
     print(f"Ball balancing with simulated skin, ball and UR5e: {trajectory.replace(',', ', ')}; {duration_s:.0f} s")
     print("The same nodes run on the real robot; only launch arguments differ. Everything below is measured live.")
     recording = Recording()
     log_path = out / "ball_balancing.log"
-    with StopFlag() as stop, tempfile.TemporaryDirectory(prefix="acts_demo_", dir=_shared_memory()) as run_dir:
+    with StopFlag() as stop, tempfile.TemporaryDirectory(prefix="acts_demo_", dir=shared_memory()) as run_dir:
         launch_arguments = [f"trajectory:={trajectory}", f"run_dir:={run_dir}", f"robot_ip:={robot_ip}"]
         try:
             watch(launch_arguments, duration_s, recording, log_path, stop)
@@ -293,8 +275,3 @@ def run(seconds: float | None, out: Path, robot_ip: str) -> int:
     print(table(results))
     print(f"  wrote {out / 'ball_balancing.json'}, {out / 'ball_balancing.png'}, {log_path}")
     return 0 if results["ok"] else 1
-
-
-def _shared_memory() -> Path | None:
-    shared = Path("/dev/shm")
-    return shared if shared.is_dir() else None

@@ -12,6 +12,7 @@ from sensor_msgs.msg import Image
 from acts_msgs.msg import BalanceStatus, BallReference, BallState, StreamStatistics
 from acts_ros import qos
 from acts_tools.demo.recording import Recording
+from acts_tools.driver_status import driver_values
 
 _IMAGE_PERIOD_S = 0.01
 
@@ -102,18 +103,14 @@ class Collector(Node):
         recording.contact_rate_hz = recording.contacts_received / elapsed_s if elapsed_s > 0 else 0.0
 
     def _on_diagnostics(self, message: DiagnosticArray) -> None:
-        name = f"{self.get_namespace().strip('/')}/driver"
-        for status in message.status:
-            if status.name != name:
-                continue
-            values = {value.key: value.value for value in status.values}
-            if "lost" not in values:
-                continue  # it has not found its port yet
-            lost, crc_errors = int(values["lost"]), int(values["crc_errors"])
-            if self._frames_lost_before is None or not self._balancing:
-                self._frames_lost_before, self._crc_errors_before = lost, crc_errors
-            self.recording.frames_lost = lost - self._frames_lost_before
-            self.recording.crc_errors = crc_errors - self._crc_errors_before
+        values = driver_values(message, self.get_namespace())
+        if values is None:
+            return
+        lost, crc_errors = int(values["lost"]), int(values["crc_errors"])
+        if self._frames_lost_before is None or not self._balancing:
+            self._frames_lost_before, self._crc_errors_before = lost, crc_errors
+        self.recording.frames_lost = lost - self._frames_lost_before
+        self.recording.crc_errors = crc_errors - self._crc_errors_before
 
     def _on_image(self, message: Image) -> None:
         # One image in ten is plenty for a map and costs a tenth.

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from acts_tools.demo.recording import Recording
+from acts_tools.percentiles import percentiles
 
 HOLD_SETTLE_S = 2.0
 """The first seconds of holding do not count: the ball starts off the centre."""
@@ -57,10 +58,6 @@ def rms_error_mm(recording: Recording, segment: str, *, skip_s: float = 0.0) -> 
 def score(recording: Recording) -> dict[str, Any]:
     """The results of a run, in the layout of ``out/ball_balancing.json``."""
     latencies_ms = np.concatenate(recording.latencies_s) * 1000 if recording.latencies_s else np.empty(0)
-    latency: dict[str, float | None] = {"median": None, "p99": None, "p99_9": None}
-    if latencies_ms.size:
-        for name, percent in (("median", 50.0), ("p99", 99.0), ("p99_9", 99.9)):
-            latency[name] = round(float(np.percentile(latencies_ms, percent)), 3)
     rms_mm = {"hold": rms_error_mm(recording, "hold", skip_s=HOLD_SETTLE_S)}
     rms_mm.update({letter: rms_error_mm(recording, letter) for letter in LETTERS})
     results: dict[str, Any] = {
@@ -70,7 +67,7 @@ def score(recording: Recording) -> dict[str, Any]:
         "contacts_lost": recording.contacts_lost,
         "frames_lost": recording.frames_lost,
         "crc_errors": recording.crc_errors,
-        "latency_ms": latency,
+        "latency_ms": percentiles(latencies_ms),
         "rms_mm": {name: None if value is None else round(value, 3) for name, value in rms_mm.items()},
         "cpu_percent": {name: round(value, 1) for name, value in sorted(recording.cpu_percent.items())},
     }

@@ -15,11 +15,14 @@ class LoadMeter:
     Parameters
     ----------
     pid : int
-        The launching process; its own load is reported as "launch".
+        The process at the root.
+    root_name : str
+        What its own load is reported as.
     """
 
-    def __init__(self, pid: int) -> None:
+    def __init__(self, pid: int, root_name: str = "launch") -> None:
         self._root = psutil.Process(pid)
+        self._root_name = root_name
         self._before: dict[psutil.Process, float] = {}
         self._started_s = 0.0
 
@@ -35,7 +38,7 @@ class LoadMeter:
         for process in self._processes():
             try:
                 used_s = _cpu_s(process) - self._before.get(process, 0.0)
-                loads["launch" if process == self._root else _name(process)] += used_s / elapsed_s * 100
+                loads[self._root_name if process == self._root else _name(process)] += used_s / elapsed_s * 100
             except psutil.NoSuchProcess:
                 continue
         return dict(loads)

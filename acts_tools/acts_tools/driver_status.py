@@ -1,0 +1,29 @@
+"""What a driver says of itself on /diagnostics."""
+
+from __future__ import annotations
+
+from diagnostic_msgs.msg import DiagnosticArray
+
+
+def driver_values(message: DiagnosticArray, namespace: str) -> dict[str, str] | None:
+    """Values of a skin's driver.
+
+    Parameters
+    ----------
+    message : DiagnosticArray
+        As received on /diagnostics.
+    namespace : str
+        The skin's namespace, for example ``/plate``.
+
+    Returns
+    -------
+    dict of str to str or None
+        As listed in ``docs/driver.md``; None where the message holds none, or the driver has not found its port yet.
+    """
+    name = f"{namespace.strip('/')}/driver"
+    for status in message.status:
+        if status.name == name:
+            values = {value.key: value.value for value in status.values}
+            if "lost" in values:
+                return values
+    return None

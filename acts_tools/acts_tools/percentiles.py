@@ -1,0 +1,29 @@
+"""How every latency is summed up."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+PERCENTILES = (("median", 50.0), ("p99", 99.0), ("p99_9", 99.9))
+
+
+def percentiles(values: ArrayLike, decimals: int = 3) -> dict[str, float | None]:
+    """Median, 99 % and 99.9 % of some values.
+
+    Parameters
+    ----------
+    values : array_like [shape=(n,)]
+        In any unit, which is that of the result.
+    decimals : int
+        Where the result is rounded.
+
+    Returns
+    -------
+    dict of str to float or None
+        Under ``median``, ``p99`` and ``p99_9``; None where there are no values.
+    """
+    known = np.asarray(values, dtype=np.float64)
+    if not known.size:
+        return {name: None for name, _ in PERCENTILES}
+    return {name: round(float(np.percentile(known, percent)), decimals) for name, percent in PERCENTILES}
