@@ -1,10 +1,11 @@
 # make demo and make test do all the set-up they need, in this checkout, and say what they do.
 # `make PYTHON=/path/to/python3 ...` chooses the interpreter.
 
-.PHONY: help setup demo test lint format clean
+.PHONY: help setup demo bench test lint format clean
 
 help:
 	@echo "make demo    ball balancing with simulated skin, ball and UR5e (DEMO_SECONDS=30); writes out/"
+	@echo "make bench   throughput, CPU and latency of the sensing end, about four minutes; writes out/bench.json"
 	@echo "make test    linters and the whole test suite"
 	@echo "make lint    linters and type checks only"
 	@echo "make format  format Python and C++"
@@ -16,6 +17,9 @@ setup:
 
 demo:
 	@./acts demo ball_balancing $(if $(DEMO_SECONDS),--seconds $(DEMO_SECONDS))
+
+bench:
+	@./acts bench $(BENCH)
 
 test:
 	@./acts run python3 scripts/check.py

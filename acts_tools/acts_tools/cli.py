@@ -17,6 +17,7 @@ COMMANDS = {
     "record": ("acts_tools.bags.record", "record topics to a bag"),
     "play": ("acts_tools.bags.play", "publish a bag's messages again"),
     "train": ("acts_tools.train", "train a dictionary for the reconstruction"),
+    "bench": ("acts_tools.bench.command", "measure throughput, CPU and latency"),
     "demo": ("acts_tools.demo.command", "run a demonstration with everything simulated"),
 }
 """Module and summary of every subcommand; the module has ``add_parser(subparsers)`` and ``run(arguments) -> int``."""

@@ -1,0 +1,68 @@
+"""`acts bench [NAME...]`: figures of the sensing end."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+from typing import Any
+
+from acts_core.errors import ActsError
+
+
+def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add ``bench`` to the acts command."""
+    from acts_tools.bench.registry import MEASUREMENTS
+
+    parser = subparsers.add_parser(
+        "bench",
+        help="measure throughput, CPU and latency",
+        description="Measure the sensing end on this machine; everything is simulated, no hardware is needed.",
+        epilog="measurements:\n"
+        + "".join(
+            f"  {name:<12} {entry.summary}, {entry.seconds:g} s{' (only by name)' if entry.only_by_name else ''}\n"
+            for name, entry in MEASUREMENTS.items()
+        ),
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("names", nargs="*", metavar="NAME", help="measurements to make (default: the short ones)")
+    parser.add_argument("--seconds", type=float, help="how long each measures (default: its own time)")
+    parser.add_argument("--out", type=Path, default=Path("out"), help="folder for bench.json (default: out)")
+    parser.add_argument("--markdown", action="store_true", help="print the table in Markdown")
+    parser.add_argument("--show", type=Path, metavar="FILE", help="print the table of an earlier bench.json again")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Measure, write and print; the exit code tells whether something was wrong, not merely slow."""
+    from acts_tools.bench import report as reports
+
+    report = _read(arguments.show) if arguments.show is not None else _measure(arguments)
+    print(reports.markdown(report) if arguments.markdown else reports.table(report))
+    return 1 if report["problems"] else 0
+
+
+def _measure(arguments: argparse.Namespace) -> dict[str, Any]:
+    from acts_tools.bags.stopping import StopFlag
+    from acts_tools.bench import runner
+    from acts_tools.ros_domain import use_free_domain
+
+    names = runner.choose(arguments.names)
+    out = arguments.out
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise ActsError(f"--out {out}: the folder cannot be made ({error.strerror})") from error
+    use_free_domain()
+    with StopFlag() as stop:
+        report = runner.run(names, arguments.seconds, stop)
+    (out / "bench.json").write_text(json.dumps(report, indent=2) + "\n")
+    return report
+
+
+def _read(path: Path) -> dict[str, Any]:
+    try:
+        return dict(json.loads(path.read_text()))
+    except OSError as error:
+        raise ActsError(f"--show {path}: cannot be read ({error.strerror})") from error
+    except ValueError as error:
+        raise ActsError(f"--show {path}: not a report of `acts bench` ({error})") from error

@@ -1,0 +1,50 @@
+"""The machine a measurement ran on, and who else used it meanwhile."""
+
+from __future__ import annotations
+
+import os
+import platform
+import resource
+import time
+
+import psutil
+
+
+def describe() -> dict[str, object]:
+    """The machine in general words: cores, architecture, versions."""
+    return {
+        "cores": os.cpu_count(),
+        "architecture": platform.machine(),
+        "system": platform.system(),
+        "python": platform.python_version(),
+        "ros": os.environ.get("ROS_DISTRO", "none"),
+    }
+
+
+class OthersMeter:
+    """How much CPU everybody but this process and its children took, from construction on.
+
+    What a hypervisor gave to other machines counts too. The kernel counts the whole machine in ticks of some
+    milliseconds, so that this is right to a few percent only.
+    """
+
+    def __init__(self) -> None:
+        self._begin_s = time.monotonic()
+        self._machine_s = _machine_busy_s()
+        self._own_s = _own_s()
+
+    def percent(self) -> float:
+        """Load by others [% of one core]. Children count as own when they have ended and were waited for."""
+        elapsed_s = max(time.monotonic() - self._begin_s, 1e-9)
+        others_s = _machine_busy_s() - self._machine_s - (_own_s() - self._own_s)
+        return max(0.0, others_s / elapsed_s * 100)
+
+
+def _machine_busy_s() -> float:
+    times = psutil.cpu_times()
+    return float(sum(times) - times.idle - times.iowait - times.guest - times.guest_nice)
+
+
+def _own_s() -> float:
+    usages = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
+    return sum(usage.ru_utime + usage.ru_stime for usage in usages)

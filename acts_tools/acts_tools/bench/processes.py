@@ -1,0 +1,123 @@
+"""The processes that are measured: the virtual board, and what reads it."""
+
+from __future__ import annotations
+
+import json
+import os
+import select
+import subprocess
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from acts_core.errors import LaunchError
+from acts_tools.launch.packages import executable
+from acts_tools.launch.processes import leave_with_parent
+
+NAMESPACE = "/plate"
+M = 55
+START_TIMEOUT_S = 30.0
+_STOP_TIMEOUT_S = 10.0
+
+
+@dataclass(frozen=True)
+class Board:
+    """A virtual board that runs.
+
+    Attributes
+    ----------
+    link : Path
+        The port to open.
+    process : subprocess.Popen
+        Its process.
+    epoch_realtime_ns, epoch_monotonic_ns : int
+        The host's clocks at board time 0.
+    """
+
+    link: Path
+    process: subprocess.Popen[bytes]
+    epoch_realtime_ns: int
+    epoch_monotonic_ns: int
+
+
+@contextmanager
+def virtual_board(folder: Path, *options: str) -> Iterator[Board]:
+    """Run a virtual board, M = 55 at 1 kHz where the options say nothing else.
+
+    Parameters
+    ----------
+    folder : Path
+        For its link and log.
+    *options : str
+        As in ``docs/virtual_board.md``.
+
+    Raises
+    ------
+    LaunchError
+        When it does not start.
+    """
+    link = folder / "board"
+    words = ["--link", str(link), "--print-status", "--m", str(M), *options]
+    command = [str(executable("acts_firmware", "virtual_board", os.environ)), *words]
+    with _running(command, folder / "virtual_board.log") as process:
+        assert process.stdout is not None
+        ready, _, _ = select.select([process.stdout], [], [], START_TIMEOUT_S)
+        line = process.stdout.readline() if ready else b""
+        if not line:
+            raise LaunchError(f"the virtual board does not start: {_log_end(folder / 'virtual_board.log')}")
+        start = json.loads(line)
+        yield Board(link, process, start["epoch_realtime_ns"], start["epoch_monotonic_ns"])
+
+
+@contextmanager
+def driver(folder: Path, link: Path) -> Iterator[subprocess.Popen[bytes]]:
+    """Run the driver node on a port, in `NAMESPACE`; its log goes to ``folder/driver.log``."""
+    command = [str(executable("acts_driver", "driver", os.environ)), "--ros-args"]
+    command += ["-r", f"__ns:={NAMESPACE}", "-p", f"port:={link}"]
+    with _running(command, folder / "driver.log") as process:
+        yield process
+
+
+@contextmanager
+def python_module(folder: Path, module: str, arguments: Sequence[str]) -> Iterator[subprocess.Popen[bytes]]:
+    """Run a Python module; its standard output can be read, its errors go to a log in `folder`."""
+    command = [sys.executable, "-m", module, *arguments]
+    with _running(command, folder / f"{module}.log") as process:
+        yield process
+
+
+def check_alive(process: subprocess.Popen[bytes], log: Path) -> None:
+    """Raise `LaunchError` with the end of its log where a process has ended."""
+    if process.poll() is not None:
+        raise LaunchError(f"{log.stem} ended early with code {process.returncode}: {_log_end(log)}")
+
+
+@contextmanager
+def _running(command: Sequence[str], log_path: Path) -> Iterator[subprocess.Popen[bytes]]:
+    """A child that is ended at the end of the block whatever happens."""
+    with log_path.open("wb") as log:
+        process = subprocess.Popen(
+            command,
+            stdout=subprocess.PIPE,
+            stderr=log,
+            # Ctrl-C is for this process; it ends its children in order.
+            start_new_session=True,
+            preexec_fn=leave_with_parent(os.getpid()),
+        )
+    assert process.stdout is not None
+    try:
+        yield process
+    finally:
+        process.terminate()
+        try:
+            process.wait(_STOP_TIMEOUT_S)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+        process.stdout.close()
+
+
+def _log_end(path: Path) -> str:
+    return " / ".join(path.read_text(errors="replace").splitlines()[-3:]) or "it said nothing"

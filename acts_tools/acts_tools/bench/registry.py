@@ -1,0 +1,52 @@
+"""The measurements by name.
+
+How to add one: a module with ``measure(workbench: Workbench) -> Result`` (see `acts_tools.bench.result`), and a line
+here. It may start processes, as long as all of them have ended when it returns.
+"""
+
+from __future__ import annotations
+
+import importlib
+from dataclasses import dataclass
+from typing import Protocol, cast
+
+from acts_tools.bench.result import Result
+from acts_tools.bench.workbench import Workbench
+
+
+class Measurement(Protocol):
+    """What a module of a measurement has."""
+
+    def measure(self, workbench: Workbench) -> Result:
+        """Measure for about ``workbench.seconds`` and return the figures."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One measurement that there is.
+
+    Attributes
+    ----------
+    module : str
+        Where ``measure`` is.
+    summary : str
+        What it measures, the title above its figures.
+    seconds : float
+        How long it measures unless told otherwise; starting and stopping comes on top.
+    only_by_name : bool
+        Whether `acts bench` without names leaves it out, because it takes long.
+    """
+
+    module: str
+    summary: str
+    seconds: float
+    only_by_name: bool = False
+
+    def load(self) -> Measurement:
+        """Import the module."""
+        return cast(Measurement, importlib.import_module(self.module))
+
+
+MEASUREMENTS = {
+    "decode": Entry("acts_tools.bench.decode", "decoding a recorded stream, M = 55", 5.0),
+}

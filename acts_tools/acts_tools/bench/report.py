@@ -1,0 +1,54 @@
+"""A report of `acts bench` for a person, plain and in Markdown."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from acts_tools.bench.result import Figure
+
+Report = Mapping[str, Any]
+
+
+def table(report: Report) -> str:
+    """The report as plain text."""
+    sections = [(f"{name}: {one['summary']}", list(_figures(one))) for name, one in report["measurements"].items()]
+    width = max((len(figure.label) for _, figures in sections for figure in figures), default=0)
+    lines: list[str] = []
+    for title, figures in sections:
+        lines.append(title)
+        lines += [f"  {figure.label:<{width}}  {figure.text:>16}" for figure in figures]
+        lines.append("")
+    lines.append(conditions(report))
+    lines += [f"warning: {warning}" for warning in report["warnings"]]
+    lines += [f"problem: {problem}" for problem in report["problems"]]
+    return "\n".join(lines)
+
+
+def markdown(report: Report) -> str:
+    """The report as a Markdown table; ratios are bold."""
+    lines = ["| | |", "|---|---|"]
+    for name, one in report["measurements"].items():
+        lines.append(f"| *{one['summary']}* (`{name}`) | |")
+        for figure in _figures(one):
+            text = f"**{figure.text}**" if figure.is_ratio else figure.text
+            lines.append(f"| {figure.label} | {text} |")
+    lines += ["", conditions(report)]
+    lines += ["", *(f"Warning: {warning}." for warning in report["warnings"])] if report["warnings"] else []
+    return "\n".join(lines)
+
+
+def conditions(report: Report) -> str:
+    """When, where and how loaded, in a line."""
+    where = report["machine"]
+    before, after = report["load_average_before"], report["load_average_after"]
+    others = ", ".join(f"{name} {one['others_cpu_percent']:.0f}" for name, one in report["measurements"].items())
+    return (
+        f"{report['date']}, {where['cores']} {where['architecture']} cores, Python {where['python']}, "
+        f"ROS {where['ros']}; load average {before[0]:.2f} before, {after[0]:.2f} after; "
+        f"CPU used by others meanwhile [% of one core]: {others}"
+    )
+
+
+def _figures(measured: Mapping[str, Any]) -> Iterator[Figure]:
+    return (Figure(**figure) for figure in measured["figures"])

@@ -1,0 +1,116 @@
+"""Runs measurements one after another and puts the report together."""
+
+from __future__ import annotations
+
+import os
+import sys
+import tempfile
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict
+from datetime import datetime, timezone
+from pathlib import Path
+from typing import Any
+
+from acts_core.errors import ActsError
+from acts_tools.bags.stopping import StopFlag
+from acts_tools.bench import machine
+from acts_tools.bench.registry import MEASUREMENTS, Entry
+from acts_tools.bench.workbench import Workbench
+from acts_tools.run_folder import shared_memory
+
+OTHERS_WARNING_PERCENT = 10.0
+"""Load by others above which the report warns [% of one core]."""
+
+SECONDS_MIN, SECONDS_MAX = 0.2, 3600.0
+
+
+def choose(names: Sequence[str], entries: Mapping[str, Entry] = MEASUREMENTS) -> list[str]:
+    """Which measurements to run.
+
+    Parameters
+    ----------
+    names : sequence of str
+        As asked for; none for all that do not take long.
+    entries : mapping of str to Entry
+        What there is.
+
+    Raises
+    ------
+    ActsError
+        For an unknown name, with those that are known.
+    """
+    for name in names:
+        if name not in entries:
+            raise ActsError(f"there is no measurement '{name}'; there are: {', '.join(entries)}")
+    return list(dict.fromkeys(names)) or [name for name, entry in entries.items() if not entry.only_by_name]
+
+
+def run(names: Sequence[str], seconds: float | None, stop: StopFlag) -> dict[str, Any]:
+    """Measure, and say on standard error what is being measured.
+
+    Parameters
+    ----------
+    names : sequence of str
+        Measurements, in order.
+    seconds : float or None
+        How long each measures [s]; None for its own time.
+    stop : StopFlag
+        Ends the run with KeyboardInterrupt.
+
+    Returns
+    -------
+    dict
+        The report, in the layout of ``out/bench.json``.
+
+    Raises
+    ------
+    ActsError
+        When `seconds` is out of range or a measurement cannot be made.
+    """
+    if seconds is not None and not SECONDS_MIN <= seconds <= SECONDS_MAX:
+        raise ActsError(f"--seconds {seconds:g}: allowed is {SECONDS_MIN:g} to {SECONDS_MAX:g}")
+    report: dict[str, Any] = {
+        "date": datetime.now(timezone.utc).date().isoformat(),
+        "machine": machine.describe(),
+        "load_average_before": _load_average(),
+        "measurements": {},
+    }
+    for name in names:
+        entry = MEASUREMENTS[name]
+        print(f"[bench] {name}: {entry.summary}", file=sys.stderr, flush=True)
+        report["measurements"][name] = _measure(entry, entry.seconds if seconds is None else seconds, stop)
+    report["load_average_after"] = _load_average()
+    report["problems"] = [
+        f"{name}: {problem}" for name, measured in report["measurements"].items() for problem in measured["problems"]
+    ]
+    report["warnings"] = _warnings(report["measurements"])
+    return report
+
+
+def _measure(entry: Entry, seconds: float, stop: StopFlag) -> dict[str, Any]:
+    others = machine.OthersMeter()
+    with tempfile.TemporaryDirectory(prefix="acts_bench_", dir=shared_memory()) as folder:
+        result = entry.load().measure(Workbench(seconds, Path(folder), stop))
+    return {
+        "summary": entry.summary,
+        "seconds": seconds,
+        "others_cpu_percent": round(others.percent(), 1),
+        "figures": [asdict(figure) for figure in result.figures],
+        "problems": result.problems,
+    }
+
+
+def _warnings(measured: Mapping[str, Mapping[str, Any]]) -> list[str]:
+    busy = {
+        name: one["others_cpu_percent"]
+        for name, one in measured.items()
+        if one["others_cpu_percent"] > OTHERS_WARNING_PERCENT
+    }
+    if not busy:
+        return []
+    loads = ", ".join(f"{name} {percent:.0f} %" for name, percent in busy.items())
+    return [f"others used the CPU meanwhile ({loads} of one core): ratios hold, absolute figures are worse than alone"]
+
+
+def _load_average() -> list[float]:
+    return [round(load, 2) for load in os.getloadavg()]
