@@ -34,7 +34,6 @@ DATA = ROOT.parent / "shared" / "data"
 FRAMES = 400
 START_S = 90.0
 FRAME_S = 0.001
-MEASUREMENT_S = 17.877e-6
 NOISE_COUNTS = 1.5
 # Below it reconstruction and contact see nothing.
 TOUCH_COUNTS = 60
@@ -121,7 +120,8 @@ def check(seen: list[Seen], field: TrueField) -> None:
         counts = np.array(one.samples.counts, dtype=np.uint16)
         assert indices.size == 55
         start_s = frame_time_s(one.samples)
-        truth = np.array([field.at(start_s + order * MEASUREMENT_S).flat[index] for order, index in enumerate(indices)])
+        measurement_s = 1e-9 * one.samples.duration.nanosec / indices.size
+        truth = np.array([field.at(start_s + order * measurement_s).flat[index] for order, index in enumerate(indices)])
         assert np.abs(counts - np.clip(truth, 0, 1023)).max() < 6 * NOISE_COUNTS + 1
 
         contact = reconstructor.step(indices, counts)

@@ -40,6 +40,7 @@ def library() -> ctypes.CDLL:
         "probe_division_order": (i32, [i32, i32, u16]),
         "probe_spacing": (None, [i32, i32, i32, ctypes.POINTER(i32)]),
         "probe_quota_of": (i32, [ctypes.c_double, i32]),
+        "probe_published_sample_us": (ctypes.c_double, [i32, i32, i32, i32, i32]),
         "probe_random": (None, [u64, u64, u32, i32, ctypes.c_void_p]),
         "probe_cobs_encode": (size, [u8, size, ctypes.c_void_p]),
         "probe_cobs_decode": (size, [u8, size, ctypes.c_void_p]),
@@ -99,6 +100,12 @@ def uniform_spacing(rows: int, cols: int, m: int) -> tuple[int, int] | None:
 
 def quota_of(share: float, m: int) -> int:
     return int(library().probe_quota_of(share, m))
+
+
+def published_sample_us(config: SamplingConfig) -> float:
+    """What the virtual board takes for one measurement."""
+    scheme = int(SCHEMES[config.scheme])
+    return float(library().probe_published_sample_us(scheme, config.rows, config.cols, config.m, config.adaptive_quota))
 
 
 def random_numbers(seed: int, stream: int, bound: int, count: int) -> list[int]:

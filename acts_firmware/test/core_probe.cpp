@@ -8,6 +8,7 @@
 #include "acts_firmware/sampling/random.hpp"
 #include "acts_firmware/sampling/sampler.hpp"
 #include "acts_firmware/wire/packet.hpp"
+#include "published_timing.hpp"
 #include "wired_board.hpp"
 
 namespace {
@@ -90,6 +91,16 @@ void probe_spacing(int rows, int cols, int m, int* out) {
 
 int probe_quota_of(double share, int m) {
   return acts::quota_of(share, m);
+}
+
+double probe_published_sample_us(int scheme, int rows, int cols, int m, int adaptive_quota) {
+  acts::SamplingConfig config;
+  config.scheme = static_cast<acts::Scheme>(scheme);
+  config.rows = rows;
+  config.cols = cols;
+  config.m = m;
+  config.adaptive_quota = adaptive_quota;
+  return acts::published_sample_us(config);
 }
 
 void probe_random(std::uint64_t seed, std::uint64_t stream, std::uint32_t bound, int count, std::uint32_t* out) {

@@ -37,7 +37,7 @@ def test_stream_of_the_published_settings(tmp_path: Path) -> None:
     for frame in frames:
         assert (frame.scheme, frame.rows, frame.cols) == (Scheme.ADAPTIVE, 32, 32)
         assert len(frame.indices) == 55
-        assert frame.duration_us in (983, 984)  # 55 * 17.877 us on a clock of whole microseconds
+        assert frame.duration_us in (972, 973, 974)  # 973 us on a clock of whole microseconds
         assert frame.board_us // 1000 == frame.sequence
         assert frame.counts.max() < 10  # untouched: noise only
 

@@ -12,9 +12,6 @@ namespace acts {
 
 namespace {
 
-// The authors' raster sketch: 17,509 us for 1024 taxels.
-constexpr double kRasterSketchSampleUs = 17.098;
-
 // Smaller shares would all mean the same: one taxel of even the largest array.
 constexpr double kMinShare = 0.0001;
 
@@ -85,7 +82,7 @@ const std::vector<std::pair<const char*, Scheme>>& schemes() {
   return kSchemes;
 }
 
-std::vector<Option> make_options(Options& o, bool& sample_us_given) {
+std::vector<Option> make_options(Options& o) {
   SamplingConfig& s = o.sampling;
   return {
       {"--link", "PATH", "symbolic link to the pseudo-terminal, made at the start and removed at the end",
@@ -108,11 +105,8 @@ std::vector<Option> make_options(Options& o, bool& sample_us_given) {
        [&s](const std::string& v) { s.m = whole("--m", v, 1, kMaxTaxels); }},
       {"--rate-hz", "R", "largest number of frames per second (1000)",
        [&o](const std::string& v) { o.rate_hz = number("--rate-hz", v, 1.0, 1e5); }},
-      {"--sample-us", "T", "time of one measurement in microseconds (17.877; raster_ascii 17.098)",
-       [&o, &sample_us_given](const std::string& v) {
-         o.sample_us = number("--sample-us", v, 0.1, 1000.0);
-         sample_us_given = true;
-       }},
+      {"--sample-us", "T", "time of one measurement in microseconds (as published for the scheme and M)",
+       [&o](const std::string& v) { o.sample_us = number("--sample-us", v, 0.1, 1000.0); }},
       {"--threshold", "COUNTS",
        "counts above which adaptive and hybrid search a taxel's neighbours and tracking follows it (180)",
        [&s](const std::string& v) { s.threshold = whole("--threshold", v, 0, kCountMax); }},
@@ -169,8 +163,7 @@ void check_sampling(const Options& options) {
 
 Options parse_options(int argc, const char* const* argv) {
   Options options;
-  bool sample_us_given = false;
-  const std::vector<Option> known = make_options(options, sample_us_given);
+  const std::vector<Option> known = make_options(options);
   for (int i = 1; i < argc && std::string(argv[i]) != "--ros-args"; ++i) {
     std::string name = argv[i];
     const std::size_t equals = name.find('=');
@@ -199,9 +192,6 @@ Options parse_options(int argc, const char* const* argv) {
   }
   if (options.protocol == Protocol::kRasterAscii) {
     options.sampling.scheme = Scheme::kRaster;
-    if (!sample_us_given) {
-      options.sample_us = kRasterSketchSampleUs;
-    }
   }
   if (options.sampling.scheme == Scheme::kRaster) {
     options.sampling.m = options.sampling.rows * options.sampling.cols;
@@ -214,11 +204,10 @@ Options parse_options(int argc, const char* const* argv) {
 
 std::string help_text() {
   Options options;
-  bool unused = false;
   std::string text =
       "virtual_board: the ACTS firmware on the host, behind a pseudo-terminal.\n"
       "usage: virtual_board [options] [--ros-args ...]   (what follows --ros-args is left alone)\n";
-  for (const Option& option : make_options(options, unused)) {
+  for (const Option& option : make_options(options)) {
     std::string left = std::string("  ") + option.name + " " + option.value;
     left.resize(left.size() < 26 ? 26 : left.size() + 1, ' ');
     text += left + option.help + "\n";

@@ -21,7 +21,7 @@ struct Options {
   double search_share = 0.2;
   double adaptive_share = 0.5;
   double rate_hz = 1000.0;
-  double sample_us = 17.877;  // published: 55,936 samples a second
+  double sample_us = 0.0;  // of one measurement; 0: as published
   double noise_counts = 1.5;
   double drift_ppm = 0.0;
   Protocol protocol = Protocol::kBinary;

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "field.hpp"
+#include "published_timing.hpp"
 
 namespace acts {
 
@@ -48,14 +49,23 @@ Process::Process(const Options& options, const volatile std::sig_atomic_t& stop_
       stop_requested_(stop_requested),
       epoch_(read_epoch()),
       time_(epoch_.monotonic_ns, options.drift_ppm),
-      sample_ns_(std::lround(options.sample_us * 1000.0)),
-      board_(options.sampling.rows, options.sampling.cols, make_field(options, epoch_.monotonic_ns), time_, sample_ns_,
+      board_(options.sampling.rows, options.sampling.cols, make_field(options, epoch_.monotonic_ns), time_,
              options.noise_counts, options.sampling.seed),
       firmware_(board_, wiring_for(options.sampling.rows, options.sampling.cols), options.protocol),
       terminal_(options.link) {
   firmware_.configure(options.sampling);
+  set_pace();
+}
+
+void Process::set_pace() {
+  double sample_us = options_.sample_us;
+  if (sample_us == 0.0) {
+    sample_us = options_.protocol == Protocol::kRasterAscii ? kRasterSketchSampleUs
+                                                            : published_sample_us(firmware_.sampler().config());
+  }
+  sample_ns_ = std::lround(sample_us * 1000.0);
   duration_ns_ = firmware_.sampler().frame_size() * sample_ns_;
-  step_ns_ = std::max(duration_ns_, static_cast<std::int64_t>(std::lround(1e9 / options.rate_hz)));
+  step_ns_ = std::max(duration_ns_, static_cast<std::int64_t>(std::lround(1e9 / options_.rate_hz)));
 }
 
 void Process::run() {
@@ -70,7 +80,7 @@ void Process::run() {
       start_ns += skipped * step_ns_;
     }
     serve_terminal();
-    board_.begin_frame(start_ns, start_ns + duration_ns_);
+    board_.begin_frame(start_ns, sample_ns_, firmware_.sampler().frame_size());
     firmware_.measure_frame();
     ++frames_;
     send();

@@ -21,6 +21,8 @@ class Process {
   void run();
 
  private:
+  // Takes the times of a frame from the settings in force.
+  void set_pace();
   // False when the process is to end.
   bool wait_for(std::int64_t board_ns);
   void serve_terminal();
@@ -33,10 +35,10 @@ class Process {
   const volatile std::sig_atomic_t& stop_requested_;
   const Epoch epoch_;
   const BoardTime time_;
-  const std::int64_t sample_ns_;
   VirtualBoard board_;
   Firmware firmware_;
   PseudoTerminal terminal_;
+  std::int64_t sample_ns_ = 0;
   std::int64_t duration_ns_ = 0;
   std::int64_t step_ns_ = 0;
   std::uint64_t frames_ = 0;

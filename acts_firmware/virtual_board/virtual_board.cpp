@@ -12,19 +12,19 @@ constexpr double kTwoPi = 6.283185307179586;
 
 }  // namespace
 
-VirtualBoard::VirtualBoard(int rows, int cols, std::unique_ptr<Field> field, const BoardTime& time,
-                           std::int64_t sample_ns, double noise_counts, std::uint64_t seed)
+VirtualBoard::VirtualBoard(int rows, int cols, std::unique_ptr<Field> field, const BoardTime& time, double noise_counts,
+                           std::uint64_t seed)
     : WiredBoard(rows, cols),
       cols_(cols),
       field_(std::move(field)),
       time_(time),
-      sample_ns_(sample_ns),
       noise_counts_(noise_counts),
       random_(seed, kNoiseStream) {}
 
-void VirtualBoard::begin_frame(std::int64_t start_ns, std::int64_t end_ns) {
+void VirtualBoard::begin_frame(std::int64_t start_ns, std::int64_t sample_ns, int m) {
   now_ns_ = start_ns;
-  field_->refresh(time_.to_host_ns(end_ns));
+  sample_ns_ = sample_ns;
+  field_->refresh(time_.to_host_ns(start_ns + m * sample_ns));
 }
 
 double VirtualBoard::taxel_counts(int row, int col) {

@@ -29,14 +29,15 @@ class BoardTime {
   double board_per_host_;
 };
 
-// Measuring is what makes its time pass: each conversion takes `sample_ns` and sees the field at its own beginning.
+// Measuring is what makes its time pass: each conversion takes a frame's `sample_ns` and sees the field at its own
+// beginning.
 class VirtualBoard final : public WiredBoard {
  public:
-  VirtualBoard(int rows, int cols, std::unique_ptr<Field> field, const BoardTime& time, std::int64_t sample_ns,
-               double noise_counts, std::uint64_t seed);
+  VirtualBoard(int rows, int cols, std::unique_ptr<Field> field, const BoardTime& time, double noise_counts,
+               std::uint64_t seed);
 
-  // Jump to a board time, the start of a frame that ends at `end_ns`.
-  void begin_frame(std::int64_t start_ns, std::int64_t end_ns);
+  // Jump to a board time, the start of a frame whose m measurements take `sample_ns` each.
+  void begin_frame(std::int64_t start_ns, std::int64_t sample_ns, int m);
 
   std::uint16_t read_adc() override;
   std::uint32_t micros() override { return static_cast<std::uint32_t>(now_ns_ / 1000); }
@@ -50,7 +51,7 @@ class VirtualBoard final : public WiredBoard {
   int cols_;
   std::unique_ptr<Field> field_;
   BoardTime time_;
-  std::int64_t sample_ns_;
+  std::int64_t sample_ns_ = 0;
   double noise_counts_;
   Pcg32 random_;
   double spare_ = 0.0;
