@@ -71,6 +71,15 @@ T word(const std::string& name, const std::string& text, const std::vector<std::
   throw OptionError(name + " " + text + ": allowed is one of " + allowed);
 }
 
+// What a fault refuses, as an option's error.
+void named(const std::string& name, const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const std::invalid_argument& error) {
+    throw OptionError(name + " " + error.what());
+  }
+}
+
 std::string path_or_none(const std::string& text) {
   return text == "none" ? "" : text;
 }
@@ -125,6 +134,10 @@ std::vector<Option> make_options(Options& o) {
        [&s](const std::string& v) { s.seed = seed("--seed", v); }},
       {"--drift-ppm", "D", "how much faster the board's clock runs than the host's, in millionths (0)",
        [&o](const std::string& v) { o.drift_ppm = number("--drift-ppm", v, -10000.0, 10000.0); }},
+      {"--hardware-fault", "FAULT",
+       "break the wiring: open-row=R, open-col=C, short-rows=R,R, short-cols=C,C, dead=R,C, stuck=R,C,COUNTS or "
+       "address-bit=B; may be given again",
+       [&o](const std::string& v) { named("--hardware-fault", [&o, &v] { o.wiring_faults.add(v); }); }},
       {"--protocol", "NAME", "binary, or raster_ascii: the authors' raster sketch (binary)",
        [&o](const std::string& v) {
          o.protocol =
@@ -199,6 +212,7 @@ Options parse_options(int argc, const char* const* argv) {
   options.sampling.search_quota = quota_of(options.search_share, options.sampling.m);
   options.sampling.adaptive_quota = quota_of(options.adaptive_share, options.sampling.m);
   check_sampling(options);
+  named("--hardware-fault", [&options] { options.wiring_faults.check(options.sampling.rows, options.sampling.cols); });
   return options;
 }
 

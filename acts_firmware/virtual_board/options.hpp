@@ -7,6 +7,7 @@
 
 #include "acts_firmware/firmware.hpp"
 #include "acts_firmware/sampling/sampler.hpp"
+#include "wiring_faults.hpp"
 
 namespace acts {
 
@@ -24,6 +25,7 @@ struct Options {
   double sample_us = 0.0;  // of one measurement; 0: as published
   double noise_counts = 1.5;
   double drift_ppm = 0.0;
+  WiringFaults wiring_faults;
   Protocol protocol = Protocol::kBinary;
   bool print_status = false;
   double status_period_s = 0.0;  // 0: none

@@ -53,6 +53,7 @@ Process::Process(const Options& options, const volatile std::sig_atomic_t& stop_
              options.noise_counts, options.sampling.seed),
       firmware_(board_, wiring_for(options.sampling.rows, options.sampling.cols), options.protocol),
       terminal_(options.link) {
+  board_.set_faults(options.wiring_faults);
   firmware_.configure(options.sampling);
   set_pace();
 }

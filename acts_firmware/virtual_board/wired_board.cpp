@@ -44,12 +44,30 @@ void WiredBoard::write_pin(std::uint8_t pin, bool high) {
 }
 
 double WiredBoard::adc_input() {
+  if (!faults_.none()) {
+    return faulty_input();
+  }
   const int col = static_cast<int>(column_);
   double sum = 0.0;
   if (col < cols_) {
     for (int row = 0; row < rows_ && driven_rows_ >> row != 0; ++row) {
       if ((driven_rows_ >> row & 1U) != 0) {
         sum += clip_counts(taxel_counts(row, col));
+      }
+    }
+  }
+  return clip_counts(sum);
+}
+
+double WiredBoard::faulty_input() {
+  const std::uint64_t rows = faults_.energised(driven_rows_);
+  const std::uint64_t cols = faults_.connected(faults_.address(column_));
+  double sum = 0.0;
+  for (int row = 0; row < rows_ && rows >> row != 0; ++row) {
+    for (int col = 0; col < cols_ && cols >> col != 0; ++col) {
+      if ((rows >> row & cols >> col & 1U) != 0) {
+        const std::optional<double> fixed = faults_.fixed_counts(row, col);
+        sum += clip_counts(fixed ? *fixed : taxel_counts(row, col));
       }
     }
   }
