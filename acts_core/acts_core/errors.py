@@ -28,6 +28,10 @@ class DictionaryError(ActsError):
     """A dictionary file cannot be read or does not fit the array or the patch size."""
 
 
+class ObjectLibraryError(ActsError):
+    """An object library cannot be made or read, or does not fit the array."""
+
+
 class RecordingError(ActsError):
     """A recording (npz file or bag) cannot be read or lacks what is needed."""
 

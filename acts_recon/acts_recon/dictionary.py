@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import zipfile
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -14,9 +13,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import DictionaryError
+from acts_recon.model_file import ModelFile
 
-FORMAT = "acts-dictionary-1"
-_REQUIRED = ("format", "atoms", "patch_size", "settings", "provenance", "sha256")
+_FILE = ModelFile(
+    kind="a dictionary file",
+    format="acts-dictionary-1",
+    fields=("atoms", "patch_size", "settings", "provenance", "sha256"),
+    remedy="make one with `acts train`",
+    error=DictionaryError,
+)
 
 
 @dataclass(frozen=True)
@@ -76,20 +81,16 @@ def save_dictionary(dictionary: Dictionary, path: Path) -> None:
     DictionaryError
         When the file cannot be written.
     """
-    try:
-        # An open file: numpy would append .npz to any other name.
-        with path.open("wb") as file:
-            np.savez_compressed(
-                file,
-                format=FORMAT,
-                atoms=dictionary.atoms,
-                patch_size=dictionary.patch_size,
-                settings=json.dumps(dict(dictionary.settings), sort_keys=True),
-                provenance=dictionary.provenance,
-                sha256=dictionary.sha256,
-            )
-    except OSError as error:
-        raise DictionaryError(f"{path}: cannot be written ({error.strerror})") from error
+    _FILE.write(
+        path,
+        {
+            "atoms": dictionary.atoms,
+            "patch_size": dictionary.patch_size,
+            "settings": json.dumps(dict(dictionary.settings), sort_keys=True),
+            "provenance": dictionary.provenance,
+            "sha256": dictionary.sha256,
+        },
+    )
 
 
 def load_dictionary(path: Path, *, patch_size: int | None = None) -> Dictionary:
@@ -106,25 +107,8 @@ def load_dictionary(path: Path, *, patch_size: int | None = None) -> Dictionary:
     DictionaryError
         When the file is missing, is no dictionary file, is damaged, or is for other patches.
     """
+    content = _FILE.read(path)
     try:
-        archive = np.load(path, allow_pickle=False)
-        if not isinstance(archive, np.lib.npyio.NpzFile):
-            raise DictionaryError(f"{path}: a single array, not a dictionary file; make one with `acts train`")
-        with archive:
-            missing = [name for name in _REQUIRED if name not in archive]
-            if missing:
-                raise DictionaryError(
-                    f"{path}: lacks {', '.join(missing)}, so it is no dictionary file; make one with `acts train`"
-                )
-            content = {name: archive[name] for name in _REQUIRED}
-    except OSError as error:
-        reason = error.strerror or str(error)
-        raise DictionaryError(f"{path}: cannot be read ({reason}); give a file made by `acts train`") from error
-    except (ValueError, EOFError, zipfile.BadZipFile, zipfile.LargeZipFile) as error:
-        raise DictionaryError(f"{path}: not an npz file, or damaged ({error}); make one with `acts train`") from error
-    try:
-        if str(content["format"]) != FORMAT:
-            raise DictionaryError(f"{path}: format {str(content['format'])!r}; readable is {FORMAT!r}")
         dictionary = Dictionary(
             content["atoms"],
             int(content["patch_size"]),

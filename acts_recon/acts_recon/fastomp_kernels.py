@@ -69,7 +69,7 @@ def _best_atom(
 
 
 @numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
-def _pursue(
+def pursue(
     blocks: NDArray[np.float32],
     atoms: NDArray[np.float32],
     pixels: NDArray[np.int64],
@@ -200,7 +200,7 @@ def recover_image(
         pixels = measured_pixels[patch]
         y = measured_values[patch]
         n_atoms = max(1, int(ratio * n + 0.5))
-        s = _pursue(blocks, atoms, pixels, y, n, n_atoms, residual, Q, R, sums, chosen, coefficients)
+        s = pursue(blocks, atoms, pixels, y, n, n_atoms, residual, Q, R, sums, chosen, coefficients)
         for p in range(n_pixels):
             residual[p] = 0.0
         for j in range(s):
