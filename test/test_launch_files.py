@@ -82,6 +82,20 @@ def test_a_pressed_disc_becomes_a_contact_where_it_is(tactile: Launched, tmp_pat
 
 
 @launch_fixture
+def replayed(tmp_path: Path) -> LaunchFile:
+    np.savez(tmp_path / "disc.npz", frames=np.load(disc_recording(tmp_path)), rate_hz=30.0)
+    arguments = {"run_dir": str(tmp_path / "run"), "replay": str(tmp_path / "disc.npz")}
+    return LaunchFile(PACKAGE, "tactile.launch.xml", 35, arguments)
+
+
+@launch_test(replayed)
+def test_a_replayed_recording_needs_no_board(replayed: Launched, tmp_path: Path) -> None:
+    assert replayed.wait_for_messages("/plate/contact", Contact, 50, START_S)[-1].in_contact
+    assert not os.path.lexists(tmp_path / "run" / "board")
+    assert replayed.stop() == 0
+
+
+@launch_fixture
 def chest(tmp_path: Path) -> LaunchFile:
     arguments = {
         "run_dir": str(tmp_path / "run"),

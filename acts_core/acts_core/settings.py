@@ -59,7 +59,7 @@ class SettingInfo:
         """The constraint in words, empty where anything is allowed."""
         words = []
         if self.choices:
-            words.append("one of " + ", ".join(self.choices))
+            words.append("one of " + ", ".join(choice or "empty" for choice in self.choices))
         if self.minimum is not None and self.maximum is not None:
             words.append(f"{self.minimum:g} to {self.maximum:g}")
         elif self.minimum is not None:

@@ -14,7 +14,7 @@ from acts_driver.messages import SamplesMessage
 from acts_driver.reader import Reader
 from acts_driver.report import DriverReport
 from acts_driver.settings import DriverSettings
-from acts_driver.source import SerialSource
+from acts_driver.source import Source
 from acts_driver.stream import FrameStream
 from acts_msgs.msg import TactileSamples
 from acts_ros.diagnostics import ERROR, OK, DiagnosticsReporter, Report
@@ -36,7 +36,9 @@ class DriverNode(LifecycleNode):
     def __init__(self, **node_arguments: object) -> None:
         super().__init__("driver", **node_options(), **node_arguments)
         self._settings = declare(self, DriverSettings)
+        self._what = self._settings.replay if self._settings.is_replay else self._settings.port
         self._active = False
+        self._source: Source | None = None
         self._reader: Reader | None = None
         self._report: DriverReport | None = None
         self._problem = ""
@@ -46,7 +48,7 @@ class DriverNode(LifecycleNode):
         self._message = SamplesMessage(frame_id)
         # Not made in on_configure: subscribers then are matched before the first frame.
         self._publisher = self.create_publisher(TactileSamples, "samples", **overridable(STREAM))
-        self._diagnostics = DiagnosticsReporter(self, self._settings.port, self._make_report)
+        self._diagnostics = DiagnosticsReporter(self, self._what, self._make_report)
         if self._settings.autostart:
             # At once and then again and again. Not in the constructor: a signal would meet a half-made node.
             self._autostart_timers = [
@@ -57,7 +59,7 @@ class DriverNode(LifecycleNode):
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Open the port and begin to read."""
         settings = self._settings
-        source = SerialSource(settings.port, settings.baud)
+        source = settings.make_source()
         try:
             source.open()
         except ActsError as error:
@@ -67,6 +69,7 @@ class DriverNode(LifecycleNode):
             self._problem = str(error)
             return FAILURE
         self._problem = ""
+        self._source = source
         decoder = settings.make_decoder()
         self._stream = FrameStream(settings.rows, settings.cols, has_board_clock=decoder.has_board_clock)
         self._reader = Reader(
@@ -77,15 +80,17 @@ class DriverNode(LifecycleNode):
             log=self._log,
             on_reconnect=self._stream.statistics.reconnected,
         )
-        self._report = DriverReport(self._reader, decoder, self._stream, (settings.rows, settings.cols), settings.port)
+        self._report = DriverReport(source, self._reader, decoder, self._stream, (settings.rows, settings.cols))
         self._wrong_size_told = (0, 0)
         self._reader.start(is_open=True)
-        self.get_logger().info(f"reading {source.name} ({settings.protocol})")
+        self.get_logger().info(f"reading {source.name}" + ("" if settings.is_replay else f" ({settings.protocol})"))
         return SUCCESS
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Begin to publish."""
         self._active = True
+        if self._source is not None:
+            self._source.begin()
         return super().on_activate(state)
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
@@ -131,7 +136,7 @@ class DriverNode(LifecycleNode):
             self.trigger_activate()
         elif not self._is_waiting:
             self._is_waiting = True
-            self.get_logger().info(f"waiting for {self._settings.port}")
+            self.get_logger().info(f"waiting for {self._what}")
 
     def _stop_autostart(self) -> None:
         timers, self._autostart_timers = self._autostart_timers, []
@@ -166,7 +171,7 @@ class DriverNode(LifecycleNode):
     def _make_report(self) -> Report:
         if self._report is not None:
             return self._report.make("active" if self._active else "inactive", time.time_ns())
-        values = {"port": self._settings.port, "state": "unconfigured"}
+        values = {"port": self._what, "state": "unconfigured"}
         return (ERROR, self._problem, values) if self._problem else (OK, "unconfigured", values)
 
     def _log(self, level: str, message: str) -> None:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from array import array
 
-from acts_core.frames import SampleFrame
+import numpy as np
+
+from acts_core.frames import SampleFrame, Scheme
 from acts_msgs.msg import TactileSamples
 
 _NS_PER_S = 1_000_000_000
@@ -47,3 +49,25 @@ class SamplesMessage:
         message.indices = array("H", frame.indices.tobytes())
         message.counts = array("H", frame.counts.tobytes())
         return message
+
+
+def frame_of(message: TactileSamples) -> SampleFrame:
+    """The frame of a message; its stamp becomes `board_us`.
+
+    Raises
+    ------
+    ValueError
+        When the message names a scheme that does not exist.
+    """
+    stamp = message.header.stamp
+    return SampleFrame(
+        sequence=int(message.sequence),
+        board_us=(stamp.sec * _NS_PER_S + stamp.nanosec) // 1000,
+        duration_us=message.duration.sec * _US_PER_S + message.duration.nanosec // 1000,
+        scheme=Scheme(message.scheme),
+        rows=int(message.rows),
+        cols=int(message.cols),
+        overruns=0,
+        indices=np.asarray(message.indices, dtype=np.uint16),
+        counts=np.asarray(message.counts, dtype=np.uint16),
+    )

@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable
 
 from acts_core.delimited import DelimitedDecoder
-from acts_core.errors import PortError
+from acts_core.errors import ActsError, PortError
 from acts_core.frames import SampleFrame
 from acts_driver.source import READ_TIMEOUT_S, Source
 
@@ -121,7 +121,7 @@ class Reader:
         while not self._stop.is_set():
             try:
                 self._source.open()
-            except PortError as error:
+            except ActsError as error:
                 self.problem = str(error)
                 self._stop.wait(wait_s)
                 wait_s = min(2 * wait_s, self._reconnect_s)

@@ -6,6 +6,7 @@ from dataclasses import dataclass, fields
 
 from acts_core.delimited import DelimitedDecoder
 from acts_driver.reader import Reader
+from acts_driver.source import Source
 from acts_driver.stream import FrameStream
 from acts_ros.diagnostics import ERROR, OK, WARN, Report
 
@@ -55,27 +56,25 @@ class DriverReport:
 
     Parameters
     ----------
-    reader, decoder, stream
+    source, reader, decoder, stream
         What is reported on.
     expected_size : tuple of int
         Rows and columns that frames must have.
-    port : str
-        The port.
     """
 
     def __init__(
         self,
+        source: Source,
         reader: Reader,
         decoder: DelimitedDecoder,
         stream: FrameStream,
         expected_size: tuple[int, int],
-        port: str,
     ) -> None:
+        self._source = source
         self._reader = reader
         self._decoder = decoder
         self._stream = stream
         self._expected_size = expected_size
-        self._port = port
         self._before = Totals()
 
     def totals(self) -> Totals:
@@ -120,13 +119,13 @@ class DriverReport:
         values["clock_drift_ppm"] = clock.drift_ppm if has_clock else "none"
         values["delay_us"] = clock.delay_us if has_clock else "none"
         values["last_error"] = self._decoder.last_error
-        values["port"] = self._port
+        values["port"] = self._source.name
         values["state"] = state
         return level, message, values
 
     def _judge(self, added: Totals, fine: str) -> tuple[int, str]:
         if not self._reader.connected:
-            return ERROR, self._reader.problem or f"port {self._port} is closed"
+            return ERROR, self._reader.problem or f"{self._source.name} is closed"
         troubles = [words.format(getattr(added, name)) for name, words in _TROUBLES.items() if getattr(added, name)]
         if added.wrong_size:
             given, expected = self._stream.wrong_size_last, self._expected_size
@@ -138,7 +137,8 @@ class DriverReport:
         if added.crc_errors or added.malformed:
             troubles.append(f"last: {self._decoder.last_error}")
         if added.frames == 0:
-            return ERROR, ", ".join([f"no frames from {self._port}", *troubles])
+            why = f" ({self._source.silence})" if self._source.silence else ""
+            return ERROR, ", ".join([f"no frames from {self._source.name}{why}", *troubles])
         if added.frames == added.wrong_size:
             return ERROR, ", ".join(troubles)
         if troubles:

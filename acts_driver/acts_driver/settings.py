@@ -3,18 +3,26 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 
 from acts_core.array import MAX_SIDE
 from acts_core.delimited import DelimitedDecoder
 from acts_core.raster_ascii import RasterDecoder
 from acts_core.settings import setting, validate
 from acts_core.wire import StreamDecoder
+from acts_driver.board_parameters import BoardParameters
 from acts_driver.port_choice import check_port
+from acts_driver.recordings import ReplayOptions, open_recording
+from acts_driver.replay import ReplaySource
+from acts_driver.source import SerialSource, Source
+
+NO_FILE = "none"
+"""What a launch file gives where there is no file; means the same as empty."""
 
 
 @dataclass(frozen=True)
-class DriverSettings:
-    """See the descriptions; `docs/driver.md` lists them."""
+class SourceParameters:
+    """Parameters about where frames come from."""
 
     port: str = setting(
         "auto", "serial port of the board: a path, auto (the only Teensy), or serial:NUMBER (its USB serial number)"
@@ -35,13 +43,54 @@ class DriverSettings:
     autostart: bool = setting(
         True, "configure and activate without being asked, waiting for the port where it is missing"
     )
+    replay: str = setting(
+        "", "recording to replay in place of a board: a bag (folder or .mcap) or an .npz file; empty or none: the port"
+    )
+    replay_topic: str = setting("", "topic of the bag; empty for its only one of type TactileSamples")
+    replay_speed: float = setting(1.0, "2 replays twice as fast", minimum=0.001, maximum=1000.0)
+    replay_loop: bool = setting(True, "start the recording over at its end; false: silence follows")
+    replay_delay_s: float = setting(
+        1.0,
+        "time from activation to the recording's first frame, for subscribers to come [s]",
+        minimum=0.0,
+        maximum=60.0,
+    )
+    replay_frames_hz: float = setting(
+        0.0, "frames per second of recorded full frames; 0: as the file says", minimum=0.0, maximum=1e6
+    )
+
+
+@dataclass(frozen=True)
+class DriverSettings(BoardParameters, SourceParameters):
+    """See the descriptions; `docs/driver.md` lists them."""
 
     def __post_init__(self) -> None:
         validate(self)
         check_port(self.port)
+        self.check_board_parameters()
+
+    @property
+    def is_replay(self) -> bool:
+        """Whether a recording stands in for the board."""
+        return self.replay not in ("", NO_FILE)
+
+    def make_source(self) -> Source:
+        """Where bytes come from."""
+        if not self.is_replay:
+            return SerialSource(self.port, self.baud)
+        options = ReplayOptions(
+            Path(self.replay), self.replay_topic, self.replay_frames_hz, self.sampling, self.rate_cap_hz
+        )
+        return ReplaySource(
+            f"recording {self.replay}",
+            lambda: open_recording(options),
+            speed=self.replay_speed,
+            loop=self.replay_loop,
+            delay_s=self.replay_delay_s,
+        )
 
     def make_decoder(self) -> DelimitedDecoder:
         """The decoder of the protocol."""
-        if self.protocol == "raster_ascii":
+        if self.protocol == "raster_ascii" and not self.is_replay:
             return RasterDecoder(self.rows, self.cols)
         return StreamDecoder()

@@ -1,4 +1,4 @@
-"""Where bytes come from. The reader knows only `Source`, so that a recording can stand in for a serial port."""
+"""Where bytes come from. The reader knows only `Source`: a serial port, or a recording (`acts_driver.replay`)."""
 
 from __future__ import annotations
 
@@ -23,15 +23,25 @@ class Source(Protocol):
     """A stream of bytes that can be opened again after it was lost.
 
     How to write one: `open` takes hold of the stream, `read` waits for the next bytes, `close` may be called at any
-    time and any number of times. All of them are called from one thread at a time.
+    time and any number of times. These three are called from one thread at a time.
+
+    Attributes
+    ----------
+    silence : str
+        Why no bytes come, for a person, where that is known; empty otherwise.
     """
+
+    silence: str
 
     @property
     def name(self) -> str:
         """What a person calls the source, for example the path of the port."""
 
     def open(self) -> None:
-        """Open the stream, or raise `PortError`."""
+        """Open the stream, or raise `PortError` (or what else tells why it cannot be opened)."""
+
+    def begin(self) -> None:
+        """Tell that somebody wants the frames from now on; a recording waits for that. From any thread."""
 
     def read(self) -> bytes:
         """Return the bytes that are there, waiting for the first one up to `READ_TIMEOUT_S`; empty where none came.
@@ -65,6 +75,7 @@ class SerialSource:
         self._port: serial.Serial | None = None
         self._poll = select.poll()
         self._fd = -1
+        self.silence = ""
 
     @property
     def name(self) -> str:
@@ -80,6 +91,9 @@ class SerialSource:
         self._fd = self._port.fileno()
         self._poll = select.poll()
         self._poll.register(self._fd, select.POLLIN)
+
+    def begin(self) -> None:
+        """A board sends from its start on."""
 
     def read(self) -> bytes:
         """Return what has arrived, waiting up to `READ_TIMEOUT_S`, or raise `PortError` when the port was lost."""

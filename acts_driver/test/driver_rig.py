@@ -29,8 +29,8 @@ _domains = itertools.count(20)
 class Rig:
     """Spins what a test adds to it, and keeps what arrives."""
 
-    def __init__(self) -> None:
-        self.domain_id = next(_domains)
+    def __init__(self, domain_id: int | None = None) -> None:
+        self.domain_id = next(_domains) if domain_id is None else domain_id
         assert self.domain_id < 40
         self.context = Context()
         rclpy.init(args=[], context=self.context, domain_id=self.domain_id)

@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from acts_core.array import COUNT_MAX, ArrayGeometry
 from acts_core.errors import ActsError, DictionaryError
 from acts_core.force import ForceResponse
+from acts_core.frames_file import FramesFile, load_frames
 from acts_core.sampling import Sampler, SamplingConfig, measure_in
 from acts_recon.contact import find_contact
 from acts_recon.dictionary import Dictionary, load_dictionary
@@ -29,7 +30,6 @@ from acts_recon.patches import patch_layout
 from acts_recon.reconstructor import Reconstructor, ReconstructorConfig
 from acts_recon.shipped import shipped_dictionary_path
 from acts_sim.objects import OBJECTS
-from acts_tools.frames_file import FramesFile, load_frames
 from acts_tools.train import model_frames
 
 

@@ -13,13 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import RecordingError, SettingsError
+from acts_core.frames_file import load_frames
 from acts_core.settings import default_of
 from acts_recon.dictionary import Dictionary, save_dictionary
 from acts_recon.ksvd import KsvdConfig, KsvdProgress, learn_dictionary
 from acts_recon.training_patches import prune_coherent, random_patches
 from acts_sim.contact_model import ContactModel, FoamConfig
 from acts_sim.objects import OBJECTS, ContactObject, object_named
-from acts_tools.frames_file import load_frames
 
 _PLACES_PER_PATCH = 40
 """Places tried for every patch wanted: most of the skin is untouched in most frames."""

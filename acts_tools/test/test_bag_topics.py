@@ -22,12 +22,12 @@ from std_msgs.msg import String
 
 from acts_core.errors import RecordingError
 from acts_msgs.msg import Contact, TactileSamples
+from acts_ros.bags.reading import open_bag
 from acts_ros.qos import LATCHED, STREAM
 from acts_tools.bags import recorder as recorder_module
 from acts_tools.bags import writing
 from acts_tools.bags.message_types import Definitions
 from acts_tools.bags.player import Player
-from acts_tools.bags.reading import open_bag
 from acts_tools.bags.recorder import Recorder
 from acts_tools.bags.writing import BagWriter
 from acts_tools.testing.probe import Probe

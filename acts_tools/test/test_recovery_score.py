@@ -5,10 +5,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from acts_core.frames_file import load_frames
 from acts_core.sampling import SamplingConfig
 from acts_recon.dictionary import Dictionary, load_dictionary
 from acts_sim.objects import OBJECTS
-from acts_tools.frames_file import load_frames
 from acts_tools.recovery_score import RecoveryScore, main, score_recovery
 from acts_tools.train import model_frames
 

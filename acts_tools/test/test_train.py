@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from acts_core.errors import ActsError, ArrayError, RecordingError, SettingsError
+from acts_core.frames_file import load_frames
 from acts_recon.dictionary import load_dictionary
 from acts_tools import train
-from acts_tools.frames_file import load_frames
 
 
 def run(*words: object) -> int:
@@ -81,6 +81,7 @@ def test_frames_files(tmp_path: Path) -> None:
     np.savez(path, frames=frames, start=[0, 3], length=[3, 3])
     loaded = load_frames(path)
     assert loaded.live.all()
+    assert loaded.rate_hz is None
     assert loaded.peak_frames().tolist() == frames[[1, 4]].tolist()
     for changes, word in (
         ({"frames": frames[0]}, "needed are numbers"),
@@ -89,6 +90,7 @@ def test_frames_files(tmp_path: Path) -> None:
         ({"frames": np.full((1, 4, 5), 1024)}, "between 0 and 1023"),
         ({"frames": frames, "live": np.ones(3)}, "live"),
         ({"frames": frames, "start": [4], "length": [3]}, "start and length"),
+        ({"frames": frames, "rate_hz": 0.0}, "rate_hz"),
         ({"other": frames}, "array `frames`"),
     ):
         np.savez(path, **changes)

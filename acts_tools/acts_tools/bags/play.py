@@ -7,7 +7,7 @@ import time
 from pathlib import Path
 
 from acts_core.errors import RecordingError
-from acts_tools.bags import require_rosbags
+from acts_ros.bags import require_rosbags
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -68,8 +68,8 @@ def play(path: Path, rate: float, loop: bool, topics: list[str] | None, delay_s:
     import rclpy
     from rclpy.signals import SignalHandlerOptions
 
+    from acts_ros.bags.reading import open_bag
     from acts_tools.bags.player import Player
-    from acts_tools.bags.reading import open_bag
     from acts_tools.bags.stopping import StopFlag
 
     with open_bag(path) as bag, StopFlag() as stop:

@@ -11,9 +11,9 @@ from rclpy.node import Node
 from rclpy.publisher import Publisher
 
 from acts_core.errors import RecordingError
+from acts_ros.bags.reading import Bag
 from acts_tools.bags import qos
 from acts_tools.bags.message_types import message_class
-from acts_tools.bags.reading import Bag
 
 _ACKNOWLEDGE_S = 1.0
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from acts_core.errors import RecordingError
-from acts_tools.bags import require_rosbags
+from acts_ros.bags import require_rosbags
 
 if TYPE_CHECKING:
     from acts_tools.bags.recorder import Recorder

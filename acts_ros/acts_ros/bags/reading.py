@@ -13,7 +13,7 @@ from rosbags.rosbag2 import Reader
 from rosbags.rosbag2.storage_mcap import McapReader
 
 from acts_core.errors import RecordingError
-from acts_tools.bags.salvage import WholeRecords
+from acts_ros.bags.salvage import WholeRecords
 
 
 @dataclass

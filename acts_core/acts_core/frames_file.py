@@ -1,4 +1,4 @@
-"""Recorded full frames in an npz file, as `acts train` and the recovery score read them."""
+"""Recorded full frames in an npz file."""
 
 from __future__ import annotations
 
@@ -25,12 +25,15 @@ class FramesFile:
         Where there is a taxel; all True when the file does not say.
     start, length : np.ndarray [shape=(n_recordings,), dtype=int64]
         First frame and number of frames of each recording; one recording when the file does not say.
+    rate_hz : float or None
+        Frames per second; None when the file does not say.
     """
 
     frames: NDArray[np.uint16]
     live: NDArray[np.bool_]
     start: NDArray[np.int64]
     length: NDArray[np.int64]
+    rate_hz: float | None = None
 
     def peak_frames(self) -> NDArray[np.uint16]:
         """The frame with the largest sum of each recording; np.ndarray [shape=(n_recordings, rows, cols)]."""
@@ -52,7 +55,9 @@ def load_frames(path: Path) -> FramesFile:
         if not isinstance(archive, np.lib.npyio.NpzFile) or "frames" not in archive:
             raise RecordingError(f"{path}: needed is an npz file with an array `frames` (n, rows, cols)")
         with archive:
-            content = {name: archive[name] for name in ("frames", "live", "start", "length") if name in archive}
+            content = {
+                name: archive[name] for name in ("frames", "live", "start", "length", "rate_hz") if name in archive
+            }
     except OSError as error:
         raise RecordingError(f"{path}: cannot be read ({error.strerror or error})") from error
     except (ValueError, EOFError, zipfile.BadZipFile) as error:
@@ -70,4 +75,10 @@ def load_frames(path: Path) -> FramesFile:
         raise RecordingError(f"{path}: live {live.shape} does not fit frames {frames.shape}")
     if start.shape != length.shape or np.any(start < 0) or np.any(length < 1) or np.any(start + length > len(frames)):
         raise RecordingError(f"{path}: start and length do not mark recordings within {len(frames)} frames")
-    return FramesFile(np.rint(frames).astype(np.uint16), live, start, length)
+    rate_hz = None
+    if "rate_hz" in content:
+        given = content["rate_hz"]
+        if given.size != 1 or given.dtype.kind not in "fiu" or not 0 < given.item() < np.inf:
+            raise RecordingError(f"{path}: rate_hz = {given}: needed is one positive number of frames per second")
+        rate_hz = float(given.item())
+    return FramesFile(np.rint(frames).astype(np.uint16), live, start, length, rate_hz)

@@ -1,0 +1,21 @@
+"""Reading bags, whoever recorded them. Importing this imports neither ROS nor rosbags; `reading` imports rosbags."""
+
+from __future__ import annotations
+
+import importlib.util
+
+from acts_core.errors import RecordingError
+
+
+def require_rosbags() -> None:
+    """Say what to do where the library for bags is not installed; ROS installations do not come with it.
+
+    Raises
+    ------
+    RecordingError
+        It is not installed.
+    """
+    if importlib.util.find_spec("rosbags") is None:
+        raise RecordingError(
+            "the Python package rosbags is not installed. Install it with: pip install rosbags==0.11.9"
+        )
