@@ -9,8 +9,9 @@ from enum import IntEnum
 from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import SettingsError
 from acts_core.packets import wrong_release
-from acts_core.sampling import NEIGHBOURS, SCHEMES, SamplingConfig, uniform_spacing
+from acts_core.sampling import NEIGHBOURS, SCHEMES, SamplingConfig
 from acts_core.settings import setting, validate
+from acts_core.uniform import uniform_spacing
 
 OUTPUTS = ("samples", "image", "object")
 """What the board sends; numbered from 0 on the wire."""

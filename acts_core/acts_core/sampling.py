@@ -20,8 +20,10 @@ from numpy.typing import ArrayLike, NDArray
 from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import ArrayError, SettingsError
 from acts_core.frames import Scheme
+from acts_core.random_taxels import RandomTaxels
 from acts_core.settings import setting, validate
 from acts_core.tracking import Tracking
+from acts_core.uniform import uniform, uniform_spacing
 
 Measure = Callable[[int, int], int]
 """Measures one taxel: row and column to ADC counts."""
@@ -42,9 +44,6 @@ NEIGHBOURS: dict[str, tuple[tuple[int, int], ...]] = {
     "rows": ((-1, -1), (-1, 0), (-1, 1), (0, -1), (0, 1), (1, -1), (1, 0), (1, 1)),
 }
 """Steps (rows, columns) to the eight neighbours of a taxel in the order of search, by neighbour order."""
-
-RANDOM_STREAM = 1
-"""PCG32 stream that draws random taxels; the virtual board's noise has another."""
 
 
 @dataclass(frozen=True)
@@ -263,118 +262,6 @@ def division_order(rows: int, cols: int) -> NDArray[np.uint16]:
     return result
 
 
-def uniform_spacing(rows: int, cols: int, m: int) -> tuple[int, int]:
-    """Spacing of rows and columns of a uniform grid of `m` taxels.
-
-    The grid of spacing ``(s, t)`` has ``ceil(rows / s) * ceil(cols / t)`` taxels. Of all that have `m`, the one with
-    the most equal spacings is taken, the larger one along the rows. On 32 x 32 that is the published table.
-
-    Raises
-    ------
-    SettingsError
-        When no grid of this array has `m` taxels; names the nearest that exist.
-    """
-    found = _spacing(rows, cols, m)
-    if found is None:
-        possible = [other for other in range(1, rows * cols + 1) if _spacing(rows, cols, other) is not None]
-        below = max((other for other in possible if other < m), default=possible[0])
-        above = min((other for other in possible if other > m), default=possible[-1])
-        raise SettingsError(
-            f"m = {m}: no uniform grid of {rows} x {cols} has so many taxels; the nearest have {below} and {above}"
-        )
-    return found
-
-
-def _spacing(rows: int, cols: int, m: int) -> tuple[int, int] | None:
-    best: tuple[int, int] | None = None
-    for grid_rows in range(1, rows + 1):
-        grid_cols, rest = divmod(m, grid_rows)
-        if rest or not 1 <= grid_cols <= cols:
-            continue
-        s, t = -(-rows // grid_rows), -(-cols // grid_cols)
-        if -(-rows // s) != grid_rows or -(-cols // t) != grid_cols:
-            continue
-        # Ratio of the larger to the smaller spacing, compared without division.
-        if best is None or (max(s, t) * min(best), s < t) < (max(best) * min(s, t), best[0] < best[1]):
-            best = (s, t)
-    return best
-
-
-def uniform(rows: int, cols: int, m: int, frame: int) -> NDArray[np.uint16]:
-    """Taxels of the `frame`-th uniform frame, row by row.
-
-    The grid moves by one column a frame and, when it has been through the columns, by one row, so that after
-    ``s * t`` frames every taxel was seen. Where the moved grid's last row or column falls off the array, the array's
-    last row or column is taken instead, as by the authors' program: every frame has `m` taxels.
-
-    Returns
-    -------
-    np.ndarray [shape=(m,), dtype=uint16]
-    """
-    s, t = uniform_spacing(rows, cols, m)
-    first_row, first_col = divmod(frame % (s * t), t)
-    grid_rows = np.minimum(np.arange(first_row, first_row + rows, s)[: -(-rows // s)], rows - 1)
-    grid_cols = np.minimum(np.arange(first_col, first_col + cols, t)[: -(-cols // t)], cols - 1)
-    return (grid_rows[:, None] * cols + grid_cols).astype(np.uint16).ravel()
-
-
 def raster(rows: int, cols: int) -> NDArray[np.uint16]:
     """All taxels row by row; shape (rows * cols,), uint16."""
     return np.arange(rows * cols, dtype=np.uint16)
-
-
-class Pcg32:
-    """PCG-XSH-RR 64/32, the same random numbers as on the board (M. E. O'Neill, HMC-CS-2014-0905)."""
-
-    _MULTIPLIER = 6364136223846793005
-    _MASK64 = 2**64 - 1
-
-    def __init__(self, seed: int, stream: int) -> None:
-        self._increment = (stream << 1 | 1) & self._MASK64
-        self._state = 0
-        self.next()
-        self._state = (self._state + seed) & self._MASK64
-        self.next()
-
-    def next(self) -> int:
-        """A whole number from 0 to 2**32 - 1."""
-        state = self._state
-        self._state = (state * self._MULTIPLIER + self._increment) & self._MASK64
-        shifted = ((state >> 18 ^ state) >> 27) & 0xFFFFFFFF
-        rotation = state >> 59
-        return (shifted >> rotation | shifted << (32 - rotation & 31)) & 0xFFFFFFFF
-
-    def below(self, bound: int) -> int:
-        """A whole number from 0 to ``bound - 1``, every one equally likely (D. Lemire, doi:10.1145/3230636)."""
-        product = self.next() * bound
-        if product & 0xFFFFFFFF < bound:
-            unfair = (2**32 - bound) % bound
-            while product & 0xFFFFFFFF < unfair:
-                product = self.next() * bound
-        return product >> 32
-
-
-_NONE = np.empty(0, dtype=np.uint16)
-
-
-class RandomTaxels:
-    """Draws distinct taxels, frame after frame (the first steps of a Fisher-Yates shuffle that is never undone)."""
-
-    def __init__(self, rows: int, cols: int, seed: int) -> None:
-        self._taxels = raster(rows, cols)
-        self._random = Pcg32(seed, RANDOM_STREAM)
-
-    def draw(self, m: int, *, measured: NDArray[np.uint16] = _NONE) -> NDArray[np.uint16]:
-        """`m` distinct taxel indices, none of those in `measured`; shape (m,), uint16."""
-        taxels = self._taxels
-        # Those that are not to be drawn go to the front, in their order, where the shuffle begins behind them.
-        for i, index in enumerate(measured):
-            self._swap(i, int(np.flatnonzero(taxels == index)[0]))
-        first = len(measured)
-        for i in range(first, first + m):
-            self._swap(i, i + self._random.below(len(taxels) - i))
-        return taxels[first : first + m].copy()
-
-    def _swap(self, i: int, j: int) -> None:
-        taxels = self._taxels
-        taxels[i], taxels[j] = taxels[j], taxels[i]

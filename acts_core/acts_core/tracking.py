@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 
 class Tracking:
-    """Chooses the taxels of tracking sampling, frame after frame (C++ twin: ``Sampler::tracking``).
+    """Chooses the taxels of tracking sampling, frame after frame (C++ twin: ``acts::Tracking``).
 
     A taxel is flagged as pressed when it was above the threshold the last time it was measured. Candidates are the
     flagged taxels and their eight neighbours, as they stand when the frame begins. Of the `m` taxels of a frame, up to

@@ -7,20 +7,18 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from acts_core.errors import ArrayError, SettingsError
+from acts_core.random_taxels import Pcg32, RandomTaxels
 from acts_core.sampling import (
     NEIGHBOURS,
     SCHEMES,
-    Pcg32,
-    RandomTaxels,
     Sampler,
     SamplingConfig,
     adaptive,
     division_order,
     measure_in,
     raster,
-    uniform,
-    uniform_spacing,
 )
+from acts_core.uniform import uniform, uniform_spacing
 
 SHARED = Path(__file__).resolve().parents[3] / "shared/data/paper"
 

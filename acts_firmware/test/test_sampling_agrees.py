@@ -11,16 +11,16 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from acts_core.errors import SettingsError
+from acts_core.random_taxels import Pcg32
 from acts_core.sampling import (
     NEIGHBOURS,
     SCHEMES,
-    Pcg32,
     Sampler,
     SamplingConfig,
     division_order,
     measure_in,
-    uniform_spacing,
 )
+from acts_core.uniform import uniform_spacing
 
 SHARED = Path(__file__).resolve().parents[3] / "shared/data"
 FRAMES = 3

@@ -69,7 +69,7 @@ double published_frame_us(const SamplingConfig& sampling, int m) {
 }  // namespace
 
 double published_sample_us(const SamplingConfig& sampling) {
-  const int m = sampling.scheme == Scheme::kRaster ? sampling.rows * sampling.cols : sampling.m;
+  const int m = sampling.frame_size();
   return published_frame_us(sampling, m) / m;
 }
 

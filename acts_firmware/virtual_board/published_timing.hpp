@@ -1,7 +1,7 @@
 // How long the published board takes for a frame.
 #pragma once
 
-#include "acts_firmware/sampling/sampler.hpp"
+#include "acts_firmware/sampling/config.hpp"
 
 namespace acts {
 

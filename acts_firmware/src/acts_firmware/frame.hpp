@@ -23,7 +23,6 @@ struct SampleFrame {
   std::array<std::uint16_t, kMaxTaxels> indices{};  // row-major, in the order of measurement, none twice
   std::array<std::uint16_t, kMaxTaxels> counts{};
 
-  bool full(int limit) const { return m >= limit; }
   void append(int index, std::uint16_t count) {
     indices[m] = static_cast<std::uint16_t>(index);
     counts[m] = count;
