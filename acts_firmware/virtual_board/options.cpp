@@ -143,7 +143,11 @@ std::vector<Option> make_options(Options& o) {
          o.protocol =
              word<Protocol>("--protocol", v, {{"binary", Protocol::kBinary}, {"raster_ascii", Protocol::kRasterAscii}});
        }},
-      {"--print-status", "", "print one line of JSON at the start: link, port, and the time of board time 0",
+      {"--fault", "FAULT", "a fault at a time, KIND[:VALUE][@SECONDS]; may be given again and again",
+       [&o](const std::string& v) { named("--fault", [&o, &v] { o.faults.push_back(parse_fault(v)); }); }},
+      {"--control", "PATH", "named pipe to which faults can be written at any time, a line each; none: no pipe",
+       [&o](const std::string& v) { o.control = path_or_none(v); }},
+      {"--print-status", "", "print a line of JSON at the start (link, port, time of board time 0) and for every fault",
        [&o](const std::string&) { o.print_status = true; }},
       {"--status-period-s", "T", "print another such line with frames and overruns every T seconds (0: never)",
        [&o](const std::string& v) { o.status_period_s = number("--status-period-s", v, 0.0, 1e6); }},
@@ -226,7 +230,7 @@ std::string help_text() {
     left.resize(left.size() < 26 ? 26 : left.size() + 1, ' ');
     text += left + option.help + "\n";
   }
-  return text;
+  return text + "faults:\n" + fault_help();
 }
 
 const char* name_of(Scheme scheme) {

@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "acts_firmware/firmware.hpp"
 #include "acts_firmware/sampling/sampler.hpp"
+#include "faults.hpp"
 #include "wiring_faults.hpp"
 
 namespace acts {
@@ -27,6 +29,8 @@ struct Options {
   double drift_ppm = 0.0;
   WiringFaults wiring_faults;
   Protocol protocol = Protocol::kBinary;
+  std::vector<Fault> faults;
+  std::string control;  // empty: none
   bool print_status = false;
   double status_period_s = 0.0;  // 0: none
 };

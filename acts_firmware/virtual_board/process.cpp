@@ -8,8 +8,8 @@
 #include <memory>
 #include <sstream>
 #include <string>
+#include <vector>
 
-#include "field.hpp"
 #include "published_timing.hpp"
 
 namespace acts {
@@ -49,12 +49,29 @@ Process::Process(const Options& options, const volatile std::sig_atomic_t& stop_
       stop_requested_(stop_requested),
       epoch_(read_epoch()),
       time_(epoch_.monotonic_ns, options.drift_ppm),
-      board_(options.sampling.rows, options.sampling.cols, make_field(options, epoch_.monotonic_ns), time_,
-             options.noise_counts, options.sampling.seed),
-      firmware_(board_, wiring_for(options.sampling.rows, options.sampling.cols), options.protocol),
-      terminal_(options.link) {
-  board_.set_faults(options.wiring_faults);
-  firmware_.configure(options.sampling);
+      field_(make_field(options, epoch_.monotonic_ns)),
+      terminal_(options.link),
+      link_(options.sampling.seed, options.protocol,
+            [this](const Fault& fault, bool is_over) { report(fault, is_over); }) {
+  if (!options.control.empty()) {
+    control_ = std::make_unique<ControlPipe>(options.control);
+  }
+  for (const Fault& fault : options.faults) {
+    plan_.add(fault);
+  }
+  power_up(epoch_.monotonic_ns);
+}
+
+void Process::power_up(std::int64_t monotonic_ns) {
+  const SamplingConfig& sampling = options_.sampling;
+  time_ = BoardTime(monotonic_ns, options_.drift_ppm);
+  firmware_.reset();  // before the board that it holds on to
+  board_ = std::make_unique<VirtualBoard>(sampling.rows, sampling.cols, *field_, time_, options_.noise_counts,
+                                          sampling.seed);
+  board_->set_faults(options_.wiring_faults);
+  firmware_ = std::make_unique<Firmware>(*board_, wiring_for(sampling.rows, sampling.cols), options_.protocol);
+  firmware_->configure(sampling);
+  start_ns_ = 0;
   set_pace();
 }
 
@@ -62,57 +79,67 @@ void Process::set_pace() {
   double sample_us = options_.sample_us;
   if (sample_us == 0.0) {
     sample_us = options_.protocol == Protocol::kRasterAscii ? kRasterSketchSampleUs
-                                                            : published_sample_us(firmware_.sampler().config());
+                                                            : published_sample_us(firmware_->sampler().config());
   }
   sample_ns_ = std::lround(sample_us * 1000.0);
-  duration_ns_ = firmware_.sampler().frame_size() * sample_ns_;
+  duration_ns_ = firmware_->sampler().frame_size() * sample_ns_;
   step_ns_ = std::max(duration_ns_, static_cast<std::int64_t>(std::lround(1e9 / options_.rate_hz)));
 }
 
 void Process::run() {
   print_start();
-  std::int64_t start_ns = 0;
   std::int64_t next_status_ns = status_period_ns();
-  while (wait_for(start_ns + duration_ns_)) {
-    const std::int64_t late_ns = time_.to_board_ns(now_ns(CLOCK_MONOTONIC)) - (start_ns + duration_ns_);
+  while (wait_for_frame()) {
+    const std::int64_t now = now_ns(CLOCK_MONOTONIC);
+    const std::int64_t late_ns = time_.to_board_ns(now) - (start_ns_ + duration_ns_);
     if (late_ns > kCatchUpNs) {
       const std::int64_t skipped = late_ns / step_ns_;
-      firmware_.skip_frames(static_cast<std::uint32_t>(skipped));
-      start_ns += skipped * step_ns_;
+      firmware_->skip_frames(static_cast<std::uint32_t>(skipped));
+      start_ns_ += skipped * step_ns_;
     }
     serve_terminal();
-    board_.begin_frame(start_ns, sample_ns_, firmware_.sampler().frame_size());
-    firmware_.measure_frame();
+    board_->begin_frame(start_ns_, sample_ns_, firmware_->sampler().frame_size());
+    firmware_->measure_frame();
     ++frames_;
+    start_ns_ += step_ns_;
     send();
-    if (next_status_ns > 0 && start_ns >= next_status_ns) {
+    if (next_status_ns > 0 && now - epoch_.monotonic_ns >= next_status_ns) {
       print_status();
       next_status_ns += status_period_ns();
     }
-    start_ns += step_ns_;
   }
 }
 
-bool Process::wait_for(std::int64_t board_ns) {
-  const std::int64_t wake_ns = time_.to_host_ns(board_ns);
-  for (std::int64_t now = now_ns(CLOCK_MONOTONIC); now < wake_ns && stop_requested_ == 0;
-       now = now_ns(CLOCK_MONOTONIC)) {
+bool Process::wait_for_frame() {
+  while (stop_requested_ == 0) {
+    const std::int64_t now = now_ns(CLOCK_MONOTONIC);
+    take_faults(now);
+    if (frozen_) {
+      sleep_until(std::min(frozen_until_ns_, now + kNapNs));
+      continue;
+    }
+    const std::int64_t wake_ns = time_.to_host_ns(start_ns_ + duration_ns_);
+    if (now >= wake_ns) {
+      return true;
+    }
     sleep_until(std::min(wake_ns, now + kNapNs));
     if (now + kNapNs < wake_ns) {
       serve_terminal();
       send();
     }
   }
-  return stop_requested_ == 0;
+  return false;
 }
 
 void Process::serve_terminal() {
   switch (terminal_.service()) {
     case PseudoTerminal::Event::kOpened:
-      firmware_.start_stream();
+      link_.clear();
+      firmware_->start_stream();
       break;
     case PseudoTerminal::Event::kClosed:
-      firmware_.stop_stream();
+      link_.clear();
+      firmware_->stop_stream();
       break;
     case PseudoTerminal::Event::kNone:
       break;
@@ -120,15 +147,96 @@ void Process::serve_terminal() {
 }
 
 void Process::send() {
-  TransmitQueue& output = firmware_.output();
-  while (output.size() > 0) {
-    const TransmitQueue::Piece piece = output.front();
-    const std::size_t taken = terminal_.write(piece.data, piece.length);
-    output.pop(taken);
-    if (taken < piece.length) {
-      return;  // the rest goes first next time
+  const std::int64_t now = now_ns(CLOCK_MONOTONIC);
+  if (const std::optional<Fault> cut = link_.send(firmware_->output(), terminal_, now)) {
+    cut_stream(*cut, now);
+  }
+}
+
+void Process::take_faults(std::int64_t monotonic_ns) {
+  end_faults(monotonic_ns);
+  for (const std::string& line : control_ ? control_->read_lines() : std::vector<std::string>()) {
+    try {
+      plan_.add(parse_fault(line));
+    } catch (const FaultError& error) {
+      std::cerr << "virtual_board: --control: " << error.what() << std::endl;
     }
   }
+  while (const std::optional<Fault> fault = plan_.take(monotonic_ns - epoch_.monotonic_ns)) {
+    begin(*fault, monotonic_ns);
+  }
+  // A stream that nobody reads has no packet to be cut in.
+  while (!terminal_.open()) {
+    const std::optional<Fault> cut = link_.take_cut();
+    if (!cut) {
+      break;
+    }
+    cut_stream(*cut, monotonic_ns);
+  }
+}
+
+void Process::begin(const Fault& fault, std::int64_t monotonic_ns) {
+  switch (fault.kind) {
+    case FaultKind::kFreeze:
+      frozen_ = fault;
+      frozen_until_ns_ = monotonic_ns + fault.value_ns();
+      report(fault, false);
+      break;
+    case FaultKind::kJump:
+      time_.jump(fault.value_ns());
+      start_ns_ += fault.value_ns();
+      report(fault, false);
+      report(fault, true);
+      break;
+    default:
+      link_.arm(fault);
+      break;
+  }
+}
+
+void Process::cut_stream(const Fault& fault, std::int64_t monotonic_ns) {
+  const bool loses_port = fault.kind == FaultKind::kUnplug || fault.value > 0.0;
+  if (loses_port) {
+    if (!unplugged_) {
+      terminal_.unplug();
+    }
+    unplugged_ = fault;
+    plug_in_at_ns_ = monotonic_ns + fault.value_ns();
+    serve_terminal();
+  }
+  link_.clear();
+  if (fault.kind == FaultKind::kReset) {
+    power_up(monotonic_ns);
+    if (terminal_.open()) {
+      firmware_->start_stream();
+    }
+  }
+  report(fault, false);
+  if (!loses_port) {
+    report(fault, true);
+  }
+}
+
+void Process::end_faults(std::int64_t monotonic_ns) {
+  if (unplugged_ && monotonic_ns >= plug_in_at_ns_) {
+    terminal_.plug_in();
+    report(*unplugged_, true);
+    unplugged_.reset();
+  }
+  if (frozen_ && monotonic_ns >= frozen_until_ns_) {
+    start_ns_ = time_.to_board_ns(monotonic_ns);
+    report(*frozen_, true);
+    frozen_.reset();
+  }
+}
+
+void Process::report(const Fault& fault, bool is_over) const {
+  if (!options_.print_status) {
+    return;
+  }
+  std::cout << "{\"fault\": " << json_text(fault.text) << ", \"over\": " << (is_over ? "true" : "false")
+            << ", \"monotonic_ns\": " << now_ns(CLOCK_MONOTONIC) << ", \"epoch_monotonic_ns\": " << time_.to_host_ns(0)
+            << ", \"port\": " << json_text(terminal_.port()) << "}" << std::endl;
 }
 
 std::int64_t Process::status_period_ns() const {
@@ -151,7 +259,7 @@ void Process::print_start() const {
 }
 
 void Process::print_status() const {
-  std::cout << "{\"frames\": " << frames_ << ", \"overruns\": " << firmware_.overruns()
+  std::cout << "{\"frames\": " << frames_ << ", \"overruns\": " << firmware_->overruns()
             << ", \"connected\": " << (terminal_.open() ? "true" : "false") << "}" << std::endl;
 }
 

@@ -3,8 +3,14 @@
 
 #include <csignal>
 #include <cstdint>
+#include <memory>
+#include <optional>
 
 #include "acts_firmware/firmware.hpp"
+#include "control_pipe.hpp"
+#include "faults.hpp"
+#include "faulty_link.hpp"
+#include "field.hpp"
 #include "host_clock.hpp"
 #include "options.hpp"
 #include "pseudo_terminal.hpp"
@@ -12,7 +18,7 @@
 
 namespace acts {
 
-// Frame after frame at its own virtual time; the process wakes once a frame, at its end. Large: on the heap.
+// Frame after frame at its own virtual time; the process wakes once a frame, at its end.
 class Process {
  public:
   // Runs until `stop_requested` is other than 0, as a signal handler sets it.
@@ -21,12 +27,23 @@ class Process {
   void run();
 
  private:
+  // The board's power comes on: its clock and its sequence start, its settings are those of the command line.
+  void power_up(std::int64_t monotonic_ns);
+
   // Takes the times of a frame from the settings in force.
   void set_pace();
-  // False when the process is to end.
-  bool wait_for(std::int64_t board_ns);
+
+  // Until the frame that begins at start_ns_ is over; false when the process is to end.
+  bool wait_for_frame();
   void serve_terminal();
   void send();
+
+  void take_faults(std::int64_t monotonic_ns);
+  void begin(const Fault& fault, std::int64_t monotonic_ns);
+  void cut_stream(const Fault& fault, std::int64_t monotonic_ns);
+  void end_faults(std::int64_t monotonic_ns);
+  void report(const Fault& fault, bool is_over) const;
+
   std::int64_t status_period_ns() const;
   void print_start() const;
   void print_status() const;
@@ -34,10 +51,19 @@ class Process {
   const Options options_;
   const volatile std::sig_atomic_t& stop_requested_;
   const Epoch epoch_;
-  const BoardTime time_;
-  VirtualBoard board_;
-  Firmware firmware_;
+  BoardTime time_;
+  std::unique_ptr<Field> field_;
+  std::unique_ptr<VirtualBoard> board_;
+  std::unique_ptr<Firmware> firmware_;
   PseudoTerminal terminal_;
+  FaultyLink link_;
+  std::unique_ptr<ControlPipe> control_;
+  FaultPlan plan_;
+  std::optional<Fault> unplugged_;
+  std::int64_t plug_in_at_ns_ = 0;
+  std::optional<Fault> frozen_;
+  std::int64_t frozen_until_ns_ = 0;
+  std::int64_t start_ns_ = 0;  // of the next frame, on the board's clock
   std::int64_t sample_ns_ = 0;
   std::int64_t duration_ns_ = 0;
   std::int64_t step_ns_ = 0;

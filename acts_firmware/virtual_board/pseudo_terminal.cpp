@@ -26,6 +26,29 @@ namespace {
 }  // namespace
 
 PseudoTerminal::PseudoTerminal(const std::string& link) : link_(link) {
+  make_terminal();
+  plug_in();
+}
+
+PseudoTerminal::~PseudoTerminal() {
+  remove_link();
+  close(master_);
+}
+
+void PseudoTerminal::unplug() {
+  remove_link();
+  const int drawn = master_;
+  make_terminal();  // before the old one is closed, whose name is free then
+  close(drawn);
+}
+
+void PseudoTerminal::plug_in() {
+  if (!link_.empty()) {
+    make_link();
+  }
+}
+
+void PseudoTerminal::make_terminal() {
   master_ = posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   std::array<char, 128> name{};
   if (master_ < 0 || grantpt(master_) != 0 || unlockpt(master_) != 0 ||
@@ -43,19 +66,13 @@ PseudoTerminal::PseudoTerminal(const std::string& link) : link_(link) {
   }
   // Only after a first opening and closing does the system report that nobody has the other end open.
   discard_unread();
-  if (!link_.empty()) {
-    make_link();
-  }
 }
 
-PseudoTerminal::~PseudoTerminal() {
+void PseudoTerminal::remove_link() const {
   std::error_code ignored;
   // Another board may have taken the link over.
   if (!link_.empty() && fs::read_symlink(link_, ignored) == port_) {
     fs::remove(link_, ignored);
-  }
-  if (master_ >= 0) {
-    close(master_);
   }
 }
 

@@ -23,13 +23,22 @@ class PseudoTerminal {
 
   bool open() const { return open_; }
 
+  // The plug is drawn: what the host has open ends, and the link goes. A new terminal of another name stands by.
+  void unplug();
+
+  // The link leads to the new terminal.
+  void plug_in();
+
   // Number of bytes taken, 0 when the terminal's buffer is full. Never waits.
   std::size_t write(const std::uint8_t* data, std::size_t length);
 
   const std::string& port() const { return port_; }
 
  private:
+  // Makes a terminal that nobody knows yet.
+  void make_terminal();
   void make_link() const;
+  void remove_link() const;
   void discard_unread() const;
 
   int master_ = -1;

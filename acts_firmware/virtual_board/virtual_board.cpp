@@ -1,7 +1,6 @@
 #include "virtual_board.hpp"
 
 #include <cmath>
-#include <utility>
 
 namespace acts {
 
@@ -12,11 +11,11 @@ constexpr double kTwoPi = 6.283185307179586;
 
 }  // namespace
 
-VirtualBoard::VirtualBoard(int rows, int cols, std::unique_ptr<Field> field, const BoardTime& time, double noise_counts,
+VirtualBoard::VirtualBoard(int rows, int cols, Field& field, const BoardTime& time, double noise_counts,
                            std::uint64_t seed)
     : WiredBoard(rows, cols),
       cols_(cols),
-      field_(std::move(field)),
+      field_(field),
       time_(time),
       noise_counts_(noise_counts),
       random_(seed, kNoiseStream) {}
@@ -24,11 +23,11 @@ VirtualBoard::VirtualBoard(int rows, int cols, std::unique_ptr<Field> field, con
 void VirtualBoard::begin_frame(std::int64_t start_ns, std::int64_t sample_ns, int m) {
   now_ns_ = start_ns;
   sample_ns_ = sample_ns;
-  field_->refresh(time_.to_host_ns(start_ns + m * sample_ns));
+  field_.refresh(time_.to_host_ns(start_ns + m * sample_ns));
 }
 
 double VirtualBoard::taxel_counts(int row, int col) {
-  return field_->counts(static_cast<std::size_t>(row * cols_ + col), now_host_ns_);
+  return field_.counts(static_cast<std::size_t>(row * cols_ + col), now_host_ns_);
 }
 
 std::uint16_t VirtualBoard::read_adc() {

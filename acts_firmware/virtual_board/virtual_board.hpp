@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 
 #include "acts_firmware/sampling/random.hpp"
 #include "field.hpp"
@@ -16,6 +15,9 @@ class BoardTime {
   // Board time 0 is `epoch_monotonic_ns` of CLOCK_MONOTONIC; the board's clock is fast by `drift_ppm`.
   BoardTime(std::int64_t epoch_monotonic_ns, double drift_ppm)
       : epoch_ns_(epoch_monotonic_ns), board_per_host_(1.0 + drift_ppm * 1e-6) {}
+
+  // From now on the board's clock is ahead by this much more.
+  void jump(std::int64_t board_ns) { epoch_ns_ = to_host_ns(-board_ns); }
 
   std::int64_t to_host_ns(std::int64_t board_ns) const {
     return epoch_ns_ + static_cast<std::int64_t>(static_cast<double>(board_ns) / board_per_host_);
@@ -33,8 +35,8 @@ class BoardTime {
 // beginning.
 class VirtualBoard final : public WiredBoard {
  public:
-  VirtualBoard(int rows, int cols, std::unique_ptr<Field> field, const BoardTime& time, double noise_counts,
-               std::uint64_t seed);
+  // `field` and `time` outlive the board, whose power may be turned off and on.
+  VirtualBoard(int rows, int cols, Field& field, const BoardTime& time, double noise_counts, std::uint64_t seed);
 
   // Jump to a board time, the start of a frame whose m measurements take `sample_ns` each.
   void begin_frame(std::int64_t start_ns, std::int64_t sample_ns, int m);
@@ -49,8 +51,8 @@ class VirtualBoard final : public WiredBoard {
   double gaussian();
 
   int cols_;
-  std::unique_ptr<Field> field_;
-  BoardTime time_;
+  Field& field_;
+  const BoardTime& time_;
   std::int64_t sample_ns_ = 0;
   double noise_counts_;
   Pcg32 random_;
