@@ -119,7 +119,7 @@ def test_patches_that_do_not_fit_are_refused(shape: tuple[int, int], side: int, 
 
 def assert_same_class(classifier: Classifier, objects: ObjectLibrary, frame: tuple[Frame, Frame], bound: float) -> None:
     expected = classifier.step(*frame)
-    columns = classifier.config.columns_for(frame[0].size)
+    columns = classifier.config.columns_for(frame[0].size, objects)
     assert columns <= core.atoms_limit(frame[0].size)
     result = core.classify(objects, *frame, max_columns=columns, touch_counts=classifier.config.touch_counts)
     np.testing.assert_allclose(result.residuals, expected.residuals, atol=bound)

@@ -34,15 +34,16 @@ class ClassifierConfig:
 
     touch_counts: int = setting(60, "counts above which a taxel is pressed; others are 0", minimum=0, maximum=COUNT_MAX)
     max_columns: int = setting(
-        0, "library columns that explain a frame at most; 0: a quarter as many as samples", minimum=0, maximum=4096
+        0, "library columns that explain a frame at most; 0: a quarter as many as samples", minimum=0, maximum=1024
     )
 
     def __post_init__(self) -> None:
         validate(self)
 
-    def columns_for(self, m: int) -> int:
-        """Columns for a frame of `m` samples."""
-        return min(self.max_columns, m) if self.max_columns else sparsity(m, SPARSITY_RATIO)
+    def columns_for(self, m: int, library: ObjectLibrary) -> int:
+        """Columns for a frame of `m` samples: never more than there are."""
+        wanted = min(self.max_columns, m) if self.max_columns else sparsity(m, SPARSITY_RATIO)
+        return min(wanted, library.n_columns)
 
 
 @dataclass(frozen=True)
@@ -77,7 +78,7 @@ def classify(
     if not y.any():
         return Classification(False, 0, residuals, 0.0)
     A = library.columns[indices].astype(np.float64)
-    chosen, coefficients = fast_omp(A, y, config.columns_for(y.size))
+    chosen, coefficients = fast_omp(A, y, config.columns_for(y.size, library))
     for number in np.unique(library.classes[chosen]):
         own = library.classes[chosen] == number
         residuals[number] = np.linalg.norm(y - A[:, chosen[own]] @ coefficients[own]) / np.linalg.norm(y)
@@ -110,7 +111,7 @@ class Classifier:
             np.ascontiguousarray(library.columns.T),
             library.classes,
         )
-        columns = self.config.columns_for(taxels)
+        columns = self.config.columns_for(taxels, library)
         self._workspace = kernels.Workspace(taxels, columns).arrays()
         self._residuals = np.ones(library.n_classes, dtype=np.float32)
         # Compile, or load from the cache, what the first frame would otherwise wait seconds for.
@@ -156,7 +157,7 @@ class Classifier:
             indices,
             counts,
             self.config.touch_counts,
-            self.config.columns_for(indices.size),
+            self.config.columns_for(indices.size, self.library),
             *self._workspace,
             self._residuals,
         )

@@ -21,6 +21,8 @@ from acts_msgs.msg import Contact as ContactMessage
 from acts_msgs.msg import TactileSamples
 from acts_recon.contact import Contact
 from acts_recon.image import mono16, rgb8
+from acts_recon.object_publisher import ObjectPublisher
+from acts_recon.rate_limit import RateLimit
 from acts_recon.reconstruction_settings import ReconstructionSettings
 from acts_ros import qos
 from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
@@ -36,7 +38,8 @@ class ReconstructionNode(Node):
 
     Subscribes ``samples`` (acts_msgs/TactileSamples). Publishes for every frame ``contact`` (acts_msgs/Contact), while
     in contact ``cop`` (geometry_msgs/PointStamped), and where somebody listens ``image_raw`` (sensor_msgs/Image,
-    mono16, ADC counts) and at most `image_rate_hz` times a second ``image`` (rgb8). Header and sequence number are
+    mono16, ADC counts), at most `image_rate_hz` times a second ``image`` (rgb8) and, with an `object_library`,
+    ``object`` (acts_msgs/ObjectClass). Header and sequence number are
     those of the samples. A message that does not fit is dropped, counted and told in the diagnostics.
     """
 
@@ -55,7 +58,11 @@ class ReconstructionNode(Node):
         self._raw = _empty_image(self._settings.rows, self._settings.cols, "mono16", 2)
         scale = self._settings.image_scale
         self._view = _empty_image(self._settings.rows * scale, self._settings.cols * scale, "rgb8", 3)
-        self._next_view_s = 0.0
+        self._view_limit = RateLimit(self._settings.image_rate_hz)
+        classifier = self._settings.classifier()
+        self._objects: ObjectPublisher | None = None
+        if classifier is not None:
+            self._objects = ObjectPublisher(self, classifier, self._settings.object_rate_hz)
 
         self._frames = 0
         self._lost = 0
@@ -74,6 +81,8 @@ class ReconstructionNode(Node):
         self._send_cop = self._cop_publisher.get_subscription_count() > 0
         self._send_raw = self._raw_publisher.get_subscription_count() > 0
         self._send_view = self._view_publisher.get_subscription_count() > 0
+        if self._objects is not None:
+            self._objects.look_for_subscribers()
 
     def _on_samples(self, samples: TactileSamples) -> None:
         began_s = time.perf_counter()
@@ -85,8 +94,9 @@ class ReconstructionNode(Node):
                 f"{settings.rows} x {settings.cols}",
             )
             return
+        indices, counts = _as_numpy(samples.indices), _as_numpy(samples.counts)
         try:
-            contact = self._reconstructor.step(_as_numpy(samples.indices), _as_numpy(samples.counts))
+            contact = self._reconstructor.step(indices, counts)
         except ArrayError as error:
             self._reject("bad_frame", str(error))
             return
@@ -99,6 +109,8 @@ class ReconstructionNode(Node):
             self._raw_publisher.publish(self._raw)
         if self._send_view:
             self._publish_view(samples)
+        if self._objects is not None:
+            self._objects.publish(samples, indices, counts)
         self._durations_s.append(time.perf_counter() - began_s)
 
     def _publish_contact(self, samples: TactileSamples, contact: Contact) -> None:
@@ -120,13 +132,8 @@ class ReconstructionNode(Node):
             self._cop_publisher.publish(self._cop)
 
     def _publish_view(self, samples: TactileSamples) -> None:
-        now_s = time.monotonic()
-        if now_s < self._next_view_s:
+        if not self._view_limit.due(time.monotonic()):
             return
-        # A fixed grid of times where frames come steadily, so that the rate is the one asked for; anew after a pause.
-        period_s = 1.0 / self._settings.image_rate_hz
-        on_time = now_s < self._next_view_s + period_s
-        self._next_view_s = (self._next_view_s if on_time else now_s) + period_s
         self._view.header = samples.header
         pixels = rgb8(
             self._reconstructor.image,

@@ -8,7 +8,9 @@ from pathlib import Path
 from acts_core.array import COUNT_MAX, MAX_SIDE, ArrayGeometry
 from acts_core.force import ForceResponse, MeasuredForceResponse
 from acts_core.settings import default_of, setting, validate
+from acts_recon.classification import Classifier, ClassifierConfig
 from acts_recon.dictionary import load_dictionary
+from acts_recon.object_library import load_object_library
 from acts_recon.reconstructor import Reconstructor, ReconstructorConfig
 from acts_recon.shipped import shipped_dictionary_path
 
@@ -59,6 +61,16 @@ class ReconstructionSettings:
     image_full_scale_counts: float = setting(
         float(COUNT_MAX), "counts shown white in the topic image", minimum=1.0, maximum=float(COUNT_MAX)
     )
+    object_library: str = setting("", "path of an object library, to publish the topic object; empty: off")
+    object_columns: int = setting(
+        default_of(ClassifierConfig, "max_columns"),
+        "library columns that explain a frame at most; 0: a quarter as many as samples; 2 as on the board",
+        minimum=0,
+        maximum=1024,
+    )
+    object_rate_hz: float = setting(
+        0.0, "largest rate of the topic object [Hz]; 0: every frame", minimum=0.0, maximum=1000.0
+    )
 
     def __post_init__(self) -> None:
         validate(self)
@@ -92,3 +104,16 @@ class ReconstructionSettings:
         if self.force_response:
             return ForceResponse.from_file(Path(self.force_response))
         return ForceResponse(self.force_full_scale_counts, self.force_dead_n, self.force_half_n)
+
+    def classifier(self) -> Classifier | None:
+        """Load the object library and make everything ready for the first frame; None where there is to be none.
+
+        Raises
+        ------
+        ObjectLibraryError
+            When the library cannot be used, or is for another array.
+        """
+        if not self.object_library:
+            return None
+        library = load_object_library(Path(self.object_library), shape=(self.rows, self.cols))
+        return Classifier(library, ClassifierConfig(touch_counts=self.touch_counts, max_columns=self.object_columns))

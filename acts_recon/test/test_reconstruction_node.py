@@ -1,4 +1,4 @@
-"""The node over real DDS; ROS_DOMAIN_IDs 40 to 44."""
+"""The node over real DDS; ROS_DOMAIN_IDs 40 to 45."""
 
 import os
 import subprocess
@@ -22,9 +22,11 @@ from recon_samples import bump, sample
 from sensor_msgs.msg import Image
 
 from acts_core.array import ArrayGeometry
-from acts_core.errors import ArrayError, DictionaryError, SettingsError
-from acts_msgs.msg import Contact, TactileSamples
+from acts_core.errors import ArrayError, DictionaryError, ObjectLibraryError, SettingsError
+from acts_msgs.msg import Contact, ObjectClass, TactileSamples
+from acts_recon.classification import Classifier, ClassifierConfig
 from acts_recon.dictionary import Dictionary, save_dictionary
+from acts_recon.object_library import build_object_library, save_object_library
 from acts_recon.reconstruction_node import ReconstructionNode
 from acts_recon.reconstructor import Reconstructor
 from acts_ros import qos
@@ -171,6 +173,30 @@ def test_contact_cop_and_images_are_those_of_the_samples(
     assert len(bench.received["cop"]) == 1
 
 
+def test_the_object_is_the_one_of_the_library(make_bench: Callable[..., Bench], tmp_path: Path) -> None:
+    places = {"high": (6.0, 16.0), "low": (25.0, 16.0)}
+    library = build_object_library([bump(ArrayGeometry(), *place) for place in places.values()], list(places))
+    save_object_library(library, tmp_path / "objects.npz")
+    bench = make_bench(45, object_library=tmp_path / "objects.npz", object_columns=2)
+    bench.listen(ObjectClass, "object", qos.STREAM)
+    bench.until(lambda: bench.node._objects is not None and bench.node._objects._send)
+
+    indices, counts = sample(bump(ArrayGeometry(), 25.5, 16.0, width=2.0), 55)
+    expected = Classifier(library, ClassifierConfig(max_columns=2)).step(indices, counts)
+    bench.send(7, indices, counts)
+    bench.send(8, indices, np.zeros(55))
+    bench.until(lambda: len(bench.received["object"]) == 2)
+    pressed, untouched = bench.received["object"]
+    assert pressed.header.frame_id == "plate"
+    assert (pressed.header.stamp.sec, pressed.sequence) == (107, 7)
+    assert (pressed.class_number, pressed.name) == (library.names.index("low"), "low")
+    assert pressed.residuals.tolist() == pytest.approx(expected.residuals.tolist())
+    assert pressed.confidence == pytest.approx(expected.confidence)
+    assert untouched == ObjectClass(
+        header=untouched.header, sequence=8, class_number=ObjectClass.NO_OBJECT, residuals=[1.0, 1.0]
+    )
+
+
 def test_bad_messages_are_dropped_and_counted_and_nothing_else_is_lost(make_bench: Callable[..., Bench]) -> None:
     bench = make_bench(41)
     indices, counts = sample(bump(ArrayGeometry(), 5, 5), 55)
@@ -220,7 +246,7 @@ def test_the_viewer_image_keeps_its_rate_and_costs_nothing_unheard(make_bench: C
     indices = np.arange(10)
     bench.send(0, indices, indices)
     bench.contact(0)
-    assert bench.node._next_view_s == 0
+    assert bench.node._view_limit.taken == 0
     bench.listen(Image, "image", qos.VIEW)
     bench.until(lambda: bench.node._send_view)
     for sequence in range(1, 20):
@@ -235,6 +261,8 @@ def test_the_viewer_image_keeps_its_rate_and_costs_nothing_unheard(make_bench: C
     [
         ({"dictionary": "/no/such/file.npz"}, DictionaryError, "/no/such/file.npz: cannot be read"),
         ({"dictionary": __file__}, DictionaryError, "not an npz file"),
+        ({"object_library": "/no/such/objects.npz"}, ObjectLibraryError, "/no/such/objects.npz: cannot be read"),
+        ({"object_columns": 1025}, SettingsError, "object_columns = 1025"),
         ({"rows": 7}, ArrayError, "do not fit a side of 7"),
         ({"touch_count": 60}, SettingsError, "'touch_count'.*'touch_counts'"),
         ({"touch_counts": 1024}, SettingsError, "touch_counts = 1024"),

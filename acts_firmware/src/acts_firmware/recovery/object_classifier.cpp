@@ -23,7 +23,7 @@ const ObjectResult& ObjectClassifier::classify(const ObjectLibrary& library, con
                                 frame.indices.data(),
                                 work.y.data(),
                                 m,
-                                std::min({n_atoms, m, atoms_limit(m)})};
+                                std::min({n_atoms, m, library.columns, atoms_limit(m)})};
     const int chosen = omp_.solve(problem, work.residual.data(), work.q.data());
     const float norm = std::sqrt(square);
     for (int i = 0; i < chosen; ++i) {
