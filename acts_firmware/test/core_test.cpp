@@ -58,6 +58,11 @@ class IndexBoard final : public acts::WiredBoard {
   std::array<bool, 256> levels_{};
 };
 
+std::unique_ptr<acts::Firmware> make_firmware(acts::Board& board, acts::Protocol protocol = acts::Protocol::kBinary) {
+  static acts::ModelMemory models;
+  return std::make_unique<acts::Firmware>(board, acts::published_wiring(), protocol, models);
+}
+
 void test_pin_table() {
   const acts::Wiring wiring = acts::published_wiring();
   CHECK(wiring.lines == 32);
@@ -110,7 +115,7 @@ void test_clock_across_wraps() {
 
 void test_frame_across_a_wrap() {
   IndexBoard board(32, 32, 0xFFFFFFFFU - 100U);
-  auto firmware = std::make_unique<acts::Firmware>(board, acts::published_wiring(), acts::Protocol::kBinary);
+  auto firmware = make_firmware(board);
   const acts::SampleFrame& frame = firmware->measure_frame();
   CHECK(frame.duration_us == 550);
   CHECK(frame.board_us == 0xFFFFFFFFULL - 100 + 550);
@@ -218,10 +223,10 @@ void test_queue_keeps_messages_whole() {
 
 void test_overruns_are_counted_and_numbered() {
   IndexBoard board(32, 32);
-  auto firmware = std::make_unique<acts::Firmware>(board, acts::published_wiring(), acts::Protocol::kBinary);
-  acts::SamplingConfig config;
-  config.scheme = acts::Scheme::kRaster;
-  CHECK(firmware->configure(config) == acts::ConfigError::kNone);
+  auto firmware = make_firmware(board);
+  acts::Settings settings;
+  settings.sampling.scheme = acts::Scheme::kRaster;
+  CHECK(firmware->configure(settings) == acts::SettingField::kNone);
   firmware->measure_frame();
   CHECK(firmware->output().size() == 0);  // nobody reads: discarded, no overrun
   firmware->start_stream();
@@ -297,13 +302,13 @@ void test_new_settings_forget_what_was_pressed() {
 
 void test_published_ascii() {
   IndexBoard board(2, 3);
-  auto firmware = std::make_unique<acts::Firmware>(board, acts::published_wiring(), acts::Protocol::kRasterAscii);
-  acts::SamplingConfig config;
-  config.rows = 2;
-  config.cols = 3;
-  config.m = 6;
-  config.scheme = acts::Scheme::kRaster;
-  CHECK(firmware->configure(config) == acts::ConfigError::kNone);
+  auto firmware = make_firmware(board, acts::Protocol::kRasterAscii);
+  acts::Settings settings;
+  settings.sampling.rows = 2;
+  settings.sampling.cols = 3;
+  settings.sampling.m = 6;
+  settings.sampling.scheme = acts::Scheme::kRaster;
+  CHECK(firmware->configure(settings) == acts::SettingField::kNone);
   firmware->start_stream();
   firmware->measure_frame();
   const acts::TransmitQueue::Piece piece = firmware->output().front();

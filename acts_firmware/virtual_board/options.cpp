@@ -15,6 +15,10 @@ namespace {
 // Smaller shares would all mean the same: one taxel of even the largest array.
 constexpr double kMinShare = 0.0001;
 
+// Bases of strtoull.
+constexpr int kDecimal = 10;
+constexpr int kDecimalOrHexadecimal = 0;
+
 struct Option {
   const char* name;
   const char* value;  // what stands for the value in the help; empty for a switch
@@ -49,10 +53,10 @@ int whole(const std::string& name, const std::string& text, int minimum, int max
   return static_cast<int>(value);
 }
 
-std::uint64_t seed(const std::string& name, const std::string& text) {
+std::uint64_t whole64(const std::string& name, const std::string& text, int base) {
   char* end = nullptr;
   errno = 0;
-  const unsigned long long value = std::strtoull(text.c_str(), &end, 10);
+  const unsigned long long value = std::strtoull(text.c_str(), &end, base);
   if (text.empty() || text[0] == '-' || *end != '\0' || errno != 0) {
     throw OptionError(name + " " + text + ": allowed is a whole number from 0 to 18446744073709551615");
   }
@@ -131,13 +135,15 @@ std::vector<Option> make_options(Options& o) {
       {"--noise-counts", "S", "standard deviation of the noise in counts (1.5)",
        [&o](const std::string& v) { o.noise_counts = number("--noise-counts", v, 0.0, 1000.0); }},
       {"--seed", "N", "of the noise and of random and hybrid sampling (1)",
-       [&s](const std::string& v) { s.seed = seed("--seed", v); }},
+       [&s](const std::string& v) { s.seed = whole64("--seed", v, kDecimal); }},
       {"--drift-ppm", "D", "how much faster the board's clock runs than the host's, in millionths (0)",
        [&o](const std::string& v) { o.drift_ppm = number("--drift-ppm", v, -10000.0, 10000.0); }},
       {"--hardware-fault", "FAULT",
        "break the wiring: open-row=R, open-col=C, short-rows=R,R, short-cols=C,C, dead=R,C, stuck=R,C,COUNTS or "
        "address-bit=B; may be given again",
        [&o](const std::string& v) { named("--hardware-fault", [&o, &v] { o.wiring_faults.add(v); }); }},
+      {"--board-id", "N", "the board's serial number, in decimal or as 0x... (0x4143545300000001)",
+       [&o](const std::string& v) { o.board_id = whole64("--board-id", v, kDecimalOrHexadecimal); }},
       {"--protocol", "NAME", "binary, or raster_ascii: the authors' raster sketch (binary)",
        [&o](const std::string& v) {
          o.protocol =

@@ -9,6 +9,7 @@
 #include "acts_firmware/firmware.hpp"
 #include "acts_firmware/sampling/sampler.hpp"
 #include "faults.hpp"
+#include "wired_board.hpp"
 #include "wiring_faults.hpp"
 
 namespace acts {
@@ -27,6 +28,7 @@ struct Options {
   double sample_us = 0.0;  // of one measurement; 0: as published
   double noise_counts = 1.5;
   double drift_ppm = 0.0;
+  std::uint64_t board_id = kVirtualBoardId;
   WiringFaults wiring_faults;
   Protocol protocol = Protocol::kBinary;
   std::vector<Fault> faults;

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iostream>
 #include <memory>
@@ -42,6 +43,14 @@ std::unique_ptr<Field> make_field(const Options& options, std::int64_t start_ns)
   return std::make_unique<UntouchedField>();
 }
 
+Settings settings_of(const Options& options) {
+  constexpr double kRounding = 1e-6;  // so that a rate of 1 / (333 us) does not become 334 us
+  Settings settings;
+  settings.sampling = options.sampling;
+  settings.frame_period_us = static_cast<std::uint32_t>(std::ceil(1e6 / options.rate_hz - kRounding));
+  return settings;
+}
+
 }  // namespace
 
 Process::Process(const Options& options, const volatile std::sig_atomic_t& stop_requested)
@@ -67,11 +76,12 @@ void Process::power_up(std::int64_t monotonic_ns) {
   time_ = BoardTime(monotonic_ns, options_.drift_ppm);
   firmware_.reset();  // before the board that it holds on to
   board_ = std::make_unique<VirtualBoard>(sampling.rows, sampling.cols, *field_, time_, options_.noise_counts,
-                                          sampling.seed);
+                                          sampling.seed, options_.board_id);
   board_->set_faults(options_.wiring_faults);
-  firmware_ = std::make_unique<Firmware>(*board_, wiring_for(sampling.rows, sampling.cols), options_.protocol);
-  firmware_->configure(sampling);
+  firmware_ = std::make_unique<Firmware>(*board_, wiring_for(sampling.rows, sampling.cols), options_.protocol, models_);
+  firmware_->configure(settings_of(options_));
   start_ns_ = 0;
+  last_start_ns_ = 0;
   set_pace();
 }
 
@@ -83,13 +93,17 @@ void Process::set_pace() {
   }
   sample_ns_ = std::lround(sample_us * 1000.0);
   duration_ns_ = firmware_->sampler().frame_size() * sample_ns_;
-  step_ns_ = std::max(duration_ns_, static_cast<std::int64_t>(std::lround(1e9 / options_.rate_hz)));
+  step_ns_ = std::max(duration_ns_, std::int64_t{firmware_->settings().frame_period_us} * 1000);
 }
 
 void Process::run() {
   print_start();
   std::int64_t next_status_ns = status_period_ns();
   while (wait_for_frame()) {
+    if (serve_terminal()) {
+      send();
+      continue;
+    }
     const std::int64_t now = now_ns(CLOCK_MONOTONIC);
     const std::int64_t late_ns = time_.to_board_ns(now) - (start_ns_ + duration_ns_);
     if (late_ns > kCatchUpNs) {
@@ -97,10 +111,10 @@ void Process::run() {
       firmware_->skip_frames(static_cast<std::uint32_t>(skipped));
       start_ns_ += skipped * step_ns_;
     }
-    serve_terminal();
     board_->begin_frame(start_ns_, sample_ns_, firmware_->sampler().frame_size());
     firmware_->measure_frame();
     ++frames_;
+    last_start_ns_ = start_ns_;
     start_ns_ += step_ns_;
     send();
     if (next_status_ns > 0 && now - epoch_.monotonic_ns >= next_status_ns) {
@@ -131,19 +145,46 @@ bool Process::wait_for_frame() {
   return false;
 }
 
-void Process::serve_terminal() {
-  switch (terminal_.service()) {
-    case PseudoTerminal::Event::kOpened:
-      link_.clear();
-      firmware_->start_stream();
-      break;
-    case PseudoTerminal::Event::kClosed:
-      link_.clear();
-      firmware_->stop_stream();
-      break;
-    case PseudoTerminal::Event::kNone:
-      break;
+bool Process::serve_terminal() {
+  const PseudoTerminal::Event event = terminal_.service();
+  if (event == PseudoTerminal::Event::kOpened) {
+    link_.clear();
+    firmware_->start_stream();
   }
+  // What a host says before it leaves counts as well.
+  const bool changed = hear_host();
+  if (event == PseudoTerminal::Event::kClosed) {
+    link_.clear();
+    firmware_->stop_stream();
+  }
+  return changed;
+}
+
+bool Process::hear_host() {
+  constexpr int kMaxReads = 4;  // a host that floods the board must not keep it from measuring
+  std::array<std::uint8_t, 4096> data{};
+  bool heard = false;
+  for (int i = 0; i < kMaxReads; ++i) {
+    const std::size_t length = terminal_.read(data.data(), data.size());
+    if (length == 0) {
+      break;
+    }
+    firmware_->receive(data.data(), length);
+    heard = true;
+  }
+  if (!heard) {
+    return false;
+  }
+  const std::int64_t duration_ns = duration_ns_;
+  const std::int64_t step_ns = step_ns_;
+  set_pace();
+  if (duration_ns_ == duration_ns && step_ns_ == step_ns) {
+    return false;
+  }
+  // The frame under way is begun again with the new settings, at the new distance from the last one, but not in the
+  // past: that would be made up for.
+  start_ns_ = std::max(last_start_ns_ + step_ns_, time_.to_board_ns(now_ns(CLOCK_MONOTONIC)));
+  return true;
 }
 
 void Process::send() {
@@ -185,6 +226,7 @@ void Process::begin(const Fault& fault, std::int64_t monotonic_ns) {
     case FaultKind::kJump:
       time_.jump(fault.value_ns());
       start_ns_ += fault.value_ns();
+      last_start_ns_ += fault.value_ns();
       report(fault, false);
       report(fault, true);
       break;

@@ -18,7 +18,7 @@
 
 namespace acts {
 
-// Frame after frame at its own virtual time; the process wakes once a frame, at its end.
+// Frame after frame at its own virtual time; the process wakes once a frame, at its end. Large: on the heap.
 class Process {
  public:
   // Runs until `stop_requested` is other than 0, as a signal handler sets it.
@@ -35,7 +35,9 @@ class Process {
 
   // Until the frame that begins at start_ns_ is over; false when the process is to end.
   bool wait_for_frame();
-  void serve_terminal();
+  // True where the host has changed the times of the next frame.
+  bool serve_terminal();
+  bool hear_host();
   void send();
 
   void take_faults(std::int64_t monotonic_ns);
@@ -54,6 +56,7 @@ class Process {
   BoardTime time_;
   std::unique_ptr<Field> field_;
   std::unique_ptr<VirtualBoard> board_;
+  ModelMemory models_{};
   std::unique_ptr<Firmware> firmware_;
   PseudoTerminal terminal_;
   FaultyLink link_;
@@ -63,7 +66,8 @@ class Process {
   std::int64_t plug_in_at_ns_ = 0;
   std::optional<Fault> frozen_;
   std::int64_t frozen_until_ns_ = 0;
-  std::int64_t start_ns_ = 0;  // of the next frame, on the board's clock
+  std::int64_t start_ns_ = 0;       // of the next frame, on the board's clock
+  std::int64_t last_start_ns_ = 0;  // of the last frame
   std::int64_t sample_ns_ = 0;
   std::int64_t duration_ns_ = 0;
   std::int64_t step_ns_ = 0;

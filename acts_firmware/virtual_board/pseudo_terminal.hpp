@@ -18,8 +18,11 @@ class PseudoTerminal {
 
   enum class Event : std::uint8_t { kNone, kOpened, kClosed };
 
-  // Notices whether the host's end was opened or closed, and reads off and discards what the host has sent.
+  // Notices whether the host's end was opened or closed.
   Event service();
+
+  // Takes what the host has sent: number of bytes, 0 for none. Never waits.
+  std::size_t read(std::uint8_t* data, std::size_t capacity);
 
   bool open() const { return open_; }
 

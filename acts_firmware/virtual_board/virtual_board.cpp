@@ -12,8 +12,8 @@ constexpr double kTwoPi = 6.283185307179586;
 }  // namespace
 
 VirtualBoard::VirtualBoard(int rows, int cols, Field& field, const BoardTime& time, double noise_counts,
-                           std::uint64_t seed)
-    : WiredBoard(rows, cols),
+                           std::uint64_t seed, std::uint64_t id)
+    : WiredBoard(rows, cols, id),
       cols_(cols),
       field_(field),
       time_(time),

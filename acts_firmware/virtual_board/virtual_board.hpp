@@ -36,7 +36,8 @@ class BoardTime {
 class VirtualBoard final : public WiredBoard {
  public:
   // `field` and `time` outlive the board, whose power may be turned off and on.
-  VirtualBoard(int rows, int cols, Field& field, const BoardTime& time, double noise_counts, std::uint64_t seed);
+  VirtualBoard(int rows, int cols, Field& field, const BoardTime& time, double noise_counts, std::uint64_t seed,
+               std::uint64_t id);
 
   // Jump to a board time, the start of a frame whose m measurements take `sample_ns` each.
   void begin_frame(std::int64_t start_ns, std::int64_t sample_ns, int m);

@@ -14,7 +14,7 @@ constexpr std::size_t kExpanderPin = 64;
 
 }  // namespace
 
-WiredBoard::WiredBoard(int rows, int cols) : rows_(rows), cols_(cols) {
+WiredBoard::WiredBoard(int rows, int cols, std::uint64_t id) : rows_(rows), cols_(cols), id_(id) {
   row_of_pin_.fill(-1);
   const int lines = static_cast<int>(kLinePins.size());
   if (rows <= lines && cols <= lines) {

@@ -5,9 +5,9 @@
 
 namespace acts {
 
-// How to bring the firmware to a board: implement these three functions, hand the board to a `Firmware` together with
+// How to bring the firmware to a board: implement these four functions, hand the board to a `Firmware` together with
 // the wiring (see wiring.hpp), and call `Firmware::measure_frame` again and again. On a Teensy they are one line each
-// (digitalWrite, analogRead(A0), micros); the virtual board models the same pins.
+// (digitalWrite, analogRead(A0), micros, the serial number); the virtual board models the same pins.
 class Board {
  public:
   Board() = default;
@@ -15,7 +15,7 @@ class Board {
   Board& operator=(const Board&) = delete;
   virtual ~Board() = default;
 
-  // Drive a digital output. Row lines carry the excitation, multiplexer lines the address of a column.
+  // Drive a digital output. Row lines carry the excitation, multiplexer lines the address of a column; one is the LED.
   virtual void write_pin(std::uint8_t pin, bool high) = 0;
 
   // Convert what the multiplexer passes on; 0 to 1023.
@@ -23,6 +23,9 @@ class Board {
 
   // Time since the board's start [us]; wraps at 2^32.
   virtual std::uint32_t micros() = 0;
+
+  // Which board this is; different for every board, the same at every start.
+  virtual std::uint64_t id() = 0;
 };
 
 }  // namespace acts

@@ -27,6 +27,12 @@ constexpr bool within(int value, int first, int last) {
 
 }  // namespace
 
+bool operator==(const SamplingConfig& one, const SamplingConfig& other) {
+  return one.rows == other.rows && one.cols == other.cols && one.scheme == other.scheme && one.m == other.m &&
+         one.threshold == other.threshold && one.neighbour_order == other.neighbour_order && one.seed == other.seed &&
+         one.search_quota == other.search_quota && one.adaptive_quota == other.adaptive_quota;
+}
+
 ConfigError check(const SamplingConfig& config) {
   if (!within(config.rows, 1, kMaxSide) || !within(config.cols, 1, kMaxSide)) {
     return ConfigError::kSize;

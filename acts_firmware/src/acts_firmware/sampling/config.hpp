@@ -29,6 +29,8 @@ struct SamplingConfig {
   int frame_size() const { return scheme == Scheme::kRaster ? taxels() : m; }
 };
 
+bool operator==(const SamplingConfig& one, const SamplingConfig& other);
+
 enum class ConfigError : std::uint8_t {
   kNone,
   kSize,

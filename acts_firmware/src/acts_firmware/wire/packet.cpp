@@ -19,36 +19,27 @@ constexpr std::array<std::uint32_t, 256> make_crc_table() {
 }
 constexpr std::array<std::uint32_t, 256> kCrcTable = make_crc_table();
 
-// Writes little-endian whatever the machine is.
-class Writer {
- public:
-  explicit Writer(std::uint8_t* out) : out_(out) {}
-
-  void u8(std::uint8_t value) { out_[length_++] = value; }
-  void u16(std::uint16_t value) { put(value, 2); }
-  void u32(std::uint32_t value) { put(value, 4); }
-  void u64(std::uint64_t value) { put(value, 8); }
-  std::size_t length() const { return length_; }
-
- private:
-  void put(std::uint64_t value, int bytes) {
-    for (int i = 0; i < bytes; ++i) {
-      u8(static_cast<std::uint8_t>(value >> (8 * i) & 0xFFU));
-    }
-  }
-
-  std::uint8_t* out_;
-  std::size_t length_ = 0;
-};
-
 }  // namespace
 
-std::uint32_t crc32(const std::uint8_t* data, std::size_t length) {
-  std::uint32_t crc = 0xFFFFFFFFU;
+std::uint32_t crc32(const std::uint8_t* data, std::size_t length, std::uint32_t before) {
+  std::uint32_t crc = ~before;
   for (std::size_t i = 0; i < length; ++i) {
     crc = crc >> 8U ^ kCrcTable[(crc ^ data[i]) & 0xFFU];
   }
   return ~crc;
+}
+
+void begin_packet(Writer& writer, PacketType type) {
+  writer.u8(static_cast<std::uint8_t>(type));
+  writer.u8(kPacketVersion);
+  writer.u16(0);
+}
+
+std::size_t end_packet(Writer& writer, std::uint8_t* out) {
+  constexpr std::size_t kLengthAt = 2;
+  Writer(out + kLengthAt).u16(static_cast<std::uint16_t>(writer.length() + kPacketCrcBytes));
+  writer.u32(crc32(out, writer.length()));
+  return writer.length();
 }
 
 std::size_t cobs_encode(const std::uint8_t* data, std::size_t length, std::uint8_t* out) {
@@ -95,9 +86,7 @@ std::size_t cobs_decode(const std::uint8_t* data, std::size_t length, std::uint8
 
 std::size_t encode_samples(const SampleFrame& frame, std::uint8_t* out) {
   Writer writer(out);
-  writer.u8(kPacketSamples);
-  writer.u8(kPacketVersion);
-  writer.u16(static_cast<std::uint16_t>(samples_packet_bytes(frame.m)));
+  begin_packet(writer, PacketType::kSamples);
   writer.u32(frame.sequence);
   writer.u64(frame.board_us);
   writer.u32(frame.duration_us);
@@ -114,8 +103,7 @@ std::size_t encode_samples(const SampleFrame& frame, std::uint8_t* out) {
   for (std::size_t i = 0; i < frame.m; ++i) {
     writer.u16(frame.counts[i]);
   }
-  writer.u32(crc32(out, writer.length()));
-  return writer.length();
+  return end_packet(writer, out);
 }
 
 }  // namespace acts
