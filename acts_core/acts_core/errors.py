@@ -36,6 +36,10 @@ class RecordingError(ActsError):
     """A recording (npz file or bag) cannot be read or lacks what is needed."""
 
 
+class CalibrationError(ActsError):
+    """A baseline cannot be determined now: the skin is touched, or was not measured for long enough."""
+
+
 class RobotError(ActsError):
     """The robot cannot be reached, refuses a command, or has stopped."""
 

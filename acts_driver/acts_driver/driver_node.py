@@ -10,6 +10,7 @@ from rclpy.timer import Timer
 
 from acts_core.errors import ActsError
 from acts_core.frames import SampleFrame
+from acts_driver.baseline_services import BaselineServices
 from acts_driver.messages import SamplesMessage
 from acts_driver.reader import Reader
 from acts_driver.report import DriverReport
@@ -46,6 +47,7 @@ class DriverNode(LifecycleNode):
         self._is_waiting = False
         frame_id = self._settings.frame_id or self.get_namespace().strip("/").replace("/", "_") or "skin"
         self._message = SamplesMessage(frame_id)
+        self._baseline = BaselineServices(self, self._settings, self._settings.rows, self._settings.cols, frame_id)
         # Not made in on_configure: subscribers then are matched before the first frame.
         self._publisher = self.create_publisher(TactileSamples, "samples", **overridable(STREAM))
         self._diagnostics = DiagnosticsReporter(self, self._what, self._make_report)
@@ -149,6 +151,7 @@ class DriverNode(LifecycleNode):
         accepted = self._stream.accept(frames, arrival_ns)
         if self._stream.wrong_size_last != self._wrong_size_told:
             self._tell_wrong_size()
+        self._baseline.observe(accepted)
         if not self._active:
             return
         for frame, stamp_ns in accepted:
@@ -170,7 +173,8 @@ class DriverNode(LifecycleNode):
 
     def _make_report(self) -> Report:
         if self._report is not None:
-            return self._report.make("active" if self._active else "inactive", time.time_ns())
+            level, message, values = self._report.make("active" if self._active else "inactive", time.time_ns())
+            return level, message, {**values, **self._baseline.values()}
         values = {"port": self._what, "state": "unconfigured"}
         return (ERROR, self._problem, values) if self._problem else (OK, "unconfigured", values)
 

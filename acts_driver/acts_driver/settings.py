@@ -10,6 +10,7 @@ from acts_core.delimited import DelimitedDecoder
 from acts_core.raster_ascii import RasterDecoder
 from acts_core.settings import setting, validate
 from acts_core.wire import StreamDecoder
+from acts_driver.baseline_parameters import BaselineParameters
 from acts_driver.board_parameters import BoardParameters
 from acts_driver.port_choice import check_port
 from acts_driver.recordings import ReplayOptions, open_recording
@@ -61,7 +62,7 @@ class SourceParameters:
 
 
 @dataclass(frozen=True)
-class DriverSettings(BoardParameters, SourceParameters):
+class DriverSettings(BaselineParameters, BoardParameters, SourceParameters):
     """See the descriptions; `docs/driver.md` lists them."""
 
     def __post_init__(self) -> None:

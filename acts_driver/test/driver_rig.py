@@ -31,7 +31,7 @@ class Rig:
 
     def __init__(self, domain_id: int | None = None) -> None:
         self.domain_id = next(_domains) if domain_id is None else domain_id
-        assert self.domain_id < 40
+        assert domain_id is not None or self.domain_id < 40
         self.context = Context()
         rclpy.init(args=[], context=self.context, domain_id=self.domain_id)
         self.listener = Node("listener", namespace="/plate", context=self.context)

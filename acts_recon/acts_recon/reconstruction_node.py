@@ -17,8 +17,9 @@ from rclpy.node import Node
 from sensor_msgs.msg import Image
 
 from acts_core.errors import ArrayError
+from acts_msgs.msg import Baseline, TactileSamples
 from acts_msgs.msg import Contact as ContactMessage
-from acts_msgs.msg import TactileSamples
+from acts_recon.baseline import BaselineSubtraction
 from acts_recon.contact import Contact
 from acts_recon.image import mono16, rgb8
 from acts_recon.object_publisher import ObjectPublisher
@@ -38,9 +39,7 @@ class ReconstructionNode(Node):
 
     Subscribes ``samples`` (acts_msgs/TactileSamples). Publishes for every frame ``contact`` (acts_msgs/Contact), while
     in contact ``cop`` (geometry_msgs/PointStamped), and where somebody listens ``image_raw`` (sensor_msgs/Image,
-    mono16, ADC counts), at most `image_rate_hz` times a second ``image`` (rgb8) and, with an `object_library`,
-    ``object`` (acts_msgs/ObjectClass). Header and sequence number are
-    those of the samples. A message that does not fit is dropped, counted and told in the diagnostics.
+            contact = self._reconstructor.step(indices, counts)
     """
 
     def __init__(self, *, cli_args: Sequence[str] | None = None, **options: object) -> None:
@@ -48,6 +47,7 @@ class ReconstructionNode(Node):
         self._settings = declare(self, ReconstructionSettings)
         self.get_logger().info("loading the dictionary and compiling (the first time on a machine takes some seconds)")
         self._reconstructor = self._settings.reconstructor()
+        self._baseline = BaselineSubtraction(self._settings.rows * self._settings.cols)
         self._contact_publisher = self.create_publisher(ContactMessage, "contact", **qos.overridable(qos.STREAM))
         self._cop_publisher = self.create_publisher(PointStamped, "cop", **qos.overridable(qos.STREAM))
         self._raw_publisher = self.create_publisher(Image, "image_raw", **qos.overridable(qos.STREAM))
@@ -74,6 +74,8 @@ class ReconstructionNode(Node):
         self._look_for_subscribers()
         self.create_timer(_SUBSCRIBERS_PERIOD_S, self._look_for_subscribers)
         self._diagnostics = DiagnosticsReporter(self, self.resolve_topic_name("samples"), self._report)
+        if self._settings.subtract_baseline:
+            self.create_subscription(Baseline, "baseline", self._on_baseline, **qos.overridable(qos.LATCHED))
         self.create_subscription(TactileSamples, "samples", self._on_samples, **qos.overridable(qos.STREAM))
         self.get_logger().info(f"ready: array of {self._settings.rows} x {self._settings.cols}")
 
@@ -94,7 +96,8 @@ class ReconstructionNode(Node):
                 f"{settings.rows} x {settings.cols}",
             )
             return
-        indices, counts = _as_numpy(samples.indices), _as_numpy(samples.counts)
+        indices = _as_numpy(samples.indices)
+        counts = self._baseline.apply(indices, _as_numpy(samples.counts))
         try:
             contact = self._reconstructor.step(indices, counts)
         except ArrayError as error:
@@ -112,6 +115,21 @@ class ReconstructionNode(Node):
         if self._objects is not None:
             self._objects.publish(samples, indices, counts)
         self._durations_s.append(time.perf_counter() - began_s)
+
+    def _on_baseline(self, message: Baseline) -> None:
+        settings = self._settings
+        try:
+            if (message.rows, message.cols) != (settings.rows, settings.cols):
+                raise ArrayError(
+                    f"baseline of {message.rows} x {message.cols}: the parameters rows and cols say "
+                    f"{settings.rows} x {settings.cols}"
+                )
+            self._baseline.set(
+                np.asarray(message.baseline, dtype=np.float32), np.asarray(message.valid, dtype=np.bool_)
+            )
+        except ArrayError as error:
+            self._rejected["bad_baseline"] += 1
+            self.get_logger().warning(f"baseline not used: {error}")
 
     def _publish_contact(self, samples: TactileSamples, contact: Contact) -> None:
         message = self._contact
@@ -168,6 +186,8 @@ class ReconstructionNode(Node):
             "lost": self._lost,
             "rejected.wrong_array_size": self._rejected["wrong_array_size"],
             "rejected.bad_frame": self._rejected["bad_frame"],
+            "rejected.bad_baseline": self._rejected["bad_baseline"],
+            "baseline": "subtracted" if self._baseline.is_set else "none",
             "frame_us.median": 1e6 * median(self._durations_s) if self._durations_s else 0.0,
         }
         if new_rejected:

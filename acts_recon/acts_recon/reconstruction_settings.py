@@ -32,6 +32,9 @@ class ReconstructionSettings:
         minimum=0,
         maximum=COUNT_MAX,
     )
+    subtract_baseline: bool = setting(
+        True, "subtract what the topic baseline says a taxel reads untouched; nothing while there is none"
+    )
     patch_step: int = setting(
         default_of(ReconstructorConfig, "patch_step"),
         "distance of neighbouring patches in taxels",

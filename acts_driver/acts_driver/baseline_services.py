@@ -1,0 +1,130 @@
+"""The driver's services `calibrate` and `tare`, and the topic `baseline`."""
+
+from __future__ import annotations
+
+import time
+from array import array
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import numpy as np
+from rclpy.node import Node
+from std_srvs.srv import Trigger
+
+from acts_core.errors import ActsError
+from acts_core.frames import SampleFrame
+from acts_driver.baseline import Baseline
+from acts_driver.baseline_parameters import BaselineParameters
+from acts_driver.baseline_tracker import BaselineTracker
+from acts_msgs.msg import Baseline as BaselineMessage
+from acts_ros.qos import LATCHED, overridable
+
+_NS_PER_S = 1_000_000_000
+_PUBLISH_PERIOD_S = 1.0
+_MOVED_COUNTS = 0.5
+
+
+class BaselineServices:
+    """Publishes the baseline of a node's skin, and lets it be determined.
+
+    The baseline in the file is taken over at the start; it is written by `calibrate`, not by `tare`.
+
+    Parameters
+    ----------
+    node : rclpy.node.Node
+        Gets the services ``~/calibrate`` and ``~/tare`` (std_srvs/Trigger) and the topic ``baseline``.
+    parameters : BaselineParameters
+    rows, cols : int
+        Size of the array.
+    frame_id : str
+        Of the messages' headers.
+
+    Raises
+    ------
+    SettingsError
+        When the file holds no baseline of this array.
+    """
+
+    def __init__(self, node: Node, parameters: BaselineParameters, rows: int, cols: int, frame_id: str) -> None:
+        self._node = node
+        self._frame_id = frame_id
+        file = parameters.calibration_file
+        self._path = None if file in ("", "none") else Path(file).expanduser()
+        self._tracker = BaselineTracker(rows, cols, parameters.baseline_config())
+        self._published: Baseline | None = None
+        self.observe: Callable[[Sequence[tuple[SampleFrame, int]]], None] = self._tracker.observe
+        """Takes frames with their stamps [ns], on the reader's thread."""
+        self._publisher = node.create_publisher(BaselineMessage, "baseline", **overridable(LATCHED))
+        node.create_service(Trigger, "~/calibrate", self._calibrate)
+        node.create_service(Trigger, "~/tare", self._tare)
+        if self._path is not None and self._path.exists():
+            baseline = Baseline.load(self._path, rows, cols)
+            self._tracker.set(baseline)
+            self._publish(baseline)
+            node.get_logger().info(f"baseline of {int(baseline.valid.sum())} taxels from {self._path}")
+        self._timer = node.create_timer(_PUBLISH_PERIOD_S, self._publish_where_moved)
+
+    def values(self) -> dict[str, object]:
+        """What the driver's diagnostics say of the baseline."""
+        present, drift = self._tracker.present(), self._tracker.drift()
+        return {
+            "baseline": "none" if present is None else present.source.name.lower(),
+            "baseline_taxels": 0 if present is None else int(present.valid.sum()),
+            "baseline_below": self._tracker.below(),
+            "baseline_drift_per_min.median": "none" if drift is None else drift.median,
+            "baseline_drift_per_min.largest": "none" if drift is None else drift.largest,
+        }
+
+    def _calibrate(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        try:
+            baseline = self._tracker.calibrate()
+            # In force even where the file cannot be written.
+            self._publish(baseline)
+            if self._path is not None:
+                baseline.save(self._path)
+        except ActsError as error:
+            return self._answer(response, False, str(error))
+        noise = float(np.median(baseline.noise_counts[baseline.valid]))
+        stored = "" if self._path is None else f"; stored in {self._path}"
+        return self._answer(
+            response,
+            True,
+            f"calibrated {int(baseline.valid.sum())} of {baseline.valid.size} taxels, noise {noise:.2f} counts "
+            f"(median){stored}",
+        )
+
+    def _tare(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        try:
+            baseline = self._tracker.tare()
+        except ActsError as error:
+            return self._answer(response, False, str(error))
+        self._publish(baseline)
+        return self._answer(response, True, f"tared {int(baseline.valid.sum())} of {baseline.valid.size} taxels")
+
+    def _answer(self, response: Trigger.Response, success: bool, message: str) -> Trigger.Response:
+        if success:
+            self._node.get_logger().info(message)
+        else:
+            self._node.get_logger().warning(message)
+        response.success = success
+        response.message = message
+        return response
+
+    def _publish_where_moved(self) -> None:
+        present, last = self._tracker.present(), self._published
+        if present is None or (last is not None and np.abs(present.counts - last.counts).max() < _MOVED_COUNTS):
+            return
+        self._publish(present)
+
+    def _publish(self, baseline: Baseline) -> None:
+        message = BaselineMessage()
+        message.header.frame_id = self._frame_id
+        stamp_ns = baseline.time_ns or time.time_ns()
+        message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp_ns, _NS_PER_S)
+        message.rows, message.cols = baseline.counts.shape
+        message.source = int(baseline.source)
+        message.baseline = array("f", baseline.counts.tobytes())
+        message.noise = array("f", baseline.noise_counts.tobytes())
+        message.valid = baseline.valid.ravel().tolist()
+        self._publisher.publish(message)
+        self._published = baseline

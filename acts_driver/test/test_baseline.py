@@ -1,0 +1,245 @@
+"""Baseline, noise and drift of untouched taxels, and the file they are kept in."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from acts_core.errors import ArrayError, CalibrationError, SettingsError
+from acts_core.frames import SampleFrame, Scheme
+from acts_driver import baseline_kernels, baseline_twin
+from acts_driver.baseline import Baseline, BaselineSource
+from acts_driver.baseline_tracker import BaselineConfig, BaselineTracker
+
+ROWS, COLS = 6, 5
+SIZE = ROWS * COLS
+FRAME_NS = 10_000_000
+CONFIG = BaselineConfig(tare_s=0.2, calibration_blocks=5, tau_s=5.0, hold_s=0.5)
+
+
+class Skin:
+    """A tracker and what its stream brings: `m` taxels a frame in turn, 100 frames a second."""
+
+    def __init__(self, config: BaselineConfig = CONFIG, m: int = SIZE, noise: float = 1.5) -> None:
+        self.tracker = BaselineTracker(ROWS, COLS, config)
+        self.field = np.full((ROWS, COLS), 20.0)
+        self.rng = np.random.default_rng(3)
+        self.noise = noise
+        self.m = m
+        self.frames = 0
+        self.now_ns = 1_790_000_000_000_000_000
+
+    def run(self, seconds: float, field: NDArray | None = None) -> None:
+        for _ in range(round(seconds * 100)):
+            truth = (self.field if field is None else field).ravel()
+            indices = ((np.arange(self.m) + self.frames * self.m) % SIZE).astype(np.uint16)
+            noisy = truth[indices] + self.rng.normal(0, self.noise, self.m)
+            counts = np.clip(np.rint(noisy), 0, 1023).astype(np.uint16)
+            frame = SampleFrame(self.frames, 0, 0, Scheme.UNIFORM, ROWS, COLS, 0, indices, counts)
+            self.tracker.observe([(frame, self.now_ns)])
+            self.frames += 1
+            self.now_ns += FRAME_NS
+
+    def pressed(self, row: int = 2, col: int = 2, counts: float = 400.0) -> NDArray:
+        field = self.field.copy()
+        field[row : row + 2, col : col + 2] += counts
+        return field
+
+
+@pytest.mark.parametrize("m", [SIZE, 7])
+def test_calibration_finds_baseline_and_noise_in_any_scheme(m: int) -> None:
+    skin = Skin(m=m)
+    skin.field = np.linspace(10, 50, SIZE).reshape(ROWS, COLS)
+    skin.field[1, 3] = 700  # a stuck taxel is no touch
+    with pytest.raises(CalibrationError, match="0 s of frames so far, a calibration needs 1 s"):
+        skin.tracker.calibrate()
+    assert skin.tracker.present() is None
+    skin.run(2.5)
+    baseline = skin.tracker.calibrate()
+    assert baseline.valid.all()
+    assert np.abs(baseline.counts - skin.field).max() < 1.5
+    assert np.median(baseline.noise_counts) == pytest.approx(1.5, rel=0.25)
+    assert baseline.source is BaselineSource.CALIBRATION
+    assert skin.now_ns - baseline.time_ns <= FRAME_NS
+
+
+def test_calibration_is_refused_while_touched_and_shortly_after() -> None:
+    skin = Skin()
+    skin.run(1.5)
+    skin.run(0.1, skin.pressed())
+    for seconds in (0.0, 0.5):
+        skin.run(seconds)
+        with pytest.raises(CalibrationError, match="4 taxels, for example row 2, column 2"):
+            skin.tracker.calibrate()
+    skin.run(1.5)
+    skin.tracker.calibrate()
+    # An object that stands still is a touch, too.
+    skin.run(3.0, skin.pressed())
+    with pytest.raises(CalibrationError, match="tare first"):
+        skin.tracker.calibrate()
+
+
+def test_a_pause_of_the_stream_begins_anew() -> None:
+    skin = Skin()
+    skin.run(1.5)
+    skin.now_ns += 3 * 10**9
+    skin.run(0.5)
+    with pytest.raises(CalibrationError, match="so far"):
+        skin.tracker.calibrate()
+    skin.now_ns -= 10 * 10**9
+    skin.run(1.5)
+    assert skin.tracker.calibrate().valid.all()
+
+
+def test_taxels_that_are_not_measured_are_not_known() -> None:
+    skin = Skin()
+    skin.run(1.0)
+    frame = SampleFrame(
+        0, 0, 0, Scheme.ADAPTIVE, ROWS, COLS, 0, np.arange(3, dtype=np.uint16), np.full(3, 9, np.uint16)
+    )
+    few = BaselineTracker(ROWS, COLS, CONFIG)
+    for i in range(200):
+        few.observe([(frame, i * FRAME_NS)])
+    baseline = few.calibrate()
+    assert baseline.valid.ravel().tolist() == [True] * 3 + [False] * (SIZE - 3)
+    assert baseline.counts.ravel().tolist() == [9.0] * 3 + [0.0] * (SIZE - 3)
+
+
+def test_tare_takes_what_lies_on_the_skin_for_zero() -> None:
+    skin = Skin()
+    with pytest.raises(CalibrationError, match=r"less than 0\.2 s"):
+        skin.tracker.tare()
+    skin.run(2.0)
+    noise = skin.tracker.calibrate().noise_counts
+    skin.run(1.0, skin.pressed())
+    tared = skin.tracker.tare()
+    assert np.abs(tared.counts - skin.pressed()).max() < 2
+    assert (tared.noise_counts == noise).all()
+    assert tared.source is BaselineSource.TARE
+    # Taken away, the object leaves taxels that read below zero; that is no drift.
+    assert skin.tracker.below() == 0
+    skin.run(10.0)
+    present = skin.tracker.present()
+    assert present is not None
+    assert np.abs(present.counts[2:4, 2:4] - 420).max() < 2
+    assert skin.tracker.below() == 4
+
+
+def test_drift_is_followed_but_not_where_the_skin_is_touched() -> None:
+    skin = Skin()
+    skin.run(2.0)
+    skin.tracker.calibrate()
+    assert skin.tracker.drift() is None
+    pressed = skin.pressed(0, 0, 300.0)
+    pressed[2, 2] += 6  # the edge of the touch: too little to tell from drift, but beside it
+    for _ in range(30):
+        skin.field += 0.3
+        pressed += 0.3
+        skin.run(1.0, pressed)
+        drift = skin.tracker.drift()
+    present = skin.tracker.present()
+    assert present is not None
+    # Frozen: the four taxels and all around them. The others lag by the time constant, 1.5 counts.
+    assert np.abs(present.counts[:3, :3] - 20).max() < 2
+    assert np.abs(present.counts[3:] - 27.5).max() < 1.5
+    assert drift is not None
+    assert 7 < drift.median < 20
+    assert 10 < drift.largest < 24
+    # And after the touch is over they catch up.
+    skin.run(30.0)
+    present = skin.tracker.present()
+    assert present is not None
+    assert np.abs(present.counts - 29).max() < 1.5
+
+
+def test_a_baseline_may_be_told_to_stay() -> None:
+    skin = Skin(BaselineConfig(tare_s=0.2, calibration_blocks=5, tau_s=0.0))
+    skin.run(2.0)
+    before = skin.tracker.calibrate()
+    skin.run(5.0, skin.field + 10)
+    present = skin.tracker.present()
+    assert present is not None
+    assert (present.counts == before.counts).all()
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.integers(0, 2**32 - 1), st.booleans(), st.integers(1, 8), st.integers(1, 8))
+def test_kernel_equals_twin(seed: int, is_tracking: bool, rows: int, cols: int) -> None:
+    rng = np.random.default_rng(seed)
+    size = rows * cols
+
+    def state() -> tuple[NDArray, ...]:
+        return (
+            np.zeros(size, dtype=np.int64),
+            np.zeros((size, 2)),
+            np.tile(np.array([1024, -1]), (size, 1)),
+            baseline.copy(),
+            freeze,
+            np.zeros(size, dtype=np.int64),
+            np.zeros(size, dtype=np.int64),
+        )
+
+    baseline = rng.uniform(0, 60, size).astype(np.float32)
+    freeze = np.where(rng.random(size) < 0.2, -1, 20).astype(np.float32)
+    one, other = state(), state()
+    for frame in range(6):
+        indices = rng.permutation(size)[: rng.integers(0, size + 1)].astype(np.uint16)
+        counts = rng.integers(0, 90, len(indices)).astype(np.uint16)
+        rest = (is_tracking, 2e9, 150_000_000, 0.05)
+        baseline_kernels.observe(indices, counts, frame * 10**8, rows, cols, *one, *rest)
+        baseline_twin.observe(indices, counts, frame * 10**8, rows, cols, *other, *rest)
+    for mine, twin in zip(one, other, strict=True):
+        assert np.allclose(mine, twin, rtol=1e-5, atol=1e-5)
+
+
+def some_baseline() -> Baseline:
+    rng = np.random.default_rng(1)
+    counts = rng.uniform(0, 40, (ROWS, COLS)).astype(np.float32)
+    return Baseline(counts, counts / 20, rng.random((ROWS, COLS)) < 0.9, BaselineSource.CALIBRATION, 5)
+
+
+def test_a_file_keeps_the_baseline(tmp_path: Path) -> None:
+    path = tmp_path / "new folder" / "skin.npz"
+    baseline = some_baseline()
+    baseline.save(path)
+    baseline.save(path)
+    assert [entry.name for entry in path.parent.iterdir()] == ["skin.npz"]
+    again = Baseline.load(path, ROWS, COLS)
+    assert (again.counts == baseline.counts).all()
+    assert (again.noise_counts == baseline.noise_counts).all()
+    assert (again.valid == baseline.valid).all()
+    assert (again.source, again.time_ns) == (BaselineSource.FILE, baseline.time_ns)
+    tracker = BaselineTracker(ROWS, COLS)
+    tracker.set(again)
+    present = tracker.present()
+    assert present is not None
+    assert (present.counts == np.where(baseline.valid, baseline.counts, 0)).all()
+
+
+def test_files_that_are_no_baseline_are_refused(tmp_path: Path) -> None:
+    path = tmp_path / "skin.npz"
+    with pytest.raises(SettingsError, match="cannot be read"):
+        Baseline.load(path, ROWS, COLS)
+    some_baseline().save(path)
+    with pytest.raises(SettingsError, match="6 x 5 taxels, the array has 5 x 6"):
+        Baseline.load(path, COLS, ROWS)
+    whole = path.read_bytes()
+    for damaged in (b"", b"words", whole[: len(whole) // 2]):
+        path.write_bytes(damaged)
+        with pytest.raises(SettingsError, match="again"):
+            Baseline.load(path, ROWS, COLS)
+    np.savez(path, frames=np.zeros(3))
+    with pytest.raises(SettingsError, match="no baseline, or a damaged one"):
+        Baseline.load(path, ROWS, COLS)
+    with pytest.raises(SettingsError, match="cannot be saved"):
+        some_baseline().save(Path("/proc/skin.npz"))
+
+
+@pytest.mark.parametrize("value", [np.nan, -1.0, 1024.0])
+def test_impossible_values_are_refused(value: float) -> None:
+    counts = np.full((ROWS, COLS), value, dtype=np.float32)
+    with pytest.raises(ArrayError, match="between 0 and 1023"):
+        Baseline(counts, np.zeros_like(counts), counts > 0, BaselineSource.TARE, 0)

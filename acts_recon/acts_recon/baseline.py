@@ -1,0 +1,83 @@
+"""Raw counts less the baseline of their taxels, without allocation."""
+
+from __future__ import annotations
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.errors import ArrayError
+
+
+@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+def _subtract(
+    indices: NDArray[np.uint16], counts: NDArray[np.uint16], baseline: NDArray[np.float32], result: NDArray[np.uint16]
+) -> None:
+    for i in range(counts.shape[0]):
+        # What does not fit is left for the reconstructor to refuse.
+        if i < indices.shape[0] and indices[i] < baseline.shape[0]:
+            less = np.float32(counts[i]) - baseline[indices[i]] + np.float32(0.5)
+            result[i] = np.uint16(less) if less > 0 else np.uint16(0)
+        else:
+            result[i] = counts[i]
+
+
+def subtract_plain(
+    indices: NDArray[np.uint16], counts: NDArray[np.uint16], baseline: NDArray[np.float32]
+) -> NDArray[np.uint16]:
+    """The plain twin of `BaselineSubtraction.apply`, for frames that fit the array."""
+    return np.floor(np.maximum(counts - baseline[indices] + np.float32(0.5), 0)).astype(np.uint16)
+
+
+class BaselineSubtraction:
+    """Subtracts a baseline from one frame after another; from none while there is no baseline.
+
+    Parameters
+    ----------
+    size : int
+        Number of taxels.
+    """
+
+    def __init__(self, size: int) -> None:
+        self._baseline = np.zeros(size, dtype=np.float32)
+        self._result = np.zeros(size, dtype=np.uint16)
+        self.is_set = False
+        """Whether there is a baseline."""
+        one = np.zeros(1, dtype=np.uint16)
+        _subtract(one, one, self._baseline, self._result)
+
+    def set(self, baseline: NDArray[np.float32], valid: NDArray[np.bool_]) -> None:
+        """Take over a baseline; nothing is subtracted where it is not valid.
+
+        Parameters
+        ----------
+        baseline : np.ndarray [shape=(size,), dtype=float32]
+            Counts.
+        valid : np.ndarray [shape=(size,), dtype=bool]
+
+        Raises
+        ------
+        ArrayError
+            For another size, or values that are not finite.
+        """
+        size = self._baseline.size
+        if baseline.shape != (size,) or valid.shape != (size,):
+            raise ArrayError(f"baseline {baseline.shape} and valid {valid.shape}: needed are {size} values of each")
+        if not np.isfinite(baseline[valid]).all():
+            raise ArrayError("a baseline has values that are not finite")
+        self._baseline[:] = np.where(valid, baseline, 0.0)
+        self.is_set = True
+
+    def apply(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16]) -> NDArray[np.uint16]:
+        """Counts less the baseline, rounded, at least 0; overwritten by the next call.
+
+        Parameters
+        ----------
+        indices, counts : np.ndarray [shape=(m,), dtype=uint16]
+            Samples of one frame. Samples that do not fit the array come back as they are.
+        """
+        m = counts.shape[0]
+        if not self.is_set or m > self._result.size:
+            return counts
+        _subtract(indices, counts, self._baseline, self._result)
+        return self._result[:m]
