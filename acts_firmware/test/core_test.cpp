@@ -1,14 +1,16 @@
-// Tests of what Python does not see of the core: wiring, clock, queue, framing, the firmware as a whole.
+// Tests of what Python does not see of the core: wiring, clock, pace, queue, framing, the firmware as a whole. Runs on
+// the host and on the Teensy's processor, so without streams.
 #include <array>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
 #include <initializer_list>
-#include <iostream>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "acts_firmware/board/clock.hpp"
+#include "acts_firmware/board/pacer.hpp"
 #include "acts_firmware/firmware.hpp"
 #include "wired_board.hpp"
 
@@ -16,12 +18,12 @@ namespace {
 
 int failures = 0;
 
-#define CHECK(condition)                                                                       \
-  do {                                                                                         \
-    if (!(condition)) {                                                                        \
-      std::cerr << __FILE__ << ":" << __LINE__ << ": " << __func__ << ": " #condition << "\n"; \
-      ++failures;                                                                              \
-    }                                                                                          \
+#define CHECK(condition)                                                                 \
+  do {                                                                                   \
+    if (!(condition)) {                                                                  \
+      std::fprintf(stderr, "%s:%d: %s: %s\n", __FILE__, __LINE__, __func__, #condition); \
+      ++failures;                                                                        \
+    }                                                                                    \
   } while (false)
 
 using Bytes = std::vector<std::uint8_t>;
@@ -119,6 +121,47 @@ void test_frame_across_a_wrap() {
   const acts::SampleFrame& frame = firmware->measure_frame();
   CHECK(frame.duration_us == 550);
   CHECK(frame.board_us == 0xFFFFFFFFULL - 100 + 550);
+}
+
+// Frames of `busy_us` each from `start_us` on; when they began.
+std::vector<std::uint32_t> begins(std::uint32_t start_us, std::uint32_t busy_us, std::uint32_t period_us, int count) {
+  acts::FramePacer pacer;
+  std::vector<std::uint32_t> times;
+  for (std::uint32_t now_us = start_us; static_cast<int>(times.size()) < count; ++now_us) {
+    if (pacer.due(now_us, period_us)) {
+      CHECK(pacer.begin(now_us, period_us) == 0);
+      times.push_back(now_us - start_us);
+      now_us += busy_us;
+      pacer.end(now_us);
+    }
+  }
+  return times;
+}
+
+void test_pace() {
+  using Times = std::vector<std::uint32_t>;
+  CHECK(begins(7, 60, 100, 4) == (Times{0, 100, 200, 300}));
+  CHECK(begins(0xFFFFFFF0U, 60, 100, 4) == (Times{0, 100, 200, 300}));  // micros() wraps
+  CHECK(begins(7, 150, 100, 4) == (Times{0, 151, 302, 453}));           // end to end
+  CHECK(begins(7, 60, 0, 3) == (Times{0, 61, 122}));                    // as fast as it goes
+  CHECK(begins(7, 400000, 1000, 3) == (Times{0, 400001, 800002}));      // long frames are no stall
+}
+
+void test_pace_after_lateness() {
+  acts::FramePacer pacer;
+  CHECK(pacer.due(50, 1000));
+  CHECK(pacer.begin(50, 1000) == 0);
+  pacer.end(600);
+  CHECK(!pacer.due(1049, 1000));
+  CHECK(pacer.begin(1400, 1000) == 0);  // a little late
+  pacer.end(2000);
+  CHECK(!pacer.due(2049, 1000) && pacer.due(2050, 1000));  // the grid stays
+  CHECK(pacer.due(2040, 500));                             // a new period counts at once
+  CHECK(pacer.begin(2050, 1000) == 0);
+  pacer.end(2600);
+  CHECK(pacer.begin(302600, 1000) == 299);  // something held the board up
+  pacer.end(303000);
+  CHECK(!pacer.due(303599, 1000) && pacer.due(303600, 1000));
 }
 
 void test_crc() {
@@ -326,6 +369,8 @@ int main() {
   test_every_taxel_is_wired(16, 64);
   test_clock_across_wraps();
   test_frame_across_a_wrap();
+  test_pace();
+  test_pace_after_lateness();
   test_crc();
   test_cobs();
   test_packet_layout();
@@ -335,9 +380,9 @@ int main() {
   test_new_settings_forget_what_was_pressed();
   test_published_ascii();
   if (failures > 0) {
-    std::cerr << failures << " checks failed\n";
+    std::fprintf(stderr, "%d checks failed\n", failures);
     return 1;
   }
-  std::cout << "all checks passed\n";
+  std::puts("all checks passed");
   return 0;
 }

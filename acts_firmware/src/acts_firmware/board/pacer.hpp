@@ -1,0 +1,46 @@
+// When frames begin.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+namespace acts {
+
+// Frames begin on a grid of the period asked for, so that the rate is right on average although one may be a little
+// late. Where measuring takes longer than the period they follow end to end. All times are micros(), which may wrap;
+// must be asked more often than that.
+class FramePacer {
+ public:
+  // Held up for longer than this, frames count as skipped (the virtual board's limit too).
+  static constexpr std::uint32_t kCatchUpUs = 250000;
+
+  bool due(std::uint32_t now_us, std::uint32_t period_us) const { return !started_ || now_us - grid_us_ >= period_us; }
+
+  // A frame begins. Returns how many should have begun before it but could not: something other than measuring held
+  // the board up.
+  std::uint32_t begin(std::uint32_t now_us, std::uint32_t period_us) {
+    if (!started_) {
+      started_ = true;
+      grid_us_ = now_us;
+      return 0;
+    }
+    const std::uint32_t late_us = now_us - grid_us_ - period_us;
+    const std::uint32_t held_us = std::min(late_us, now_us - ended_us_);
+    if (held_us > kCatchUpUs && period_us > 0) {
+      grid_us_ = now_us;
+      return held_us / period_us;
+    }
+    grid_us_ = late_us >= period_us ? now_us : grid_us_ + period_us;
+    return 0;
+  }
+
+  // It has been measured.
+  void end(std::uint32_t now_us) { ended_us_ = now_us; }
+
+ private:
+  bool started_ = false;
+  std::uint32_t grid_us_ = 0;  // when the last frame should have begun
+  std::uint32_t ended_us_ = 0;
+};
+
+}  // namespace acts

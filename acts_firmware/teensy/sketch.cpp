@@ -1,0 +1,4 @@
+// The sketch as the Arduino builder compiles it: C++ after Arduino.h.
+#include <Arduino.h>
+
+#include "../examples/teensy41/teensy41.ino"
