@@ -1,11 +1,12 @@
 # make demo and make test do all the set-up they need, in this checkout, and say what they do.
 # `make PYTHON=/path/to/python3 ...` chooses the interpreter.
 
-.PHONY: help setup demo bench test lint format clean
+.PHONY: help setup demo bench firmware test lint format clean
 
 help:
 	@echo "make demo    ball balancing with simulated skin, ball and UR5e (DEMO_SECONDS=30); writes out/"
 	@echo "make bench   throughput, CPU and latency of the sensing end, about four minutes; writes out/bench.json"
+	@echo "make firmware  cross-compile the Teensy's firmware, check that it fits (needs gcc-arm-none-eabi)"
 	@echo "make test    linters and the whole test suite"
 	@echo "make lint    linters and type checks only"
 	@echo "make format  format Python and C++"
@@ -20,6 +21,9 @@ demo:
 
 bench:
 	@./acts bench $(BENCH)
+
+firmware:
+	@./acts run python3 scripts/firmware.py
 
 test:
 	@./acts run python3 scripts/check.py
