@@ -16,6 +16,9 @@ from acts_core.errors import ArrayError
 MODEL_CAPACITY = 262_144
 """Bytes that a board holds."""
 
+PATCH_SIDE_MAX = 8
+"""Largest side of a patch that a board recovers, in taxels."""
+
 OBJECTS_MAX = 64
 """Objects that a board tells apart at most."""
 
@@ -80,8 +83,10 @@ def patch_dictionary(atoms: ArrayLike, *, patch_step: int = 4) -> BoardModel:
     """
     matrix = _matrix("atoms", atoms)
     side = math.isqrt(matrix.shape[0])
-    if side * side != matrix.shape[0] or side > MAX_SIDE:
-        raise ArrayError(f"atoms of {matrix.shape[0]} pixels: a patch is square, of 1 to {MAX_SIDE} taxels a side")
+    if side * side != matrix.shape[0] or side > PATCH_SIDE_MAX:
+        raise ArrayError(
+            f"atoms of {matrix.shape[0]} pixels: a patch is square, of 1 to {PATCH_SIDE_MAX} taxels a side"
+        )
     if not 1 <= patch_step <= side:
         raise ArrayError(f"patch_step = {patch_step}: allowed is 1 to the patch's side, {side}")
     return _fitting(BoardModel(ModelKind.PATCH_DICTIONARY, *matrix.shape, side, patch_step, 0, matrix.tobytes()))

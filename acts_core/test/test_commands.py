@@ -269,6 +269,7 @@ def test_models() -> None:
     ("make", "words"),
     [
         (lambda: patch_dictionary(np.ones((63, 2))), "square"),
+        (lambda: patch_dictionary(np.ones((81, 2))), "1 to 8 taxels a side"),
         (lambda: patch_dictionary(np.ones((64, 2)), patch_step=9), "patch_step = 9"),
         (lambda: patch_dictionary(np.full((4, 2), np.nan)), "not finite"),
         (lambda: patch_dictionary(np.full((4, 2), 1e300)), "not finite"),

@@ -9,6 +9,7 @@ import numpy as np
 from core_library import U16, installed
 from numpy.typing import NDArray
 
+from acts_core.board_settings import OUTPUTS
 from acts_recon.classification import Classification
 from acts_recon.object_library import ObjectLibrary
 
@@ -24,6 +25,8 @@ def library() -> ctypes.CDLL:
         "probe_classify": [pointer, pointer, i32, i32, pointer, pointer, i32, i32, i32, pointer, pointer],
         "probe_atoms_limit": [i32],
     }
+    lib.probe_published_recovery_us.argtypes = [i32] * 5
+    lib.probe_published_recovery_us.restype = ctypes.c_double
     for name, arguments in signatures.items():
         getattr(lib, name).argtypes = arguments
     return lib
@@ -84,3 +87,8 @@ def classify(
 
 def atoms_limit(m: int) -> int:
     return int(library().probe_atoms_limit(m))
+
+
+def published_recovery_us(output: str, columns: int, m: int, *, shape: tuple[int, int] = (32, 32)) -> float:
+    """The virtual board's model of the time that recovery ("image") or classification ("object") takes."""
+    return float(library().probe_published_recovery_us(OUTPUTS.index(output), columns, *shape, m))

@@ -5,6 +5,7 @@
 
 #include "acts_firmware/recovery/image_recovery.hpp"
 #include "acts_firmware/recovery/object_classifier.hpp"
+#include "published_recovery.hpp"
 
 namespace {
 
@@ -45,6 +46,16 @@ int probe_classify(const float* library, const std::uint8_t* class_of_column, in
   std::copy_n(result.residuals.begin(), classes, residuals);
   *confidence = result.confidence;
   return result.touched ? result.best : -1;
+}
+
+// Output numbers as on the wire.
+double probe_published_recovery_us(int output, int columns, int rows, int cols, int m) {
+  acts::Model model;
+  model.columns = static_cast<std::uint16_t>(columns);
+  acts::SamplingConfig sampling;
+  sampling.rows = rows;
+  sampling.cols = cols;
+  return acts::published_recovery_us(static_cast<acts::Output>(output), model, sampling, m);
 }
 
 int probe_atoms_limit(int m) {

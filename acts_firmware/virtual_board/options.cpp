@@ -120,6 +120,8 @@ std::vector<Option> make_options(Options& o) {
        [&o](const std::string& v) { o.rate_hz = number("--rate-hz", v, 1.0, 1e5); }},
       {"--sample-us", "T", "time of one measurement in microseconds (as published for the scheme and M)",
        [&o](const std::string& v) { o.sample_us = number("--sample-us", v, 0.1, 1000.0); }},
+      {"--recovery-us", "T", "time of recovery or classification of a frame in microseconds (as published)",
+       [&o](const std::string& v) { o.recovery_us = number("--recovery-us", v, 0.0, 1e6); }},
       {"--threshold", "COUNTS",
        "counts above which adaptive and hybrid search a taxel's neighbours and tracking follows it (180)",
        [&s](const std::string& v) { s.threshold = whole("--threshold", v, 0, kCountMax); }},

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -25,7 +26,8 @@ struct Options {
   double search_share = 0.2;
   double adaptive_share = 0.5;
   double rate_hz = 1000.0;
-  double sample_us = 0.0;  // of one measurement; 0: as published
+  double sample_us = 0.0;             // of one measurement; 0: as published
+  std::optional<double> recovery_us;  // of recovery or classification; none: as published
   double noise_counts = 1.5;
   double drift_ppm = 0.0;
   std::uint64_t board_id = kVirtualBoardId;

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "published_recovery.hpp"
 #include "published_timing.hpp"
 
 namespace acts {
@@ -93,7 +94,15 @@ void Process::set_pace() {
   }
   sample_ns_ = std::lround(sample_us * 1000.0);
   duration_ns_ = firmware_->sampler().frame_size() * sample_ns_;
-  step_ns_ = std::max(duration_ns_, std::int64_t{firmware_->settings().frame_period_us} * 1000);
+  computing_ns_ = 0;
+  const Output output = firmware_->active_output();
+  if (output != Output::kSamples) {
+    const double published_us = published_recovery_us(output, firmware_->models().model(),
+                                                      firmware_->sampler().config(), firmware_->sampler().frame_size());
+    computing_ns_ = std::lround(options_.recovery_us.value_or(published_us) * 1000.0);
+  }
+  board_->set_computing_ns(computing_ns_);
+  step_ns_ = std::max(duration_ns_ + computing_ns_, std::int64_t{firmware_->settings().frame_period_us} * 1000);
 }
 
 void Process::run() {
@@ -117,11 +126,25 @@ void Process::run() {
     last_start_ns_ = start_ns_;
     start_ns_ += step_ns_;
     send();
+    recover_frame();
     if (next_status_ns > 0 && now - epoch_.monotonic_ns >= next_status_ns) {
       print_status();
       next_status_ns += status_period_ns();
     }
   }
+}
+
+void Process::recover_frame() {
+  if (firmware_->active_output() == Output::kSamples || !terminal_.open()) {
+    return;
+  }
+  const std::int64_t done_ns = time_.to_host_ns(last_start_ns_ + duration_ns_ + computing_ns_);
+  for (std::int64_t now = now_ns(CLOCK_MONOTONIC); now < done_ns && stop_requested_ == 0;
+       now = now_ns(CLOCK_MONOTONIC)) {
+    sleep_until(std::min(done_ns, now + kNapNs));
+  }
+  firmware_->recover_frame();
+  send();
 }
 
 bool Process::wait_for_frame() {

@@ -39,6 +39,8 @@ class Process {
   bool serve_terminal();
   bool hear_host();
   void send();
+  // What the board makes of the frame measured last, when it has had the time for that.
+  void recover_frame();
 
   void take_faults(std::int64_t monotonic_ns);
   void begin(const Fault& fault, std::int64_t monotonic_ns);
@@ -70,6 +72,7 @@ class Process {
   std::int64_t last_start_ns_ = 0;  // of the last frame
   std::int64_t sample_ns_ = 0;
   std::int64_t duration_ns_ = 0;
+  std::int64_t computing_ns_ = 0;  // after a frame, on what is sent besides its samples
   std::int64_t step_ns_ = 0;
   std::uint64_t frames_ = 0;
 };

@@ -42,7 +42,11 @@ class VirtualBoard final : public WiredBoard {
   // Jump to a board time, the start of a frame whose m measurements take `sample_ns` each.
   void begin_frame(std::int64_t start_ns, std::int64_t sample_ns, int m);
 
+  // What recovery or classification of a frame takes.
+  void set_computing_ns(std::int64_t computing_ns) { computing_ns_ = computing_ns; }
+
   std::uint16_t read_adc() override;
+  void computed() override { now_ns_ += computing_ns_; }
   std::uint32_t micros() override { return static_cast<std::uint32_t>(now_ns_ / 1000); }
 
  protected:
@@ -60,6 +64,7 @@ class VirtualBoard final : public WiredBoard {
   double spare_ = 0.0;
   bool has_spare_ = false;
   std::int64_t now_ns_ = 0;
+  std::int64_t computing_ns_ = 0;
   std::int64_t now_host_ns_ = 0;
 };
 

@@ -1,5 +1,7 @@
 #include "acts_firmware/firmware.hpp"
 
+#include "acts_firmware/wire/results.hpp"
+
 namespace acts {
 
 Firmware::Firmware(Board& board, const Wiring& wiring, Protocol protocol, ModelMemory& models)
@@ -54,6 +56,56 @@ bool Firmware::queue_packet(std::size_t length) {
   const std::size_t stuffed = cobs_encode(message_.data(), length, wire_.data());
   wire_[stuffed] = kDelimiter;
   return output_.push(wire_.data(), stuffed + 1);
+}
+
+bool Firmware::recover_frame() {
+  const Output output = active_output();
+  const SamplingConfig& sampling = settings_.sampling;
+  // The host may have set another array since the frame was measured.
+  const bool current = frame_.rows == sampling.rows && frame_.cols == sampling.cols;
+  if (output == Output::kSamples || !current || !streaming_ || protocol_ != Protocol::kBinary) {
+    return false;
+  }
+  const std::uint64_t start_us = clock_.extend(board_.micros());
+  std::size_t length = 0;
+  if (output == Output::kImage) {
+    const float* counts = model_output_.image(models_.model(), frame_, settings_.touch_counts);
+    if (counts == nullptr) {
+      return false;
+    }
+    length = encode_recovered(counts, start_us);
+  } else {
+    length = encode_recognised(model_output_.object(models_.model(), frame_, settings_.touch_counts), start_us);
+  }
+  queue_packet(length);  // where the host does not keep up this one is missing: its frame's number tells
+  return true;
+}
+
+std::uint32_t Firmware::computed_since(std::uint64_t start_us) {
+  board_.computed();
+  return static_cast<std::uint32_t>(clock_.extend(board_.micros()) - start_us);
+}
+
+std::size_t Firmware::encode_recovered(const float* counts, std::uint64_t start_us) {
+  RecoveredImage image;
+  image.sequence = frame_.sequence;
+  image.board_us = frame_.board_us;
+  image.duration_us = computed_since(start_us);
+  image.rows = frame_.rows;
+  image.cols = frame_.cols;
+  image.counts = counts;
+  return encode_image(image, message_.data());
+}
+
+std::size_t Firmware::encode_recognised(const ObjectResult& result, std::uint64_t start_us) {
+  RecognisedObject object;
+  object.sequence = frame_.sequence;
+  object.board_us = frame_.board_us;
+  object.duration_us = computed_since(start_us);
+  object.object = result.touched ? result.best : -1;
+  object.objects = result.classes;
+  object.residuals = result.residuals.data();
+  return encode_object(object, message_.data());
 }
 
 void Firmware::skip_frames(std::uint32_t count) {

@@ -12,6 +12,7 @@
 #include "acts_firmware/frame.hpp"
 #include "acts_firmware/led.hpp"
 #include "acts_firmware/model/model_store.hpp"
+#include "acts_firmware/recovery/model_output.hpp"
 #include "acts_firmware/sampling/sampler.hpp"
 #include "acts_firmware/settings.hpp"
 #include "acts_firmware/wire/command.hpp"
@@ -27,7 +28,7 @@ enum class Protocol : std::uint8_t {
   kRasterAscii,  // the authors' published raster sketch, which listens to nobody
 };
 
-// Large (about 270 KB, and the memory for models): make it static, or on the heap at the start.
+// Large (about 340 KB, and the memory for models): make it static, or on the heap at the start.
 class Firmware {
  public:
   Firmware(Board& board, const Wiring& wiring, Protocol protocol, ModelMemory& models);
@@ -44,6 +45,10 @@ class Firmware {
 
   // Measures one frame and queues it; drops it whole, and counts that, where the queue is full.
   const SampleFrame& measure_frame();
+
+  // Makes of the frame measured last what settings().output says besides samples, and queues it. True where there was
+  // anything to do. Apart from measure_frame(), so that samples can be sent before this takes its time.
+  bool recover_frame();
 
   // Frames that could not be measured in time: their numbers are used up, and they count as overruns.
   void skip_frames(std::uint32_t count);
@@ -68,6 +73,9 @@ class Firmware {
 
   void queue_frame();
   bool queue_packet(std::size_t length);
+  std::size_t encode_recovered(const float* counts, std::uint64_t start_us);
+  std::size_t encode_recognised(const ObjectResult& result, std::uint64_t start_us);
+  std::uint32_t computed_since(std::uint64_t start_us);
 
   void take_packet();
   Answer execute(const Command& command);
@@ -82,6 +90,7 @@ class Firmware {
   Sampler sampler_;
   Settings settings_;
   ModelStore models_;
+  ModelOutput model_output_;
   Protocol protocol_;
   ExtendedClock clock_;
   SampleFrame frame_;

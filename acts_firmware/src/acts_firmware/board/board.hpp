@@ -24,6 +24,10 @@ class Board {
   // Time since the board's start [us]; wraps at 2^32.
   virtual std::uint32_t micros() = 0;
 
+  // Told when the firmware has recovered or classified a frame. Nothing to do where time passes by itself; a board
+  // whose time is simulated lets pass here what that takes.
+  virtual void computed() {}
+
   // Which board this is; different for every board, the same at every start.
   virtual std::uint64_t id() = 0;
 };

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "acts_firmware/limits.hpp"
+#include "acts_firmware/recovery/patch_cover.hpp"
 #include "acts_firmware/wire/packet.hpp"
 
 namespace acts {
@@ -22,7 +23,7 @@ bool possible(const Model& model, std::uint32_t bytes) {
   }
   switch (model.kind) {
     case ModelKind::kPatchDictionary:
-      return model.patch_side <= kMaxSide && model.rows == model.patch_side * model.patch_side &&
+      return model.patch_side <= kMaxPatchSide && model.rows == model.patch_side * model.patch_side &&
              model.patch_step >= 1 && model.patch_step <= model.patch_side && model.objects == 0 &&
              bytes == value_bytes(model);
     case ModelKind::kObjectLibrary:

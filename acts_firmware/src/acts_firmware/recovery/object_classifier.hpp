@@ -7,15 +7,15 @@
 
 #include "acts_firmware/frame.hpp"
 #include "acts_firmware/limits.hpp"
+#include "acts_firmware/model/model.hpp"
 #include "acts_firmware/recovery/fast_omp.hpp"
 
 namespace acts {
 
-constexpr int kMaxClasses = 64;
 constexpr int kObjectAtoms = 2;  // columns chosen on the board, as in the published sketch
 
 // Full frames of known objects: a row a taxel of the array, a column a frame, and the class of every column, below
-// `classes`, which is at most kMaxClasses.
+// `classes`, which is at most kMaxObjects.
 struct ObjectLibrary {
   const float* values;
   const std::uint8_t* class_of_column;
@@ -28,7 +28,7 @@ struct ObjectResult {
   int best = 0;          // class of the smallest residual; the first of equal ones
   int classes = 0;
   // What the class's own columns leave of the samples, a norm relative to that of the samples: 0 explained, 1 not.
-  std::array<float, kMaxClasses> residuals{};
+  std::array<float, kMaxObjects> residuals{};
   // 1 - smallest / second smallest residual: 0 undecided, 1 sure. 0 without touch, and where there is one class.
   float confidence = 0.0F;
 };

@@ -1,0 +1,73 @@
+"""A host that talks to a virtual board: commands and their replies, uploads, and what the board sends by itself."""
+
+from __future__ import annotations
+
+import os
+import time
+
+from board_process import DEADLINE_S, BoardProcess
+
+from acts_core.board_messages import BoardMessage
+from acts_core.board_models import BoardModel
+from acts_core.commands import (
+    UPLOAD_PIECE_MAX,
+    BoardSettings,
+    Reply,
+    ReplyStatus,
+    encode_configure,
+    encode_upload_begin,
+    encode_upload_data,
+    encode_upload_end,
+)
+from acts_core.frames import SampleFrame
+from acts_core.wire import StreamDecoder
+
+
+class BoardClient:
+    """Opens the board's port; `frames` and `messages` hold what came so far."""
+
+    def __init__(self, board: BoardProcess) -> None:
+        self._board = board
+        self._request = 0
+        self.frames: list[SampleFrame] = []
+        self.messages: list[BoardMessage] = []
+        board.decoder = StreamDecoder(on_message=self.messages.append)
+        self._port = board.open_port()
+
+    def read(self) -> None:
+        self.frames += self._board.decoder.feed(self._board.read_bytes())
+
+    def read_until_messages(self, kind: type, count: int) -> list[BoardMessage]:
+        """The first `count` messages of a kind."""
+        deadline = time.monotonic() + DEADLINE_S
+        while True:
+            found = [message for message in self.messages if isinstance(message, kind)]
+            if len(found) >= count:
+                return found[:count]
+            assert time.monotonic() < deadline, f"{len(found)} of {count} {kind.__name__}"
+            self.read()
+
+    def _reply(self, packet: bytes) -> Reply:
+        assert os.write(self._port, packet) == len(packet)
+        deadline = time.monotonic() + DEADLINE_S
+        while True:
+            for message in self.messages:
+                if isinstance(message, Reply) and message.request == self._request:
+                    assert message.status is ReplyStatus.OK, message
+                    return message
+            assert time.monotonic() < deadline, "no reply"
+            self.read()
+
+    def _next(self) -> int:
+        self._request += 1
+        return self._request
+
+    def configure(self, settings: BoardSettings) -> Reply:
+        return self._reply(encode_configure(self._next(), settings))
+
+    def upload(self, model: BoardModel) -> Reply:
+        self._reply(encode_upload_begin(self._next(), model))
+        for offset in range(0, len(model.payload), UPLOAD_PIECE_MAX):
+            piece = model.payload[offset : offset + UPLOAD_PIECE_MAX]
+            self._reply(encode_upload_data(self._next(), offset, piece))
+        return self._reply(encode_upload_end(self._next()))

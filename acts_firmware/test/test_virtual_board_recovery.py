@@ -1,0 +1,130 @@
+"""A virtual board that recovers and classifies by itself: upload, images, objects, and the time they take."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import pytest
+from board_client import BoardClient
+from board_process import BoardProcess
+from numpy.typing import NDArray
+
+from acts_core.array import ArrayGeometry
+from acts_core.board_messages import BoardImage, BoardObject
+from acts_core.board_models import object_library, patch_dictionary
+from acts_core.board_settings import BoardSettings
+from acts_core.commands import HeldModel
+from acts_core.frames import SampleFrame
+from acts_recon.classification import BOARD_COLUMNS, Classifier, ClassifierConfig
+from acts_recon.dictionary import Dictionary, load_dictionary
+from acts_recon.object_library import ObjectLibrary, build_object_library
+from acts_recon.reconstructor import Reconstructor, ReconstructorConfig
+from acts_recon.shipped import shipped_dictionary_path
+
+
+def press(row: float, col: float, width: float) -> NDArray[np.uint16]:
+    r, c = np.indices((32, 32))
+    return np.rint(800 * np.exp(-((r - row) ** 2 + (c - col) ** 2) / (2 * width**2))).astype(np.uint16)
+
+
+@pytest.fixture
+def board(tmp_path: Path) -> BoardProcess:
+    """A ball that rolls over the skin, played for ever."""
+    frames = np.array([press(6 + i, 10 + i / 2, 2.5) for i in range(20)])
+    np.save(tmp_path / "rolling.npy", frames)
+    options = ("--recording", tmp_path / "rolling.npy", "--recording-rate-hz", 20, "--loop", "--rate-hz", 100_000)
+    return BoardProcess(tmp_path, "--m", 50, *options)
+
+
+@pytest.fixture(scope="module")
+def small_dictionary() -> Dictionary:
+    return Dictionary(load_dictionary(shipped_dictionary_path()).atoms[:, ::20], 8)
+
+
+@pytest.fixture(scope="module")
+def objects() -> ObjectLibrary:
+    places = [("high", 8.0), ("low", 22.0)] * 30
+    return build_object_library(
+        [press(row, 8 + i / 5, 2 + i / 30) for i, (_, row) in enumerate(places)], [name for name, _ in places]
+    )
+
+
+def samples_of(message: BoardImage | BoardObject, frames: list[SampleFrame]) -> SampleFrame:
+    """The frame that a message was made of; their clocks agree."""
+    (frame,) = (frame for frame in frames if frame.sequence == message.sequence)
+    assert frame.board_us == message.board_us
+    return frame
+
+
+def period_us(messages: Sequence[BoardImage | BoardObject | SampleFrame]) -> float:
+    first, last = messages[0], messages[-1]
+    return (last.board_us - first.board_us) / (last.sequence - first.sequence)
+
+
+def test_images_are_those_of_acts_recon(board: BoardProcess, small_dictionary: Dictionary) -> None:
+    model = patch_dictionary(small_dictionary.atoms)
+    with board:
+        client = BoardClient(board)
+        client.upload(model)
+        reply = client.configure(BoardSettings(m=50, output="image", touch_counts=40, frame_period_us=0))
+        assert reply.state.model == HeldModel.of(model)
+        assert not reply.state.samples_only
+        images = [image for image in client.read_until_messages(BoardImage, 300) if isinstance(image, BoardImage)]
+    reconstructor = Reconstructor(ArrayGeometry(), small_dictionary, ReconstructorConfig(touch_counts=40))
+    touched = 0
+    for image in images:
+        frame = samples_of(image, client.frames)
+        reconstructor.step(frame.indices, frame.counts)
+        touched += bool(reconstructor.image.any())
+        assert np.abs(image.counts - reconstructor.image).max() <= 0.505  # rounded to whole counts
+        assert abs(image.duration_us - 491) <= 1  # as published for 50 atoms, M = 50
+    assert touched > 100
+    # One after the other: 884 us of sampling, then recovery.
+    assert period_us(images) == pytest.approx(884 + 491, abs=0.5)
+
+
+def test_objects_are_those_of_acts_recon(board: BoardProcess, objects: ObjectLibrary) -> None:
+    with board:
+        client = BoardClient(board)
+        client.upload(object_library(objects.columns, objects.classes))
+        client.configure(BoardSettings(m=50, output="object", frame_period_us=0))
+        results = [result for result in client.read_until_messages(BoardObject, 800) if isinstance(result, BoardObject)]
+    classifier = Classifier(objects, ClassifierConfig(max_columns=BOARD_COLUMNS))
+    seen = set()
+    for result in results:
+        frame = samples_of(result, client.frames)
+        expected = classifier.step(frame.indices, frame.counts)
+        np.testing.assert_allclose(result.residuals, expected.residuals, atol=1e-4)
+        assert result.number == (expected.best if expected.touched else None) or expected.confidence < 1e-4
+        assert abs(result.duration_us - 343) <= 1
+        seen.add(result.number)
+    assert seen >= {0, 1}
+    assert period_us(results) == pytest.approx(884 + 343, abs=0.5)
+
+
+def test_a_model_that_does_not_fit_leaves_the_samples_alone(
+    board: BoardProcess, small_dictionary: Dictionary, objects: ObjectLibrary
+) -> None:
+    with board:
+        client = BoardClient(board)
+        assert client.configure(BoardSettings(m=50, output="image", frame_period_us=0)).state.samples_only
+        assert client.upload(object_library(objects.columns, objects.classes)).state.samples_only
+        assert not client.upload(patch_dictionary(small_dictionary.atoms)).state.samples_only
+        client.read_until_messages(BoardImage, 3)
+        assert client.configure(BoardSettings(rows=7, m=50, output="image", frame_period_us=0)).state.samples_only
+        so_far = len(client.messages)
+        frames = len(client.frames)
+        while len(client.frames) < frames + 50:
+            client.read()
+        assert not any(isinstance(message, BoardImage) for message in client.messages[so_far:])
+        assert period_us(client.frames[-30:]) == pytest.approx(884, abs=0.5)
+
+
+def test_the_time_of_recovery_can_be_set(tmp_path: Path, small_dictionary: Dictionary) -> None:
+    with BoardProcess(tmp_path, "--m", 50, "--rate-hz", 100_000, "--sample-us", 4, "--recovery-us", 300) as board:
+        client = BoardClient(board)
+        client.upload(patch_dictionary(small_dictionary.atoms))
+        client.configure(BoardSettings(m=50, output="image", frame_period_us=0))
+        images = [image for image in client.read_until_messages(BoardImage, 50) if isinstance(image, BoardImage)]
+    assert {image.duration_us for image in images} == {300}
+    assert period_us(images) == pytest.approx(500)
