@@ -29,20 +29,24 @@ class ArrayGeometry:
     rows, cols : int
         1 to 64.
     pitch_m : float
-        Distance between neighbouring taxels [m]. The default is the paper's original array, 140 mm for 32 taxels
-        (Fig. S10-2).
+        Distance between neighbouring columns, and rows where nothing else is said [m]. The default is the paper's
+        original array, 140 mm for 32 taxels (Fig. S10-2).
+    row_pitch_m : float, optional
+        Distance between neighbouring rows where it is another [m].
     """
 
     rows: int = 32
     cols: int = 32
     pitch_m: float = 0.140 / 32
+    row_pitch_m: float | None = None
 
     def __post_init__(self) -> None:
         for name, value in (("rows", self.rows), ("cols", self.cols)):
             if not 1 <= value <= MAX_SIDE:
                 raise ArrayError(f"{name} = {value}: an array has 1 to {MAX_SIDE} {name}")
-        if not (np.isfinite(self.pitch_m) and self.pitch_m > 0):
-            raise ArrayError(f"pitch_m = {self.pitch_m}: the pitch is a positive number of metres")
+        for name, pitch_m in (("pitch_m", self.pitch_m), ("row_pitch_m", self.pitch_y_m)):
+            if not (np.isfinite(pitch_m) and pitch_m > 0):
+                raise ArrayError(f"{name} = {pitch_m}: the pitch is a positive number of metres")
 
     @property
     def size(self) -> int:
@@ -50,9 +54,14 @@ class ArrayGeometry:
         return self.rows * self.cols
 
     @property
+    def pitch_y_m(self) -> float:
+        """Distance between neighbouring rows [m]."""
+        return self.pitch_m if self.row_pitch_m is None else self.row_pitch_m
+
+    @property
     def taxel_area_m2(self) -> float:
         """Area that one taxel stands for [m^2]."""
-        return self.pitch_m**2
+        return self.pitch_m * self.pitch_y_m
 
     def x_m(self, col: ArrayLike) -> NDArray[np.float64]:
         """x of a column, which may be fractional [m]; same shape as `col`."""
@@ -60,7 +69,7 @@ class ArrayGeometry:
 
     def y_m(self, row: ArrayLike) -> NDArray[np.float64]:
         """y of a row, which may be fractional [m]; same shape as `row`."""
-        return ((self.rows - 1) / 2 - np.asarray(row, dtype=np.float64)) * self.pitch_m
+        return ((self.rows - 1) / 2 - np.asarray(row, dtype=np.float64)) * self.pitch_y_m
 
     def col_of(self, x_m: ArrayLike) -> NDArray[np.float64]:
         """Fractional column of an x [m]; same shape as `x_m`."""
@@ -68,4 +77,4 @@ class ArrayGeometry:
 
     def row_of(self, y_m: ArrayLike) -> NDArray[np.float64]:
         """Fractional row of a y [m]; same shape as `y_m`."""
-        return (self.rows - 1) / 2 - np.asarray(y_m, dtype=np.float64) / self.pitch_m
+        return (self.rows - 1) / 2 - np.asarray(y_m, dtype=np.float64) / self.pitch_y_m

@@ -6,8 +6,8 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-RESULTS = 6
-"""Numbers that `find_contact` writes: column, row, force [N], peak [counts], pressed taxels, mean square distance."""
+RESULTS = 7
+"""Numbers that `find_contact` writes: column, row, force [N], peak [counts], pressed taxels, variances of both."""
 
 
 @numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
@@ -29,13 +29,14 @@ def find_contact(
     force_n : np.ndarray [shape=(1025,), dtype=float64]
         The table of `acts_core.force.force_table`; values between two counts are interpolated.
     results : np.ndarray [shape=(RESULTS,), dtype=float64]
-        Written: mean column and row, force [N], peak [counts], pressed taxels, mean square distance [taxels^2]; all 0
+        Written: mean column and row, force [N], peak [counts], pressed taxels, variances of column and row; all 0
         without contact.
     """
     total = 0.0
     by_col = 0.0
     by_row = 0.0
-    by_square = 0.0
+    by_col_square = 0.0
+    by_row_square = 0.0
     peak = 0.0
     pressed = 0
     for t in range(image.shape[0]):
@@ -49,7 +50,8 @@ def find_contact(
         total += weight
         by_col += weight * col
         by_row += weight * row
-        by_square += weight * (col * col + row * row)
+        by_col_square += weight * (col * col)
+        by_row_square += weight * (row * row)
         peak = max(peak, value)
         pressed += 1
     for i in range(RESULTS):
@@ -63,4 +65,5 @@ def find_contact(
     results[2] = total
     results[3] = peak
     results[4] = pressed
-    results[5] = max(by_square / total - mean_col * mean_col - mean_row * mean_row, 0.0)
+    results[5] = max(by_col_square / total - mean_col * mean_col, 0.0)
+    results[6] = max(by_row_square / total - mean_row * mean_row, 0.0)

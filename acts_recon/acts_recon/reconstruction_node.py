@@ -55,9 +55,10 @@ class ReconstructionNode(Node):
         # Filled anew for every frame: making messages costs more than sending them.
         self._contact = ContactMessage()
         self._cop = PointStamped()
-        self._raw = _empty_image(self._settings.rows, self._settings.cols, "mono16", 2)
+        rows, cols = self._reconstructor.image.shape
+        self._raw = _empty_image(rows, cols, "mono16", 2)
         scale = self._settings.image_scale
-        self._view = _empty_image(self._settings.rows * scale, self._settings.cols * scale, "rgb8", 3)
+        self._view = _empty_image(rows * scale, cols * scale, "rgb8", 3)
         self._view_limit = RateLimit(self._settings.image_rate_hz)
         classifier = self._settings.classifier()
         self._objects: ObjectPublisher | None = None
@@ -77,7 +78,9 @@ class ReconstructionNode(Node):
         if self._settings.subtract_baseline:
             self.create_subscription(Baseline, "baseline", self._on_baseline, **qos.overridable(qos.LATCHED))
         self.create_subscription(TactileSamples, "samples", self._on_samples, **qos.overridable(qos.STREAM))
-        self.get_logger().info(f"ready: array of {self._settings.rows} x {self._settings.cols}")
+        self.get_logger().info(
+            f"ready: array of {self._settings.rows} x {self._settings.cols}, image of {rows} x {cols}"
+        )
 
     def _look_for_subscribers(self) -> None:
         self._send_cop = self._cop_publisher.get_subscription_count() > 0

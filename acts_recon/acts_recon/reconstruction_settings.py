@@ -7,6 +7,7 @@ from pathlib import Path
 
 from acts_core.array import COUNT_MAX, MAX_SIDE, ArrayGeometry
 from acts_core.force import ForceResponse, MeasuredForceResponse
+from acts_core.layouts import LAYOUTS, layout
 from acts_core.settings import default_of, setting, validate
 from acts_recon.classification import Classifier, ClassifierConfig
 from acts_recon.dictionary import load_dictionary
@@ -24,7 +25,21 @@ class ReconstructionSettings:
 
     rows: int = setting(_ARRAY.rows, "rows of the array", minimum=1, maximum=MAX_SIDE)
     cols: int = setting(_ARRAY.cols, "columns of the array", minimum=1, maximum=MAX_SIDE)
-    pitch_m: float = setting(_ARRAY.pitch_m, "distance between neighbouring taxels [m]", minimum=1e-5, maximum=1.0)
+    layout: str = setting(
+        "square", "how the matrix of taxels lies on the skin; images and contacts follow it", choices=LAYOUTS
+    )
+    pitch_m: float = setting(
+        0.0,
+        "distance between neighbouring columns of the image [m]; 0: that of the paper's skin of this layout",
+        minimum=0.0,
+        maximum=1.0,
+    )
+    row_pitch_m: float = setting(
+        0.0,
+        "distance between neighbouring rows of the image [m]; 0: as pitch_m, the paper's where that is 0",
+        minimum=0.0,
+        maximum=1.0,
+    )
     dictionary: str = setting("", "path of a dictionary file made by `acts train`; empty for the shipped one")
     touch_counts: int = setting(
         default_of(ReconstructorConfig, "touch_counts"),
@@ -86,13 +101,14 @@ class ReconstructionSettings:
         DictionaryError
             When the dictionary cannot be used.
         ArrayError
-            When it does not fit the array.
+            When it, or the layout, does not fit the array.
         SettingsError
             When the force response cannot be used.
         """
         path = Path(self.dictionary) if self.dictionary else shipped_dictionary_path()
+        arranged = layout(self.layout, self.rows, self.cols)
         return Reconstructor(
-            ArrayGeometry(self.rows, self.cols, self.pitch_m),
+            arranged.geometry(self.pitch_m, self.row_pitch_m),
             load_dictionary(path),
             ReconstructorConfig(
                 touch_counts=self.touch_counts,
@@ -101,6 +117,7 @@ class ReconstructionSettings:
                 keep_measured=self.keep_measured,
             ),
             self._response(),
+            None if self.layout == "square" else arranged,
         )
 
     def _response(self) -> ForceResponse | MeasuredForceResponse:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from acts_core.array import COUNT_MAX, ArrayGeometry
 from acts_core.errors import ArrayError
 from acts_core.force import ForceResponse, MeasuredForceResponse, force_table
+from acts_core.layouts import Layout
 from acts_core.settings import setting, validate
 from acts_recon import contact_kernels
 from acts_recon import fastomp_kernels as kernels
@@ -38,15 +39,19 @@ class Reconstructor:
     Parameters
     ----------
     geometry : ArrayGeometry
+        Of the picture; without a layout that is the matrix itself.
     dictionary : Dictionary
     config : ReconstructorConfig
     response : ForceResponse or MeasuredForceResponse
         From counts to newtons.
+    layout : Layout, optional
+        Where the taxels of the matrix lie in the picture. `step` takes matrix indices; patches are laid over the
+        picture, where neighbours are neighbours, and `image` and contacts are the picture's.
 
     Raises
     ------
     ArrayError
-        When the dictionary's patches do not fit the array.
+        When the dictionary's patches do not fit the array, or the layout is of another size.
     """
 
     def __init__(
@@ -55,23 +60,29 @@ class Reconstructor:
         dictionary: Dictionary,
         config: ReconstructorConfig | None = None,
         response: ForceResponse | MeasuredForceResponse | None = None,
+        layout: Layout | None = None,
     ) -> None:
         self.geometry = geometry
         self.config = config or ReconstructorConfig()
         self.response = response or ForceResponse()
         self._force_n = force_table(self.response)
-        layout = patch_layout(geometry.rows, geometry.cols, size=dictionary.patch_size, step=self.config.patch_step)
+        self._matrix_size = (geometry.rows, geometry.cols)
+        self._places: NDArray[np.uint16] | None = None
+        if layout is not None:
+            self._places = _place_table(layout, geometry)
+            self._matrix_size = (layout.matrix_rows, layout.matrix_cols)
+        patches = patch_layout(geometry.rows, geometry.cols, size=dictionary.patch_size, step=self.config.patch_step)
         n_pixels = dictionary.patch_size**2
         self._model = (
             kernels.in_blocks(dictionary.atoms),
             np.ascontiguousarray(dictionary.atoms.T),
-            layout.taxels,
-            layout.overlap,
-            layout.entry_start,
-            layout.entry_patch,
-            layout.entry_pixel,
+            patches.taxels,
+            patches.overlap,
+            patches.entry_start,
+            patches.entry_patch,
+            patches.entry_pixel,
         )
-        self._workspace = kernels.Workspace(geometry.size, layout.n_patches, n_pixels).arrays()
+        self._workspace = kernels.Workspace(geometry.size, patches.n_patches, n_pixels).arrays()
         self._flat = np.zeros(geometry.size, dtype=np.float32)
         self._results = np.zeros(contact_kernels.RESULTS)
         self.image: NDArray[np.float32] = self._flat.reshape(geometry.rows, geometry.cols)
@@ -87,7 +98,7 @@ class Reconstructor:
         Parameters
         ----------
         indices : np.ndarray [shape=(m,), dtype=uint16]
-            Row-major taxel indices, none twice; at least one.
+            Row-major taxel indices of the matrix, none twice; at least one.
         counts : np.ndarray [shape=(m,), dtype=uint16]
             What was measured there, 0 to 1023.
 
@@ -103,7 +114,7 @@ class Reconstructor:
         config = self.config
         code = kernels.recover_image(
             *self._model,
-            indices,
+            indices if self._places is None else self._places[indices],
             counts,
             config.touch_counts,
             COUNT_MAX,
@@ -125,25 +136,25 @@ class Reconstructor:
             self._force_n,
             results,
         )
-        col, row, force_n, peak, pressed, square = results.tolist()
+        col, row, force_n, peak, pressed, col_square, row_square = results.tolist()
         if pressed == 0:
             return NO_CONTACT
-        pitch_m = geometry.pitch_m
+        x_pitch_m, y_pitch_m = geometry.pitch_m, geometry.pitch_y_m
         return Contact(
             in_contact=True,
-            x_m=(col - (geometry.cols - 1) / 2) * pitch_m,
-            y_m=((geometry.rows - 1) / 2 - row) * pitch_m,
+            x_m=(col - (geometry.cols - 1) / 2) * x_pitch_m,
+            y_m=((geometry.rows - 1) / 2 - row) * y_pitch_m,
             force_n=force_n,
             peak_counts=peak,
-            area_m2=pressed * pitch_m * pitch_m,
+            area_m2=pressed * x_pitch_m * y_pitch_m,
             active_taxels=int(pressed),
-            spread_m=square**0.5 * pitch_m,
+            spread_m=(col_square * x_pitch_m**2 + row_square * y_pitch_m**2) ** 0.5,
         )
 
     def _reason(self, code: int, indices: NDArray[np.uint16], counts: NDArray[np.uint16]) -> str:
-        geometry = self.geometry
+        rows, cols = self._matrix_size
         if code == kernels.INDEX_OUT_OF_RANGE:
-            return f"index {indices.max()}: an array of {geometry.rows} x {geometry.cols} has 0 to {geometry.size - 1}"
+            return f"index {indices.max()}: an array of {rows} x {cols} has 0 to {rows * cols - 1}"
         if code == kernels.COUNT_OUT_OF_RANGE:
             return f"count {counts.max()}: the board reads 0 to {COUNT_MAX}"
         values, times = np.unique(indices, return_counts=True)
@@ -154,6 +165,17 @@ class Reconstructor:
         everything = np.arange(self.geometry.size, dtype=np.uint16)
         self.step(everything[:1], np.full(1, COUNT_MAX, dtype=np.uint16))
         self.step(everything[:1], np.zeros(1, dtype=np.uint16))
+
+
+def _place_table(layout: Layout, geometry: ArrayGeometry) -> NDArray[np.uint16]:
+    """Places by matrix index; an index that is out of range stays so. Shape (65536,), uint16."""
+    if (layout.rows, layout.cols) != (geometry.rows, geometry.cols):
+        raise ArrayError(
+            f"geometry of {geometry.rows} x {geometry.cols}: the layout {layout.name} is {layout.rows} x {layout.cols}"
+        )
+    table = np.arange(2**16, dtype=np.uint16)
+    table[: layout.places.size] = layout.places
+    return table
 
 
 def _kind(array: NDArray) -> str:

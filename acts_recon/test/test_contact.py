@@ -33,7 +33,7 @@ def by_kernel(image: NDArray[np.float32], geometry: ArrayGeometry, touch_counts:
 
 
 def assert_kernel_equals_twin(image: NDArray[np.float32], touch_counts: float) -> None:
-    col, row, force_n, peak, pressed, square = by_kernel(image, GEOMETRY, touch_counts)
+    col, row, force_n, peak, pressed, col_square, row_square = by_kernel(image, GEOMETRY, touch_counts)
     contact = find_contact(image, GEOMETRY, BY_TABLE, touch_counts=touch_counts)
     assert pressed == contact.active_taxels
     assert peak == contact.peak_counts
@@ -41,13 +41,14 @@ def assert_kernel_equals_twin(image: NDArray[np.float32], touch_counts: float) -
     if contact.in_contact:
         assert GEOMETRY.x_m(col) == pytest.approx(contact.x_m, abs=1e-7)
         assert GEOMETRY.y_m(row) == pytest.approx(contact.y_m, abs=1e-7)
-        assert math.sqrt(square) * GEOMETRY.pitch_m == pytest.approx(contact.spread_m, abs=1e-6)
+        spread_m = math.hypot(math.sqrt(col_square) * GEOMETRY.pitch_m, math.sqrt(row_square) * GEOMETRY.pitch_y_m)
+        assert spread_m == pytest.approx(contact.spread_m, abs=1e-6)
 
 
 def test_nothing_pressed_is_all_zero() -> None:
     image = np.full((12, 9), 60, dtype=np.float32)
     assert find_contact(image, GEOMETRY, RESPONSE) == NO_CONTACT == Contact()
-    assert by_kernel(image, GEOMETRY, 60.0) == [0.0] * 6
+    assert by_kernel(image, GEOMETRY, 60.0) == [0.0] * contact_kernels.RESULTS
 
 
 def test_one_taxel() -> None:

@@ -1,4 +1,4 @@
-"""The node over real DDS; ROS_DOMAIN_IDs 40 to 45."""
+"""The node over real DDS; ROS_DOMAIN_IDs 28 and 40 to 45."""
 
 import os
 import subprocess
@@ -23,6 +23,7 @@ from sensor_msgs.msg import Image
 
 from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError, DictionaryError, ObjectLibraryError, SettingsError
+from acts_core.layouts import layout
 from acts_msgs.msg import Contact, ObjectClass, TactileSamples
 from acts_recon.classification import Classifier, ClassifierConfig
 from acts_recon.dictionary import Dictionary, save_dictionary
@@ -197,6 +198,33 @@ def test_the_object_is_the_one_of_the_library(make_bench: Callable[..., Bench], 
     )
 
 
+def test_images_and_contacts_are_those_of_the_layout(make_bench: Callable[..., Bench], dictionary: Dictionary) -> None:
+    bench = make_bench(28, layout="insole", image_scale=2, image_rate_hz=1000.0)
+    bench.listen(Image, "image_raw", qos.STREAM)
+    bench.listen(Image, "image", qos.VIEW)
+    bench.until(lambda: bench.node._send_raw and bench.node._send_view)
+
+    insole = layout("insole")
+    geometry = insole.geometry()
+    picture = bump(geometry, 50.0, 5.0, width=2.0)
+    matrix = insole.matrix(picture).ravel()
+    indices = np.random.default_rng(5).permutation(1024)[:600]
+    bench.send(1, indices, matrix[indices])
+    contact = bench.contact(1)
+    # In the frame of the sole, 85 mm x 280 mm: right and up of its middle are positive.
+    assert contact.centre_of_pressure.x == pytest.approx((5.0 - 7.5) * 0.085 / 16, abs=5e-4)
+    assert contact.centre_of_pressure.y == pytest.approx((31.5 - 50.0) * 0.280 / 64, abs=5e-4)
+
+    bench.until(lambda: bool(bench.received["image_raw"] and bench.received["image"]))
+    (raw,) = bench.received["image_raw"]
+    assert (raw.height, raw.width, raw.step) == (64, 16, 32)
+    pixels = np.frombuffer(raw.data, dtype="<u2").reshape(64, 16)
+    measured = np.isin(insole.taxels, indices)
+    assert np.array_equal(pixels[measured], np.where(picture > 60, picture, 0)[measured])
+    (view,) = bench.received["image"]
+    assert (view.height, view.width) == (128, 32)
+
+
 def test_bad_messages_are_dropped_and_counted_and_nothing_else_is_lost(make_bench: Callable[..., Bench]) -> None:
     bench = make_bench(41)
     indices, counts = sample(bump(ArrayGeometry(), 5, 5), 55)
@@ -264,6 +292,8 @@ def test_the_viewer_image_keeps_its_rate_and_costs_nothing_unheard(make_bench: C
         ({"object_library": "/no/such/objects.npz"}, ObjectLibraryError, "/no/such/objects.npz: cannot be read"),
         ({"object_columns": 1025}, SettingsError, "object_columns = 1025"),
         ({"rows": 7}, ArrayError, "do not fit a side of 7"),
+        ({"layout": "sock"}, SettingsError, "layout = 'sock'"),
+        ({"layout": "glove", "rows": 16}, ArrayError, "16 x 32.*use square"),
         ({"touch_count": 60}, SettingsError, "'touch_count'.*'touch_counts'"),
         ({"touch_counts": 1024}, SettingsError, "touch_counts = 1024"),
         ({"image_rate_hz": "fast"}, SettingsError, "image_rate_hz = 'fast'"),

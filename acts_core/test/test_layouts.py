@@ -1,0 +1,119 @@
+"""Layouts are permutations; insole and glove are those of the authors' analysis."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from acts_core.array import ArrayGeometry
+from acts_core.errors import ArrayError
+from acts_core.layouts import LAYOUTS, layout
+
+
+@pytest.mark.parametrize("name", LAYOUTS)
+def test_every_taxel_has_one_place_and_back(name: str) -> None:
+    shape = layout(name)
+    assert sorted(shape.taxels.ravel().tolist()) == list(range(1024))
+    assert shape.places[shape.taxels.ravel()].tolist() == list(range(1024))
+    values = np.random.default_rng(1).integers(0, 1024, (32, 32))
+    assert np.array_equal(shape.matrix(shape.picture(values)), values)
+    assert shape.picture(values).shape == (shape.rows, shape.cols)
+
+
+@given(st.integers(1, 64), st.integers(1, 64))
+def test_square_is_the_matrix_of_any_size(rows: int, cols: int) -> None:
+    shape = layout("square", rows, cols)
+    assert np.array_equal(shape.taxels, np.arange(rows * cols).reshape(rows, cols))
+    assert shape.geometry() == ArrayGeometry(rows, cols, row_pitch_m=ArrayGeometry().pitch_m)
+
+
+def test_insole_as_published() -> None:
+    # Loops instead of array operations: column first into 64 x 16, upper half flipped, turned by 180 degrees.
+    expected = np.zeros((64, 16), dtype=int)
+    for index in range(1024):
+        row, col = index % 64, index // 64
+        if row < 32:
+            row = 31 - row
+        expected[63 - row, 15 - col] = index
+    assert np.array_equal(layout("insole").taxels, expected)
+
+
+def test_two_wires_of_the_insole_run_from_its_middle_to_its_ends() -> None:
+    shape = layout("insole")
+    column = [divmod(int(index), 32) for index in shape.taxels[:, 15]]
+    assert column == [(1, col) for col in range(31, -1, -1)] + [(0, col) for col in range(32)]
+
+
+def test_glove_as_published() -> None:
+    shape = layout("glove")
+    for row in range(32):
+        for col in range(32):
+            # Turned counter-clockwise: the last column becomes the first row.
+            assert shape.taxels[row, col] == 32 * col + 31 - row
+
+
+def test_parts_of_the_glove() -> None:
+    shape = layout("glove")
+    sizes = {part.name: part.of(shape.taxels).shape for part in shape.parts}
+    assert sizes == {
+        "palm": (16, 24),
+        "thumb": (16, 8),
+        "index": (16, 8),
+        "middle": (16, 8),
+        "ring": (16, 8),
+        "little": (16, 8),
+    }
+    places = {"thumb": (31, 0), "palm": (16, 8), "index": (0, 7), "middle": (15, 8), "ring": (3, 23), "little": (0, 31)}
+    assert {shape.part(*place).name for place in places.values()} == set(sizes)
+    for name, place in places.items():
+        assert shape.part(*place).name == name
+
+
+@pytest.mark.parametrize("name", LAYOUTS)
+def test_parts_cover_the_picture_once(name: str) -> None:
+    shape = layout(name)
+    covered = np.zeros((shape.rows, shape.cols), dtype=int)
+    for part in shape.parts:
+        part.of(covered)[...] += 1
+    assert (covered == 1).all()
+
+
+@pytest.mark.parametrize(
+    ("name", "width_m", "height_m"), [("square", 0.140, 0.140), ("insole", 0.085, 0.280), ("glove", 0.180, 0.230)]
+)
+def test_sizes_of_the_papers_skins(name: str, width_m: float, height_m: float) -> None:
+    geometry = layout(name).geometry()
+    assert geometry.cols * geometry.pitch_m == pytest.approx(width_m)
+    assert geometry.rows * geometry.pitch_y_m == pytest.approx(height_m)
+    assert geometry.size * geometry.taxel_area_m2 == pytest.approx(width_m * height_m)
+
+
+def test_a_pitch_of_ones_own() -> None:
+    insole = layout("insole")
+    assert insole.geometry(0.002) == ArrayGeometry(64, 16, 0.002, 0.002)
+    assert insole.geometry(0.002, 0.003) == ArrayGeometry(64, 16, 0.002, 0.003)
+    assert insole.geometry(row_pitch_m=0.003) == ArrayGeometry(64, 16, insole.pitch_m, 0.003)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("sock",), "'sock'.*square, insole, glove"),
+        (("insole", 64, 16), "64 x 16.*use square"),
+        (("glove", 16, 32), "16 x 32"),
+        (("square", 65, 1), "rows = 65"),
+    ],
+)
+def test_what_there_is_not_is_refused(arguments: tuple, words: str) -> None:
+    with pytest.raises(ArrayError, match=words):
+        layout(*arguments)
+
+
+def test_wrong_shapes_and_places_are_refused() -> None:
+    insole = layout("insole")
+    with pytest.raises(ArrayError, match=r"matrix of shape \(64, 16\)"):
+        insole.picture(np.zeros((64, 16)))
+    with pytest.raises(ArrayError, match=r"picture of shape \(32, 32\)"):
+        insole.matrix(np.zeros((32, 32)))
+    with pytest.raises(ArrayError, match=r"place \(64, 0\)"):
+        insole.part(64, 0)
