@@ -1,5 +1,6 @@
 """The core on the board and its Python reference measure the same taxels in the same order."""
 
+from itertools import product
 from pathlib import Path
 
 import core_library
@@ -24,6 +25,31 @@ from acts_core.uniform import uniform_spacing
 
 SHARED = Path(__file__).resolve().parents[3] / "shared/data"
 FRAMES = 3
+
+# M and spacing (rows, columns) of the authors' firmware on 32 x 32.
+PUBLISHED_SPACING = {
+    36: (6, 6),
+    42: (6, 5),
+    48: (6, 4),
+    49: (5, 5),
+    56: (5, 4),
+    64: (4, 4),
+    66: (6, 3),
+    77: (5, 3),
+    88: (4, 3),
+    96: (6, 2),
+    112: (5, 2),
+    121: (3, 3),
+    128: (4, 2),
+    160: (7, 1),
+    176: (3, 2),
+    192: (6, 1),
+    224: (5, 1),
+    256: (2, 2),
+    352: (3, 1),
+    512: (2, 1),
+    1024: (1, 1),
+}
 
 
 def compare(config: SamplingConfig, fields: NDArray[np.integer]) -> None:
@@ -56,8 +82,11 @@ def blobs(rng: np.random.Generator, rows: int, cols: int) -> NDArray[np.int64]:
     st.integers(0, 1023),
     st.integers(0, 2**64 - 1),
     st.sampled_from(["noise", "contacts", "full"]),
+    st.floats(0.0001, 1.0),
 )
-def test_on_random_fields(rows: int, cols: int, scheme: str, order: str, threshold: int, seed: int, kind: str) -> None:
+def test_on_random_fields(
+    rows: int, cols: int, scheme: str, order: str, threshold: int, seed: int, kind: str, share: float
+) -> None:
     rng = np.random.default_rng(seed)
     m = int(rng.integers(1, rows * cols + 1))
     if scheme == "uniform":  # not every number of taxels makes a grid
@@ -67,7 +96,8 @@ def test_on_random_fields(rows: int, cols: int, scheme: str, order: str, thresho
         "contacts": lambda: np.stack([blobs(rng, rows, cols) for _ in range(FRAMES)]),
         "full": lambda: np.full((FRAMES, rows, cols), 1023),
     }[kind]()
-    compare(SamplingConfig(scheme, rows, cols, m, threshold, order, seed), fields)
+    config = SamplingConfig(scheme, rows, cols, m, threshold, order, seed, search_share=share, adaptive_share=share)
+    compare(config, fields)
 
 
 @pytest.mark.parametrize("m", [1, 10, 55, 64, 1024])
@@ -110,9 +140,10 @@ def test_quotas(share: float, m: int) -> None:
     assert quota == SamplingConfig("hybrid", 64, 64, m, adaptive_share=share).adaptive_quota
 
 
-@pytest.mark.parametrize("m", [36, 49, 55, 64, 160])
+@pytest.mark.parametrize("m", [*PUBLISHED_SPACING, 55])
 def test_uniform_through_all_its_offsets(m: int) -> None:
     s, t = uniform_spacing(32, 32, m)
+    assert core_library.uniform_spacing(32, 32, m) == (s, t) == PUBLISHED_SPACING.get(m, (s, t))
     compare(SamplingConfig(scheme="uniform", m=m), np.zeros((s * t + 1, 32, 32), dtype=int))
 
 
@@ -141,32 +172,62 @@ def test_random_numbers(seed: int, stream: int, bound: int) -> None:
     assert core_library.random_numbers(seed, stream, bound, 20) == expected
 
 
-@pytest.mark.parametrize("order", sorted(NEIGHBOURS))
-def test_on_recorded_grasps(order: str) -> None:
-    path = SHARED / "sdh_weiss/grasps_canvas.npz"
+def test_every_shape_up_to_64_x_64() -> None:
+    schemes = sorted(SCHEMES)
+    field = np.random.default_rng(0).integers(0, 400, (64, 64))
+    for number, (rows, cols) in enumerate(product(range(1, 65), repeat=2)):
+        scheme = schemes[number % len(schemes)]
+        m = -(-rows // 3) * -(-cols // 3) if scheme == "uniform" else min(rows * cols, 40)
+        compare(SamplingConfig(scheme, rows, cols, m, seed=number), field[None, :rows, :cols])
+
+
+def recording(name: str) -> dict[str, NDArray]:
+    path = SHARED / name
     if not path.is_file():
         pytest.skip(f"{path} is absent: recordings are not part of the project")
     with np.load(path) as archive:
-        frames = archive["frames"]
-    pressed = frames[frames.max(axis=(1, 2)) > 180]
-    compare(SamplingConfig(m=56, neighbour_order=order), pressed[:: max(1, len(pressed) // 150)])
+        return dict(archive)
 
 
-def test_tracking_of_a_recorded_grasp() -> None:
-    path = SHARED / "sdh_weiss/grasps_canvas.npz"
-    if not path.is_file():
-        pytest.skip(f"{path} is absent: recordings are not part of the project")
-    with np.load(path) as archive:
-        frames = archive["frames"]
-    first = int(np.argmax(frames.max(axis=(1, 2)) > 180))
-    compare(SamplingConfig("tracking", m=56), frames[max(first - 10, 0) : first + 200])
+def canvas(name: str) -> NDArray[np.integer]:
+    """100 frames in a row around the hardest press of a recording of grasps or slips, and 50 spread over all."""
+    frames = recording(name)["frames"]
+    hardest = int(frames.sum(axis=(1, 2), dtype=np.int64).argmax())
+    first = max(hardest - 50, 0)
+    return np.concatenate((frames[first : first + 100], frames[:: len(frames) // 50]))
 
 
-def test_on_published_frames() -> None:
-    path = SHARED / "paper/frames.npz"
-    if not path.is_file():
-        pytest.skip(f"{path} is absent: the published figures' data are not part of the project")
-    with np.load(path) as archive:
-        fields = np.clip(archive["frames"], 0, 1023).astype(int)
-    for m in (56, 64, 128, 512):
-        compare(SamplingConfig(m=m, threshold_counts=50), fields)
+def published() -> NDArray[np.integer]:
+    return np.clip(recording("paper/frames.npz")["frames"], 0, 1023).astype(int)
+
+
+def insole() -> NDArray[np.integer]:
+    frames = recording("insole/pairs.npz")["frames"][:, 0]
+    return frames[::60] // 2  # 11 bit
+
+
+FIELDS = {
+    "grasps": lambda: canvas("sdh_weiss/grasps_canvas.npz"),
+    "slip": lambda: canvas("sdh_weiss/slip_canvas.npz"),
+    "figures": published,
+    "insole": insole,
+}
+
+
+@pytest.mark.parametrize("scheme", sorted(SCHEMES))
+@pytest.mark.parametrize("recorded", FIELDS)
+def test_on_recorded_fields(recorded: str, scheme: str) -> None:
+    fields = FIELDS[recorded]()
+    rows, cols = fields.shape[1:]
+    m = -(-rows // 4) * -(-cols // 4) if scheme == "uniform" else 56
+    searches = scheme in ("adaptive", "hybrid")
+    for order in sorted(NEIGHBOURS) if searches else ["columns"]:
+        for threshold in (50, 180):
+            compare(SamplingConfig(scheme, rows, cols, m, threshold, order, seed=5), fields)
+
+
+@pytest.mark.parametrize("m", [128, 512])
+@pytest.mark.parametrize("scheme", ["adaptive", "hybrid", "tracking"])
+def test_large_frames_of_the_published_figures(m: int, scheme: str) -> None:
+    for order in sorted(NEIGHBOURS):
+        compare(SamplingConfig(scheme, m=m, threshold_counts=50, neighbour_order=order), published())
