@@ -143,10 +143,11 @@ def report() -> bool:
     return fits
 
 
-def run(name: str, arguments: list[str]) -> int:
+def run(name: str, arguments: list[str], as_built: bool) -> int:
     """A program on the emulated processor; its output and exit code are the program's own."""
     need(QEMU_PACKAGES)
-    build()
+    if not as_built:
+        build()
     program = BUILD / f"teensy/{name}.elf"
     if not program.exists():
         programs = ", ".join(sorted(path.stem for path in program.parent.glob("*.elf")))
@@ -168,11 +169,12 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     commands = parser.add_subparsers(dest="command")
     running = commands.add_parser("run", help="run a program under QEMU")
+    running.add_argument("--as-built", action="store_true", help="do not build before")
     running.add_argument("program")
     running.add_argument("arguments", nargs="*")
     arguments = parser.parse_args()
     if arguments.command == "run":
-        return run(arguments.program, arguments.arguments)
+        return run(arguments.program, arguments.arguments, arguments.as_built)
     return 0 if report() else 1
 
 

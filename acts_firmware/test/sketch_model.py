@@ -8,6 +8,9 @@ from pathlib import Path
 
 from core_library import installed
 
+from acts_core.board_messages import BoardMessage
+from acts_core.board_models import BoardModel
+from acts_core.commands import UPLOAD_PIECE_MAX, encode_upload_begin, encode_upload_data, encode_upload_end
 from acts_core.frames import SampleFrame
 from acts_core.wire import StreamDecoder
 
@@ -27,6 +30,13 @@ class SketchRun:
     def read_from(self, start_us: int) -> bytes:
         return b"".join(data for time_us, data in self.reads if time_us >= start_us)
 
+    def messages(self) -> list[BoardMessage]:
+        """Replies, images and objects."""
+        found: list[BoardMessage] = []
+        decoder = StreamDecoder(on_message=found.append)
+        decoder.feed(self.read_from(0))
+        return found
+
     def frames(self, start_us: int = 0) -> list[SampleFrame]:
         """Frames read from `start_us` on; every byte must be part of one."""
         decoder = StreamDecoder()
@@ -34,6 +44,15 @@ class SketchRun:
         assert decoder.crc_errors == 0
         assert decoder.malformed == 0
         return found
+
+
+def upload(model: BoardModel, start_us: int, step_us: int = 200) -> list[str]:
+    """Script lines that upload a model, the last command with request number 3."""
+    commands = [encode_upload_begin(1, model)]
+    for offset in range(0, len(model.payload), UPLOAD_PIECE_MAX):
+        commands.append(encode_upload_data(2, offset, model.payload[offset : offset + UPLOAD_PIECE_MAX]))
+    commands.append(encode_upload_end(3))
+    return [f"{start_us + step_us * i} send {command.hex()}" for i, command in enumerate(commands)]
 
 
 def parse(text: str) -> SketchRun:

@@ -4,9 +4,9 @@ from pathlib import Path
 
 import numpy as np
 from core_library import installed
-from sketch_model import WATCHDOG_ENABLED, run_sketch
+from sketch_model import WATCHDOG_ENABLED, run_sketch, upload
 
-from acts_core.board_messages import BoardMessage
+from acts_core.board_messages import BoardImage
 from acts_core.board_models import patch_dictionary
 from acts_core.board_settings import BoardSettings
 from acts_core.commands import (
@@ -15,9 +15,6 @@ from acts_core.commands import (
     ReplyStatus,
     encode_configure,
     encode_query,
-    encode_upload_begin,
-    encode_upload_data,
-    encode_upload_end,
 )
 from acts_core.raster_ascii import RasterDecoder
 from acts_core.sampling import Sampler, SamplingConfig, measure_in
@@ -127,11 +124,8 @@ def test_a_host_can_ask_and_change_everything(tmp_path: Path) -> None:
         "120000 end",
     ]
     run = run_sketch([*PRESS, *commands], tmp_path)
-    replies: list[BoardMessage] = []
-    decoder = StreamDecoder(on_message=replies.append)
-    frames = list(decoder.feed(run.read_from(0)))
-    assert decoder.crc_errors + decoder.malformed == 0
-    asked, changed, refused = replies
+    frames = run.frames()
+    asked, changed, refused = run.messages()
     assert isinstance(asked, Reply)
     assert isinstance(changed, Reply)
     assert isinstance(refused, Reply)
@@ -150,18 +144,18 @@ def test_a_host_can_ask_and_change_everything(tmp_path: Path) -> None:
     assert run.report["led"][0] == 1
 
 
-def test_an_uploaded_model_is_taken(tmp_path: Path) -> None:
-    model = patch_dictionary(np.random.default_rng(1).standard_normal((64, 16)))
-    data = model.payload
-    commands = [encode_upload_begin(1, model)]
-    commands += [encode_upload_data(2, at, data[at : at + 1024]) for at in range(0, len(data), 1024)]
-    commands += [encode_upload_end(3)]
-    script = ["20000 open", *(f"{40_000 + 200 * i} send {command.hex()}" for i, command in enumerate(commands))]
-    run = run_sketch([*script, "70000 end"], tmp_path)
-    replies: list[BoardMessage] = []
-    decoder = StreamDecoder(on_message=replies.append)
-    frames = list(decoder.feed(run.read_from(0)))
-    last = [reply for reply in replies if isinstance(reply, Reply)][-1]
-    assert (last.request, last.status) == (3, ReplyStatus.OK)
-    assert last.state.model == HeldModel.of(model)
-    assert np.all(np.diff([frame.sequence for frame in frames]) == 1)  # frames go on meanwhile
+def test_images_follow_the_samples_once_a_model_is_uploaded(tmp_path: Path) -> None:
+    model = patch_dictionary(np.random.default_rng(1).standard_normal((64, 64)))
+    configure = encode_configure(4, BoardSettings(output="image", frame_period_us=2000)).hex()
+    run = run_sketch([*PRESS, "20000 open", *upload(model, 40_000), f"70000 send {configure}", "120000 end"], tmp_path)
+    messages = run.messages()
+    ended = next(reply for reply in messages if isinstance(reply, Reply) and reply.request == 3)
+    assert ended.status == ReplyStatus.OK
+    assert ended.state.model == HeldModel.of(model)
+    frames = {frame.sequence: frame for frame in run.frames()}
+    assert np.all(np.diff(list(frames)) == 1)  # frames went on during the upload
+    images = [message for message in messages if isinstance(message, BoardImage)]
+    assert len(images) > 20
+    for image in images:
+        frame = frames[image.sequence]
+        assert np.array_equal(image.counts.ravel()[frame.indices], frame.counts)

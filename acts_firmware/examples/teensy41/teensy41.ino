@@ -30,8 +30,9 @@ constexpr int kAdcBits = 10;
 constexpr int kAdcAveraged = 4;
 constexpr std::uint8_t kAdcPin = A0;
 
-// A loop that stands still for two seconds ends in a reset; the longest one takes about a tenth of that.
-constexpr std::uint16_t kWatchdogHalfSeconds = 4;
+// A loop that takes longer than this ends in a reset. Recovery of a full frame with the largest dictionary and patches
+// at every taxel may well take seconds.
+constexpr unsigned kWatchdogSeconds = 16;
 
 class TeensyBoard final : public acts::Board {
  public:
@@ -60,7 +61,7 @@ void start_watchdog() {
   CCM_CCGR3 |= CCM_CCGR3_WDOG1(CCM_CCGR_ON);
   WDOG1_WMCR = 0;  // the other timer in it, which would pull a pin 16 s after power-up
   // Not while a debugger or the boot loader has stopped the processor; the two reset bits stay as they are, inactive.
-  WDOG1_WCR = WDOG_WCR_WT(kWatchdogHalfSeconds - 1) | WDOG_WCR_WDA | WDOG_WCR_SRS | WDOG_WCR_WDBG | WDOG_WCR_WDE;
+  WDOG1_WCR = WDOG_WCR_WT(2 * kWatchdogSeconds - 1) | WDOG_WCR_WDA | WDOG_WCR_SRS | WDOG_WCR_WDBG | WDOG_WCR_WDE;
 }
 
 void feed_watchdog() {
@@ -104,20 +105,6 @@ void serve_host() {
   host_reads = open;
 }
 
-void measure() {
-  const std::uint32_t period_us = firmware->settings().frame_period_us;
-  const std::uint32_t now_us = micros();
-  if (!pacer.due(now_us, period_us)) {
-    return;
-  }
-  const std::uint32_t skipped = pacer.begin(now_us, period_us);
-  if (skipped > 0) {
-    firmware->skip_frames(skipped);
-  }
-  firmware->measure_frame();
-  pacer.end(micros());
-}
-
 // As much as USB takes at once; a host that does not read must not hold the sampling up.
 void send() {
   acts::TransmitQueue& output = firmware->output();
@@ -138,6 +125,22 @@ void send() {
   if (sent) {
     Serial.send_now();  // do not wait for a full USB packet
   }
+}
+
+void measure() {
+  const std::uint32_t period_us = firmware->settings().frame_period_us;
+  const std::uint32_t now_us = micros();
+  if (!pacer.due(now_us, period_us)) {
+    return;
+  }
+  const std::uint32_t skipped = pacer.begin(now_us, period_us);
+  if (skipped > 0) {
+    firmware->skip_frames(skipped);
+  }
+  firmware->measure_frame();
+  send();  // samples do not wait for what takes its time
+  firmware->recover_frame();
+  pacer.end(micros());
 }
 
 }  // namespace
