@@ -93,7 +93,7 @@ class ClockFilter:
         """Take one frame; see `step_batch`."""
         return self.step_batch((board_us,), arrival_ns)[0]
 
-    def step_batch(self, board_us: Sequence[int], arrival_ns: int) -> list[int]:
+    def step_batch(self, board_us: Sequence[int], arrival_ns: int, *, restarted: bool = False) -> list[int]:
         """Take frames that arrived together, and return their stamps.
 
         Parameters
@@ -103,6 +103,9 @@ class ClockFilter:
             delay counts.
         arrival_ns : int
             When they were read, on the host's clock [ns].
+        restarted : bool
+            Whether the first of them is known to be of a board that was restarted, even where its clock is ahead of the
+            last frame's.
 
         Returns
         -------
@@ -118,12 +121,13 @@ class ClockFilter:
         for end in range(1, len(board_us) + 1):
             # A board that restarts within a batch begins a batch of its own.
             if end == len(board_us) or board_us[end] < board_us[end - 1]:
-                stamps += self._stamps(board_us[begin:end], arrival_ns, room=len(board_us) - begin)
+                anew = board_us[begin] < self._last_board_us or (restarted and begin == 0)
+                stamps += self._stamps(board_us[begin:end], arrival_ns, len(board_us) - begin, anew)
                 begin = end
         return stamps
 
-    def _stamps(self, board_us: Sequence[int], arrival_ns: int, room: int) -> list[int]:
-        envelope = self._observe(board_us[-1], arrival_ns, restarted=board_us[0] < self._last_board_us)
+    def _stamps(self, board_us: Sequence[int], arrival_ns: int, room: int, restarted: bool) -> list[int]:
+        envelope = self._observe(board_us[-1], arrival_ns, restarted)
         self._last_board_us = board_us[-1]
         stamps = []
         last = self._last_stamp_ns

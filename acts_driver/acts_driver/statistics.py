@@ -38,7 +38,7 @@ class StreamStatistics:
         self.overruns = 0
         self._sequence = -1
         self._board_us = 0
-        self._arrival_ns = 0
+        self._measured_ns = 0
         self._recent: deque[tuple[int, int]] = deque(maxlen=_RECENT)
         self._reconnected = False
         self._bin = 0
@@ -74,7 +74,7 @@ class StreamStatistics:
         self._reconnected = False
         self._sequence = sequence
         self._board_us = board_us
-        self._arrival_ns = arrival_ns
+        self._measured_ns = arrival_ns
         self._recent.append((sequence, board_us))
         self.overruns = overruns
         self.frames += 1
@@ -84,6 +84,13 @@ class StreamStatistics:
     def reconnected(self) -> None:
         """Tell that the port was lost and opened again: the next frame may be from a board that was restarted."""
         self._reconnected = True
+
+    def stamped(self, stamp_ns: int) -> None:
+        """Tell when the last frame was measured [ns], on the clock of the arrivals.
+
+        It may have waited on the way for long, so that its arrival says little about the clocks.
+        """
+        self._measured_ns = stamp_ns
 
     def rate_hz(self, now_ns: int) -> float:
         """New frames per second of arrival, over the last second."""
@@ -102,7 +109,7 @@ class StreamStatistics:
 
     def _was_off(self, board_us: int, arrival_ns: int) -> bool:
         """Whether, after a reconnection, the board's clock tells that the board was without power meanwhile."""
-        passed_ns = arrival_ns - self._arrival_ns
+        passed_ns = arrival_ns - self._measured_ns
         difference_ns = (board_us - self._board_us) * 1000 - passed_ns
         return abs(difference_ns) > _CLOCKS_AGREE_NS + _DRIFT_MAX * passed_ns
 

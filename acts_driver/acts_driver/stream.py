@@ -56,13 +56,18 @@ class FrameStream:
             The stamp is the ROS time at the end of the frame's last measurement [ns].
         """
         statistics = self.statistics
-        new = [
-            frame for frame in frames if statistics.observe(frame.sequence, frame.board_us, frame.overruns, arrival_ns)
-        ]
+        new: list[SampleFrame] = []
+        restarted = False
+        for frame in frames:
+            restarts = statistics.restarts
+            if statistics.observe(frame.sequence, frame.board_us, frame.overruns, arrival_ns):
+                restarted |= not new and statistics.restarts > restarts
+                new.append(frame)
         if not new:
             return []
         if self.has_board_clock:
-            stamps = self.clock.step_batch([frame.board_us for frame in new], arrival_ns)
+            stamps = self.clock.step_batch([frame.board_us for frame in new], arrival_ns, restarted=restarted)
+            statistics.stamped(stamps[-1])
         else:
             stamps = [arrival_ns - (len(new) - 1 - number) for number in range(len(new))]
         return [(frame, stamp) for frame, stamp in zip(new, stamps, strict=True) if self._fits(frame)]
