@@ -59,9 +59,12 @@ def _cpu_s(process: psutil.Process) -> float:
 
 
 def _name(process: psutil.Process) -> str:
-    """Name of the program: the script where an interpreter runs one."""
+    """Name of the program: the script or module where an interpreter runs one."""
     words = process.cmdline()
     if not words:
         return process.name()
-    interpreted = Path(words[0]).name.startswith("python") and len(words) > 1 and not words[1].startswith("-")
+    interpreted = Path(words[0]).name.startswith("python") and len(words) > 1
+    if interpreted and words[1] == "-m" and len(words) > 2:
+        return words[2].rpartition(".")[2]
+    interpreted = interpreted and not words[1].startswith("-")
     return Path(words[1] if interpreted else words[0]).name

@@ -21,6 +21,18 @@ def describe() -> dict[str, object]:
     }
 
 
+class BusyMeter:
+    """How busy all cores together are, with whatever, from construction on."""
+
+    def __init__(self) -> None:
+        self._begin_s = time.monotonic()
+        self._busy_s = _machine_busy_s()
+
+    def percent(self) -> float:
+        """Load of the machine [% of one core]; as inexact as that of `OthersMeter`."""
+        return (_machine_busy_s() - self._busy_s) / max(time.monotonic() - self._begin_s, 1e-9) * 100
+
+
 class OthersMeter:
     """How much CPU everybody but this process and its children took, from construction on.
 

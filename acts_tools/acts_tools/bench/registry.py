@@ -49,4 +49,7 @@ class Entry:
 
 MEASUREMENTS = {
     "decode": Entry("acts_tools.bench.decode", "decoding a recorded stream, M = 55", 5.0),
+    "driver_cpu": Entry("acts_tools.bench.driver_cpu", "CPU at 1 kHz, M = 55", 15.0),
+    "latency": Entry("acts_tools.bench.latency", "latency and stamps at 1 kHz, M = 55", 45.0),
+    "frame_rate": Entry("acts_tools.bench.frame_rate", "highest frame rate without loss, M = 55", 3.0),
 }

@@ -32,7 +32,9 @@ def markdown(report: Report) -> str:
         lines.append(f"| *{one['summary']}* (`{name}`) | |")
         for figure in _figures(one):
             text = f"**{figure.text}**" if figure.is_ratio else figure.text
-            lines.append(f"| {figure.label} | {text} |")
+            # Markdown drops the spaces that set off what belongs to the line above.
+            label = figure.label.replace("    ", "&nbsp;&nbsp;")
+            lines.append(f"| {label} | {text} |")
     lines += ["", conditions(report)]
     lines += ["", *(f"Warning: {warning}." for warning in report["warnings"])] if report["warnings"] else []
     return "\n".join(lines)

@@ -1,0 +1,92 @@
+"""A look into the ROS graph: one node that spins in slices, so that a measurement can be stopped."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from types import TracebackType
+
+import rclpy
+from rclpy.executors import Executor
+from rclpy.node import Node
+from rclpy.signals import SignalHandlerOptions
+from rclpy.task import Future
+
+from acts_core.errors import LaunchError
+from acts_ros.executor import make_executor
+from acts_tools.bench.processes import NAMESPACE
+from acts_tools.bench.workbench import Workbench
+
+_SLICE_S = 0.05
+
+
+class Graph:
+    """ROS while it is entered.
+
+    Parameters
+    ----------
+    workbench : Workbench
+        Ends the spinning when the user wants to stop.
+    make : callable
+        Makes the executor.
+
+    Attributes
+    ----------
+    node : Node
+        Named "bench", in the skin's namespace; the executor calls it back.
+    """
+
+    def __init__(self, workbench: Workbench, make: Callable[[], Executor] = make_executor) -> None:
+        self._workbench = workbench
+        self._make = make
+
+    def __enter__(self) -> Graph:
+        """Join the graph."""
+        rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
+        self.node = Node("bench", namespace=NAMESPACE)
+        self._executor = self._make()
+        self._executor.add_node(self.node)
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """Leave it."""
+        self._executor.shutdown()
+        self.node.destroy_node()
+        rclpy.try_shutdown()
+
+    def spin_until(
+        self, condition: Callable[[], object], timeout_s: float, what: str, check: Callable[[], None] | None = None
+    ) -> None:
+        """Run callbacks until a condition is true.
+
+        Parameters
+        ----------
+        condition : callable
+            Looked at every twentieth of a second.
+        timeout_s : float
+            Longest wait [s].
+        what : str
+            What is waited for, for the error.
+        check : callable or None
+            Raises when waiting is in vain.
+
+        Raises
+        ------
+        LaunchError
+            When the time is over.
+        """
+        deadline_s = time.monotonic() + timeout_s
+        while not condition():
+            self._workbench.check_stop()
+            if check is not None:
+                check()
+            if time.monotonic() > deadline_s:
+                raise LaunchError(f"waited {timeout_s:g} s in vain for {what}")
+            self._executor.spin_until_future_complete(Future(), timeout_sec=_SLICE_S)
+
+    def spin_for(self, seconds: float) -> None:
+        """Run callbacks for a while [s]."""
+        end_s = time.monotonic() + seconds
+        self.spin_until(lambda: time.monotonic() >= end_s, seconds + 60.0, "time to pass")
