@@ -5,7 +5,7 @@
 
 help:
 	@echo "make demo    ball balancing with simulated skin, ball and UR5e (DEMO_SECONDS=30); writes out/"
-	@echo "make bench   throughput, CPU and latency of the sensing end, about four minutes; writes out/bench.json"
+	@echo "make bench   throughput, CPU and latency of the sensing end, about five minutes; writes out/bench.json"
 	@echo "make firmware  cross-compile the Teensy's firmware, check that it fits (needs gcc-arm-none-eabi)"
 	@echo "make test    linters and the whole test suite"
 	@echo "make lint    linters and type checks only"
