@@ -92,7 +92,7 @@ def reports(rate_hz: int, lost_from: int) -> Iterator[Status]:
         yield Status(float(second), second * rate_hz, lost, lost)
 
 
-def test_a_run_is_counted_from_its_second_report_with_frames() -> None:
+def test_a_run_is_counted_from_a_second_after_its_first_frames() -> None:
     trial = observe(reports(1000, lost_from=999), 1000, 4.0)
     assert (trial.frames, trial.rate_hz, trial.lost, trial.overruns) == (4000, 1000.0, 0, 0)
     assert trial.holds

@@ -109,7 +109,7 @@ def _warnings(measured: Mapping[str, Mapping[str, Any]]) -> list[str]:
     if not busy:
         return []
     loads = ", ".join(f"{name} {percent:.0f} %" for name, percent in busy.items())
-    return [f"others used the CPU meanwhile ({loads} of one core): ratios hold, absolute figures are worse than alone"]
+    return [f"others used the CPU meanwhile ({loads} of one core): figures are worse than on a quiet machine"]
 
 
 def _load_average() -> list[float]:

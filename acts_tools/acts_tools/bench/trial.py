@@ -11,6 +11,7 @@ from acts_tools.process_load import LoadMeter
 
 _RATE_SHARE = 0.98
 _EARLY_SHARE = 0.9
+_SETTLE_S = 0.9
 _SATURATED_PERCENT = 90.0
 
 
@@ -77,7 +78,7 @@ class Trial:
 
 
 def observe(statuses: Iterator[Status], asked_hz: float, seconds: float) -> Trial:
-    """Follow a reader from its second report with frames on: the first ones hold its start.
+    """Follow a reader, from about a second after its first frames on: until then losses of its start are reported.
 
     Parameters
     ----------
@@ -88,11 +89,9 @@ def observe(statuses: Iterator[Status], asked_hz: float, seconds: float) -> Tria
     seconds : float
         How long to measure; the first loss ends it early [s].
     """
-    for status in statuses:
-        if status.frames > 0:
-            break
+    begin = next(status for status in statuses if status.frames > 0)
+    first = next(status for status in statuses if status.time_s >= begin.time_s + _SETTLE_S)
     meter = LoadMeter(os.getpid(), "bench")
-    first = next(statuses)
     meter.start()
     machine = BusyMeter()
     for status in statuses:
