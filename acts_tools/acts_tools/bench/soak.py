@@ -1,0 +1,173 @@
+"""The driver for ten minutes at 1 kHz and M = 55: frames lost, memory, CPU, latency.
+
+Memory is that of the driver's process, looked at every second; its growth is the slope of the line through all values
+but those of the first tenth, in which buffers fill and kernels are loaded.
+"""
+
+from __future__ import annotations
+
+import time
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+import psutil
+from diagnostic_msgs.msg import DiagnosticArray
+
+from acts_control.stream_statistics import StreamCounter
+from acts_msgs.msg import TactileSamples
+from acts_ros.qos import STREAM
+from acts_tools.bench.graph import Graph
+from acts_tools.bench.processes import NAMESPACE, START_TIMEOUT_S, check_alive, driver, virtual_board
+from acts_tools.bench.result import Figure, Result
+from acts_tools.bench.skin import pressed
+from acts_tools.bench.workbench import Workbench
+from acts_tools.driver_status import driver_values
+from acts_tools.percentiles import percentiles
+
+GROWTH_MAX_MB_PER_H = 10.0
+"""Growth of the driver's memory from which on it counts as a leak; judged on runs of `JUDGED_S` or more."""
+
+JUDGED_S = 300.0
+_SETTLE_S = 3.0
+_MB = 1e6
+_COUNTERS = ("frames", "lost", "overruns", "crc_errors", "malformed", "repeated", "restarts", "reconnects")
+_NAMES = {"median": "stamp to reception, median", "p99": "    99 % within", "p99_9": "    99.9 % within"}
+
+
+@dataclass
+class Memory:
+    """Resident memory of a process over time.
+
+    Attributes
+    ----------
+    time_s, mb : list of float
+        Seconds since the start of the measurement, and megabytes (1e6 bytes) then.
+    """
+
+    time_s: list[float] = field(default_factory=list)
+    mb: list[float] = field(default_factory=list)
+
+    def at(self, time_s: float) -> float:
+        """The value nearest to a time [MB]."""
+        return self.mb[int(np.argmin(np.abs(np.array(self.time_s) - time_s)))]
+
+    def growth_mb_per_h(self) -> float:
+        """Slope of the line through the values behind the first tenth [MB/h]; 0 where there is only one."""
+        time_s = np.array(self.time_s)
+        behind = time_s >= 0.1 * time_s[-1]
+        if behind.sum() < 2:
+            return 0.0
+        return float(np.polyfit(time_s[behind], np.array(self.mb)[behind], 1)[0] * 3600.0)
+
+
+def measure(workbench: Workbench) -> Result:
+    """Run virtual board and driver, receive every message, and look at the driver's process once a second."""
+    statuses: deque[dict[str, int]] = deque(maxlen=1)
+    counter = StreamCounter()
+    memory = Memory()
+
+    def keep(message: DiagnosticArray) -> None:
+        values = driver_values(message, NAMESPACE)
+        if values is not None and values["state"] == "active":
+            statuses.append({name: int(values[name]) for name in _COUNTERS})
+
+    def count(message: TactileSamples) -> None:
+        stamp = message.header.stamp
+        counter.step(message.sequence, time.time() - (stamp.sec + stamp.nanosec * 1e-9))
+
+    with (
+        virtual_board(workbench.folder, "--rate-hz", "1000", *pressed(workbench.folder)) as board,
+        Graph(workbench) as graph,
+        driver(workbench.folder, board.link) as process,
+    ):
+
+        def check() -> None:
+            check_alive(process, workbench.folder / "driver.log")
+
+        graph.node.create_subscription(DiagnosticArray, "/diagnostics", keep, 10)
+        graph.node.create_subscription(TactileSamples, "samples", count, STREAM)
+        graph.spin_until(lambda: counter.received, START_TIMEOUT_S, "the first message", check)
+        graph.spin_for(_SETTLE_S)
+        before = _next_status(graph, statuses, check)
+        watched = psutil.Process(process.pid)
+        cpu_before_s, received_before, lost_before = _cpu_s(watched), counter.received, counter.lost
+        counter.take_latencies()
+        begin_s = time.monotonic()
+        while (passed_s := time.monotonic() - begin_s) < workbench.seconds:
+            memory.time_s.append(passed_s)
+            memory.mb.append(watched.memory_info().rss / _MB)
+            graph.spin_for(min(1.0, max(workbench.seconds - passed_s, 0.0)))
+            check()
+        passed_s = time.monotonic() - begin_s
+        memory.time_s.append(passed_s)
+        memory.mb.append(watched.memory_info().rss / _MB)
+        cpu_percent = (_cpu_s(watched) - cpu_before_s) / passed_s * 100
+        received, missed = counter.received - received_before, counter.lost - lost_before
+        latencies_ms = np.asarray(counter.take_latencies(), dtype=np.float64) * 1e3
+        after = _next_status(graph, statuses, check)
+    added = {name: after[name] - before[name] for name in _COUNTERS}
+    figures = [
+        Figure("frames_sent", "frames the board made", added["frames"] + added["lost"]),
+        Figure("frames_read", "    read by the driver", added["frames"]),
+        Figure("frames_lost", "    lost before the driver", added["lost"]),
+        Figure("overruns", "        of them dropped by the board, as it says", added["overruns"]),
+        Figure("received", "messages received by this process", received),
+        Figure("not_received", "    numbers missing between them", missed),
+        Figure("damaged", "damaged packets", added["crc_errors"] + added["malformed"]),
+        Figure("reconnects", "reconnections", added["reconnects"]),
+        *_memory_figures(memory, passed_s),
+        Figure("driver_percent", "driver", cpu_percent, "% of one core"),
+        *(Figure(f"latency_ms.{name}", _NAMES[name], value, "ms") for name, value in percentiles(latencies_ms).items()),
+    ]
+    return Result(figures, problems(added, memory, workbench.seconds))
+
+
+def problems(added: dict[str, int], memory: Memory, seconds: float) -> list[str]:
+    """What was wrong, and not merely slow.
+
+    Parameters
+    ----------
+    added : dict of str to int
+        What the driver counted.
+    memory : Memory
+        Of the driver.
+    seconds : float
+        How long was measured [s].
+    """
+    found = []
+    if added["lost"] > added["overruns"]:
+        found.append(f"{added['lost'] - added['overruns']} frames were lost between board and driver")
+    for name in ("crc_errors", "malformed", "repeated", "restarts", "reconnects"):
+        if added[name]:
+            found.append(f"the driver counted {added[name]} {name} on an undisturbed line")
+    growth = memory.growth_mb_per_h()
+    if seconds >= JUDGED_S and growth > GROWTH_MAX_MB_PER_H:
+        found.append(f"the driver's memory grows by {growth:.1f} MB an hour")
+    return found
+
+
+def _memory_figures(memory: Memory, passed_s: float) -> list[Figure]:
+    minutes = [
+        Figure(f"rss_mb.minute_{minute}", f"    after {minute} min", memory.at(60.0 * minute), "MB")
+        for minute in range(1, int(passed_s // 60) + 1)
+    ]
+    return [
+        Figure("rss_mb.start", "driver's memory at the start", memory.mb[0], "MB"),
+        *minutes,
+        Figure("rss_mb.end", "    at the end", memory.mb[-1], "MB"),
+        Figure("rss_growth_mb_per_h", "    growth, behind the first tenth", memory.growth_mb_per_h(), "MB/h"),
+    ]
+
+
+def _next_status(graph: Graph, statuses: deque[dict[str, int]], check: Callable[[], None]) -> dict[str, int]:
+    """The next report of the driver."""
+    statuses.clear()
+    graph.spin_until(lambda: statuses, START_TIMEOUT_S, "a report of the driver", check)
+    return statuses[-1]
+
+
+def _cpu_s(process: psutil.Process) -> float:
+    times = process.cpu_times()
+    return float(times.user + times.system)
