@@ -24,8 +24,8 @@ constexpr int kCols = 32;
 constexpr int kM = 55;                          // taxels per frame
 constexpr std::uint32_t kFramePeriodUs = 1000;  // frames begin no closer than this
 
-// As the published board: the Teensy's default conversion, four averaged, takes 17 us. Set here all the same, so that
-// another version of Teensyduino cannot change what is measured.
+// As on the published board: the Teensy's defaults. Set here all the same, so that another version of Teensyduino
+// cannot change what is measured.
 constexpr int kAdcBits = 10;
 constexpr int kAdcAveraged = 4;
 constexpr std::uint8_t kAdcPin = A0;
