@@ -1,0 +1,138 @@
+"""The skin untouched: noise, baseline, taxels that read high."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.array import COUNT_MAX
+from acts_driver.selftest.findings import Finding, Level, Thresholds, taxels_listed
+from acts_driver.selftest.record import FrameRecord
+
+_TOP_CUT = 0.02
+
+
+@dataclass(frozen=True, eq=False)
+class Untouched:
+    """What each taxel reads untouched; arrays of shape (rows, cols).
+
+    Attributes
+    ----------
+    readings : np.ndarray [dtype=int64]
+        How often it was measured.
+    baseline_counts : np.ndarray [dtype=float64]
+        Median reading; NaN where it was never measured.
+    noise_counts : np.ndarray [dtype=float64]
+        Standard deviation about it, robust; NaN likewise.
+    """
+
+    readings: NDArray[np.int64]
+    baseline_counts: NDArray[np.float64]
+    noise_counts: NDArray[np.float64]
+
+
+def noise_of(counts: NDArray[np.float64]) -> float:
+    """Standard deviation of readings, robust against single spikes and against clipping at 0 or full scale.
+
+    The root mean square distance from the median, of the half of the readings above it or of that below: the larger
+    one, since clipping makes one of them small. The farthest 2 % are left out.
+    """
+    ordered = np.sort(counts)
+    half = len(ordered) // 2
+    if half == 0:
+        return 0.0
+    cut = int(len(ordered) * _TOP_CUT)
+    distance = ordered - np.median(ordered)
+    lower, upper = distance[cut : half or None], distance[len(ordered) - half : len(ordered) - cut]
+    return float(max(np.sqrt(np.mean(side**2)) if len(side) else 0.0 for side in (lower, upper)))
+
+
+def measure_untouched(record: FrameRecord) -> Untouched:
+    """Baseline and noise of every taxel from frames of the untouched skin."""
+    start, counts = record.readings()
+    size = record.rows * record.cols
+    baseline, noise = np.full(size, np.nan), np.full(size, np.nan)
+    for taxel in range(size):
+        own = counts[start[taxel] : start[taxel + 1]]
+        if len(own):
+            baseline[taxel], noise[taxel] = np.median(own), noise_of(own)
+    shape = (record.rows, record.cols)
+    return Untouched(np.diff(start).reshape(shape), baseline.reshape(shape), noise.reshape(shape))
+
+
+def judge_untouched(skin: Untouched, thresholds: Thresholds) -> list[Finding]:
+    """What of this is a fault, but for taxels that read high: whether those are stuck, touching them tells."""
+    findings = []
+    unseen = _where(skin.readings == 0)
+    if unseen:
+        findings.append(
+            Finding(
+                Level.WARN,
+                "measured",
+                f"{len(unseen)} of {skin.readings.size} taxels were never measured",
+                "let the board sample raster, or uniform or random for longer",
+            )
+        )
+    noise = skin.noise_counts
+    typical = float(np.nanmedian(noise)) if not np.isnan(noise).all() else 0.0
+    loud = _where(noise > thresholds.noise_fail_counts)
+    uneasy = _where(noise > max(thresholds.noise_ratio * typical, thresholds.noise_warn_counts))
+    if loud:
+        findings.append(
+            Finding(
+                Level.FAIL,
+                "noise",
+                f"{len(loud)} taxels are noisier than {thresholds.noise_fail_counts:g} counts: {taxels_listed(loud)}",
+                "a loose contact, or something that moved on the skin: repeat it untouched, check the connector",
+                taxels=loud,
+            )
+        )
+    elif uneasy:
+        findings.append(
+            Finding(
+                Level.WARN,
+                "noise",
+                f"{len(uneasy)} taxels are noisier than the others ({typical:.1f} counts): {taxels_listed(uneasy)}",
+                "repeat it untouched; look for a loose contact where it comes again",
+                taxels=uneasy,
+            )
+        )
+    else:
+        findings.append(Finding(Level.PASS, "noise", f"{typical:.1f} counts (median), at most {np.nanmax(noise):.1f}"))
+    baseline = skin.baseline_counts
+    findings.append(
+        Finding(
+            Level.PASS,
+            "baseline",
+            f"{np.nanmedian(baseline):.0f} counts (median), {np.nanmin(baseline):.0f} to {np.nanmax(baseline):.0f}",
+        )
+    )
+    return findings
+
+
+def high_taxels(skin: Untouched, thresholds: Thresholds) -> tuple[tuple[int, int], ...]:
+    """Taxels that read as if they were pressed."""
+    return _where(skin.baseline_counts > thresholds.high_counts)
+
+
+def judge_high(skin: Untouched, thresholds: Thresholds) -> Finding:
+    """What can be said of them without touching the skin."""
+    high = high_taxels(skin, thresholds)
+    if not high:
+        return Finding(Level.PASS, "high taxels", f"none above {thresholds.high_counts:g} counts untouched")
+    readings = {round(float(skin.baseline_counts[taxel])) for taxel in high}
+    span = f"{min(readings)}" if len(readings) == 1 else f"{min(readings)} to {max(readings)}"
+    at_end = " (full scale)" if min(readings) >= COUNT_MAX else ""
+    return Finding(
+        Level.FAIL,
+        "high taxels",
+        f"{len(high)} taxels read {span} counts untouched{at_end}: {taxels_listed(high)}",
+        "take away what lies on the skin; otherwise these taxels are stuck: touch them to know",
+        taxels=high,
+    )
+
+
+def _where(mask: NDArray[np.bool_]) -> tuple[tuple[int, int], ...]:
+    return tuple((int(row), int(col)) for row, col in np.argwhere(mask))

@@ -1,0 +1,235 @@
+"""The judgements of the self-test, on frames of a modelled skin whose wiring is broken on purpose."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from acts_core.frames import SampleFrame, Scheme
+from acts_driver.selftest.findings import Finding, Level, Thresholds, listed, taxels_listed
+from acts_driver.selftest.record import FrameRecord
+from acts_driver.selftest.timing import judge_timing, measure_timing
+from acts_driver.selftest.touched import judge_touched, measure_touched
+from acts_driver.selftest.untouched import judge_high, judge_untouched, measure_untouched, noise_of
+
+THRESHOLDS = Thresholds()
+SAMPLE_US = 17.7
+
+
+@dataclass
+class Wiring:
+    """What is broken; as the virtual board's --hardware-fault."""
+
+    open_rows: tuple[int, ...] = ()
+    open_cols: tuple[int, ...] = ()
+    short_rows: tuple[tuple[int, ...], ...] = ()
+    short_cols: tuple[tuple[int, ...], ...] = ()
+    dead: tuple[tuple[int, int], ...] = ()
+    stuck: dict[tuple[int, int], float] = field(default_factory=dict)
+    address_bit: int | None = None
+
+    def seen(self, image: NDArray[np.float64]) -> NDArray[np.float64]:
+        """What the board sees of an image."""
+        image = image.copy()
+        for taxel in self.dead:
+            image[taxel] = 0
+        for taxel, counts in self.stuck.items():
+            image[taxel] = counts
+        image[list(self.open_rows)] = 0
+        image[:, list(self.open_cols)] = 0
+        for group in self.short_rows:
+            image[list(group)] = image[list(group)].sum(axis=0)
+        for group in self.short_cols:
+            image[:, list(group)] = image[:, list(group)].sum(axis=1, keepdims=True)
+        if self.address_bit is not None:
+            image = image[:, np.arange(image.shape[1]) & ~(1 << self.address_bit)]
+        return np.clip(image, 0, 1023)
+
+
+class Skin:
+    """A skin of 32 x 32 under a raster board with noise of 1.5 counts."""
+
+    def __init__(
+        self, wiring: Wiring | None = None, offset: float = 5.0, seed: int = 1, shape: tuple[int, int] = (32, 32)
+    ) -> None:
+        self.wiring = wiring or Wiring()
+        self.rng = np.random.default_rng(seed)
+        self.rows, self.cols = shape
+        self.offset = offset
+        self.knobs = 200 + 350 * self.rng.random(shape)
+
+    def field(self, share: float) -> NDArray[np.float64]:
+        """A rough roller that goes along the columns and then along the rows."""
+        row, col = np.indices(self.knobs.shape)
+        place, side = (col, self.cols) if share < 0.5 else (row, self.rows)
+        centre = -8 + (side + 16) * (share % 0.5) * 2
+        return self.knobs * np.exp(-0.5 * ((place - centre) / 2.5) ** 2)
+
+    def record(self, n: int, *, touched: bool, m: int | None = None) -> FrameRecord:
+        """Raster frames, or of `m` random taxels, each measured at its own time."""
+        record = FrameRecord(self.rows, self.cols)
+        size = self.rows * self.cols
+        for k in range(n):
+            begin, end = (self.field(min(k + step, n) / n) if touched else 0 * self.knobs for step in (0, 1))
+            # Row after row, each at its own time: a shorted row conducts what the other has at that moment.
+            image = np.array(
+                [
+                    self.wiring.seen(self.offset * (self.knobs > 0) + begin + row / self.rows * (end - begin))[row]
+                    for row in range(self.rows)
+                ]
+            )
+            counts = np.clip(np.rint(image + self.rng.normal(0, 1.5, image.shape)), 0, 1023).astype(np.uint16).ravel()
+            indices = np.arange(size) if m is None else self.rng.permutation(size)[:m]
+            duration_us = round(len(indices) * SAMPLE_US)
+            board_us = (k + 1) * duration_us
+            frame = SampleFrame(
+                k,
+                board_us,
+                duration_us,
+                Scheme.RASTER,
+                self.rows,
+                self.cols,
+                0,
+                indices.astype(np.uint16),
+                counts[indices],
+            )
+            record.add(frame, board_us * 1000 + 50_000)
+        return record
+
+    def findings(self) -> list[Finding]:
+        """What the self-test says, but for timing."""
+        untouched = measure_untouched(self.record(120, touched=False))
+        touch = measure_touched(self.record(240, touched=True), untouched, THRESHOLDS)
+        return [*judge_untouched(untouched, THRESHOLDS), *judge_touched(touch, untouched, THRESHOLDS)]
+
+
+def faults(findings: list[Finding]) -> dict[str, Finding]:
+    return {finding.name: finding for finding in findings if finding.level is not Level.PASS}
+
+
+@pytest.mark.parametrize(("shape", "offset"), [((32, 32), 0.0), ((32, 32), 30.0), ((9, 16), 5.0)])
+def test_a_healthy_skin_passes(shape: tuple[int, int], offset: float) -> None:
+    assert faults(Skin(offset=offset, shape=shape).findings()) == {}
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_every_fault_is_found_and_named_among_the_others(seed: int) -> None:
+    wiring = Wiring(
+        open_rows=(5, 31),
+        open_cols=(0, 17),
+        short_rows=((2, 29), (13, 14)),
+        short_cols=((8, 9, 25),),
+        dead=((10, 12), (20, 3)),
+        stuck={(4, 4): 700.0, (27, 30): 1023.0},
+    )
+    found = faults(Skin(wiring, seed=seed).findings())
+    assert found.keys() == {
+        "open rows", "open columns", "shorted rows", "shorted columns", "dead taxels", "stuck taxels"
+    }  # fmt: skip
+    assert all(finding.level is Level.FAIL and finding.advice for finding in found.values())
+    assert found["open rows"].rows == (5, 31)
+    assert found["open columns"].cols == (0, 17)
+    assert found["shorted rows"].rows == (2, 13, 14, 29)
+    assert "rows 2 and 29; 13 and 14 respond as one" in found["shorted rows"].text
+    assert found["shorted columns"].cols == (8, 9, 25)
+    assert found["dead taxels"].taxels == ((10, 12), (20, 3))
+    assert found["stuck taxels"].taxels == ((4, 4), (27, 30))
+    assert "700, 1023 counts" in found["stuck taxels"].text
+
+
+@pytest.mark.parametrize("bit", range(5))
+def test_a_broken_address_line_is_told_from_shorted_columns(bit: int) -> None:
+    found = faults(Skin(Wiring(address_bit=bit)).findings())
+    assert found.keys() == {"multiplexer"}
+    assert f"address bit {bit} (pin {33 + bit})" in found["multiplexer"].text
+
+
+def test_a_plug_with_eight_loose_rows() -> None:
+    found = faults(Skin(Wiring(open_rows=tuple(range(12, 20)))).findings())
+    assert found["open rows"].rows == tuple(range(12, 20))
+    assert "rows 12 to 19" in found["open rows"].text
+
+
+def test_what_was_not_pressed_is_not_judged() -> None:
+    skin = Skin()
+    untouched = measure_untouched(skin.record(60, touched=False))
+    nothing = judge_touched(
+        measure_touched(skin.record(60, touched=False), untouched, THRESHOLDS), untouched, THRESHOLDS
+    )
+    assert [(finding.level, finding.name) for finding in nothing] == [(Level.FAIL, "touch")]
+    skin.knobs[:, 8:] = 0.001  # pressed at the left only
+    found = faults(
+        judge_touched(measure_touched(skin.record(240, touched=True), untouched, THRESHOLDS), untouched, THRESHOLDS)
+    )
+    assert found.keys() == {"coverage"}
+    assert found["coverage"].level is Level.WARN
+    assert "columns 8 to 31" in found["coverage"].text
+
+
+def test_small_random_frames_show_open_rows_and_nothing_that_is_not_there() -> None:
+    skin = Skin(Wiring(open_rows=(3,)))
+    untouched = measure_untouched(skin.record(120, touched=False, m=512))
+    touch = measure_touched(skin.record(1500, touched=True, m=512), untouched, THRESHOLDS)
+    found = faults(judge_touched(touch, untouched, THRESHOLDS))
+    assert found.keys() == {"open rows"}
+    assert found["open rows"].rows == (3,)
+
+
+def test_noise_is_measured_at_zero_and_among_spikes() -> None:
+    rng = np.random.default_rng(2)
+    for mean in (0, 20, 1023):
+        counts = np.clip(np.rint(rng.normal(mean, 3, 400)), 0, 1023)
+        counts[7] = 500
+        assert noise_of(counts) == pytest.approx(3, rel=0.15)
+    assert noise_of(np.array([4.0])) == 0
+    assert noise_of(np.full(50, 7.0)) == 0
+
+
+def test_noisy_high_and_unmeasured_taxels() -> None:
+    skin = Skin()
+    record = skin.record(200, touched=False)
+    for frame in record.frames:
+        frame.counts[40] = skin.rng.integers(0, 100)
+        frame.counts[50] = 300
+    found = faults(
+        [*judge_untouched(measure_untouched(record), THRESHOLDS), judge_high(measure_untouched(record), THRESHOLDS)]
+    )
+    assert found["noise"].taxels == ((1, 8),)
+    assert found["noise"].level is Level.FAIL
+    assert found["high taxels"].taxels == ((1, 18),)
+    few = FrameRecord(32, 32)
+    for frame, arrival_ns in zip(record.frames, record.arrivals_ns, strict=True):
+        few.add(SampleFrame(0, 0, 0, Scheme.ADAPTIVE, 32, 32, 0, frame.indices[:30], frame.counts[:30]), arrival_ns)
+    assert "994 of 1024 taxels" in faults(judge_untouched(measure_untouched(few), THRESHOLDS))["measured"].text
+
+
+def test_timing_of_a_good_and_of_a_bad_stream() -> None:
+    record = Skin(shape=(16, 16)).record(1000, touched=False)
+    good = measure_timing(record, has_board_clock=True)
+    assert {finding.level for finding in judge_timing(good, THRESHOLDS)} == {Level.PASS}
+    assert good.taxel_us == pytest.approx(SAMPLE_US, rel=1e-3)
+    assert good.rate_hz == pytest.approx(1e6 / (256 * SAMPLE_US), rel=1e-3)
+    bad = FrameRecord(16, 16)
+    for k, (frame, arrival_ns) in enumerate(zip(record.frames, record.arrivals_ns, strict=True)):
+        if k % 50 != 7:
+            late_us = 2 * frame.board_us + (700 if k % 20 == 3 else 0)
+            changed = SampleFrame(k, late_us, 11_000, Scheme.RASTER, 16, 16, 0, frame.indices, frame.counts)
+            bad.add(changed, round(2 * arrival_ns * 1.0004))
+    found = faults(judge_timing(measure_timing(bad, has_board_clock=True), THRESHOLDS))
+    assert found.keys() == {"lost frames", "time per taxel", "clock jitter", "clock drift"}
+    assert found["lost frames"].level is Level.FAIL
+    assert "20 of" in found["lost frames"].text
+    slow = measure_timing(record, has_board_clock=True, frame_period_us=1000.0)
+    assert slow.possible_hz == pytest.approx(good.possible_hz)
+    assert {finding.name for finding in judge_timing(measure_timing(record, has_board_clock=False), THRESHOLDS)} == {
+        "frame rate", "lost frames", "time per taxel"
+    }  # fmt: skip
+
+
+def test_numbers_are_listed_for_a_person() -> None:
+    assert listed((3,)) == "3"
+    assert listed((3, 4, 7, 8, 9)) == "3, 4, 7 to 9"
+    assert taxels_listed(((1, 2), (3, 4), (5, 6)), most=2) == "(1, 2), (3, 4) and 1 more"

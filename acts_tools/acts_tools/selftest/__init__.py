@@ -1,0 +1,1 @@
+"""`acts selftest`: is the board, its wiring and its skin sound?"""

@@ -1,0 +1,195 @@
+"""`acts selftest`: is the board, its wiring and its skin sound?"""
+
+from __future__ import annotations
+
+import argparse
+import signal
+import sys
+import tempfile
+import time
+from collections.abc import Iterator
+from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext
+from pathlib import Path
+from types import FrameType
+from typing import TYPE_CHECKING
+
+from acts_core.array import MAX_SIDE
+from acts_core.errors import ActsError
+
+if TYPE_CHECKING:
+    from acts_driver.selftest.record import FrameRecord
+    from acts_tools.selftest.result import SelfTest
+    from acts_tools.selftest.session import BoardReader
+    from acts_tools.selftest.simulation import SimulatedSkin
+
+_EPILOG = """\
+examples:
+  acts selftest                                          the only Teensy plugged in
+  acts selftest /dev/ttyACM0 --touch-s 30
+  acts selftest --sim --hardware-fault open-row=5        what a broken row looks like
+
+The exit code is 1 when something is faulty, and 0 also where there are only warnings. Stop the driver first: a port
+belongs to one process. docs/selftest.md explains every item.
+"""
+
+
+def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add ``selftest`` to the acts command."""
+    parser = subparsers.add_parser(
+        "selftest",
+        help="test a board, its wiring and its skin",
+        description="Test a board, its wiring and its skin: first untouched, then while a hand is rolled over it.",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("port", nargs="?", default="auto", help="a path, auto (default) or serial:NUMBER")
+    parser.add_argument(
+        "--protocol", choices=("binary", "raster_ascii"), default="binary", help="what the board speaks"
+    )
+    parser.add_argument("--rows", type=_side, default=32, help="of the array, with raster_ascii and --sim (32)")
+    parser.add_argument("--cols", type=_side, default=32, help="of the array, with raster_ascii and --sim (32)")
+    parser.add_argument("--untouched-s", type=_seconds, default=4.0, metavar="S", help="time untouched (4)")
+    parser.add_argument("--touch-s", type=_seconds, metavar="S", help="time to roll a hand over the skin (20; --sim 6)")
+    parser.add_argument("--no-touch", action="store_true", help="leave that out: nothing is said of the wiring")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write the report, with all maps, as JSON")
+    parser.add_argument(
+        "--picture", type=Path, metavar="FILE", default=Path("out/selftest.png"), help="PNG (out/selftest.png)"
+    )
+    parser.add_argument("--sim", action="store_true", help="test a virtual board, pressed by a simulated roller")
+    parser.add_argument(
+        "--hardware-fault",
+        action="append",
+        default=[],
+        metavar="FAULT",
+        help="break its wiring; see virtual_board --help",
+    )
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Test, report; 1 when something is faulty."""
+    if arguments.hardware_fault and not arguments.sim:
+        raise ActsError("--hardware-fault breaks the wiring of a virtual board: give --sim as well")
+    with _ended_by_signals(), ExitStack() as stack:
+        skin = _simulated(arguments, stack) if arguments.sim else None
+        test = _test(arguments, skin)
+    # Not at the top: matplotlib takes a second.
+    from acts_driver.selftest.findings import Level
+    from acts_tools.selftest.picture import draw
+
+    print(test.text())
+    try:
+        if arguments.json is not None:
+            arguments.json.parent.mkdir(parents=True, exist_ok=True)
+            arguments.json.write_text(test.to_json())
+        draw(test, arguments.picture)
+    except OSError as error:
+        raise ActsError(f"{error.filename}: cannot be written ({error.strerror})") from error
+    print(f"picture: {arguments.picture}")
+    return 1 if test.level is Level.FAIL else 0
+
+
+def _simulated(arguments: argparse.Namespace, stack: ExitStack) -> SimulatedSkin:
+    from acts_tools.run_folder import shared_memory
+    from acts_tools.selftest.simulation import simulated_skin
+
+    folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="acts_selftest_", dir=shared_memory())))
+    return stack.enter_context(
+        simulated_skin(folder, arguments.rows, arguments.cols, arguments.protocol, arguments.hardware_fault)
+    )
+
+
+def _test(arguments: argparse.Namespace, skin: SimulatedSkin | None) -> SelfTest:
+    from acts_tools.selftest.session import BoardReader
+
+    port = arguments.port if skin is None else skin.port
+    with BoardReader(port, arguments.protocol, arguments.rows, arguments.cols) as board:
+        reply = board.query()
+        if reply is None:
+            print("the board takes no commands: it is tested with the frames that it sends", file=sys.stderr)
+            return _phases(arguments, skin, board, 0.0)
+        with board.full_frames(reply.state.settings) as settings:
+            return _phases(arguments, skin, board, float(settings.frame_period_us))
+
+
+def _phases(
+    arguments: argparse.Namespace, skin: SimulatedSkin | None, board: BoardReader, frame_period_us: float
+) -> SelfTest:
+    from acts_driver.selftest.findings import Thresholds
+    from acts_driver.selftest.timing import judge_timing, measure_timing
+    from acts_driver.selftest.touched import judge_touched, measure_touched
+    from acts_driver.selftest.untouched import judge_high, judge_untouched, measure_untouched
+    from acts_tools.selftest.result import SelfTest
+
+    thresholds = Thresholds()
+    first = board.first_frame()
+    rows, cols = first.rows, first.cols
+    _tell(f"leave the skin alone for {arguments.untouched_s:g} s")
+    record = board.record(rows, cols, arguments.untouched_s, lambda record: None)
+    if len(record.frames) < 2:
+        raise ActsError(f"{len(record.frames)} frames in {arguments.untouched_s:g} s: give a longer --untouched-s")
+    untouched = measure_untouched(record)
+    timing = measure_timing(record, has_board_clock=board.has_board_clock, frame_period_us=frame_period_us)
+    findings = [*judge_timing(timing, thresholds), *judge_untouched(untouched, thresholds)]
+    touch = None
+    if arguments.no_touch:
+        findings.append(judge_high(untouched, thresholds))
+    else:
+        seconds = arguments.touch_s or (20.0 if skin is None else 6.0)
+        _tell(f"now roll a hand over the whole skin, slowly and to the edges, for {seconds:g} s")
+        pressing: AbstractContextManager[None] = nullcontext() if skin is None else skin.rolled(rows, cols, seconds)
+        with pressing:
+            touched = board.record(rows, cols, seconds, _Countdown(seconds))
+        touch = measure_touched(touched, untouched, thresholds)
+        findings += judge_touched(touch, untouched, thresholds)
+    name = board.name if skin is None else "the virtual board"
+    return SelfTest(name, rows, cols, first.scheme.name.lower(), thresholds, findings, untouched, timing, touch)
+
+
+def _tell(words: str) -> None:
+    print(words, file=sys.stderr, flush=True)
+
+
+class _Countdown:
+    """Tells the seconds that are left, where a person looks on."""
+
+    def __init__(self, seconds: float) -> None:
+        self._end_s = time.monotonic() + seconds
+        self._told = -1
+        self._is_watched = sys.stderr.isatty()
+
+    def __call__(self, record: FrameRecord) -> None:
+        left = int(self._end_s - time.monotonic())
+        if self._is_watched and left != self._told:
+            self._told = left
+            print(f"\r{left:3d} s ", end="" if left > 0 else "\r", file=sys.stderr, flush=True)
+
+
+@contextmanager
+def _ended_by_signals() -> Iterator[None]:
+    """A signal to end unwinds everything, so that the board gets its settings back, as Ctrl-C does by itself."""
+
+    def unwind(number: int, frame: FrameType | None) -> None:
+        raise KeyboardInterrupt
+
+    before = {number: signal.signal(number, unwind) for number in (signal.SIGTERM, signal.SIGHUP)}
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+def _side(text: str) -> int:
+    if text.isdecimal() and 1 <= int(text) <= MAX_SIDE:
+        return int(text)
+    raise argparse.ArgumentTypeError(f"{text}: allowed is a whole number from 1 to {MAX_SIDE}")
+
+
+def _seconds(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = -1.0
+    if 0.5 <= value <= 3600:
+        return value
+    raise argparse.ArgumentTypeError(f"{text}: allowed is a number from 0.5 to 3600")

@@ -1,0 +1,93 @@
+"""What a self-test found, as text and as JSON."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_driver.selftest.findings import Finding, Level, Thresholds
+from acts_driver.selftest.timing import Timing
+from acts_driver.selftest.touched import Touched
+from acts_driver.selftest.untouched import Untouched
+
+_WIDTH = 16
+
+
+@dataclass(frozen=True, eq=False)
+class SelfTest:
+    """All of one self-test; `touch` is None where the skin was not to be touched."""
+
+    board: str
+    rows: int
+    cols: int
+    scheme: str
+    thresholds: Thresholds
+    findings: list[Finding]
+    skin: Untouched
+    timing: Timing
+    touch: Touched | None
+
+    @property
+    def level(self) -> Level:
+        """The worst finding."""
+        return max((finding.level for finding in self.findings), default=Level.PASS)
+
+    @property
+    def verdict(self) -> str:
+        """All of it in one line."""
+        counts = {level: sum(finding.level is level for finding in self.findings) for level in Level}
+        if self.level is Level.PASS:
+            return f"PASS: {len(self.findings)} items, nothing found"
+        return (
+            f"{self.level.name}: {counts[Level.FAIL]} faults, {counts[Level.WARN]} warnings, {counts[Level.PASS]} good"
+        )
+
+    def text(self) -> str:
+        """The report for a person."""
+        lines = [f"{self.board}: {self.rows} x {self.cols} taxels, {self.scheme}", ""]
+        for finding in self.findings:
+            lines.append(f"{finding.level.name}  {finding.name:<{_WIDTH}} {finding.text}")
+            if finding.advice:
+                lines.append(f"{'':{_WIDTH + 6}} -> {finding.advice}")
+        return "\n".join([*lines, "", self.verdict])
+
+    def to_json(self) -> str:
+        """The report for a program; maps are lists of rows, with null where nothing is known."""
+        timing = self.timing
+        late_us = timing.late_us
+        content: dict[str, Any] = {
+            "ok": self.level is not Level.FAIL,
+            "level": self.level.name,
+            "board": self.board,
+            "rows": self.rows,
+            "cols": self.cols,
+            "scheme": self.scheme,
+            "findings": [{**asdict(finding), "level": finding.level.name} for finding in self.findings],
+            "timing": {
+                "frames": timing.frames,
+                "lost": timing.lost,
+                "rate_hz": _number(timing.rate_hz),
+                "possible_hz": _number(timing.possible_hz),
+                "taxel_us": _number(timing.taxel_us),
+                "jitter_us": _number(timing.jitter_us),
+                "drift_ppm": _number(timing.drift_ppm),
+                "late_us_p99": _number(float(np.percentile(late_us, 99))) if len(late_us) else None,
+            },
+            "noise_counts": _map(self.skin.noise_counts),
+            "baseline_counts": _map(self.skin.baseline_counts),
+            "response_counts": None if self.touch is None else _map(self.touch.response_counts),
+            "thresholds": asdict(self.thresholds),
+        }
+        return json.dumps(content, indent=1) + "\n"
+
+
+def _number(value: float) -> float | None:
+    return round(float(value), 3) if np.isfinite(value) else None
+
+
+def _map(values: NDArray[np.float64]) -> list[list[float | None]]:
+    return [[_number(value) for value in row] for row in values.tolist()]
