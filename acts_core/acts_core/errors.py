@@ -24,6 +24,10 @@ class PortError(ActsError):
     """A serial port cannot be opened, or was lost."""
 
 
+class BoardError(ActsError):
+    """A board does not answer, or refuses what it is told."""
+
+
 class DictionaryError(ActsError):
     """A dictionary file cannot be read or does not fit the array or the patch size."""
 

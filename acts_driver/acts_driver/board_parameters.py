@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+import math
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 from acts_core.array import COUNT_MAX, MAX_SIDE
+from acts_core.board_settings import LEDS, OUTPUTS, BoardSettings
 from acts_core.errors import SettingsError
 from acts_core.sampling import NEIGHBOURS, SCHEMES, SamplingConfig
 from acts_core.settings import setting
@@ -18,7 +20,7 @@ _SAMPLING = ("scheme", "m", "threshold_counts", "neighbour_order", "search_share
 
 @dataclass(frozen=True)
 class BoardParameters:
-    """Parameters about sampling. The default of each leaves what the board does by itself."""
+    """Parameters that the board is told. The default of each leaves what the board does by itself."""
 
     scheme: str = setting(
         "", "how the board chooses the taxels of a frame; empty: the board's own", choices=("", *SCHEMES)
@@ -44,6 +46,18 @@ class BoardParameters:
     )
     seed: int = setting(-1, "seed of random and hybrid sampling; -1: the board's own", minimum=-1, maximum=2**63 - 1)
 
+    touch_counts: int = setting(
+        -1,
+        "counts above which recovery on the board and its LED take a taxel for touched; -1: the board's own",
+        minimum=-1,
+        maximum=COUNT_MAX,
+    )
+    led: str = setting("", "what the board's LED shows; empty: the board's own", choices=("", *LEDS))
+    output: str = setting("", "what the board sends besides samples; empty: the board's own", choices=("", *OUTPUTS))
+    model: str = setting(
+        "", "dictionary or object library (.npz) to upload to the board; empty or none: the board keeps what it has"
+    )
+
     def check_board_parameters(self) -> None:
         """Check what ranges alone cannot tell.
 
@@ -65,6 +79,33 @@ class BoardParameters:
             if getattr(self, field.name) != field.default
         }
 
+    def wanted(self, own: BoardSettings) -> BoardSettings:
+        """The settings that a board is to have.
+
+        Parameters
+        ----------
+        own : BoardSettings
+            What the board has by itself; kept where nothing is asked. Where only `m` is asked, the shares of a frame
+            stay what they were.
+
+        Raises
+        ------
+        SettingsError
+            When the whole cannot be, naming the setting.
+        """
+        asked = self.given()
+        m = asked.get("m", own.m)
+        scheme = asked.get("scheme", own.scheme)
+        period_us = round(1e6 / self.rate_cap_hz) if "rate_cap_hz" in asked else own.frame_period_us
+        plain = ("scheme", "neighbour_order", "m", "threshold_counts", "touch_counts", "output", "led", "seed")
+        return replace(
+            own,
+            search_quota=_quota(self.search_share, own.search_quota, own.m, m, is_used=scheme == "tracking"),
+            adaptive_quota=_quota(self.adaptive_share, own.adaptive_quota, own.m, m, is_used=scheme == "hybrid"),
+            frame_period_us=period_us,
+            **{name: asked[name] for name in plain if name in asked},
+        )
+
     def sampling(self, rows: int, cols: int) -> SamplingConfig:
         """How a board would sample that has the defaults of `SamplingConfig` where nothing is asked.
 
@@ -75,3 +116,15 @@ class BoardParameters:
         """
         asked = {name: value for name, value in self.given().items() if name in _SAMPLING}
         return SamplingConfig(rows=rows, cols=cols, **asked)
+
+
+BOARD_PARAMETERS = tuple(field.name for field in fields(BoardParameters))
+"""Names of these parameters."""
+
+
+def _quota(share: float, own: int, own_m: int, m: int, *, is_used: bool) -> int:
+    """Taxels of a frame of `m`: a share of it, or as many as the board's own are of its frame."""
+    if share <= 0 and not is_used:
+        return own
+    quota = math.ceil(share * m) if share > 0 else -(-own * m // own_m)
+    return min(max(quota, 1), m)

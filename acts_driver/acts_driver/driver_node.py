@@ -11,6 +11,10 @@ from rclpy.timer import Timer
 from acts_core.errors import ActsError
 from acts_core.frames import SampleFrame
 from acts_driver.baseline_services import BaselineServices
+from acts_driver.board import BoardLink
+from acts_driver.board_interface import BoardInterface
+from acts_driver.board_parameters import BOARD_PARAMETERS
+from acts_driver.board_session import BoardSession
 from acts_driver.messages import SamplesMessage
 from acts_driver.reader import Reader
 from acts_driver.report import DriverReport
@@ -26,6 +30,9 @@ from acts_ros.qos import STREAM, overridable
 SUCCESS = TransitionCallbackReturn.SUCCESS
 FAILURE = TransitionCallbackReturn.FAILURE
 
+VERDICT_S = 1.0
+"""Longest time that configuring waits for a board to say who it is, or for it to turn out that it says nothing."""
+
 
 class DriverNode(LifecycleNode):
     """Lifecycle node around `Reader` and `FrameStream`.
@@ -36,11 +43,14 @@ class DriverNode(LifecycleNode):
 
     def __init__(self, **node_arguments: object) -> None:
         super().__init__("driver", **node_options(), **node_arguments)
-        self._settings = declare(self, DriverSettings)
+        self._settings = declare(
+            self, DriverSettings, changeable=BOARD_PARAMETERS, on_change=self._on_changed_parameters
+        )
         self._what = self._settings.replay if self._settings.is_replay else self._settings.port
         self._active = False
         self._source: Source | None = None
         self._reader: Reader | None = None
+        self._session: BoardSession | None = None
         self._report: DriverReport | None = None
         self._problem = ""
         self._autostart_timers: list[Timer] = []
@@ -48,6 +58,7 @@ class DriverNode(LifecycleNode):
         frame_id = self._settings.frame_id or self.get_namespace().strip("/").replace("/", "_") or "skin"
         self._message = SamplesMessage(frame_id)
         self._baseline = BaselineServices(self, self._settings, self._settings.rows, self._settings.cols, frame_id)
+        self._board = BoardInterface(self, frame_id)
         # Not made in on_configure: subscribers then are matched before the first frame.
         self._publisher = self.create_publisher(TactileSamples, "samples", **overridable(STREAM))
         self._diagnostics = DiagnosticsReporter(self, self._what, self._make_report)
@@ -72,19 +83,28 @@ class DriverNode(LifecycleNode):
             return FAILURE
         self._problem = ""
         self._source = source
-        decoder = settings.make_decoder()
-        self._stream = FrameStream(settings.rows, settings.cols, has_board_clock=decoder.has_board_clock)
+        size = (settings.rows, settings.cols)
+        link = BoardLink(source.write)
+        decoder = settings.make_decoder(link.take)
+        self._stream = FrameStream(*size, has_board_clock=decoder.has_board_clock)
+        if settings.has_dialogue:
+            self._session = BoardSession(link, settings, size=size, log=self._log, on_change=self._board.publish)
+        self._board.session = self._session
         self._reader = Reader(
             source,
             decoder,
             self._on_frames,
             reconnect_s=settings.reconnect_s,
             log=self._log,
-            on_reconnect=self._stream.statistics.reconnected,
+            on_reconnect=self._on_reconnect,
         )
-        self._report = DriverReport(source, self._reader, decoder, self._stream, (settings.rows, settings.cols))
+        self._report = DriverReport(source, self._reader, decoder, self._stream, size, self._session)
+        self._restarts_told = 0
         self._wrong_size_told = (0, 0)
         self._reader.start(is_open=True)
+        if self._session is not None:
+            self._session.start()
+            self._session.wait_for_verdict(VERDICT_S)
         self.get_logger().info(f"reading {source.name}" + ("" if settings.is_replay else f" ({settings.protocol})"))
         return SUCCESS
 
@@ -120,7 +140,10 @@ class DriverNode(LifecycleNode):
         """Stop publishing, end the reader's thread and close the port."""
         self._active = False
         self._stop_autostart()
-        reader, self._reader, self._report = self._reader, None, None
+        session, self._session, self._board.session = self._session, None, None
+        if session is not None:
+            session.stop()
+        reader, self._reader, self._report, self._source = self._reader, None, None, None
         if reader is not None:
             reader.stop()
 
@@ -151,6 +174,12 @@ class DriverNode(LifecycleNode):
         accepted = self._stream.accept(frames, arrival_ns)
         if self._stream.wrong_size_last != self._wrong_size_told:
             self._tell_wrong_size()
+        session = self._session
+        if session is not None and self._stream.statistics.restarts != self._restarts_told:
+            self._restarts_told = self._stream.statistics.restarts
+            session.wake()
+        if session is not None and not session.may_publish:
+            return
         self._baseline.observe(accepted)
         if not self._active:
             return
@@ -162,6 +191,24 @@ class DriverNode(LifecycleNode):
                 if self.context.ok():
                     raise
                 return
+
+    def _on_reconnect(self) -> None:
+        """The port is open again; on the reader's thread, before the first frame."""
+        self._stream.statistics.reconnected()
+        if self._session is not None:
+            self._session.reconnected()
+
+    def _on_changed_parameters(self, settings: DriverSettings) -> str:
+        """Tell the board; why it cannot be, or nothing."""
+        if not settings.has_dialogue and self._source is not None:
+            return "only a board that speaks the binary protocol can be told settings while the driver runs"
+        if self._session is not None:
+            try:
+                self._session.change(settings)
+            except ActsError as error:
+                return str(error)
+        self._settings = settings
+        return ""
 
     def _tell_wrong_size(self) -> None:
         self._wrong_size_told = self._stream.wrong_size_last

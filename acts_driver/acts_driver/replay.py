@@ -126,6 +126,10 @@ class ReplaySource:
             self._prepare()
         return b"".join(data)
 
+    def write(self, data: bytes, timeout_s: float) -> None:
+        """A recording takes no commands: raises `PortError`."""
+        raise PortError(f"{self._name} takes no commands")
+
     def close(self) -> None:
         """Let go of the recording."""
         self._recording = None

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 
 from acts_core.delimited import DelimitedDecoder
+from acts_driver.board_session import BoardSession, BoardStatus, settings_in_words, version_in_words
 from acts_driver.reader import Reader
 from acts_driver.source import Source
 from acts_driver.stream import FrameStream
@@ -60,6 +61,8 @@ class DriverReport:
         What is reported on.
     expected_size : tuple of int
         Rows and columns that frames must have.
+    session : BoardSession or None
+        The dialogue with the board, where there is one.
     """
 
     def __init__(
@@ -69,7 +72,9 @@ class DriverReport:
         decoder: DelimitedDecoder,
         stream: FrameStream,
         expected_size: tuple[int, int],
+        session: BoardSession | None = None,
     ) -> None:
+        self._session = session
         self._source = source
         self._reader = reader
         self._decoder = decoder
@@ -111,6 +116,9 @@ class DriverReport:
         self._before = totals
         rate_hz = self._stream.statistics.rate_hz(now_ns)
         level, message = self._judge(added, f"{rate_hz:.1f} frames/s, {state}")
+        board = BoardStatus() if self._session is None else self._session.status
+        if self._session is not None and self._reader.connected:
+            level, message = _with_board(level, message, board, is_needed=self._session.asks_for_something)
         clock = self._stream.clock.state
         has_clock = self._stream.has_board_clock
         values: dict[str, object] = {"rate_hz": rate_hz}
@@ -118,6 +126,7 @@ class DriverReport:
         values["clock_offset_us"] = clock.offset_us if has_clock else "none"
         values["clock_drift_ppm"] = clock.drift_ppm if has_clock else "none"
         values["delay_us"] = clock.delay_us if has_clock else "none"
+        values.update(_board_values(board))
         values["last_error"] = self._decoder.last_error
         values["port"] = self._source.name
         values["state"] = state
@@ -144,3 +153,26 @@ class DriverReport:
         if troubles:
             return WARN, ", ".join(troubles)
         return OK, fine
+
+
+def _with_board(level: int, message: str, board: BoardStatus, *, is_needed: bool) -> tuple[int, str]:
+    """What the board says about itself added to what its frames say."""
+    if not board.problem:
+        return level, message
+    if board.is_silent:
+        # Frames are valid all the same; only who wants to tell the board something has to know.
+        if is_needed:
+            return max(level, WARN), f"{board.problem}: the parameters about the board are not in force; {message}"
+        return level, f"{message}, {board.problem}" if level == OK else message
+    return ERROR, f"{board.problem}; {message}"
+
+
+def _board_values(board: BoardStatus) -> dict[str, object]:
+    state = board.state
+    if state is None:
+        return {"board": "does not answer" if board.is_silent else "none", "firmware": "", "board_settings": ""}
+    return {
+        "board": state.board_id,
+        "firmware": version_in_words(state),
+        "board_settings": settings_in_words(state.settings),
+    }

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
 from acts_core.array import MAX_SIDE
+from acts_core.board_messages import BoardMessage
 from acts_core.delimited import DelimitedDecoder
 from acts_core.raster_ascii import RasterDecoder
 from acts_core.settings import setting, validate
@@ -90,8 +92,13 @@ class DriverSettings(BaselineParameters, BoardParameters, SourceParameters):
             delay_s=self.replay_delay_s,
         )
 
-    def make_decoder(self) -> DelimitedDecoder:
-        """The decoder of the protocol."""
+    @property
+    def has_dialogue(self) -> bool:
+        """Whether there is a board that may take commands."""
+        return self.protocol == "binary" and not self.is_replay
+
+    def make_decoder(self, on_message: Callable[[BoardMessage], None]) -> DelimitedDecoder:
+        """The decoder of the protocol; `on_message` as of `StreamDecoder`."""
         if self.protocol == "raster_ascii" and not self.is_replay:
             return RasterDecoder(self.rows, self.cols)
-        return StreamDecoder()
+        return StreamDecoder(on_message)

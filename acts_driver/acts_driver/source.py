@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import select
+import threading
+import time
 from typing import Protocol
 
 import serial
@@ -17,6 +19,7 @@ READ_TIMEOUT_S = 0.1
 """Longest time that `Source.read` blocks, so that a reader can be stopped."""
 
 _READ_SIZE = 65536
+_WRITE_SLICE_S = 0.05
 
 
 class Source(Protocol):
@@ -49,6 +52,12 @@ class Source(Protocol):
         Raises `PortError` when the stream was lost.
         """
 
+    def write(self, data: bytes, timeout_s: float) -> None:
+        """Give bytes to the board, waiting up to `timeout_s` for room. From any thread.
+
+        Raises `PortError` when there is no board, or it does not take them in time.
+        """
+
     def close(self) -> None:
         """Let go of the stream."""
 
@@ -75,6 +84,8 @@ class SerialSource:
         self._port: serial.Serial | None = None
         self._poll = select.poll()
         self._fd = -1
+        # Between writing and closing: the number of a closed port may belong to another file at once.
+        self._lock = threading.Lock()
         self.silence = ""
 
     @property
@@ -113,8 +124,33 @@ class SerialSource:
             raise PortError(f"port {self.name} was lost: end of stream")
         return data
 
+    def write(self, data: bytes, timeout_s: float) -> None:
+        """Write all of it, or raise `PortError` when the port is not open, is lost, or stays full."""
+        deadline_s = time.monotonic() + timeout_s
+        while True:
+            with self._lock:
+                if self._port is None:
+                    raise PortError(f"port {self.name} is not open")
+                fd = self._fd
+                try:
+                    data = data[os.write(fd, data) :]
+                except BlockingIOError:
+                    pass
+                except OSError as error:
+                    raise PortError(f"port {self.name} was lost: {error.strerror}") from error
+            if not data:
+                return
+            left_s = deadline_s - time.monotonic()
+            if left_s <= 0:
+                raise PortError(f"the board at port {self.name} takes no bytes; is its sketch stuck? press its button")
+            # Without the lock, closing does not wait for a stuck board; in slices, since poll does not end by closing.
+            poll = select.poll()
+            poll.register(fd, select.POLLOUT)
+            poll.poll(min(left_s, _WRITE_SLICE_S) * 1000)
+
     def close(self) -> None:
         """Close the port if it is open."""
-        port, self._port = self._port, None
-        if port is not None:
-            port.close()
+        with self._lock:
+            port, self._port = self._port, None
+            if port is not None:
+                port.close()

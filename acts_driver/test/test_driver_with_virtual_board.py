@@ -2,36 +2,18 @@
 
 from __future__ import annotations
 
-import json
-import subprocess
 import time
 from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
-from ament_index_python.packages import get_package_prefix
-from driver_rig import DEADLINE_S, Rig, end_process, read_until, start_process
+from driver_rig import DEADLINE_S, Rig, end_process, start_process
 from lifecycle_msgs.msg import Transition
+from virtual_board import VirtualBoard
 
 from acts_core.raster_ascii import RasterDecoder
 from acts_driver.source import SerialSource
-
-
-class VirtualBoard:
-    """The process `virtual_board` and what it said at its start."""
-
-    def __init__(self, link: Path, *options: str) -> None:
-        program = Path(get_package_prefix("acts_firmware")) / "lib/acts_firmware/virtual_board"
-        command = [str(program), "--link", str(link), "--print-status", *options]
-        self.link = link
-        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-        self.start = json.loads(read_until(self.process, "{"))
-
-    def close(self) -> None:
-        """End it."""
-        if self.process.poll() is None:
-            end_process(self.process)
 
 
 @pytest.fixture
@@ -82,8 +64,7 @@ def test_a_thousand_frames_a_second_without_a_loss_on_the_way(board: VirtualBoar
 def test_a_board_that_dies_and_comes_back_is_followed(board: VirtualBoard, rig: Rig) -> None:
     rig.start_driver(port=board.link, reconnect_s=0.05)
     rig.spin_until(lambda: len(rig.samples) >= 500, "messages")
-    board.process.kill()
-    board.process.communicate()
+    board.kill()
     rig.spin_until(lambda: not rig.driver._reader.connected, "the loss")
     seen = len(rig.samples)
     again = VirtualBoard(board.link)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses
+from collections.abc import Callable, Collection
 from typing import Any, TypeVar
 
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor, SetParametersResult
@@ -26,7 +28,13 @@ def node_options() -> dict[str, Any]:
     return {"automatically_declare_parameters_from_overrides": True}
 
 
-def declare(node: Node, settings_class: type[T], *, read_only: bool = True) -> T:
+def declare(
+    node: Node,
+    settings_class: type[T],
+    *,
+    changeable: Collection[str] = (),
+    on_change: Callable[[T], str] = lambda settings: "",
+) -> T:
     """Declare every setting of a dataclass as a parameter of `node` and return the values given to them.
 
     Call it once a node. Values come from the params file, the command line or the defaults.
@@ -37,9 +45,12 @@ def declare(node: Node, settings_class: type[T], *, read_only: bool = True) -> T
         Constructed with ``**node_options()``.
     settings_class : type
         Dataclass of `acts_core.settings.setting` fields.
-    read_only : bool
-        Whether the parameters can only be set at start. Otherwise a change is checked like the first value; use
-        ``node.add_on_set_parameters_callback`` to act on it.
+    changeable : collection of str
+        Parameters that may be set while the node runs; the others only at its start. What is set together is checked
+        like the first values, and as a whole.
+    on_change : callable
+        Takes settings with the changes, after they were checked, and returns why they cannot be; empty where they
+        are in force now.
 
     Raises
     ------
@@ -63,9 +74,11 @@ def declare(node: Node, settings_class: type[T], *, read_only: bool = True) -> T
     for name, info in infos.items():
         default = default_of(settings_class, name)
         value = getattr(settings, name)
-        node.declare_parameter(name, _ros_value(value), _descriptor(default, info, read_only), ignore_override=True)
-    if not read_only:
-        node.add_on_set_parameters_callback(lambda parameters: _check_change(settings_class, parameters))
+        node.declare_parameter(
+            name, _ros_value(value), _descriptor(default, info, name not in changeable), ignore_override=True
+        )
+    if changeable:
+        node.add_on_set_parameters_callback(_Changes(settings, on_change))
     return settings
 
 
@@ -89,18 +102,30 @@ def _descriptor(default: Any, info: SettingInfo, read_only: bool) -> ParameterDe
     return descriptor
 
 
-def _check_change(settings_class: type, parameters: list[Parameter]) -> SetParametersResult:
-    infos = describe(settings_class)
-    for parameter in parameters:
-        if parameter.name not in infos:
-            continue
+class _Changes:
+    """Checks changed parameters and hands them on; remembers those in force."""
+
+    def __init__(self, settings: Any, on_change: Callable[[Any], str]) -> None:
+        self._settings = settings
+        self._on_change = on_change
+
+    def __call__(self, parameters: list[Parameter]) -> SetParametersResult:
+        infos = describe(type(self._settings))
+        given = {parameter.name: parameter.value for parameter in parameters if parameter.name in infos}
+        if not given:
+            return SetParametersResult(successful=True)
         try:
-            checked(
-                parameter.name,
-                parameter.value,
-                default_of(settings_class, parameter.name),
-                infos[parameter.name],
+            changed = dataclasses.replace(
+                self._settings,
+                **{
+                    name: checked(name, value, default_of(type(self._settings), name), infos[name])
+                    for name, value in given.items()
+                },
             )
         except SettingsError as error:
             return SetParametersResult(successful=False, reason=str(error))
-    return SetParametersResult(successful=True)
+        reason = self._on_change(changed)
+        if reason:
+            return SetParametersResult(successful=False, reason=reason)
+        self._settings = changed
+        return SetParametersResult(successful=True)

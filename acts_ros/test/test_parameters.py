@@ -76,8 +76,19 @@ def test_read_only_and_changeable_parameters(context: Context) -> None:
     declare(node, Settings)
     assert not node.set_parameters([Parameter("rate_hz", value=10.0)])[0].successful
 
+    changes: list[float] = []
+
+    def take(settings: Settings) -> str:
+        if settings.rate_hz == 11.0:
+            return "not eleven"
+        changes.append(settings.rate_hz)
+        return ""
+
     node = make_node(context, [])
-    declare(node, Settings, read_only=False)
+    declare(node, Settings, changeable=["rate_hz"], on_change=take)
     assert node.set_parameters([Parameter("rate_hz", value=10.0)])[0].successful
     assert not node.set_parameters([Parameter("rate_hz", value=0.0)])[0].successful
+    refused = node.set_parameters([Parameter("rate_hz", value=11.0)])[0]
+    assert (refused.successful, refused.reason) == (False, "not eleven")
     assert node.get_parameter("rate_hz").value == 10.0
+    assert changes == [10.0]

@@ -1,0 +1,312 @@
+"""Keeps a board as the parameters want it: asks who it is, tells it its settings, again after every reset."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from acts_core.board_models import BoardModel
+from acts_core.commands import BoardSettings, BoardState
+from acts_core.errors import ActsError, BoardError, PortError
+from acts_driver.board import BoardLink, NoAnswerError
+from acts_driver.board_model_file import load_model
+from acts_driver.board_parameters import BoardParameters
+
+FIRMWARE = (0, 1)
+"""Major and minor version of the firmware that this driver belongs to; any patch version will do."""
+
+_ASK_EVERY_S = 1.0
+_BUSY_S = 5.0
+_SAME_START_S = 0.5
+_DRIFT_MAX = 1e-3
+
+
+@dataclass(frozen=True)
+class BoardStatus:
+    """What is known of the board.
+
+    Attributes
+    ----------
+    state : BoardState or None
+        What it said last; None before its first answer and when it has stopped answering.
+    is_wrong_version : bool
+        Whether its firmware is of another version, so that nothing it sends is to be used.
+    problem : str
+        Why it is not as the parameters want it, for a person; empty where it is.
+    is_silent : bool
+        Whether it was asked and did not answer.
+    """
+
+    state: BoardState | None = None
+    is_wrong_version: bool = False
+    problem: str = ""
+    is_silent: bool = False
+
+
+class BoardSession:
+    """The dialogue of one driver with whatever board is plugged in, on a thread of its own.
+
+    The board is asked every second, at once after `wake`, and brought to what the parameters want wherever it is not.
+    What it had by itself when it was first seen after its start counts as its own.
+
+    Parameters
+    ----------
+    link : BoardLink
+        To the board.
+    parameters : BoardParameters
+        What is wanted.
+    size : tuple of int
+        Rows and columns that the driver expects.
+    log : callable
+        Takes a level ("info", "warning" or "error") and a sentence.
+    on_change : callable
+        Called with the status when anything but times and counters in it has changed; from any thread.
+    """
+
+    def __init__(
+        self,
+        link: BoardLink,
+        parameters: BoardParameters,
+        *,
+        size: tuple[int, int],
+        log: Callable[[str, str], None],
+        on_change: Callable[[BoardStatus], None] = lambda status: None,
+    ) -> None:
+        self._link = link
+        self._parameters = parameters
+        self._size = size
+        self._log = log
+        self._on_change = on_change
+        self._own: BoardSettings | None = None
+        self._seen: BoardState | None = None
+        self._seen_s = 0.0
+        self._generation = 0
+        self._settled: tuple[BoardSettings, BoardSettings] | None = None
+        self._refused: object = None
+        self._model: BoardModel | None = None
+        self._model_path = ""
+        self._turn = threading.Lock()
+        self._wake = threading.Event()
+        self._verdict = threading.Event()
+        self._stop = threading.Event()
+        self._thread = threading.Thread(target=self._run, name="acts_board", daemon=True)
+        self._told = ""
+        self.status = BoardStatus()
+
+    def start(self) -> None:
+        """Begin the dialogue; the source is open."""
+        self._thread.start()
+
+    def stop(self) -> None:
+        """End the dialogue. May be called again."""
+        self._stop.set()
+        self._wake.set()
+        if self._thread.is_alive():
+            self._thread.join(_BUSY_S)
+
+    def wake(self) -> None:
+        """Tell that the board may have begun anew: it is asked at once."""
+        self._wake.set()
+
+    def reconnected(self) -> None:
+        """Tell that the port was lost and is open again; after one that answered, this board has to, too."""
+        self._generation += 1
+        if self._seen is not None:
+            self._verdict.clear()
+        self.wake()
+
+    def wait_for_verdict(self, timeout_s: float) -> bool:
+        """Wait until the board has answered or turned out not to; False where that takes longer."""
+        return self._verdict.wait(timeout_s)
+
+    @property
+    def may_publish(self) -> bool:
+        """Whether frames of this board may be used; cheap."""
+        return self._verdict.is_set() and not self.status.is_wrong_version
+
+    @property
+    def asks_for_something(self) -> bool:
+        """Whether any parameter wants something of the board."""
+        return bool(self._parameters.given())
+
+    def ask(self) -> BoardState:
+        """Ask the board now.
+
+        Raises
+        ------
+        BoardError, PortError
+            As `BoardLink.query`.
+        """
+        with self._turn:
+            state = self._link.query().state
+            self._see(state)
+            return state
+
+    def change(self, parameters: BoardParameters) -> None:
+        """Want something else from now on, and bring the board to it.
+
+        While no board is connected the wish is only noted.
+
+        Raises
+        ------
+        BoardError, SettingsError
+            It cannot be; the board is as it was and the old wish stays.
+        """
+        if not self._turn.acquire(timeout=_BUSY_S):
+            raise BoardError("the board is busy with an upload; try again later")
+        before = self._parameters
+        try:
+            if self.status.is_silent or self.status.is_wrong_version:
+                raise BoardError(f"the board cannot be told settings: {self.status.problem}")
+            self._parameters = parameters
+            self._refused = None
+            self._wanted_model()
+            if self.status.state is not None:
+                self._bring(self._link.query().state)
+        except PortError as error:
+            # Just lost: told to the board when it is back.
+            self._set(BoardStatus(problem=str(error)))
+        except ActsError:
+            self._parameters = before
+            # Part of it may have been done.
+            self.wake()
+            raise
+        finally:
+            self._turn.release()
+
+    def _run(self) -> None:
+        while not self._stop.is_set():
+            self._wake.clear()
+            generation = self._generation
+            with self._turn:
+                self._round()
+            # Not of the board that was there before, when it was exchanged meanwhile.
+            if generation == self._generation:
+                self._verdict.set()
+            self._wake.wait(_ASK_EVERY_S)
+
+    def _round(self) -> None:
+        try:
+            state = self._link.query().state
+        except PortError as error:
+            self._set(BoardStatus(problem=str(error)))
+            return
+        except NoAnswerError as error:
+            self._set(BoardStatus(problem=str(error), is_silent=True))
+            return
+        except BoardError as error:
+            self._set(BoardStatus(problem=str(error), is_wrong_version=True))
+            return
+        self._see(state)
+        wanted = (self._parameters, self._own)
+        if self.status.is_wrong_version or wanted == self._refused:
+            return
+        try:
+            self._bring(state)
+        except PortError:
+            return
+        except NoAnswerError:
+            self.wake()
+        except ActsError as error:
+            # Not told again until something has changed.
+            self._refused = wanted
+            self._set(replace(self.status, problem=str(error)))
+
+    def _see(self, state: BoardState) -> None:
+        """Take notice of what the board said about itself."""
+        now_s = time.monotonic()
+        if self._has_begun_anew(state, now_s):
+            self._own = state.settings
+            self._settled = None
+            self._refused = None
+        self._seen, self._seen_s = state, now_s
+        if state.firmware_version[:2] != FIRMWARE:
+            self._set(BoardStatus(state, is_wrong_version=True, problem=_other_version(state)))
+            return
+        problem = self.status.problem if self._refused is not None else self._mismatch(state)
+        self._set(BoardStatus(state, problem=problem))
+
+    def _has_begun_anew(self, state: BoardState, now_s: float) -> bool:
+        """Whether this is another board than the last one, or another life of it: it has forgotten what it was told."""
+        seen = self._seen
+        if seen is None or seen.board_id != state.board_id or state.uptime_us < seen.uptime_us:
+            return True
+        passed_s = now_s - self._seen_s
+        return passed_s - (state.uptime_us - seen.uptime_us) * 1e-6 > _SAME_START_S + _DRIFT_MAX * passed_s
+
+    def _bring(self, state: BoardState) -> None:
+        """Bring the board from a state to what is wanted."""
+        assert self._own is not None
+        wanted = self._parameters.wanted(self._own)
+        if state.settings != wanted and self._settled != (wanted, state.settings):
+            state = self._link.configure(wanted).state
+            # A board may take a setting in its own way; it is not told again and again then.
+            self._settled = (wanted, state.settings)
+            self._log("info", f"the board has taken its settings: {settings_in_words(state.settings)}")
+        model = self._wanted_model()
+        if model is not None and state.model.crc32 != model.crc32:
+            state = self._link.upload(model).state
+            self._log("info", f"the board has taken the model {self._parameters.model}")
+        self._set(BoardStatus(state, problem=self._mismatch(state)))
+
+    def _wanted_model(self) -> BoardModel | None:
+        path = self._parameters.model
+        if path in ("", "none"):
+            return None
+        if path != self._model_path or self._model is None:
+            self._model = load_model(Path(path))
+            self._model_path = path
+        return self._model
+
+    def _mismatch(self, state: BoardState) -> str:
+        settings = state.settings
+        if (settings.rows, settings.cols) != self._size:
+            return (
+                f"the board measures {settings.rows} x {settings.cols} taxels, the parameters rows and cols say "
+                f"{self._size[0]} x {self._size[1]}: set them alike"
+            )
+        if state.samples_only:
+            return (
+                f"the board holds no model for output {settings.output}, it sends samples only: set the parameter model"
+            )
+        return ""
+
+    def _set(self, status: BoardStatus) -> None:
+        before, self.status = self.status, status
+        # A silent board may be as it should be, and a lost port is told by the reader.
+        if status.state is not None or status.is_wrong_version:
+            if status.problem and status.problem != self._told:
+                self._log("error", status.problem)
+            self._told = status.problem
+        if _lasting(before) != _lasting(status):
+            self._on_change(status)
+
+
+def settings_in_words(settings: BoardSettings) -> str:
+    """Settings for a person, in one line."""
+    rate = f"at most {1e6 / settings.frame_period_us:g} Hz" if settings.frame_period_us else "as fast as it can"
+    return (
+        f"{settings.rows} x {settings.cols}, {settings.scheme}, M = {settings.frame_size}, {rate}, threshold "
+        f"{settings.threshold_counts}, output {settings.output}, LED {settings.led}"
+    )
+
+
+def version_in_words(state: BoardState) -> str:
+    """A firmware version for a person."""
+    return ".".join(map(str, state.firmware_version))
+
+
+def _other_version(state: BoardState) -> str:
+    return (
+        f"the board's firmware is {version_in_words(state)}, this driver needs {FIRMWARE[0]}.{FIRMWARE[1]}.x: load the "
+        "firmware of the driver's release onto the board; its frames are not published"
+    )
+
+
+def _lasting(status: BoardStatus) -> BoardStatus:
+    if status.state is None:
+        return status
+    return replace(status, state=replace(status.state, uptime_us=0, overruns=0, bad_commands=0))

@@ -1,0 +1,137 @@
+"""The driver node and its board: parameters, topic `board`, the query service, resets; with a real virtual board."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from driver_rig import Rig
+from pty_board import PtyBoard, frame
+from rcl_interfaces.srv import SetParametersAtomically
+from rclpy.parameter import Parameter
+from std_srvs.srv import Trigger
+from virtual_board import VirtualBoard
+
+from acts_msgs.msg import BoardState
+from acts_ros.qos import LATCHED
+
+
+class BoardRig(Rig):
+    """A rig that also listens to `board` and sets parameters as `ros2 param set` does."""
+
+    def __init__(self) -> None:
+        super().__init__(36)
+        self.boards: list[BoardState] = []
+
+    def listen_to_board(self) -> None:
+        self.listener.create_subscription(BoardState, "board", self.boards.append, LATCHED)
+
+    def set_parameters(self, **values: object) -> tuple[bool, str]:
+        client = self.listener.create_client(SetParametersAtomically, "driver/set_parameters_atomically")
+        self.spin_until(client.service_is_ready, "the parameter service")
+        request = SetParametersAtomically.Request()
+        request.parameters = [Parameter(name, value=value).to_parameter_msg() for name, value in values.items()]
+        future = client.call_async(request)
+        self.spin_until(future.done, "the answer")
+        self.listener.destroy_client(client)
+        return bool(future.result().result.successful), str(future.result().result.reason)
+
+    def query(self) -> tuple[bool, str]:
+        client = self.listener.create_client(Trigger, "driver/query_board")
+        self.spin_until(client.service_is_ready, "the query service")
+        future = client.call_async(Trigger.Request())
+        self.spin_until(future.done, "the answer")
+        self.listener.destroy_client(client)
+        return bool(future.result().success), str(future.result().message)
+
+    def wait_for_size(self, m: int) -> None:
+        self.spin_until(lambda: self.samples and len(self.samples[-1].indices) == m, f"frames of {m}")
+
+
+@pytest.fixture
+def rig() -> Iterator[BoardRig]:
+    rig = BoardRig()
+    yield rig
+    rig.close()
+
+
+@pytest.fixture
+def board(tmp_path: Path) -> Iterator[VirtualBoard]:
+    with VirtualBoard(tmp_path / "board", "--board-id", "77") as board:
+        yield board
+
+
+def test_parameters_become_settings_of_the_board(board: VirtualBoard, rig: BoardRig, tmp_path: Path) -> None:
+    np.savez(tmp_path / "d.npz", atoms=np.eye(64))
+    rig.start_driver(port=board.link, scheme="tracking", m=100)
+    rig.wait_for_size(100)
+    # A late joiner gets the last state.
+    rig.listen_to_board()
+    rig.spin_until(lambda: rig.boards and rig.boards[-1].m == 100, "the board's state")
+    message = rig.boards[-1]
+    assert (message.answers, message.problem, message.board_id) == (True, "", 77)
+    assert (message.scheme, message.rows, message.firmware_version) == ("tracking", 32, "0.1.0")
+    assert message.header.frame_id == "plate"
+    status = rig.status_until(lambda status: status.get("board") == "77", "the report")
+    assert "tracking, M = 100" in status["board_settings"]
+
+    assert rig.set_parameters(m=128) == (True, "")
+    rig.wait_for_size(128)
+    succeeded, reason = rig.set_parameters(scheme="uniform", m=57)
+    assert not succeeded
+    assert "no uniform grid of 32 x 32" in reason
+    assert rig.set_parameters(m=5000)[0] is False
+    assert rig.set_parameters(port="elsewhere")[0] is False
+    assert rig.set_parameters(scheme="uniform", m=64, model=str(tmp_path / "d.npz"), output="image") == (True, "")
+    rig.spin_until(lambda: rig.boards[-1].model == "patch_dictionary", "the model")
+    assert (rig.boards[-1].output, rig.boards[-1].samples_only, rig.boards[-1].m) == ("image", False, 64)
+    succeeded, text = rig.query()
+    assert succeeded
+    for words in ("board 77", "firmware 0.1.0", "uniform, M = 64", "patch_dictionary"):
+        assert words in text
+
+
+def test_a_board_that_forgot_is_told_again(board: VirtualBoard, rig: BoardRig) -> None:
+    rig.start_driver(port=board.link, m=64, reconnect_s=0.05)
+    rig.wait_for_size(64)
+    board.kill()
+    rig.spin_until(lambda: not rig.driver._reader.connected, "the loss")
+    # A wish is noted while there is no board.
+    assert rig.set_parameters(m=80) == (True, "")
+    with VirtualBoard(board.link):
+        rig.wait_for_size(80)
+
+
+def test_a_size_unlike_the_parameters_is_an_error(board: VirtualBoard, rig: BoardRig) -> None:
+    rig.start_driver(port=board.link, rows=16)
+    status = rig.status_until(lambda status: "say 16 x 32" in status["message"], "the report")
+    assert status["level"] == "2"
+    assert "the board measures 32 x 32 taxels" in status["message"]
+
+
+def test_a_silent_board_is_heard_all_the_same(rig: BoardRig, tmp_path: Path) -> None:
+    with PtyBoard(tmp_path) as board:
+        rig.start_driver(port=board.path, m=64)
+        rig.wait_until_active()
+        board.write_frames(frame(0))
+        rig.spin_until(lambda: rig.samples, "a message")
+        status = rig.status_until(lambda status: status.get("board") == "does not answer", "the report")
+        # Something was asked of it, so it matters.
+        assert int(status["level"]) >= 1
+        succeeded, reason = rig.set_parameters(m=32)
+        assert not succeeded
+        assert "does not answer" in reason
+        assert rig.query()[0] is False
+        rig.driver.close()
+
+
+def test_the_raster_sketch_takes_no_settings(rig: BoardRig, tmp_path: Path) -> None:
+    with PtyBoard(tmp_path) as board:
+        rig.start_driver(port=board.path, protocol="raster_ascii", rows=2, cols=3)
+        rig.wait_until_active()
+        succeeded, reason = rig.set_parameters(m=32)
+        assert not succeeded
+        assert "binary protocol" in reason
+        rig.driver.close()
