@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from acts_core.array import COUNT_MAX, MAX_SIDE
+from acts_core.dither_order import dither_order
 from acts_core.errors import ArrayError, SettingsError
 from acts_core.frames import Scheme
 from acts_core.random_taxels import RandomTaxels
@@ -98,7 +99,7 @@ class Sampler:
         self._frame = 0
         self._random = RandomTaxels(config.rows, config.cols, config.seed)
         self._tracking = Tracking(
-            division_order(config.rows, config.cols),
+            dither_order(config.rows, config.cols),
             config.rows,
             config.cols,
             config.m,

@@ -3,11 +3,13 @@
 ACTS' own, beyond the paper, whose discussion asks for combinations of sampling schemes. Adaptive sampling begins every
 frame anew: a contact between the first taxels of the search is found in no frame, and one that is large uses up a frame
 before the others are found. Here frames remember: a part of each goes to the taxels that were pressed and to those
-around them, the rest to a search that is taken up where the last frame left it.
+around them, the rest to a search that is taken up where the last frame left it. What the search finds is looked at from
+all sides in the same frame.
 """
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable
 
 import numpy as np
@@ -19,8 +21,10 @@ class Tracking:
 
     A taxel is flagged as pressed when it was above the threshold the last time it was measured. Candidates are the
     flagged taxels and their eight neighbours, as they stand when the frame begins. Of the `m` taxels of a frame, up to
-    ``m - search_quota`` are candidates, row by row, cyclically from the first one that the frame before left out. All
-    others follow the order of search from where it stopped, without those that this frame has measured already.
+    ``m - search_quota`` are candidates, row by row, cyclically from the first one that the frame before left out. Then
+    `search_quota` follow the order of search from where it stopped, without those that this frame has measured already.
+    What is left goes to the neighbours of the taxels that this frame found newly pressed, breadth first, and where there
+    are none (any more) to the search.
 
     So in every frame `m` taxels are measured, none twice, and
 
@@ -55,22 +59,36 @@ class Tracking:
 
     def frame(self, measure: Callable[[int, int], int]) -> tuple[NDArray[np.uint16], NDArray[np.uint16]]:
         """Sample one frame; as `acts_core.sampling.Sampler.frame`."""
-        cols = self._pressed.shape[1]
+        rows, cols = self._pressed.shape
         followed = self._follow()
         measured: dict[int, int] = {}
+        found: deque[tuple[int, int]] = deque()
 
         def take(index: int) -> None:
             row, col = divmod(index, cols)
             measured[index] = measure(row, col)
-            self._pressed[row, col] = measured[index] > self._threshold_counts
+            pressed = measured[index] > self._threshold_counts
+            if pressed and not self._pressed[row, col]:
+                found.append((row, col))
+            self._pressed[row, col] = pressed
 
         for index in followed:
             take(index)
+        searched = 0
         while len(measured) < self._m:
+            if found and searched >= self._search_quota:
+                row, col = found.popleft()
+                for near_row in range(max(row - 1, 0), min(row + 2, rows)):
+                    for near_col in range(max(col - 1, 0), min(col + 2, cols)):
+                        index = near_row * cols + near_col
+                        if index not in measured and len(measured) < self._m:
+                            take(index)
+                continue
             index = self._order[self._walk]
             self._walk = (self._walk + 1) % len(self._order)
             if index not in measured:
                 take(index)
+                searched += 1
         return np.array(list(measured), dtype=np.uint16), np.array(list(measured.values()), dtype=np.uint16)
 
     def _follow(self) -> list[int]:

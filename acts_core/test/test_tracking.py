@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from acts_core.errors import SettingsError
-from acts_core.sampling import Sampler, SamplingConfig, division_order, measure_in
+from acts_core.dither_order import dither_order
+from acts_core.sampling import Sampler, SamplingConfig, measure_in
 
 THRESHOLD = 180
 
@@ -52,22 +53,33 @@ def test_shares_that_are_none_are_refused(share: float) -> None:
         SamplingConfig("tracking", search_share=share)
 
 
-def test_untouched_it_walks_the_division_order_from_frame_to_frame() -> None:
+def test_untouched_it_walks_the_order_of_search_from_frame_to_frame() -> None:
     sampler = Sampler(SamplingConfig("tracking"))
     walked = [index for _ in range(40) for index in sampler.frame(measure_in(np.zeros((32, 32), dtype=int)))[0]]
-    assert walked == np.resize(division_order(32, 32), 40 * 55).tolist()
+    assert walked == np.resize(dither_order(32, 32), 40 * 55).tolist()
 
 
 def test_a_found_contact_and_its_ring_come_first_row_by_row_then_the_search_goes_on() -> None:
-    field = contact(16, 16, side=1)  # the first taxel of the division order
+    field = contact(16, 16, side=1)  # in the first lattice of the search
+    order = dither_order(32, 32).tolist()
     sampler = Sampler(SamplingConfig("tracking"))
-    sampler.frame(measure_in(field))
+    while not (sampler.frame(measure_in(field))[1] > 180).any():
+        pass
     indices, counts = sampler.frame(measure_in(field))
     around = [row * 32 + col for row in (15, 16, 17) for col in (15, 16, 17)]
     assert indices[:9].tolist() == around
     assert counts[:9].tolist() == [0, 0, 0, 0, 500, 0, 0, 0, 0]
-    searched = [index for index in division_order(32, 32)[55:].tolist() if index not in around]
+    start = order.index(indices[9])
+    searched = [index for index in order[start:] + order[:start] if index not in around]
     assert indices[9:].tolist() == searched[:46]
+
+
+def test_what_the_search_finds_is_seen_whole_in_the_same_frame_after_the_search_had_its_share() -> None:
+    field = contact(1, 1, side=4)  # rows and columns 1 to 4; 4, 4 is the tenth taxel of the search
+    sampler = Sampler(SamplingConfig("tracking"))
+    indices, _ = sampler.frame(measure_in(field))
+    assert indices[:11].tolist() == dither_order(32, 32)[:11].tolist()
+    assert with_ring(pressed(field), 32, 32) <= set(indices.tolist())
 
 
 def test_candidates_that_do_not_fit_are_taken_in_turns() -> None:
@@ -165,8 +177,8 @@ def test_after_release_the_flags_clear(side: int) -> None:
     run(sampler, field, 120)
     nothing = np.zeros_like(field)
     run(sampler, nothing, -(-len(with_ring(pressed(field), 32, 32)) // 44))
-    # Nothing is followed any more: frames are one walk through the division order again.
-    order = division_order(32, 32).tolist()
+    # Nothing is followed any more: frames are one walk through the order of search again.
+    order = dither_order(32, 32).tolist()
     walked = [index for _ in range(20) for index in sampler.frame(measure_in(nothing))[0].tolist()]
     start = order.index(walked[0])
     assert walked == [order[(start + i) % 1024] for i in range(len(walked))]
@@ -175,4 +187,4 @@ def test_after_release_the_flags_clear(side: int) -> None:
 def test_a_share_of_one_only_searches() -> None:
     sampler = Sampler(SamplingConfig("tracking", search_share=1.0))
     walked = [index for _ in range(30) for index in sampler.frame(measure_in(np.full((32, 32), 900)))[0]]
-    assert walked == np.resize(division_order(32, 32), 30 * 55).tolist()
+    assert walked == np.resize(dither_order(32, 32), 30 * 55).tolist()

@@ -13,6 +13,7 @@ ConfigError Sampler::configure(const SamplingConfig& config) {
   }
   config_ = config;
   order_.build(config.rows, config.cols);
+  search_order_.build(config.rows, config.cols);
   tracking_.reset();
   uniform_.reset(uniform_spacing(config.rows, config.cols, config.m));
   random_.reset(config.taxels(), config.seed);
@@ -30,7 +31,7 @@ void Sampler::sample(TaxelReader& reader, SampleFrame& frame) {
       adaptive_.sample(config_, order_, config_.m, measurement);
       break;
     case Scheme::kTracking:
-      tracking_.sample(config_, order_, measurement);
+      tracking_.sample(config_, search_order_, measurement);
       break;
     case Scheme::kHybrid:
       adaptive_.sample(config_, order_, config_.adaptive_quota, measurement);

@@ -5,6 +5,7 @@
 #include "acts_firmware/frame.hpp"
 #include "acts_firmware/sampling/adaptive.hpp"
 #include "acts_firmware/sampling/config.hpp"
+#include "acts_firmware/sampling/dither_order.hpp"
 #include "acts_firmware/sampling/division_order.hpp"
 #include "acts_firmware/sampling/measurement.hpp"
 #include "acts_firmware/sampling/random_taxels.hpp"
@@ -33,6 +34,7 @@ class Sampler {
  private:
   SamplingConfig config_;
   DivisionOrder order_;
+  DitherOrder search_order_;
   Marks marks_;
   Adaptive adaptive_;
   Tracking tracking_;

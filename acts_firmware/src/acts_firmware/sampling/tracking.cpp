@@ -11,16 +11,38 @@ void Tracking::reset() {
   walk_ = 0;
 }
 
-void Tracking::sample(const SamplingConfig& config, const DivisionOrder& order, Measurement& frame) {
+void Tracking::sample(const SamplingConfig& config, const DitherOrder& order, Measurement& frame) {
   const int followed = list_candidates(order.size(), config.m - config.search_quota);
+  found_count_ = 0;
   for (int i = 0; i < followed; ++i) {
     track(config, candidates_[static_cast<std::size_t>(i)], frame);
   }
+  int searched = 0;
+  int looked_around = 0;
   while (frame.size() < config.m) {
+    if (looked_around < found_count_ && searched >= config.search_quota) {
+      look_around(config, found_[static_cast<std::size_t>(looked_around++)], frame);
+      continue;
+    }
     const int index = order[walk_];
     walk_ = walk_ + 1 == order.size() ? 0 : walk_ + 1;
     if (!frame.has(index)) {
       track(config, index, frame);
+      ++searched;
+    }
+  }
+}
+
+// Measures the neighbours of a taxel that was found pressed, as far as the frame goes.
+void Tracking::look_around(const SamplingConfig& config, int index, Measurement& frame) {
+  const int row = index / config.cols;
+  const int col = index % config.cols;
+  for (int r = std::max(row - 1, 0); r <= std::min(row + 1, config.rows - 1); ++r) {
+    for (int c = std::max(col - 1, 0); c <= std::min(col + 1, config.cols - 1); ++c) {
+      const int near = r * config.cols + c;
+      if (frame.size() < config.m && !frame.has(near)) {
+        track(config, near, frame);
+      }
     }
   }
 }
@@ -52,6 +74,9 @@ void Tracking::track(const SamplingConfig& config, int index, Measurement& frame
     return;
   }
   before = now;
+  if (now) {
+    found_[static_cast<std::size_t>(found_count_++)] = static_cast<std::uint16_t>(index);
+  }
   const int row = index / config.cols;
   const int col = index % config.cols;
   for (int r = std::max(row - 1, 0); r <= std::min(row + 1, config.rows - 1); ++r) {

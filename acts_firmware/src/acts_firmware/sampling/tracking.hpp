@@ -5,32 +5,35 @@
 #include <cstdint>
 
 #include "acts_firmware/sampling/config.hpp"
-#include "acts_firmware/sampling/division_order.hpp"
+#include "acts_firmware/sampling/dither_order.hpp"
 #include "acts_firmware/sampling/measurement.hpp"
 
 namespace acts {
 
 // Candidates are what was pressed, and its neighbours. They get at most m - search_quota taxels of a frame, in turns; a
-// search that goes on from frame to frame gets the rest. So every taxel is measured at least once in any
-// ceil(rows * cols / search_quota) frames, and every lasting candidate at least once in any
-// ceil(candidates / (m - search_quota)).
+// search that goes on from frame to frame gets search_quota or more; what is left when it has had these goes first to
+// the neighbours of what this frame found newly pressed. So every taxel is measured at least once in any ceil(rows *
+// cols / search_quota) frames, and every lasting candidate at least once in any ceil(candidates / (m - search_quota)).
 class Tracking {
  public:
   // Forgets what was pressed and where the search stopped.
   void reset();
 
-  void sample(const SamplingConfig& config, const DivisionOrder& order, Measurement& frame);
+  void sample(const SamplingConfig& config, const DitherOrder& order, Measurement& frame);
 
  private:
   int list_candidates(int taxels, int limit);
+  void look_around(const SamplingConfig& config, int index, Measurement& frame);
   void track(const SamplingConfig& config, int index, Measurement& frame);
 
   // What was pressed when last measured, and how many of a taxel and its neighbours were.
   std::array<bool, kMaxTaxels> pressed_{};
   std::array<std::uint8_t, kMaxTaxels> pressed_near_{};
   std::array<std::uint16_t, kMaxTaxels> candidates_{};
+  std::array<std::uint16_t, kMaxTaxels> found_{};  // newly pressed in this frame
+  int found_count_ = 0;
   int cursor_ = 0;  // the taxel from which candidates are taken
-  int walk_ = 0;    // rank in the division order at which the search goes on
+  int walk_ = 0;    // rank in the order of search at which the search goes on
 };
 
 }  // namespace acts
