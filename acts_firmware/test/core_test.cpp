@@ -12,58 +12,9 @@
 #include "acts_firmware/board/clock.hpp"
 #include "acts_firmware/board/pacer.hpp"
 #include "acts_firmware/firmware.hpp"
-#include "wired_board.hpp"
+#include "core_checks.hpp"
 
 namespace {
-
-int failures = 0;
-
-#define CHECK(condition)                                                                 \
-  do {                                                                                   \
-    if (!(condition)) {                                                                  \
-      std::fprintf(stderr, "%s:%d: %s: %s\n", __FILE__, __LINE__, __func__, #condition); \
-      ++failures;                                                                        \
-    }                                                                                    \
-  } while (false)
-
-using Bytes = std::vector<std::uint8_t>;
-
-// Each taxel reads its own index (modulo the ADC's range), a measurement takes 10 us.
-class IndexBoard final : public acts::WiredBoard {
- public:
-  IndexBoard(int rows, int cols, std::uint32_t start_us = 0) : WiredBoard(rows, cols), cols_(cols), now_us_(start_us) {}
-
-  void write_pin(std::uint8_t pin, bool high) override {
-    levels_[pin] = high;
-    WiredBoard::write_pin(pin, high);
-  }
-  std::uint16_t read_adc() override {
-    now_us_ += 10;
-    return static_cast<std::uint16_t>(adc_input());
-  }
-  std::uint32_t micros() override { return now_us_; }
-  bool level(std::size_t pin) const { return levels_[pin]; }
-  int high_pins(std::size_t first, std::size_t last) const {
-    int count = 0;
-    for (std::size_t pin = first; pin <= last; ++pin) {
-      count += levels_[pin] ? 1 : 0;
-    }
-    return count;
-  }
-
- protected:
-  double taxel_counts(int row, int col) override { return (row * cols_ + col) % (acts::kCountMax + 1); }
-
- private:
-  int cols_;
-  std::uint32_t now_us_;
-  std::array<bool, 256> levels_{};
-};
-
-std::unique_ptr<acts::Firmware> make_firmware(acts::Board& board, acts::Protocol protocol = acts::Protocol::kBinary) {
-  static acts::ModelMemory models;
-  return std::make_unique<acts::Firmware>(board, acts::published_wiring(), protocol, models);
-}
 
 void test_pin_table() {
   const acts::Wiring wiring = acts::published_wiring();
@@ -75,6 +26,7 @@ void test_pin_table() {
   CHECK(wiring.address_bits == 5);
   CHECK(wiring.address_pins[0] == 33);
   CHECK(wiring.address_pins[4] == 37);
+  CHECK(wiring.led_pin == 40);
   CHECK(acts::wiring_for(33, 8).lines == 64);
   CHECK(acts::wiring_for(8, 33).address_bits == 6);
 }
@@ -170,20 +122,6 @@ void test_crc() {
   CHECK(acts::crc32(nullptr, 0) == 0);
 }
 
-Bytes run_of(std::size_t length) {
-  Bytes bytes(length);
-  for (std::size_t i = 0; i < length; ++i) {
-    bytes[i] = static_cast<std::uint8_t>(i % 255 + 1);
-  }
-  return bytes;
-}
-
-Bytes encoded(const Bytes& data) {
-  Bytes out(acts::cobs_bytes_max(data.size()));
-  out.resize(acts::cobs_encode(data.data(), data.size(), out.data()));
-  return out;
-}
-
 void test_cobs() {
   CHECK(encoded({}) == Bytes{0x01});
   CHECK(encoded({0x00}) == (Bytes{0x01, 0x01}));
@@ -206,14 +144,6 @@ void test_cobs() {
   Bytes room(8);
   CHECK(acts::cobs_decode(Bytes{0x05, 0x11}.data(), 2, room.data()) == 0);
   CHECK(acts::cobs_decode(Bytes{0x00}.data(), 1, room.data()) == 0);
-}
-
-std::uint64_t little_endian(const Bytes& bytes, std::size_t at, int size) {
-  std::uint64_t value = 0;
-  for (int i = 0; i < size; ++i) {
-    value |= static_cast<std::uint64_t>(bytes[at + static_cast<std::size_t>(i)]) << (8 * i);
-  }
-  return value;
 }
 
 void test_packet_layout() {
@@ -379,6 +309,7 @@ int main() {
   test_settings_are_checked();
   test_new_settings_forget_what_was_pressed();
   test_published_ascii();
+  test_commands();
   if (failures > 0) {
     std::fprintf(stderr, "%d checks failed\n", failures);
     return 1;

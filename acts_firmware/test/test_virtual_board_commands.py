@@ -96,6 +96,15 @@ def test_settings_outlive_the_host(tmp_path: Path) -> None:
         assert board.read_frames(3)[-1].scheme is Scheme.UNIFORM
 
 
+def test_a_host_that_leaves_at_once_is_heard(tmp_path: Path) -> None:
+    settings = BoardSettings(m=33, led="off")
+    with BoardProcess(tmp_path) as board:
+        os.write(board.open_port(), encode_configure(1, settings))
+        board.close_port()
+        (reply,) = Host(board).ask(encode_query(2))
+        assert (reply.request, reply.state.settings) == (2, settings)
+
+
 def test_garbage_from_the_host_leaves_the_stream_alone(tmp_path: Path) -> None:
     rng = np.random.default_rng(1)
     with BoardProcess(tmp_path) as board:
