@@ -48,16 +48,13 @@ class Case:
 DAMAGE = "crc_errors malformed"
 CASES = [
     Case("unplug:0.3", "reconnects lost", lost=None),
-    Case("unplug:2", "reconnects lost", lost=None),
     Case("reset:0", "restarts clock_resets", may_count=DAMAGE),
     Case("reset:0.3", "restarts reconnects clock_resets"),
-    Case("reset:2", "restarts reconnects clock_resets"),
     Case("stall:0.01"),
     Case("stall:0.1"),
     Case("stall:1", "overruns lost"),
     Case("freeze:0.01"),
     Case("freeze:0.1"),
-    Case("freeze:1"),
     Case("jump:10", "clock_resets"),
     Case("jump:-2", "clock_resets"),
     Case("garbage:100", may_count=f"{DAMAGE} lost", lost=1),
@@ -71,7 +68,13 @@ CASES = [
     Case("lose:1000", "lost", may_count=DAMAGE, lost=5),
     Case("version:2", "malformed lost", lost=None, ends="version:1"),
 ]
-LONG = [Case("stall:5", "overruns lost"), Case("freeze:5")]
+LONG = [
+    Case("unplug:2", "reconnects lost", lost=None),
+    Case("reset:2", "restarts reconnects clock_resets"),
+    Case("freeze:1"),
+    Case("stall:5", "overruns lost"),
+    Case("freeze:5"),
+]
 if os.environ.get("ACTS_LONG_FAULTS"):
     CASES += LONG
 
@@ -128,13 +131,24 @@ def test_a_fault(board: FaultyBoard, table: list[str], case: Case) -> None:
 
 def test_a_consumer_that_stands_still(board: FaultyBoard, table: list[str]) -> None:
     with PlainDriver(board) as driver:
+        published_before = len(driver.published)
         driver.may_take.clear()
-        until_ns = time.monotonic_ns() + 1_500_000_000
-        wait_for(lambda: time.monotonic_ns() > until_ns, "a second and a half")
+        until_ns = time.monotonic_ns() + 1_000_000_000
+        wait_for(lambda: time.monotonic_ns() > until_ns, "a second")
+        end_ns = time.monotonic_ns()
         driver.may_take.set()
         driver.wait_for_fresh_frames()
         totals = driver.totals()
     board.check(driver.published)
+    # The first frames had been read already when the consumer stood still.
+    arrivals = [board.to_monotonic_ns(one.arrival_ns) for one in driver.published]
+    first_ns = next(arrival for arrival in arrivals if arrival > end_ns)
+    gap_ns = max(after - earlier for earlier, after in itertools.pairwise(arrivals))
+    counted = f"lost {totals.lost}, overruns {totals.overruns}"
+    table.append(
+        f"| consumer still for 1 s | {len(arrivals) - published_before} | {counted} "
+        f"| {gap_ns / 1e6:.1f} ms | {(first_ns - end_ns) / 1e6:.1f} ms |"
+    )
     assert totals.overruns > 0
     assert totals.lost == totals.overruns
     assert totals.crc_errors == totals.malformed == totals.reconnects == 0
@@ -155,10 +169,10 @@ def any_fault(chaos: random.Random) -> str:
     return f"{kind}:{chaos.randint(1, most)}"
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3])
+@pytest.mark.parametrize("seed", [1, 2])
 def test_no_wrong_value_is_published_whatever_happens(tmp_path: Path, seed: int) -> None:
     chaos = random.Random(seed)
-    seconds = float(os.environ.get("ACTS_CHAOS_SECONDS", "2"))
+    seconds = float(os.environ.get("ACTS_CHAOS_SECONDS", "1.5"))
     with (
         FaultyBoard(tmp_path, "--scheme", "adaptive", "--seed", str(seed), "--fault", "flip-rate:0.00003") as board,
         PlainDriver(board, reconnect_s=0.02) as driver,

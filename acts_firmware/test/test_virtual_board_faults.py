@@ -14,6 +14,7 @@ import pytest
 from board_process import DEADLINE_S, BoardProcess
 from core_library import installed
 
+from acts_core.commands import BoardSettings, encode_configure
 from acts_core.frames import SampleFrame
 from acts_core.wire import StreamDecoder
 
@@ -182,6 +183,15 @@ def test_a_reset_with_a_port_that_goes(board: BoardProcess) -> None:
     board.open_port()
     frames = board.read_frames(3)
     assert frames[0].board_us == frames[0].sequence * 1000 + frames[0].duration_us
+
+
+def test_a_reset_forgets_what_the_host_had_set(board: BoardProcess) -> None:
+    port = board.open_port()
+    os.write(port, encode_configure(1, BoardSettings(m=20)))
+    board.read_until(lambda frame: len(frame.indices) == 20)
+    inject(board, "reset")
+    first = board.read_until(lambda frame: frame.sequence < 5)
+    assert len(first.indices) == 55
 
 
 def test_a_schedule_on_the_command_line(tmp_path: Path) -> None:

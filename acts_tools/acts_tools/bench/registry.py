@@ -52,5 +52,5 @@ MEASUREMENTS = {
     "driver_cpu": Entry("acts_tools.bench.driver_cpu", "CPU at 1 kHz, M = 55", 15.0),
     "latency": Entry("acts_tools.bench.latency", "latency and stamps at 1 kHz, M = 55", 45.0),
     "frame_rate": Entry("acts_tools.bench.frame_rate", "highest frame rate without loss, M = 55", 3.0),
-    "soak": Entry("acts_tools.bench.soak", "ten minutes at 1 kHz, M = 55", 600.0, only_by_name=True),
+    "soak": Entry("acts_tools.bench.soak", "a long run at 1 kHz, M = 55", 600.0, only_by_name=True),
 }
