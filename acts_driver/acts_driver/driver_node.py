@@ -8,13 +8,16 @@ import time
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
 from rclpy.timer import Timer
 
+from acts_core.board_messages import BoardMessage
 from acts_core.errors import ActsError
 from acts_core.frames import SampleFrame
 from acts_driver.baseline_services import BaselineServices
 from acts_driver.board import BoardLink
 from acts_driver.board_interface import BoardInterface
 from acts_driver.board_parameters import BOARD_PARAMETERS
+from acts_driver.board_results import BoardResult
 from acts_driver.board_session import BoardSession
+from acts_driver.board_topics import BoardTopics
 from acts_driver.messages import SamplesMessage
 from acts_driver.reader import Reader
 from acts_driver.report import DriverReport
@@ -60,6 +63,7 @@ class DriverNode(LifecycleNode):
         self._baseline = BaselineServices(self, self._settings, self._settings.rows, self._settings.cols, frame_id)
         self._board = BoardInterface(self, frame_id)
         # Not made in on_configure: subscribers then are matched before the first frame.
+        self._topics = BoardTopics(self, frame_id)
         self._publisher = self.create_publisher(TactileSamples, "samples", **overridable(STREAM))
         self._diagnostics = DiagnosticsReporter(self, self._what, self._make_report)
         if self._settings.autostart:
@@ -85,7 +89,13 @@ class DriverNode(LifecycleNode):
         self._source = source
         size = (settings.rows, settings.cols)
         link = BoardLink(source.write)
-        decoder = settings.make_decoder(link.take)
+        results = self._topics.begin()
+
+        def on_message(message: BoardMessage) -> None:
+            link.take(message)
+            results.take(message)
+
+        decoder = settings.make_decoder(on_message)
         self._stream = FrameStream(*size, has_board_clock=decoder.has_board_clock)
         if settings.has_dialogue:
             self._session = BoardSession(link, settings, size=size, log=self._log, on_change=self._board.publish)
@@ -94,6 +104,7 @@ class DriverNode(LifecycleNode):
             source,
             decoder,
             self._on_frames,
+            has_results=results.has_results,
             reconnect_s=settings.reconnect_s,
             log=self._log,
             on_reconnect=self._on_reconnect,
@@ -172,6 +183,7 @@ class DriverNode(LifecycleNode):
     def _on_frames(self, frames: list[SampleFrame], arrival_ns: int) -> None:
         """Publish; on the reader's thread."""
         accepted = self._stream.accept(frames, arrival_ns)
+        results = self._topics.results.stamped(accepted)
         if self._stream.wrong_size_last != self._wrong_size_told:
             self._tell_wrong_size()
         session = self._session
@@ -183,14 +195,18 @@ class DriverNode(LifecycleNode):
         self._baseline.observe(accepted)
         if not self._active:
             return
-        for frame, stamp_ns in accepted:
-            try:
-                self._publisher.publish(self._message.fill(frame, stamp_ns))
-            except RuntimeError:
-                # A signal may end the context between two frames; all of rclpy's own errors are RuntimeErrors.
-                if self.context.ok():
-                    raise
-                return
+        try:
+            self._publish(accepted, results)
+        except RuntimeError:
+            # A signal may end the context between two frames; all of rclpy's own errors are RuntimeErrors.
+            if self.context.ok():
+                raise
+
+    def _publish(self, frames: list[tuple[SampleFrame, int]], results: list[tuple[BoardResult, int]]) -> None:
+        for frame, stamp_ns in frames:
+            self._publisher.publish(self._message.fill(frame, stamp_ns))
+        for result, stamp_ns in results:
+            self._topics.publish(result, stamp_ns)
 
     def _on_reconnect(self) -> None:
         """The port is open again; on the reader's thread, before the first frame."""
@@ -221,7 +237,7 @@ class DriverNode(LifecycleNode):
     def _make_report(self) -> Report:
         if self._report is not None:
             level, message, values = self._report.make("active" if self._active else "inactive", time.time_ns())
-            return level, message, {**values, **self._baseline.values()}
+            return level, message, {**values, **self._baseline.values(), **self._topics.values()}
         values = {"port": self._what, "state": "unconfigured"}
         return (ERROR, self._problem, values) if self._problem else (OK, "unconfigured", values)
 

@@ -12,7 +12,9 @@ from acts_core.frames import SampleFrame
 from acts_driver.source import READ_TIMEOUT_S, Source
 
 FramesCallback = Callable[[list[SampleFrame], int], None]
-"""Takes frames that were read together and the host time of their arrival [ns], on the reader's thread."""
+"""Takes frames that were read together and the host time of their arrival [ns], on the reader's thread.
+
+There may be none of them where `Reader` was told to look for results."""
 
 LogCallback = Callable[[str, str], None]
 """Takes a level ("info", "warning" or "error") and a sentence, on the reader's thread."""
@@ -36,6 +38,8 @@ class Reader:
         Used by the reader's thread alone; its counters may be read from any.
     on_frames : callable
         See `FramesCallback`.
+    has_results : callable
+        Whether the bytes just decoded held anything besides frames that `on_frames` is to be called for.
     reconnect_s : float
         Longest wait between two attempts to open a lost source [s].
     log : callable
@@ -63,6 +67,7 @@ class Reader:
         decoder: DelimitedDecoder,
         on_frames: FramesCallback,
         *,
+        has_results: Callable[[], bool] = lambda: False,
         reconnect_s: float = 0.5,
         log: LogCallback = lambda level, message: None,
         on_reconnect: Callable[[], None] | None = None,
@@ -72,6 +77,7 @@ class Reader:
         self._decoder = decoder
         self._on_frames = on_frames
         self._on_reconnect = on_reconnect
+        self._has_results = has_results
         self._reconnect_s = reconnect_s
         self._log = log
         self._now_ns = now_ns
@@ -138,14 +144,14 @@ class Reader:
         return False
 
     def _read_until_stopped(self) -> None:
-        read, feed, now_ns = self._source.read, self._decoder.feed, self._now_ns
+        read, feed, now_ns, has_results = self._source.read, self._decoder.feed, self._now_ns, self._has_results
         while not self._stop.is_set():
             data = read()
             arrival_ns = now_ns()
             if not data:
                 continue
             frames = feed(data)
-            if frames:
+            if frames or has_results():
                 self._hand_on(frames, arrival_ns)
 
     def _hand_on(self, frames: list[SampleFrame], arrival_ns: int) -> None:

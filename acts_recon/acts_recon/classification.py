@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX
 from acts_core.errors import ArrayError
+from acts_core.residuals import confidence_of
 from acts_core.settings import setting, validate
 from acts_recon import classification_kernels as kernels
 from acts_recon import fastomp_kernels
@@ -83,14 +84,6 @@ def classify(
         own = library.classes[chosen] == number
         residuals[number] = np.linalg.norm(y - A[:, chosen[own]] @ coefficients[own]) / np.linalg.norm(y)
     return Classification(True, int(np.argmin(residuals)), residuals, confidence_of(residuals))
-
-
-def confidence_of(residuals: NDArray[np.floating]) -> float:
-    """``1 - smallest / second smallest`` of the residuals; 0 where there is only one, or both are 0."""
-    if residuals.size < 2:
-        return 0.0
-    smallest, second = np.partition(residuals, 1)[:2].tolist()
-    return 1.0 - smallest / second if second > 0 else 0.0
 
 
 class Classifier:

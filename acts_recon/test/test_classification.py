@@ -7,7 +7,7 @@ from recon_samples import bump, sample
 
 from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError, SettingsError
-from acts_recon.classification import Classification, Classifier, ClassifierConfig, classify, confidence_of
+from acts_recon.classification import Classification, Classifier, ClassifierConfig, classify
 from acts_recon.object_library import ObjectLibrary, build_object_library
 
 Frame = NDArray[np.uint16]
@@ -55,14 +55,6 @@ def test_without_touch_there_is_no_object(objects: ObjectLibrary) -> None:
     ):
         assert (result.touched, result.best, result.confidence) == (False, 0, 0.0)
         assert np.array_equal(result.residuals, np.ones(3))
-
-
-@pytest.mark.parametrize(
-    ("residuals", "confidence"),
-    [([0.2, 0.8, 1.0], 0.75), ([0.5, 0.5], 0.0), ([0.0, 1.0], 1.0), ([0.0, 0.0], 0), ([0.3], 0)],
-)
-def test_confidence_is_how_far_the_second_is_behind(residuals: list[float], confidence: float) -> None:
-    assert confidence_of(np.array(residuals)) == pytest.approx(confidence)
 
 
 def assert_alike(result: Classification, expected: Classification) -> None:
