@@ -20,7 +20,8 @@ FIRMWARE = (0, 1)
 
 _ASK_EVERY_S = 1.0
 _BUSY_S = 5.0
-_SAME_START_S = 0.5
+# A reply tells the time of the last frame, and frames may be a second apart.
+_SAME_START_S = 2.0
 _DRIFT_MAX = 1e-3
 
 

@@ -246,6 +246,35 @@ def test_a_board_that_was_reset_is_told_again(board: VirtualBoard, host: Host, t
         assert found.model.crc32 == load_model(tmp_path / "d.npz").crc32
 
 
+def test_a_board_that_resets_itself_behind_an_open_port_is_told_again(tmp_path: Path) -> None:
+    control = tmp_path / "control"
+    with VirtualBoard(tmp_path / "board", "--control", str(control)) as board:
+        host = Host(board.link)
+        session = host.start_session(m=64, scheme="random")
+        assert session.status.state is not None
+        wait_for(lambda: host.sizes[-1:] == [64], "frames of 64")
+        control.write_text("reset:0\n")
+        wait_for(lambda: host.sizes[-1:] == [55], "the board's own frames")
+        # As the node does when the frames show it; otherwise it is noticed within a second.
+        session.wake()
+        wait_for(lambda: host.sizes[-1:] == [64], "frames of 64 again")
+        assert host.reader.reconnects == 0
+        session.change(BoardParameters())
+        assert host.link.query().state.settings.scheme == "adaptive", "its own settings were not mistaken"
+        host.close()
+
+
+def test_packets_of_another_version_are_named(tmp_path: Path) -> None:
+    with VirtualBoard(tmp_path / "board", "--fault", "version:2") as board:
+        host = Host(board.link, reply_timeout_s=0.05)
+        session = host.start_session(m=64)
+        assert session.status.is_silent
+        wait_for(lambda: host.decoder.last_error, "the reason")
+        assert "version 2; this release reads version 1: install firmware and driver" in host.decoder.last_error
+        assert host.sizes == []
+        host.close()
+
+
 def test_a_size_unlike_the_parameters_is_named(host: Host) -> None:
     session = host.start_session(size=(16, 24))
     wait_for(lambda: session.status.problem, "the problem")
