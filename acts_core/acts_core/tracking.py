@@ -23,8 +23,8 @@ class Tracking:
     flagged taxels and their eight neighbours, as they stand when the frame begins. Of the `m` taxels of a frame, up to
     ``m - search_quota`` are candidates, row by row, cyclically from the first one that the frame before left out. Then
     `search_quota` follow the order of search from where it stopped, without those that this frame has measured already.
-    What is left goes to the neighbours of the taxels that this frame found newly pressed, breadth first, and where there
-    are none (any more) to the search.
+    What is left goes to the neighbours of the taxels that this frame found newly pressed, breadth first, and where
+    there are none (any more) to the search.
 
     So in every frame `m` taxels are measured, none twice, and
 

@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from acts_core.errors import SettingsError
 from acts_core.dither_order import dither_order
+from acts_core.errors import SettingsError
 from acts_core.sampling import Sampler, SamplingConfig, measure_in
 
 THRESHOLD = 180
