@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -24,23 +23,6 @@ _SILENT_S = 5.0
 _SETTLE_FRAMES = 3
 
 
-class _TwoWayPort(SerialSource):
-    """A port that also takes bytes."""
-
-    def write(self, data: bytes, timeout_s: float) -> None:
-        """Write a command, a few bytes; raises `PortError` when the board does not take them in time."""
-        deadline_s = time.monotonic() + timeout_s
-        while data:
-            try:
-                data = data[os.write(self._fd, data) :]
-            except BlockingIOError:
-                if time.monotonic() > deadline_s:
-                    raise PortError(f"the board at port {self.name} takes no bytes; reset it") from None
-                time.sleep(0.001)
-            except OSError as error:
-                raise PortError(f"port {self.name} was lost: {error.strerror}") from error
-
-
 class BoardReader:
     """Reads one board; use it in a ``with``.
 
@@ -55,7 +37,7 @@ class BoardReader:
     """
 
     def __init__(self, port: str, protocol: str, rows: int, cols: int) -> None:
-        self._source = _TwoWayPort(port)
+        self._source = SerialSource(port)
         self._reply: Reply | None = None
         self._is_binary = protocol == "binary"
         self._decoder: DelimitedDecoder = (
