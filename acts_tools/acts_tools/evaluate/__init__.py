@@ -1,0 +1,1 @@
+"""`acts evaluate`: how well touch is recovered, on recorded or modelled frames."""
