@@ -19,6 +19,7 @@ COMMANDS = {
     "selftest": ("acts_tools.selftest.command", "test a board, its wiring and its skin"),
     "train": ("acts_tools.train", "train a dictionary for the reconstruction"),
     "bench": ("acts_tools.bench.command", "measure throughput, CPU and latency"),
+    "evaluate": ("acts_tools.evaluate.command", "score the recovery of images on recordings"),
     "demo": ("acts_tools.demo.command", "run a demonstration with everything simulated"),
 }
 """Module and summary of every subcommand; the module has ``add_parser(subparsers)`` and ``run(arguments) -> int``."""

@@ -1,0 +1,128 @@
+"""Scores of recovered images against the truth. `docs/recovery.md` tells what each of them means."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+_ERROR, _SUPPORT, _COP, _TOUCH_COP, _INVENTED = range(5)
+FRAME_SCORES = 5
+"""Numbers that `score_image` writes."""
+
+
+@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+def score_image(
+    image: NDArray[np.float32],
+    truth: NDArray[np.float32],
+    live: NDArray[np.bool_],
+    cols: int,
+    threshold: float,
+    out: NDArray[np.float64],
+) -> bool:
+    """Compare one image with the truth.
+
+    Parameters
+    ----------
+    image, truth : np.ndarray [shape=(taxels,), dtype=float32]
+        Counts.
+    live : np.ndarray [shape=(taxels,), dtype=bool]
+        Only these are scored.
+    cols : int
+        Of the array.
+    threshold : float
+        A taxel above it is pressed [counts].
+    out : np.ndarray [shape=(FRAME_SCORES,), dtype=float64]
+        Written when the truth holds a contact: relative error; support accuracy; error of the centre of pressure over
+        all counts, and over pressed taxels [taxels], NaN where the image has none; invented pressure.
+
+    Returns
+    -------
+    bool
+        Whether the truth holds a contact.
+    """
+    n = 0
+    agree = 0
+    untouched = 0
+    invented = 0
+    error = 0.0
+    norm = 0.0
+    # Sums of weight, weight * row, weight * col: truth and image, over all counts and over pressed taxels.
+    sums = np.zeros((4, 3))
+    for t in range(image.size):
+        if not live[t]:
+            continue
+        n += 1
+        x = np.float64(truth[t])
+        e = np.float64(image[t])
+        error += (e - x) * (e - x)
+        norm += x * x
+        pressed, seen = x > threshold, e > threshold
+        agree += 1 if pressed == seen else -1
+        if x <= threshold / 2:
+            untouched += 1
+            invented += 1 if seen else 0
+        row, col = t // cols, t % cols
+        for which in range(4):
+            if (which == 2 and not pressed) or (which == 3 and not seen):
+                continue
+            weight = e if which % 2 else x
+            sums[which, 0] += weight
+            sums[which, 1] += weight * row
+            sums[which, 2] += weight * col
+    if sums[2, 0] == 0.0:
+        return False
+    out[_ERROR] = math.sqrt(error / norm)
+    out[_SUPPORT] = agree / n
+    for which, place in ((0, _COP), (2, _TOUCH_COP)):
+        if sums[which + 1, 0] > 0.0:
+            row = sums[which, 1] / sums[which, 0] - sums[which + 1, 1] / sums[which + 1, 0]
+            col = sums[which, 2] / sums[which, 0] - sums[which + 1, 2] / sums[which + 1, 0]
+            out[place] = math.sqrt(row * row + col * col)
+        else:
+            out[place] = math.nan
+    out[_INVENTED] = invented / untouched if untouched else 0.0
+    return True
+
+
+def distribution(values: NDArray[np.floating]) -> dict[str, float | None]:
+    """Mean, median and 95th percentile; None where there are no values."""
+    if not values.size:
+        return {"mean": None, "median": None, "p95": None}
+    return {
+        "mean": float(values.mean()),
+        "median": float(np.median(values)),
+        "p95": float(np.percentile(values, 95)),
+    }
+
+
+@dataclass
+class FrameScores:
+    """The scores of many frames, and their summary."""
+
+    rows: list[NDArray[np.float64]] = field(default_factory=list)
+
+    def add(self, scores: NDArray[np.float64]) -> None:
+        """Take what `score_image` wrote."""
+        self.rows.append(scores.copy())
+
+    def summary(self) -> dict[str, object]:
+        """What the report says of these frames; numbers are None where there is no frame."""
+        table = np.array(self.rows).reshape(-1, FRAME_SCORES)
+        means = table.mean(axis=0) if len(table) else np.full(FRAME_SCORES, np.nan)
+        relative_error, support, invented = (
+            None if np.isnan(means[column]) else float(means[column]) for column in (_ERROR, _SUPPORT, _INVENTED)
+        )
+        cop, touch = table[:, _COP], table[:, _TOUCH_COP]
+        return {
+            "frames": len(table),
+            "relative_error": relative_error,
+            "support_accuracy": support,
+            "cop_error_taxels": distribution(cop[~np.isnan(cop)]),
+            "touch_cop_error_taxels": distribution(touch[~np.isnan(touch)]),
+            "missed": float(np.isnan(touch).mean()) if len(table) else None,
+            "invented_rate": invented,
+        }

@@ -1,0 +1,86 @@
+"""What really was on the skin while a recording is sampled: frames between frames, and when contacts begin."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+
+@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+def interpolate(frames: NDArray[np.uint16], position: float, out: NDArray[np.float32]) -> None:
+    """Write the image that an ADC would read at one instant.
+
+    Parameters
+    ----------
+    frames : np.ndarray [shape=(n, taxels), dtype=uint16]
+    position : float
+        In frames; the first and the last are held.
+    out : np.ndarray [shape=(taxels,), dtype=float32]
+        Written: whole counts, interpolated linearly between the frames before and after.
+    """
+    last = len(frames) - 1
+    position = min(max(position, 0.0), float(last))
+    before = min(int(position), last)
+    after = min(before + 1, last)
+    share = position - before
+    for taxel in range(out.size):
+        first = float(frames[before, taxel])
+        out[taxel] = np.floor(first + share * (float(frames[after, taxel]) - first) + 0.5)
+
+
+@dataclass(frozen=True)
+class ContactStart:
+    """A place that begins to be pressed while nothing touches it or its neighbours.
+
+    Attributes
+    ----------
+    onset : float
+        When its first taxel passes the threshold, in frames of the recording.
+    end : float
+        The last frame of the recording in which one of its taxels is pressed without a break.
+    taxels : np.ndarray [shape=(k,), dtype=int64]
+        Its taxels in the first recorded frame that shows it, and their neighbours.
+    """
+
+    onset: float
+    end: float
+    taxels: NDArray[np.int64]
+
+
+_EIGHT = np.ones((3, 3), dtype=bool)
+
+
+def contact_starts(frames: NDArray[np.uint16], live: NDArray[np.bool_], threshold_counts: int) -> list[ContactStart]:
+    """Every new contact of a recording, also those beside one that is there already; not those of its first frame.
+
+    Parameters
+    ----------
+    frames : np.ndarray [shape=(n, rows, cols), dtype=uint16]
+    live : np.ndarray [shape=(rows, cols), dtype=bool]
+    threshold_counts : int
+        A taxel above it is pressed.
+    """
+    starts = []
+    pressed = (frames > threshold_counts) & live
+    for number in range(1, len(frames)):
+        labels, count = ndimage.label(pressed[number], structure=_EIGHT)
+        if not count:
+            continue
+        near_before = ndimage.binary_dilation(pressed[number - 1], structure=_EIGHT)
+        for label in range(1, count + 1):
+            blob = labels == label
+            if (blob & near_before).any():
+                continue
+            before, now = frames[number - 1][blob].astype(float), frames[number][blob].astype(float)
+            # Rounded up: the threshold itself is no touch, and images hold whole counts.
+            share = float(np.min((threshold_counts + 0.5 - before) / (now - before)))
+            end = number
+            while end + 1 < len(frames) and pressed[end + 1][blob].any():
+                end += 1
+            around = ndimage.binary_dilation(blob, structure=_EIGHT)
+            starts.append(ContactStart(number - 1 + share, float(end), np.flatnonzero(around)))
+    return starts
