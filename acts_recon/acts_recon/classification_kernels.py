@@ -6,7 +6,8 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_recon.fastomp_kernels import BLOCK, pursue
+from acts_recon.fastomp_kernels import pursue
+from acts_recon.fastomp_vectors import padded
 
 _OPTIONS = {"cache": True, "nogil": True, "fastmath": {"nnan", "ninf", "nsz", "contract", "reassoc", "arcp"}}
 
@@ -25,7 +26,6 @@ def class_residuals(
     residual: NDArray[np.float32],
     Q: NDArray[np.float32],
     R: NDArray[np.float32],
-    sums: NDArray[np.float32],
     chosen: NDArray[np.int64],
     coefficients: NDArray[np.float32],
     residuals: NDArray[np.float32],
@@ -45,7 +45,7 @@ def class_residuals(
         residuals[number] = 1.0
     if square == 0:
         return False
-    s = pursue(blocks, columns, taxels, y, m, n_columns, residual, Q, R, sums, chosen, coefficients)
+    s = pursue(blocks, columns, taxels, y, m, n_columns, residual, Q, R, chosen, coefficients)
     norm = np.sqrt(square)
     for i in range(s):
         number = classes[chosen[i]]
@@ -78,14 +78,13 @@ class Workspace:
             return np.zeros(shape, dtype=np.float32)
 
         self.taxels = np.zeros(n_taxels, dtype=np.int64)
-        self.y = floats(n_taxels)
-        self.residual = floats(n_taxels)
-        self.Q = floats(n_columns, n_taxels)
+        self.y = floats(padded(n_taxels))
+        self.residual = floats(padded(n_taxels))
+        self.Q = floats(n_columns, padded(n_taxels))
         self.R = floats(n_columns, n_columns)
-        self.sums = floats(BLOCK)
         self.chosen = np.zeros(n_columns, dtype=np.int64)
         self.coefficients = floats(n_columns)
 
     def arrays(self) -> tuple[NDArray, ...]:
         """The buffers in the order in which `class_residuals` takes them."""
-        return (self.taxels, self.y, self.residual, self.Q, self.R, self.sums, self.chosen, self.coefficients)
+        return (self.taxels, self.y, self.residual, self.Q, self.R, self.chosen, self.coefficients)

@@ -1,71 +1,28 @@
 """FastOMP in numba: the same as `acts_recon.fastomp`, in single precision and without allocation.
 
 Nearly all of the time goes into the correlation of the residual with every atom. The dictionary is therefore kept with
-a pixel's values for a block of atoms side by side (`in_blocks`), and the correlations of a block are summed over four
-measured pixels at a time, which the compiler turns into wide multiply-adds on data that stay in the first cache.
+a pixel's values for a block of atoms side by side (`in_blocks`), for `acts_recon.fastomp_vectors`.
 """
 
 from __future__ import annotations
+
+import math
 
 import numba
 import numpy as np
 from numpy.typing import NDArray
 
 from acts_recon.fastomp import REGULARISATION
+from acts_recon.fastomp_vectors import BLOCK, LANES, best_column, dot, padded, subtract
 
 OK = 0
 INDEX_OUT_OF_RANGE = 1
 INDEX_TWICE = 2
 COUNT_OUT_OF_RANGE = 3
 
-BLOCK = 64
-"""Atoms whose correlations are computed together: their 64 pixels fill half of a usual first cache."""
-
+_CACHE_LINE_BYTES = 64
 _REGULARISATION = np.float32(REGULARISATION)
 _OPTIONS = {"cache": True, "nogil": True, "fastmath": {"nnan", "ninf", "nsz", "contract", "reassoc", "arcp"}}
-
-
-@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
-def _best_atom(
-    blocks: NDArray[np.float32],
-    pixels: NDArray[np.int64],
-    residual: NDArray[np.float32],
-    m: int,
-    sums: NDArray[np.float32],
-) -> int:
-    """Return the atom whose correlation with the residual is largest in magnitude, -1 when all are 0."""
-    best = np.float32(0.0)
-    best_atom = -1
-    for b in range(blocks.shape[0]):
-        block = blocks[b]
-        for k in range(BLOCK):
-            sums[k] = np.float32(0.0)
-        i = 0
-        while i + 4 <= m:
-            # Rows of constant length: without them the compiler sees possible negative indices and stays scalar.
-            a0, a1, a2, a3 = block[pixels[i]], block[pixels[i + 1]], block[pixels[i + 2]], block[pixels[i + 3]]
-            r0, r1, r2, r3 = residual[i], residual[i + 1], residual[i + 2], residual[i + 3]
-            for k in range(BLOCK):
-                sums[k] += r0 * a0[k] + r1 * a1[k] + r2 * a2[k] + r3 * a3[k]
-            i += 4
-        while i < m:
-            a0 = block[pixels[i]]
-            r0 = residual[i]
-            for k in range(BLOCK):
-                sums[k] += r0 * a0[k]
-            i += 1
-        # The maximum alone runs vectorised; where it lies is looked for only in the few blocks that improve it.
-        top = np.float32(0.0)
-        for k in range(BLOCK):
-            size = abs(sums[k])
-            top = size if size > top else top
-        if top > best:
-            best = top
-            for k in range(BLOCK):
-                if abs(sums[k]) == top:
-                    best_atom = b * BLOCK + k
-                    break
-    return best_atom
 
 
 @numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
@@ -79,43 +36,34 @@ def pursue(
     residual: NDArray[np.float32],
     Q: NDArray[np.float32],
     R: NDArray[np.float32],
-    sums: NDArray[np.float32],
     chosen: NDArray[np.int64],
     coefficients: NDArray[np.float32],
 ) -> int:
-    """`acts_recon.fastomp.fast_omp` on the measured `pixels` of a patch; returns the number of chosen atoms."""
-    for i in range(m):
-        residual[i] = y[i]
+    """`acts_recon.fastomp.fast_omp` on the measured `pixels` of a patch; returns the number of chosen atoms.
+
+    `y`, `residual` and the rows of `Q` must be as long as `padded` of the most pixels.
+    """
+    n = (m + LANES - 1) // LANES * LANES
+    for p in range(n):
+        residual[p] = y[p] if p < m else np.float32(0.0)
     s = 0
     for i in range(n_atoms):
-        atom = _best_atom(blocks, pixels, residual, m, sums)
+        atom = best_column(blocks, pixels, residual, m)
         if atom < 0:
             break
         chosen[i] = atom
         for p in range(m):
             Q[i, p] = atoms[atom, pixels[p]]
+        for p in range(m, n):
+            Q[i, p] = 0.0
         for j in range(i):
-            dot = np.float32(0.0)
-            for p in range(m):
-                dot += Q[j, p] * Q[i, p]
-            R[j, i] = dot
-            share = dot / R[j, j]
-            for p in range(m):
-                Q[i, p] -= share * Q[j, p]
-        norm = _REGULARISATION
-        dot = np.float32(0.0)
-        for p in range(m):
-            norm += Q[i, p] * Q[i, p]
-            dot += Q[i, p] * residual[p]
-        R[i, i] = norm
-        share = dot / norm
-        for p in range(m):
-            residual[p] -= share * Q[i, p]
+            R[j, i] = dot(Q, j, Q, i, n)
+            subtract(Q, i, R[j, i] / R[j, j], Q, j, n)
+        R[i, i] = dot(Q, i, Q, i, n) + _REGULARISATION
+        subtract(residual, 0, dot(Q, i, residual, 0, n) / R[i, i], Q, i, n)
         s += 1
     for i in range(s - 1, -1, -1):
-        value = np.float32(0.0)
-        for p in range(m):
-            value += Q[i, p] * y[p]
+        value = dot(Q, i, y, 0, n)
         for j in range(i + 1, s):
             value -= R[i, j] * coefficients[j]
         coefficients[i] = value / R[i, i]
@@ -145,7 +93,6 @@ def recover_image(
     residual: NDArray[np.float32],
     Q: NDArray[np.float32],
     R: NDArray[np.float32],
-    sums: NDArray[np.float32],
     chosen: NDArray[np.int64],
     coefficients: NDArray[np.float32],
     image: NDArray[np.float32],
@@ -200,7 +147,7 @@ def recover_image(
         pixels = measured_pixels[patch]
         y = measured_values[patch]
         n_atoms = max(1, int(ratio * n + 0.5))
-        s = pursue(blocks, atoms, pixels, y, n, n_atoms, residual, Q, R, sums, chosen, coefficients)
+        s = pursue(blocks, atoms, pixels, y, n, n_atoms, residual, Q, R, chosen, coefficients)
         for p in range(n_pixels):
             residual[p] = 0.0
         for j in range(s):
@@ -234,7 +181,16 @@ def in_blocks(atoms: NDArray[np.floating]) -> NDArray[np.float32]:
     n_blocks = -(-n_atoms // BLOCK)
     padded = np.zeros((n_pixels, n_blocks * BLOCK), dtype=np.float32)
     padded[:, :n_atoms] = atoms
-    return np.ascontiguousarray(padded.reshape(n_pixels, n_blocks, BLOCK).transpose(1, 0, 2))
+    blocks = _aligned(n_blocks, n_pixels, BLOCK)
+    blocks[:] = padded.reshape(n_pixels, n_blocks, BLOCK).transpose(1, 0, 2)
+    return blocks
+
+
+def _aligned(*shape: int) -> NDArray[np.float32]:
+    """Zeros that begin where a line of the cache does: vectors that straddle two lines take half as long again."""
+    buffer = np.zeros(4 * math.prod(shape) + _CACHE_LINE_BYTES, dtype=np.uint8)
+    skip = -buffer.ctypes.data % _CACHE_LINE_BYTES
+    return buffer[skip : skip + 4 * math.prod(shape)].view(np.float32).reshape(shape)
 
 
 class Workspace:
@@ -252,13 +208,13 @@ class Workspace:
 
         self.seen = np.zeros(n_taxels, dtype=np.bool_)
         self.measured_pixels = np.zeros((n_patches, n_pixels), dtype=np.int64)
-        self.measured_values = floats(n_patches, n_pixels)
+        width = padded(n_pixels)
+        self.measured_values = floats(n_patches, width)
         self.n_measured = np.zeros(n_patches, dtype=np.int32)
         self.pressed = np.zeros(n_patches, dtype=np.bool_)
-        self.residual = floats(n_pixels)
-        self.Q = floats(n_pixels, n_pixels)
+        self.residual = floats(width)
+        self.Q = floats(n_pixels, width)
         self.R = floats(n_pixels, n_pixels)
-        self.sums = floats(BLOCK)
         self.chosen = np.zeros(n_pixels, dtype=np.int64)
         self.coefficients = floats(n_pixels)
 
@@ -273,7 +229,6 @@ class Workspace:
             self.residual,
             self.Q,
             self.R,
-            self.sums,
             self.chosen,
             self.coefficients,
         )
