@@ -95,13 +95,39 @@ class BoardLink:
         """Tell the board its settings; raises as `query` does, `RefusedError` for a setting that it refuses."""
         return self._done(self._exchange(lambda request: encode_configure(request, settings)))
 
-    def upload(self, model: BoardModel) -> Reply:
-        """Give the board a model; raises as `query` does, `RefusedError` for one that it cannot hold."""
-        self._done(self._exchange(lambda request: encode_upload_begin(request, model)))
+    def announce(self, model: BoardModel) -> Reply:
+        """Begin an upload, which ends one under way; raises as `query` does, `RefusedError` where it cannot be held.
+
+        What the board held is gone then.
+        """
+        return self._done(self._exchange(lambda request: encode_upload_begin(request, model)))
+
+    def upload(self, model: BoardModel, is_wanted: Callable[[], bool] = lambda: True) -> Reply | None:
+        """Give the board a model.
+
+        Parameters
+        ----------
+        model : BoardModel
+        is_wanted : callable
+            Asked before every piece; the upload is given up where it says no.
+
+        Returns
+        -------
+        Reply or None
+            None where it was given up.
+
+        Raises
+        ------
+        NoAnswerError, PortError, RefusedError
+            As `query`, and for a model that the board cannot hold, or a board that was restarted meanwhile.
+        """
+        self.announce(model)
         size = len(model.payload)
         at = 0
         # Each piece may be asked for again; a board that never gets on is given up.
         for _ in range(2 * (size // UPLOAD_PIECE_MAX + 2)):
+            if not is_wanted():
+                return None
             if at >= size:
                 return self._done(self._exchange(encode_upload_end))
             piece = model.payload[at : at + UPLOAD_PIECE_MAX]

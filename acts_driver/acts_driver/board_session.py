@@ -9,9 +9,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from acts_core.board_models import BoardModel
-from acts_core.commands import BoardSettings, BoardState
+from acts_core.commands import BoardSettings, BoardState, ReplyStatus
 from acts_core.errors import ActsError, BoardError, PortError
-from acts_driver.board import BoardLink, NoAnswerError
+from acts_driver.board import BoardLink, NoAnswerError, RefusedError
 from acts_driver.board_model_file import load_model
 from acts_driver.board_parameters import BoardParameters
 
@@ -19,7 +19,7 @@ FIRMWARE = (0, 1)
 """Major and minor version of the firmware that this driver belongs to; any patch version will do."""
 
 _ASK_EVERY_S = 1.0
-_BUSY_S = 5.0
+_STOP_S = 5.0
 # A reply tells the time of the last frame, and frames may be a second apart.
 _SAME_START_S = 2.0
 _DRIFT_MAX = 1e-3
@@ -51,7 +51,8 @@ class BoardSession:
     """The dialogue of one driver with whatever board is plugged in, on a thread of its own.
 
     The board is asked every second, at once after `wake`, and brought to what the parameters want wherever it is not.
-    What it had by itself when it was first seen after its start counts as its own.
+    What it had by itself when it was first seen after its start counts as its own. Models are uploaded on this thread
+    alone, so that nobody else waits for as long as that takes.
 
     Parameters
     ----------
@@ -84,11 +85,15 @@ class BoardSession:
         self._own: BoardSettings | None = None
         self._seen: BoardState | None = None
         self._seen_s = 0.0
-        self._generation = 0
+        # How often the port was opened, and at which of these the board's answer, or its silence, was heard last.
+        self._opening = 0
+        self._heard = -1
         self._settled: tuple[BoardSettings, BoardSettings] | None = None
         self._refused: object = None
         self._model: BoardModel | None = None
         self._model_path = ""
+        self._due: BoardModel | None = None
+        self._uploading: BoardModel | None = None
         self._turn = threading.Lock()
         self._wake = threading.Event()
         self._verdict = threading.Event()
@@ -106,27 +111,25 @@ class BoardSession:
         self._stop.set()
         self._wake.set()
         if self._thread.is_alive():
-            self._thread.join(_BUSY_S)
+            self._thread.join(_STOP_S)
 
     def wake(self) -> None:
         """Tell that the board may have begun anew: it is asked at once."""
         self._wake.set()
 
     def reconnected(self) -> None:
-        """Tell that the port was lost and is open again; after one that answered, this board has to, too."""
-        self._generation += 1
-        if self._seen is not None:
-            self._verdict.clear()
+        """Tell that the port was lost and is open again, perhaps with another board."""
+        self._opening += 1
         self.wake()
 
     def wait_for_verdict(self, timeout_s: float) -> bool:
-        """Wait until the board has answered or turned out not to; False where that takes longer."""
+        """Wait until the first board has answered or turned out not to; False where that takes longer."""
         return self._verdict.wait(timeout_s)
 
     @property
     def may_publish(self) -> bool:
-        """Whether frames of this board may be used; cheap."""
-        return self._verdict.is_set() and not self.status.is_wrong_version
+        """Whether frames of this board may be used: it has answered, rightly, or turned out not to. Cheap."""
+        return self._heard == self._opening and not self.status.is_wrong_version
 
     @property
     def asks_for_something(self) -> bool:
@@ -149,24 +152,32 @@ class BoardSession:
     def change(self, parameters: BoardParameters) -> None:
         """Want something else from now on, and bring the board to it.
 
-        While no board is connected the wish is only noted.
+        While no board is connected the wish is only noted. A model is announced, which tells whether the board can hold
+        it; `status` tells when it is there.
 
         Raises
         ------
         BoardError, SettingsError
-            It cannot be; the board is as it was and the old wish stays.
+            It cannot be; the settings are as they were and the old wish stays.
         """
-        if not self._turn.acquire(timeout=_BUSY_S):
-            raise BoardError("the board is busy with an upload; try again later")
+        with self._turn:
+            self._change(parameters)
+        self.wake()
+
+    def _change(self, parameters: BoardParameters) -> None:
         before = self._parameters
         try:
-            if self.status.is_silent or self.status.is_wrong_version:
-                raise BoardError(f"the board cannot be told settings: {self.status.problem}")
+            self._check_that_it_listens()
             self._parameters = parameters
             self._refused = None
             self._wanted_model()
             if self.status.state is not None:
-                self._bring(self._link.query().state)
+                state = self._link.query().state
+                self._see(state)
+                self._check_that_it_listens()
+                self._bring(state)
+            if self._due is not None and self._due is not self._uploading:
+                self._link.announce(self._due)
         except PortError as error:
             # Just lost: told to the board when it is back.
             self._set(BoardStatus(problem=str(error)))
@@ -175,21 +186,27 @@ class BoardSession:
             # Part of it may have been done.
             self.wake()
             raise
-        finally:
-            self._turn.release()
+
+    def _check_that_it_listens(self) -> None:
+        if self.status.is_silent or self.status.is_wrong_version:
+            raise BoardError(f"the board cannot be told settings: {self.status.problem}")
 
     def _run(self) -> None:
         while not self._stop.is_set():
             self._wake.clear()
-            generation = self._generation
+            opening = self._opening
             with self._turn:
                 self._round()
-            # Not of the board that was there before, when it was exchanged meanwhile.
-            if generation == self._generation:
-                self._verdict.set()
+                due = self._due
+            self._heard = opening
+            self._verdict.set()
+            # With a port opened meanwhile: first who this is.
+            if due is not None and opening == self._opening:
+                self._upload(due, opening)
             self._wake.wait(_ASK_EVERY_S)
 
     def _round(self) -> None:
+        self._due = None
         try:
             state = self._link.query().state
         except PortError as error:
@@ -248,10 +265,39 @@ class BoardSession:
             self._settled = (wanted, state.settings)
             self._log("info", f"the board has taken its settings: {settings_in_words(state.settings)}")
         model = self._wanted_model()
-        if model is not None and state.model.crc32 != model.crc32:
-            state = self._link.upload(model).state
-            self._log("info", f"the board has taken the model {self._parameters.model}")
+        self._due = model if model is not None and state.model.crc32 != model.crc32 else None
         self._set(BoardStatus(state, problem=self._mismatch(state)))
+
+    def _upload(self, model: BoardModel, opening: int) -> None:
+        """Give the board the model that is due. Others may ask it and change settings between two pieces."""
+
+        def is_wanted() -> bool:
+            return self._due is model and self._opening == opening and not self._stop.is_set()
+
+        parameters = self._parameters
+        wanted = (parameters, self._own)
+        self._uploading = model
+        try:
+            reply = self._link.upload(model, is_wanted)
+        except (NoAnswerError, PortError):
+            # The next round tells what has become of the board.
+            return
+        except RefusedError as error:
+            with self._turn:
+                if not is_wanted():
+                    return
+                self._set(replace(self.status, problem=str(error)))
+                # Anything else was an accident on the way, or the board's restart.
+                if error.reply.status is ReplyStatus.MODEL_IMPOSSIBLE:
+                    self._refused = wanted
+            return
+        finally:
+            self._uploading = None
+        if reply is not None:
+            self._log("info", f"the board has taken the model {parameters.model}")
+            with self._turn:
+                self._due = None
+                self._see(reply.state)
 
     def _wanted_model(self) -> BoardModel | None:
         path = self._parameters.model
@@ -269,7 +315,7 @@ class BoardSession:
                 f"the board measures {settings.rows} x {settings.cols} taxels, the parameters rows and cols say "
                 f"{self._size[0]} x {self._size[1]}: set them alike"
             )
-        if state.samples_only:
+        if state.samples_only and self._due is None:
             return (
                 f"the board holds no model for output {settings.output}, it sends samples only: set the parameter model"
             )

@@ -9,7 +9,7 @@ from sensor_msgs.msg import Image
 
 from acts_core.board_messages import BoardImage, BoardObject
 from acts_core.residuals import confidence_of
-from acts_driver.board_results import BoardResult, BoardResults
+from acts_driver.board_results import BoardResult
 from acts_msgs.msg import ObjectClass
 from acts_ros.qos import STREAM, overridable
 
@@ -25,28 +25,12 @@ class BoardTopics:
         The driver.
     frame_id : str
         Of the headers.
-
-    Attributes
-    ----------
-    results : BoardResults
-        Of the driver as it is configured.
     """
 
     def __init__(self, node: LifecycleNode, frame_id: str) -> None:
         self._frame_id = frame_id
         self._images = node.create_publisher(Image, "board_image", **overridable(STREAM))
         self._objects = node.create_publisher(ObjectClass, "board_object", **overridable(STREAM))
-
-        self.results = BoardResults()
-
-    def begin(self) -> BoardResults:
-        """The results of a driver that is configured anew, counted from zero."""
-        self.results = BoardResults()
-        return self.results
-
-    def values(self) -> dict[str, int]:
-        """For the diagnostics."""
-        return {"board_results": self.results.results, "board_results_dropped": self.results.dropped}
 
     def publish(self, result: BoardResult, stamp_ns: int) -> None:
         """Publish one result with the stamp of its frame [ns]."""

@@ -70,7 +70,7 @@ class Rig:
     def wait_until_active(self) -> None:
         """Until the driver publishes and the listener hears it."""
         self.wait_for_match()
-        self.spin_until(lambda: self.driver is not None and self.driver._active, "the active driver")
+        self.spin_until(lambda: self.driver is not None and self.driver.active, "the active driver")
 
     def wait_for_match(self) -> None:
         """Until the driver's samples reach the listener."""

@@ -39,6 +39,7 @@ class Host:
         self.link = BoardLink(self.source.write, reply_timeout_s=reply_timeout_s)
         self.decoder = StreamDecoder(self.link.take)
         self.sizes: list[int] = []
+        self.published = 0
         self.log: list[str] = []
         self.session: BoardSession | None = None
         self.reader = Reader(
@@ -49,6 +50,8 @@ class Host:
 
     def _take(self, frames: list[object], arrival_ns: int) -> None:
         self.sizes += [len(one.indices) for one in frames]  # type: ignore[attr-defined]
+        if self.session is not None and self.session.may_publish:
+            self.published += len(frames)
 
     def reconnected(self) -> None:
         if self.session is not None:
@@ -290,6 +293,21 @@ def test_firmware_of_another_version_is_named_and_not_used(host: Host, monkeypat
     assert host.link.query().state.settings.m == 55
     with pytest.raises(BoardError, match=r"needs 7\.3\.x"):
         session.change(BoardParameters(m=32))
+
+
+def test_another_firmware_after_a_silent_board_is_not_used(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("acts_driver.board_session.FIRMWARE", (7, 3))
+    with PtyBoard(tmp_path) as board:
+        host = Host(board.path, reply_timeout_s=0.2)
+        session = host.start_session()
+        assert session.may_publish
+        board.unplug()
+        wait_for(lambda: not host.reader.connected, "the loss")
+        with VirtualBoard(board.path):
+            wait_for(lambda: session.status.is_wrong_version, "the version")
+            wait_for(lambda: len(host.sizes) > 20, "frames")
+            assert host.published == 0
+        host.close()
 
 
 def test_a_silent_board_may_be_listened_to(tmp_path: Path) -> None:

@@ -97,7 +97,7 @@ def test_a_board_that_forgot_is_told_again(board: VirtualBoard, rig: BoardRig) -
     rig.start_driver(port=board.link, m=64, reconnect_s=0.05)
     rig.wait_for_size(64)
     board.kill()
-    rig.spin_until(lambda: not rig.driver._reader.connected, "the loss")
+    rig.spin_until(lambda: not rig.driver.intake.reader.connected, "the loss")
     # A wish is noted while there is no board.
     assert rig.set_parameters(m=80) == (True, "")
     with VirtualBoard(board.link):

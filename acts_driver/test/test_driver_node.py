@@ -84,9 +84,9 @@ def test_a_report_names_both_sizes_and_falls_back_to_fine(board: PtyBoard, rig: 
     driver._diagnostics.destroy()
 
     def report(*frames_sent: object) -> tuple[int, str]:
-        wanted = driver._report.totals().frames + len(frames_sent)
+        wanted = driver.intake._report.totals().frames + len(frames_sent)
         board.write_frames(*frames_sent)
-        rig.spin_until(lambda: driver._report.totals().frames == wanted, "the frames")
+        rig.spin_until(lambda: driver.intake._report.totals().frames == wanted, "the frames")
         level, message, _ = driver._make_report()
         return level, message
 
@@ -114,7 +114,9 @@ def test_unplugged_and_plugged_in_again(board: PtyBoard, rig: Rig) -> None:
     status = rig.status_until(lambda status: status["level"] == "2", "the loss")
     assert "is not there" in status["message"] or "was lost" in status["message"]
     board.plug_in()
-    rig.spin_until(lambda: rig.driver._reader.connected, "the port")
+    rig.spin_until(lambda: rig.driver.intake.reader.connected, "the port")
+    # This board says nothing, and its frames wait until that is certain.
+    rig.spin_until(lambda: rig.driver.intake.session.may_publish, "the silence")
     # A board that was without power counts from zero: nothing is lost, and stamps go on.
     board.write_frames(frame(0, board_us=100), frame(1, board_us=1100))
     rig.spin_until(lambda: len(rig.samples) == 3, "messages after the recovery")
@@ -131,7 +133,7 @@ def test_with_autostart_the_driver_waits_for_the_board(tmp_path: Path, rig: Rig)
     assert status["state"] == "unconfigured"
     rig.wait_for_match()
     with board:
-        rig.spin_until(lambda: rig.driver._active, "the port")
+        rig.spin_until(lambda: rig.driver.active, "the port")
         assert rig.state() == "active"
         board.write_frames(frame(0))
         rig.spin_until(lambda: rig.samples, "a message")
@@ -146,17 +148,17 @@ def test_life_cycle(board: PtyBoard, rig: Rig) -> None:
     assert rig.state() == "inactive"
     # Inactive, the board is read, so that nothing old waits, and nothing is published.
     board.write_frames(frame(0))
-    rig.spin_until(lambda: driver._stream.statistics.frames == 1, "reading")
+    rig.spin_until(lambda: driver.intake.stream.statistics.frames == 1, "reading")
     assert rig.change_state(Transition.TRANSITION_ACTIVATE)
     board.write_frames(frame(1))
     rig.spin_until(lambda: rig.samples, "a message")
     assert [message.sequence for message in rig.samples] == [1]
     assert rig.change_state(Transition.TRANSITION_DEACTIVATE)
     board.write_frames(frame(2))
-    rig.spin_until(lambda: driver._stream.statistics.frames == 3, "reading")
+    rig.spin_until(lambda: driver.intake.stream.statistics.frames == 3, "reading")
     assert rig.change_state(Transition.TRANSITION_CLEANUP)
     assert rig.state() == "unconfigured"
-    assert driver._reader is None
+    assert driver.intake is None
     assert rig.change_state(Transition.TRANSITION_CONFIGURE)
     assert rig.change_state(Transition.TRANSITION_ACTIVATE)
     board.write_frames(frame(3))
@@ -164,7 +166,7 @@ def test_life_cycle(board: PtyBoard, rig: Rig) -> None:
     assert [message.sequence for message in rig.samples] == [1, 3]
     assert rig.change_state(Transition.TRANSITION_ACTIVE_SHUTDOWN)
     assert rig.state() == "finalized"
-    assert driver._reader is None
+    assert driver.intake is None
 
 
 def test_without_autostart_a_missing_port_fails_the_configuration(tmp_path: Path, rig: Rig) -> None:

@@ -65,7 +65,7 @@ def test_a_board_that_dies_and_comes_back_is_followed(board: VirtualBoard, rig: 
     rig.start_driver(port=board.link, reconnect_s=0.05)
     rig.spin_until(lambda: len(rig.samples) >= 500, "messages")
     board.kill()
-    rig.spin_until(lambda: not rig.driver._reader.connected, "the loss")
+    rig.spin_until(lambda: not rig.driver.intake.reader.connected, "the loss")
     seen = len(rig.samples)
     again = VirtualBoard(board.link)
     try:

@@ -1,0 +1,49 @@
+"""Configures and activates a lifecycle node without being asked."""
+
+from __future__ import annotations
+
+from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
+from rclpy.timer import Timer
+
+
+class Autostart:
+    """Tries to configure a node at once and then again and again; where that succeeds, the node is activated.
+
+    Parameters
+    ----------
+    node : LifecycleNode
+        Spun by an executor, on which the transitions run: a signal in a constructor would meet a half-made node.
+    period_s : float
+        Time between two attempts [s].
+    waits_for : str
+        What is missing where an attempt fails, for the log.
+    """
+
+    def __init__(self, node: LifecycleNode, period_s: float, waits_for: str) -> None:
+        self._node = node
+        self._waits_for = waits_for
+        self._is_waiting = False
+        self._first: Timer = node.create_timer(0.001, self._try_first)
+        self._again: Timer = node.create_timer(period_s, self._try)
+        self._is_over = False
+
+    def stop(self) -> None:
+        """Leave the node's state to others. May be called again, also from a transition."""
+        self._is_over = True
+        # Not destroyed: this may be called from one of them.
+        self._first.cancel()
+        self._again.cancel()
+
+    def _try_first(self) -> None:
+        self._first.cancel()
+        self._try()
+
+    def _try(self) -> None:
+        if self._is_over:
+            return
+        if self._node.trigger_configure() == TransitionCallbackReturn.SUCCESS:
+            self.stop()
+            self._node.trigger_activate()
+        elif not self._is_waiting:
+            self._is_waiting = True
+            self._node.get_logger().info(f"waiting for {self._waits_for}")
