@@ -16,6 +16,9 @@ from acts_tools.evaluate.methods import METHODS
 from acts_tools.evaluate.recovery import SAMPLE_US, Task, evaluate
 from acts_tools.recovery_score import dictionary_named
 
+TRACKED_COUNTS = 15
+"""A taxel above it is followed by tracking: every taxel that can be told from noise, whatever counts as pressed."""
+
 
 def add_parser(subparsers: Any) -> None:
     """Add ``acts evaluate`` to the acts command."""
@@ -37,11 +40,14 @@ def add_parser(subparsers: Any) -> None:
     recovery.add_argument("--rate-hz", type=float, default=1000.0, help="frames sampled per second (%(default)g)")
     recovery.add_argument("--scheme", nargs="+", default=["tracking"], choices=tuple(SCHEMES), help="default: tracking")
     recovery.add_argument("--m", nargs="+", type=int, default=[55], help="taxels per frame (default: 55)")
-    recovery.add_argument("--method", nargs="+", default=["last"], choices=tuple(METHODS), help="default: acts")
+    recovery.add_argument("--method", nargs="+", default=["acts"], choices=tuple(METHODS), help="default: acts")
     recovery.add_argument("--dictionary", metavar="FILE", help="of the methods that use one (default: the shipped)")
     recovery.add_argument("--touch-counts", type=int, default=50, help="a taxel above is pressed (%(default)s)")
     recovery.add_argument(
-        "--search-counts", type=int, help="counts above which the sampling follows a taxel (default: as --touch-counts)"
+        "--search-counts",
+        type=int,
+        help=f"counts above which the sampling follows a taxel (default: {TRACKED_COUNTS}, just above the noise, for "
+        "tracking; as --touch-counts for the others)",
     )
     recovery.add_argument("--sample-us", type=float, default=SAMPLE_US, help="time of a measurement (%(default)s)")
     recovery.add_argument("--seed", type=int, default=1, help="of random sampling (%(default)s)")
@@ -84,10 +90,17 @@ def _recovery(arguments: argparse.Namespace) -> int:
 
 def _tasks(arguments: argparse.Namespace, recorded: FramesFile) -> Sequence[Task]:
     rows, cols = recorded.frames.shape[1:]
-    threshold = arguments.touch_counts if arguments.search_counts is None else arguments.search_counts
+
+    def threshold(scheme: str) -> int:
+        if arguments.search_counts is not None:
+            return int(arguments.search_counts)
+        return TRACKED_COUNTS if scheme == "tracking" else int(arguments.touch_counts)
+
     return [
         Task(
-            SamplingConfig(scheme=scheme, rows=rows, cols=cols, m=m, threshold_counts=threshold, seed=arguments.seed),
+            SamplingConfig(
+                scheme=scheme, rows=rows, cols=cols, m=m, threshold_counts=threshold(scheme), seed=arguments.seed
+            ),
             method,
             rate_hz=arguments.rate_hz,
             touch_counts=arguments.touch_counts,

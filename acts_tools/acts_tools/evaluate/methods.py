@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from acts_core.array import ArrayGeometry
 from acts_core.errors import SettingsError
 from acts_recon.dictionary import Dictionary
+from acts_recon.fusion import FusionEstimator
 from acts_recon.reconstructor import Reconstructor, ReconstructorConfig
 
 
@@ -92,6 +93,23 @@ class PerFrame:
         return self._reconstructor.image
 
 
+class Fused:
+    """ACTS' own: samples fused over time."""
+
+    def __init__(self, geometry: ArrayGeometry) -> None:
+        self._estimator = FusionEstimator(geometry)
+
+    def reset(self) -> None:
+        """Forget everything."""
+        self._estimator.reset()
+
+    def step(
+        self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float
+    ) -> NDArray[np.float32]:
+        """See `Method.step`."""
+        return self._estimator.step(indices, counts, end_s, duration_s)
+
+
 MethodFactory = Callable[[ArrayGeometry, Dictionary, int], Method]
 """From geometry, dictionary and touch threshold [counts] to a method."""
 
@@ -99,6 +117,7 @@ METHODS: dict[str, MethodFactory] = {
     "zero": lambda geometry, dictionary, touch_counts: ZeroFill(geometry),
     "last": lambda geometry, dictionary, touch_counts: LastValue(geometry),
     "paper": PerFrame,
+    "acts": lambda geometry, dictionary, touch_counts: Fused(geometry),
 }
 
 

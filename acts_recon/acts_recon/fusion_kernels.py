@@ -1,0 +1,446 @@
+"""Fusion of samples over time in numba: the same as `acts_recon.fusion_plain`, in float32 and without allocation.
+
+One frame goes through `fuse`: find how the contacts move, carry the image on to the end of the frame, take the samples,
+tell the taxels around them what they taught, and say how sure all of it is. `acts_recon.fusion` explains the method.
+(Indices are made signed before anything is taken away from them: numba keeps them unsigned.)
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.array import COUNT_MAX
+from acts_recon.fastomp_kernels import COUNT_OUT_OF_RANGE, INDEX_OUT_OF_RANGE, INDEX_TWICE, OK
+
+TILE = 4
+"""Side of the tiles in which the motion is summed up [taxels]."""
+
+AROUND = 2
+"""A tile's velocity is found from so many tiles on every side of it."""
+
+REACH = 2
+"""How far a sample teaches the taxels around it [taxels]."""
+
+UNKNOWN_COUNTS = 300.0
+"""Sigma of a taxel of which nothing is known: that of any count being equally likely."""
+
+# Keeps the velocity of a contact without slopes at 0 [counts^2].
+RIDGE = 200.0
+# What a taxel that nobody looks at may change by itself [counts/s].
+IDLE_COUNTS_PER_S = 20.0
+# Share of a new error in what is remembered of the errors of a taxel.
+UNREST_SHARE = 0.3
+# Errors over less time than this say little about the error per time [s].
+SHORTEST_S = 5e-4
+# From 1 error at odds with sigma to the correction of all sigmas, as a logarithm; and its limit.
+SCALE_STEP = 0.01
+SCALE_LIMIT = 3.0
+# Squared errors beyond this many variances count as this many: a new contact says little about known ones.
+OUTLIER = 25.0
+# What a sample says about the others is halved where their weights sum up to this.
+SPREAD_PRIOR = 0.5
+
+_OPTIONS = {"cache": True, "nogil": True, "fastmath": {"nsz", "contract", "reassoc", "arcp"}}
+_F = np.float32
+_TOP = np.float32(COUNT_MAX)
+
+
+class Tuning(NamedTuple):
+    """`acts_recon.fusion.FusionConfig` for the kernels; times [s], counts."""
+
+    noise_counts: float
+    quiet_counts: float
+    quiet_s: float
+    horizon_s: float
+    damping_s: float
+    slope_memory_s: float
+    motion_memory_s: float
+    motion_share: float
+    spread_gain: float
+
+
+class State(NamedTuple):
+    """What is known of every taxel, and the buffers that `fuse` works in. Arrays of taxels are flat.
+
+    Attributes
+    ----------
+    image, sigma : np.ndarray [shape=(taxels,), dtype=float32]
+        Estimate at the end of the last frame and its standard deviation [counts].
+    value, slope, age : np.ndarray [shape=(taxels,), dtype=float32]
+        Last measurement [counts], how fast it changed [counts/s], and how long it has been [s]; inf: never.
+    unrest : np.ndarray [shape=(taxels,), dtype=float32]
+        Mean square of the error that predictions gather per second [(counts/s)^2].
+    fresh : np.ndarray [shape=(taxels,), dtype=bool]
+        Whether the taxel was measured in the last frame.
+    evidence, row_sums : np.ndarray [shape=(tile_rows, tile_cols, 6), dtype=float32]
+        Sums of gradients and changes over the last milliseconds, and over the tiles beside.
+    velocity : np.ndarray [shape=(tile_rows, tile_cols, 3), dtype=float32]
+        Columns and rows per second, and the share of the changes that they explain; 0: not used.
+    log_scale : np.ndarray [shape=(1,), dtype=float32]
+        Logarithm of what all error variances are multiplied by, from how well predictions have held.
+    before, rate, innovation, total, unrest_total, weight, seen
+        Scratch.
+    """
+
+    image: NDArray[np.float32]
+    sigma: NDArray[np.float32]
+    value: NDArray[np.float32]
+    slope: NDArray[np.float32]
+    age: NDArray[np.float32]
+    unrest: NDArray[np.float32]
+    fresh: NDArray[np.bool_]
+    evidence: NDArray[np.float32]
+    row_sums: NDArray[np.float32]
+    velocity: NDArray[np.float32]
+    log_scale: NDArray[np.float32]
+    before: NDArray[np.float32]
+    rate: NDArray[np.float32]
+    innovation: NDArray[np.float32]
+    total: NDArray[np.float32]
+    unrest_total: NDArray[np.float32]
+    weight: NDArray[np.float32]
+    seen: NDArray[np.bool_]
+
+
+def new_state(rows: int, cols: int) -> State:
+    """Allocate everything for an array of which nothing is known yet."""
+    tiles = (-(-rows // TILE), -(-cols // TILE))
+
+    def taxels() -> NDArray[np.float32]:
+        return np.zeros(rows * cols, dtype=np.float32)
+
+    state = State(
+        image=taxels(),
+        sigma=taxels(),
+        value=taxels(),
+        slope=taxels(),
+        age=taxels(),
+        unrest=taxels(),
+        fresh=np.zeros(rows * cols, dtype=np.bool_),
+        evidence=np.zeros((*tiles, 6), dtype=np.float32),
+        row_sums=np.zeros((*tiles, 6), dtype=np.float32),
+        velocity=np.zeros((*tiles, 3), dtype=np.float32),
+        log_scale=np.zeros(1, dtype=np.float32),
+        before=taxels(),
+        rate=taxels(),
+        innovation=taxels(),
+        total=taxels(),
+        unrest_total=taxels(),
+        weight=taxels(),
+        seen=np.zeros(rows * cols, dtype=np.bool_),
+    )
+    forget(state)
+    return state
+
+
+def forget(state: State) -> None:
+    """Make a state as good as new."""
+    for array in state:
+        array.fill(0)
+    state.age.fill(np.inf)
+    state.sigma.fill(UNKNOWN_COUNTS)
+
+
+@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+def check(indices: NDArray[np.uint16], counts: NDArray[np.uint16], seen: NDArray[np.bool_]) -> int:
+    """Return whether a frame fits the array: one of the codes of `acts_recon.fastomp_kernels`."""
+    code = OK
+    checked = 0
+    for k in range(indices.shape[0]):
+        if indices[k] >= seen.shape[0]:
+            code = INDEX_OUT_OF_RANGE
+        elif counts[k] > COUNT_MAX:
+            code = COUNT_OUT_OF_RANGE
+        elif seen[indices[k]]:
+            code = INDEX_TWICE
+        if code != OK:
+            break
+        seen[indices[k]] = True
+        checked += 1
+    for k in range(checked):
+        seen[indices[k]] = False
+    return code
+
+
+@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+def _observe_motion(
+    state: State,
+    indices: NDArray[np.uint16],
+    counts: NDArray[np.uint16],
+    period_s: float,
+    lag_step_s: float,
+    rows: int,
+    cols: int,
+    tuning: Tuning,
+) -> None:
+    """Add to every tile how its samples changed, and along which gradients of the image."""
+    m = indices.shape[0]
+    fade = _F(math.exp(-period_s / tuning.motion_memory_s))
+    image, evidence = state.image, state.evidence
+    for a in range(evidence.shape[0]):
+        for b in range(evidence.shape[1]):
+            for q in range(6):
+                evidence[a, b, q] *= fade
+    horizon = _F(tuning.horizon_s)
+    for k in range(m):
+        i = int(np.int64(indices[k]))
+        since = state.age[i] + _F(period_s) - _F(lag_step_s * (m - 1 - k))
+        if not _F(0) < since < horizon:
+            continue
+        row = i // cols
+        col = i - row * cols
+        change = (_F(counts[k]) - state.value[i]) / since
+        along_cols = (image[row * cols + min(col + 1, cols - 1)] - image[row * cols + max(col - 1, 0)]) * _F(0.5)
+        along_rows = (image[min(row + 1, rows - 1) * cols + col] - image[max(row - 1, 0) * cols + col]) * _F(0.5)
+        tile = evidence[row // TILE, col // TILE]
+        tile[0] += along_cols * along_cols
+        tile[1] += along_cols * along_rows
+        tile[2] += along_rows * along_rows
+        tile[3] -= along_cols * change
+        tile[4] -= along_rows * change
+        tile[5] += change * change
+
+
+@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+def _find_velocities(state: State, tuning: Tuning) -> None:
+    """Solve for the velocity of every tile that explains most of the changes around it."""
+    evidence, row_sums = state.evidence, state.row_sums
+    tile_rows, tile_cols = evidence.shape[0], evidence.shape[1]
+    for a in range(tile_rows):
+        for b in range(tile_cols):
+            for q in range(6):
+                row_sums[a, b, q] = _F(0)
+            for beside in range(max(b - AROUND, 0), min(b + AROUND + 1, tile_cols)):
+                for q in range(6):
+                    row_sums[a, b, q] += evidence[a, beside, q]
+    for a in range(tile_rows):
+        for b in range(tile_cols):
+            cc, cr, rr, ct, rt, tt = _F(0), _F(0), _F(0), _F(0), _F(0), _F(0)
+            for beside in range(max(a - AROUND, 0), min(a + AROUND + 1, tile_rows)):
+                sums = row_sums[beside, b]
+                cc += sums[0]
+                cr += sums[1]
+                rr += sums[2]
+                ct += sums[3]
+                rt += sums[4]
+                tt += sums[5]
+            velocity = state.velocity[a, b]
+            velocity[0], velocity[1], velocity[2] = _F(0), _F(0), _F(0)
+            if not tt > _F(0):
+                continue
+            cc += _F(RIDGE)
+            rr += _F(RIDGE)
+            determinant = cc * rr - cr * cr
+            if not determinant > _F(0):
+                continue
+            by_cols = (rr * ct - cr * rt) / determinant
+            by_rows = (cc * rt - cr * ct) / determinant
+            share = (by_cols * ct + by_rows * rt) / tt
+            if share > _F(tuning.motion_share):
+                velocity[0], velocity[1], velocity[2] = by_cols, by_rows, min(share, _F(1))
+
+
+@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+def _moved(
+    before: NDArray[np.float32], row: int, col: int, back_rows: np.float32, back_cols: np.float32, rows: int, cols: int
+) -> np.float32:
+    """What stood `back_rows` and `back_cols` away, between four taxels; the edge goes on outside."""
+    c = min(max(_F(col) - back_cols, _F(0)), _F(cols - 1))
+    r = min(max(_F(row) - back_rows, _F(0)), _F(rows - 1))
+    left, top = int(c), int(r)
+    right, bottom = min(left + 1, cols - 1), min(top + 1, rows - 1)
+    c -= _F(left)
+    r -= _F(top)
+    above = before[top * cols + left] * (_F(1) - c) + before[top * cols + right] * c
+    below = before[bottom * cols + left] * (_F(1) - c) + before[bottom * cols + right] * c
+    return above * (_F(1) - r) + below * r
+
+
+@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+def _predict(state: State, period_s: float, rows: int, cols: int, tuning: Tuning) -> None:
+    """Carry the image on to the end of the frame by motion and, for the share it does not explain, by slopes."""
+    image, before, age, slope = state.image, state.before, state.age, state.slope
+    period, horizon = _F(period_s), _F(tuning.horizon_s)
+    for i in range(image.shape[0]):
+        before[i] = image[i]
+    for row in range(rows):
+        for col in range(cols):
+            i = row * cols + col
+            age[i] += period
+            # A measured taxel stood at its own time, not at the end of the frame.
+            elapsed = min(age[i] if state.fresh[i] else period, horizon)
+            state.fresh[i] = False
+            velocity = state.velocity[row // TILE, col // TILE]
+            share = velocity[2]
+            change = _F(0)
+            if share > _F(0):
+                moved = _moved(before, row, col, velocity[1] * elapsed, velocity[0] * elapsed, rows, cols)
+                change = share * (moved - before[i])
+            if slope[i] != _F(0) and age[i] < horizon:
+                change += (_F(1) - share) * slope[i] * elapsed * _F(math.exp(-age[i] / _F(tuning.damping_s)))
+            state.rate[i] = change / elapsed if elapsed > _F(0) else _F(0)
+            image[i] = min(max(before[i] + change, _F(0)), _TOP)
+
+
+@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+def _take(
+    state: State, indices: NDArray[np.uint16], counts: NDArray[np.uint16], lag_step_s: float, tuning: Tuning
+) -> None:
+    """Compare every sample with what was predicted for its own time, and take it over."""
+    m = indices.shape[0]
+    horizon, noise_variance = _F(tuning.horizon_s), _F(tuning.noise_counts) ** 2
+    scale = _F(math.exp(state.log_scale[0]))
+    surprise = _F(0)
+    for k in range(m):
+        i = int(np.int64(indices[k]))
+        lag = _F(lag_step_s * (m - 1 - k))
+        since = state.age[i] - lag
+        count = _F(counts[k])
+        innovation = count - (state.image[i] - state.rate[i] * lag)
+        state.innovation[k] = innovation
+        if _F(0) < since < horizon:
+            gathered = state.unrest[i] * since * since
+            if gathered > noise_variance:
+                ratio = innovation * innovation / (_F(2) * noise_variance + scale * gathered)
+                surprise += min(ratio, _F(OUTLIER)) - _F(1)
+            share = since / (since + _F(tuning.slope_memory_s))
+            state.slope[i] += share * ((count - state.value[i]) / since - state.slope[i])
+        else:
+            state.slope[i] = _F(0)
+        error = _excess(innovation, since, noise_variance)
+        state.unrest[i] += _F(UNREST_SHARE) * (error - state.unrest[i])
+        state.value[i] = count
+        state.age[i] = lag
+        state.fresh[i] = True
+    log_scale = state.log_scale[0] + _F(SCALE_STEP) * surprise
+    state.log_scale[0] = min(max(log_scale, -_F(SCALE_LIMIT)), _F(SCALE_LIMIT))
+
+
+@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+def _excess(innovation: np.float32, since: np.float32, noise_variance: np.float32) -> np.float32:
+    """Squared error per squared second of a prediction that noise does not account for."""
+    time = min(max(since, _F(0)), _F(1)) + _F(SHORTEST_S)
+    return max(innovation * innovation - _F(2) * noise_variance, _F(0)) / (time * time)
+
+
+@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+def _spread(state: State, indices: NDArray[np.uint16], rows: int, cols: int, tuning: Tuning) -> None:
+    """Correct the taxels around the samples by the samples' innovations, the near ones most."""
+    m = indices.shape[0]
+    total, unrest_total, weight = state.total, state.unrest_total, state.weight
+    for k in range(m):
+        i = int(np.int64(indices[k]))
+        row = i // cols
+        col = i - row * cols
+        innovation = state.innovation[k]
+        if abs(innovation) <= _F(tuning.quiet_counts):
+            innovation = _F(0)
+        for r in range(max(row - REACH, 0), min(row + REACH + 1, rows)):
+            for c in range(max(col - REACH, 0), min(col + REACH + 1, cols)):
+                j = r * cols + c
+                if not state.fresh[j]:
+                    square = (r - row) * (r - row) + (c - col) * (c - col)
+                    near = _F(1) / _F(square * square)
+                    total[j] += near * innovation
+                    unrest_total[j] += near * state.unrest[i]
+                    weight[j] += near
+    for k in range(m):
+        i = int(np.int64(indices[k]))
+        row = i // cols
+        col = i - row * cols
+        for r in range(max(row - REACH, 0), min(row + REACH + 1, rows)):
+            for c in range(max(col - REACH, 0), min(col + REACH + 1, cols)):
+                j = r * cols + c
+                if weight[j] > _F(0):
+                    shrunk = weight[j] + _F(SPREAD_PRIOR)
+                    state.image[j] += _F(tuning.spread_gain) * total[j] / shrunk
+                    state.image[j] = min(max(state.image[j], _F(0)), _TOP)
+                    share = _F(UNREST_SHARE) * weight[j] / shrunk
+                    state.unrest[j] += share * (unrest_total[j] / weight[j] - state.unrest[j])
+                    total[j], unrest_total[j], weight[j] = _F(0), _F(0), _F(0)
+        state.image[i] = state.value[i]
+
+
+@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+def _keep_quiet(state: State, rows: int, cols: int, tuning: Tuning) -> None:
+    """Where a taxel was lately measured untouched and none beside it is pressed, nothing has been added."""
+    image, value, quiet = state.image, state.value, _F(tuning.quiet_counts)
+    for i in range(image.shape[0]):
+        if not (image[i] > value[i] and value[i] <= quiet and state.age[i] < _F(tuning.quiet_s)):
+            continue
+        row = i // cols
+        col = i - row * cols
+        pressed = False
+        for r in range(max(row - 1, 0), min(row + 2, rows)):
+            for c in range(max(col - 1, 0), min(col + 2, cols)):
+                pressed = pressed or value[r * cols + c] > quiet
+        if not pressed:
+            image[i] = value[i]
+
+
+@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+def _doubt(state: State, tuning: Tuning) -> None:
+    """Standard deviations from noise, age, what predictions of the taxel gathered, and how well all have held."""
+    scale = _F(math.exp(state.log_scale[0]))
+    idle, horizon = _F(IDLE_COUNTS_PER_S), _F(tuning.horizon_s)
+    noise_variance = _F(tuning.noise_counts) ** 2
+    limit = _F(UNKNOWN_COUNTS)
+    for i in range(state.sigma.shape[0]):
+        age = state.age[i]
+        known = min(age, _F(1e3))
+        gathering = min(age, horizon)
+        variance = noise_variance + scale * state.unrest[i] * gathering * gathering + (idle * known) ** 2
+        if state.fresh[i]:
+            # Its value is kept as measured, though it has been changing since.
+            lag_error = state.rate[i] * age
+            variance += lag_error * lag_error
+        state.sigma[i] = min(_F(math.sqrt(variance)), limit)
+
+
+@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+def fuse(
+    state: State,
+    indices: NDArray[np.uint16],
+    counts: NDArray[np.uint16],
+    period_s: float,
+    duration_s: float,
+    rows: int,
+    cols: int,
+    tuning: Tuning,
+) -> None:
+    """Take one frame that `check` has found to fit.
+
+    Parameters
+    ----------
+    state : State
+        Written.
+    indices, counts : np.ndarray [shape=(m,), dtype=uint16]
+        Samples in the order of measurement, at least one.
+    period_s : float
+        From the end of the last frame to the end of this one, at least 0.
+    duration_s : float
+        Sample k of m was taken ``duration_s * (m - 1 - k) / m`` before the end.
+    rows, cols : int
+    tuning : Tuning
+    """
+    lag_step_s = duration_s / indices.shape[0]
+    _observe_motion(state, indices, counts, period_s, lag_step_s, rows, cols, tuning)
+    _find_velocities(state, tuning)
+    _predict(state, period_s, rows, cols, tuning)
+    _take(state, indices, counts, lag_step_s, tuning)
+    _spread(state, indices, rows, cols, tuning)
+    _keep_quiet(state, rows, cols, tuning)
+    _doubt(state, tuning)
+
+
+@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+def confidence(sigma: NDArray[np.float32], half_counts: float, out: NDArray[np.uint8]) -> None:
+    """Write 255 where nothing is in doubt, half of it where sigma is `half_counts`, towards 0 beyond."""
+    for i in range(sigma.shape[0]):
+        ratio = sigma[i] / _F(half_counts)
+        out[i] = np.uint8(_F(255) / (_F(1) + ratio * ratio) + _F(0.5))
