@@ -4,21 +4,38 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <random>
 
 #include "acts_firmware/sampling/sampler.hpp"
 
 namespace {
 
+constexpr long kCountMax = 1023;
+
+// What one reading differs from what the skin would let it be.
+struct Noise {
+  explicit Noise(std::uint64_t seed, double counts)
+      : random(seed), reading(0.0, counts > 0.0 ? counts : 1.0), on(counts > 0.0) {}
+
+  double draw() { return on ? reading(random) : 0.0; }
+
+  std::mt19937_64 random;
+  std::normal_distribution<double> reading;
+  bool on;
+};
+
 // Every measurement sees the recording a little later than the one before, as on a skin that is being pressed.
 class RecordingReader final : public acts::TaxelReader {
  public:
-  RecordingReader(const std::uint16_t* frames, std::size_t count, int rows, int cols)
-      : frames_(frames), count_(count), taxels_(static_cast<std::size_t>(rows * cols)), cols_(cols) {}
-
-  void begin(double position, double step) {
-    position_ = position;
-    step_ = step;
-  }
+  RecordingReader(const std::uint16_t* frames, std::size_t count, int rows, int cols, double position, double step,
+                  Noise& noise)
+      : frames_(frames),
+        count_(count),
+        taxels_(static_cast<std::size_t>(rows * cols)),
+        cols_(cols),
+        position_(position),
+        step_(step),
+        noise_(noise) {}
 
   std::uint16_t measure(int row, int col) override {
     const auto taxel = static_cast<std::size_t>(row * cols_ + col);
@@ -29,7 +46,8 @@ class RecordingReader final : public acts::TaxelReader {
     const double share = position - static_cast<double>(before);
     const double first = frames_[before * taxels_ + taxel];
     const double second = frames_[after * taxels_ + taxel];
-    return static_cast<std::uint16_t>(std::lround(first + share * (second - first)));
+    const long counts = std::lround(first + share * (second - first) + noise_.draw());
+    return static_cast<std::uint16_t>(std::clamp(counts, 0L, kCountMax));
   }
 
  private:
@@ -37,8 +55,9 @@ class RecordingReader final : public acts::TaxelReader {
   std::size_t count_;
   std::size_t taxels_;
   int cols_;
-  double position_ = 0.0;
-  double step_ = 0.0;
+  double position_;
+  double step_;
+  Noise& noise_;
 };
 
 }  // namespace
@@ -46,13 +65,16 @@ class RecordingReader final : public acts::TaxelReader {
 extern "C" {
 
 struct ActsSampler {
+  explicit ActsSampler(Noise its_noise) : noise(its_noise) {}
+
   acts::Sampler sampler;
   acts::SampleFrame frame;
+  Noise noise;
 };
 
-// Null where the core refuses the settings.
+// Null where the core refuses the settings. Every reading has normal noise of this standard deviation.
 ActsSampler* acts_sampler_new(int rows, int cols, int scheme, int m, int threshold, int neighbour_order,
-                              std::uint64_t seed, int search_quota, int adaptive_quota) {
+                              std::uint64_t seed, int search_quota, int adaptive_quota, double noise_counts) {
   acts::SamplingConfig config;
   config.rows = rows;
   config.cols = cols;
@@ -63,7 +85,7 @@ ActsSampler* acts_sampler_new(int rows, int cols, int scheme, int m, int thresho
   config.seed = seed;
   config.search_quota = search_quota;
   config.adaptive_quota = adaptive_quota;
-  auto made = std::make_unique<ActsSampler>();
+  auto made = std::make_unique<ActsSampler>(Noise(seed, noise_counts));
   return made->sampler.configure(config) == acts::ConfigError::kNone ? made.release() : nullptr;
 }
 
@@ -76,8 +98,7 @@ void acts_sampler_free(ActsSampler* sampler) {
 int acts_sampler_frame(ActsSampler* sampler, const std::uint16_t* frames, std::size_t count, double position,
                        double step, std::uint16_t* indices, std::uint16_t* counts) {
   const acts::SamplingConfig& config = sampler->sampler.config();
-  RecordingReader reader(frames, count, config.rows, config.cols);
-  reader.begin(position, step);
+  RecordingReader reader(frames, count, config.rows, config.cols, position, step, sampler->noise);
   sampler->sampler.sample(reader, sampler->frame);
   std::copy_n(sampler->frame.indices.begin(), sampler->frame.m, indices);
   std::copy_n(sampler->frame.counts.begin(), sampler->frame.m, counts);

@@ -74,6 +74,16 @@ def test_it_samples_as_the_reference(
         np.testing.assert_array_equal(counts, expected[1])
 
 
+def test_noise_is_as_large_as_asked_for_and_repeatable() -> None:
+    config = SamplingConfig(scheme="raster")
+    frames = np.full((1, 32, 32), 500, dtype=np.uint16)
+    counts = np.concatenate([BoardSampler(config, 3.0).frame(frames, 0, 0)[1] for _ in range(2)]).astype(float)
+    assert counts.mean() == pytest.approx(500, abs=0.5)
+    assert counts.std() == pytest.approx(3, rel=0.1)
+    np.testing.assert_array_equal(counts[:1024], counts[1024:])
+    assert BoardSampler(config, 100.0).frame(np.zeros_like(frames), 0, 0)[1].max() < 500
+
+
 def test_what_does_not_fit_is_refused() -> None:
     board = BoardSampler(SamplingConfig(rows=8, cols=8, m=10))
     with pytest.raises(ArrayError, match=r"\(n, 8, 8\)"):

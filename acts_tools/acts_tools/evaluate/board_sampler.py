@@ -25,7 +25,7 @@ def _library() -> ctypes.CDLL:
     library = ctypes.CDLL(str(path))
     pointer, integer, size, real = ctypes.c_void_p, ctypes.c_int, ctypes.c_size_t, ctypes.c_double
     library.acts_sampler_new.restype = pointer
-    library.acts_sampler_new.argtypes = [*[integer] * 6, ctypes.c_uint64, integer, integer]
+    library.acts_sampler_new.argtypes = [*[integer] * 6, ctypes.c_uint64, integer, integer, real]
     library.acts_sampler_free.restype = None
     library.acts_sampler_free.argtypes = [pointer]
     library.acts_sampler_frame.restype = integer
@@ -39,6 +39,8 @@ class BoardSampler:
     Parameters
     ----------
     config : SamplingConfig
+    noise_counts : float
+        Standard deviation of normal noise that is added to every measurement, drawn from the seed of `config`.
 
     Raises
     ------
@@ -46,7 +48,7 @@ class BoardSampler:
         When the firmware refuses the settings, or its library is not built.
     """
 
-    def __init__(self, config: SamplingConfig) -> None:
+    def __init__(self, config: SamplingConfig, noise_counts: float = 0.0) -> None:
         self.config = config
         taxels = config.rows * config.cols
         self._indices = np.zeros(taxels, dtype=np.uint16)
@@ -61,6 +63,7 @@ class BoardSampler:
             config.seed,
             config.search_quota,
             config.adaptive_quota,
+            noise_counts,
         )
         if not self._sampler:
             raise SettingsError(f"the firmware refuses {config}")

@@ -13,6 +13,8 @@ from acts_core.errors import SettingsError
 from acts_recon.dictionary import Dictionary
 from acts_recon.fusion import FusionEstimator
 from acts_recon.reconstructor import Reconstructor, ReconstructorConfig
+from acts_tools.evaluate.dictionaries import cosine_dictionary, haar_dictionary
+from acts_tools.evaluate.interpolation import GaussianProcess, Linear
 
 
 class Method(Protocol):
@@ -114,10 +116,14 @@ MethodFactory = Callable[[ArrayGeometry, Dictionary, int], Method]
 """From geometry, dictionary and touch threshold [counts] to a method."""
 
 METHODS: dict[str, MethodFactory] = {
-    "zero": lambda geometry, dictionary, touch_counts: ZeroFill(geometry),
-    "last": lambda geometry, dictionary, touch_counts: LastValue(geometry),
     "paper": PerFrame,
     "acts": lambda geometry, dictionary, touch_counts: Fused(geometry),
+    "dct": lambda geometry, dictionary, touch_counts: PerFrame(geometry, cosine_dictionary(), touch_counts),
+    "haar": lambda geometry, dictionary, touch_counts: PerFrame(geometry, haar_dictionary(), touch_counts),
+    "zero": lambda geometry, dictionary, touch_counts: ZeroFill(geometry),
+    "linear": lambda geometry, dictionary, touch_counts: Linear(geometry),
+    "gp": lambda geometry, dictionary, touch_counts: GaussianProcess(geometry),
+    "last": lambda geometry, dictionary, touch_counts: LastValue(geometry),
 }
 
 

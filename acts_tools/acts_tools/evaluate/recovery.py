@@ -1,29 +1,51 @@
-"""Samples recordings as a board would, has a method recover them, and scores every frame."""
+"""Samples recordings as a board would, has a method recover them, and scores every frame.
+
+What the scores mean is told in docs/recovery.md.
+"""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_core.array import ArrayGeometry
-from acts_core.errors import RecordingError
-from acts_core.frames_file import FramesFile
+from acts_core.array import COUNT_MAX, ArrayGeometry
 from acts_core.sampling import SamplingConfig
+from acts_core.settings import setting, validate
 from acts_recon.dictionary import Dictionary
 from acts_tools.evaluate.board_sampler import BoardSampler
 from acts_tools.evaluate.methods import Method, method_named
-from acts_tools.evaluate.scores import FRAME_SCORES, FrameScores, score_image
+from acts_tools.evaluate.scores import FRAME_SCORES, INVENTED, FrameScores, score_image
 from acts_tools.evaluate.truth import ContactStart, contact_starts, interpolate
-
-ONSET_S = 0.020
-"""How long a contact counts as new; these frames are reported apart."""
 
 SAMPLE_US = 17.877
 """Published time of one measurement: 55,936 a second."""
+
+FOLLOW_COUNTS = 15
+"""Above it tracking follows a taxel: just above the noise of a reading (docs/recovery.md)."""
+
+
+@dataclass(frozen=True)
+class Recording:
+    """What was on the skin, in one piece.
+
+    Attributes
+    ----------
+    frames : np.ndarray [shape=(n, rows, cols), dtype=uint16]
+        Counts, 0 to 1023. Between them the truth is interpolated linearly.
+    rate_hz : float
+        Frames per second.
+    live : np.ndarray [shape=(rows, cols), dtype=bool]
+        Only these taxels are scored.
+    """
+
+    frames: NDArray[np.uint16]
+    rate_hz: float
+    live: NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
@@ -36,19 +58,21 @@ class Task:
         Its `threshold_counts` is the search's.
     method : str
         See `acts_tools.evaluate.methods.METHODS`.
-    rate_hz : float
-        Frames begin no closer than this; a frame of many taxels takes longer.
-    touch_counts : int
-        A taxel above it is pressed.
-    sample_us : float
-        Time of one measurement.
+    rate_hz, touch_counts, sample_us, noise_counts, onset_s : see below
     """
 
     sampling: SamplingConfig
     method: str
-    rate_hz: float = 1000.0
-    touch_counts: int = 50
-    sample_us: float = SAMPLE_US
+    rate_hz: float = setting(1000.0, "most frames sampled per second; many taxels take longer", minimum=0.1)
+    touch_counts: int = setting(50, "a taxel above is pressed", minimum=0, maximum=COUNT_MAX)
+    sample_us: float = setting(SAMPLE_US, "time of one measurement", minimum=0.01)
+    noise_counts: float = setting(
+        0.0, "standard deviation of noise that is added to every measurement", minimum=0, maximum=100
+    )
+    onset_s: float = setting(0.020, "how long a contact counts as new", minimum=0)
+
+    def __post_init__(self) -> None:
+        validate(self)
 
     @property
     def duration_s(self) -> float:
@@ -63,113 +87,138 @@ class Task:
         return max(1.0 / self.rate_hz, self.duration_s)
 
 
-class _Notices:
-    """Which of a recording's new contacts the images have shown so far, and how late."""
+@dataclass(frozen=True)
+class _Frame:
+    """One recovered frame: its image, when it ended, and how it did."""
 
-    def __init__(self, starts: Sequence[ContactStart], rate_hz: float, touch_counts: int) -> None:
-        self._waiting = sorted(starts, key=lambda start: start.onset)
-        self._rate_hz = rate_hz
+    image: NDArray[np.float32]
+    end_s: float
+    spent_us: float
+    scores: NDArray[np.float64]
+    in_contact: bool
+    since_s: float
+
+
+class _Notices:
+    """Which new contacts of a recording the images have shown so far, and how late."""
+
+    def __init__(self, recording: Recording, touch_counts: int) -> None:
+        self._waiting = contact_starts(recording.frames, recording.live, touch_counts)
+        self._waiting.sort(key=lambda start: start.onset, reverse=True)
+        self._rate_hz = recording.rate_hz
         self._touch_counts = touch_counts
         self._open: list[ContactStart] = []
-        self.delays_ms: list[float] = []
+        self.first_ms: list[float] = []
+        self.further_ms: list[float] = []
         self.missed = 0
 
-    def look(self, image: NDArray[np.float32], end_s: float) -> None:
-        position = end_s * self._rate_hz
-        while self._waiting and self._waiting[0].onset <= position:
-            self._open.append(self._waiting.pop(0))
+    def look(self, frame: _Frame) -> None:
+        position = frame.end_s * self._rate_hz
+        while self._waiting and self._waiting[-1].onset <= position:
+            self._open.append(self._waiting.pop())
+        flat = frame.image.ravel()
         still_open = []
         for start in self._open:
-            late_ms = 1e3 * (end_s - start.onset / self._rate_hz)
-            if image[start.taxels].max() > self._touch_counts:
-                self.delays_ms.append(late_ms)
-            elif position > start.end:
-                # It went unnoticed: at least so late.
-                self.delays_ms.append(late_ms)
-                self.missed += 1
-            else:
+            noticed = flat[start.taxels].max() > self._touch_counts
+            if not noticed and position <= start.end:
                 still_open.append(start)
+                continue
+            # One that went unnoticed is at least so late.
+            late_ms = 1e3 * (frame.end_s - start.onset / self._rate_hz)
+            (self.first_ms if start.alone else self.further_ms).append(late_ms)
+            self.missed += not noticed
         self._open = still_open
 
 
-def evaluate(recorded: FramesFile, task: Task, dictionary: Dictionary) -> dict[str, object]:
-    """Score one task on all recordings of a file.
+def evaluate(recordings: Iterable[Recording], task: Task, dictionary: Dictionary) -> dict[str, Any]:
+    """Score one task on recordings of one size.
 
     Returns
     -------
     dict
-        An entry of the report's `results`.
-
-    Raises
-    ------
-    RecordingError
-        When the file does not say how fast the frames were recorded.
+        An entry of the report's `results`: plain numbers, None where there is nothing to tell.
     """
-    recorded_hz = recorded.rate_hz
-    if recorded_hz is None:
-        raise RecordingError("the frames have no rate_hz: needed is how many of them were recorded per second")
     geometry = ArrayGeometry(rows=task.sampling.rows, cols=task.sampling.cols)
     method = method_named(task.method)(geometry, dictionary, task.touch_counts)
+    # The first call may compile.
+    nothing = np.zeros(task.sampling.m, dtype=np.uint16)
+    method.step(np.arange(task.sampling.m, dtype=np.uint16), nothing, 0.0, task.duration_s)
     settled, onset = FrameScores(), FrameScores()
-    durations_us: list[float] = []
-    delays_ms: list[float] = []
+    contact_us: list[float] = []
+    untouched_us: list[float] = []
+    untouched_invented: list[float] = []
+    first_ms: list[float] = []
+    further_ms: list[float] = []
     missed = 0
-    for start, length in zip(recorded.start, recorded.length, strict=True):
-        frames = np.ascontiguousarray(recorded.frames[start : start + length])
-        notices = _Notices(contact_starts(frames, recorded.live, task.touch_counts), recorded_hz, task.touch_counts)
+    for recording in recordings:
+        notices = _Notices(recording, task.touch_counts)
         method.reset()
-        for image, scores, since_s, spent_us, end_s in _play(frames, recorded_hz, recorded.live, task, method):
-            durations_us.append(spent_us)
-            notices.look(image, end_s)
-            if scores is not None:
-                (onset if since_s < ONSET_S else settled).add(scores)
-        delays_ms += notices.delays_ms
+        for frame in _play(recording, task, method):
+            notices.look(frame)
+            if frame.in_contact:
+                (onset if frame.since_s < task.onset_s else settled).add(frame.scores)
+                contact_us.append(frame.spent_us)
+            else:
+                untouched_us.append(frame.spent_us)
+                untouched_invented.append(float(frame.scores[INVENTED]))
+        first_ms += notices.first_ms
+        further_ms += notices.further_ms
         missed += notices.missed
     return {
         "scheme": task.sampling.scheme,
         "m": task.sampling.m,
         "method": task.method,
         **settled.summary(),
-        "notice_ms": _percentiles(delays_ms, 50, 99),
-        "contacts": len(delays_ms),
+        "notice_ms": _percentiles(first_ms + further_ms, 50, 99),
+        "notice_further_ms": _percentiles(further_ms, 50, 99),
+        "contacts": len(first_ms) + len(further_ms),
         "contacts_missed": missed,
-        "frame_us": {"median": float(np.median(durations_us)), "p99": float(np.percentile(durations_us, 99))},
+        "frame_us": _median(contact_us or untouched_us),
         "rate_hz": 1.0 / task.period_s,
         "onset": onset.summary(),
+        "untouched": {
+            "frames": len(untouched_invented),
+            "invented_rate": float(np.mean(untouched_invented)) if untouched_invented else None,
+        },
     }
 
 
-def _play(
-    frames: NDArray[np.uint16], recorded_hz: float, live_taxels: NDArray[np.bool_], task: Task, method: Method
-) -> Iterator[tuple[NDArray[np.float32], NDArray[np.float64] | None, float, float, float]]:
-    """Yield image, scores (None without contact), time since the contact began [s], time spent [us], and end [s]."""
-    sampler = BoardSampler(task.sampling)
+def _play(recording: Recording, task: Task, method: Method) -> Iterator[_Frame]:
+    """Sample and recover from the beginning to the end; at least one frame, for which the last is held."""
+    sampler = BoardSampler(task.sampling, task.noise_counts)
+    frames = np.ascontiguousarray(recording.frames)
     flat = frames.reshape(len(frames), -1)
     truth = np.zeros(flat.shape[1], dtype=np.float32)
-    live = live_taxels.ravel()
+    live = recording.live.ravel()
     scores = np.zeros(FRAME_SCORES)
-    cols = task.sampling.cols
-    step = task.sample_us * 1e-6 * recorded_hz
+    step = task.sample_us * 1e-6 * recording.rate_hz
     contact_since_s: float | None = None
     begin_s, number = 0.0, 0
-    while (begin_s + task.duration_s) * recorded_hz <= len(frames) - 1:
-        indices, counts = sampler.frame(frames, begin_s * recorded_hz, step)
+    while number == 0 or (begin_s + task.duration_s) * recording.rate_hz <= len(frames) - 1:
+        indices, counts = sampler.frame(frames, begin_s * recording.rate_hz, step)
         end_s = begin_s + task.duration_s
         began = time.perf_counter()
-        image = method.step(indices, counts, end_s, task.duration_s).ravel()
+        image = method.step(indices, counts, end_s, task.duration_s)
         spent_us = 1e6 * (time.perf_counter() - began)
-        interpolate(flat, end_s * recorded_hz, truth)
-        in_contact = score_image(image, truth, live, cols, float(task.touch_counts), scores)
+        interpolate(flat, end_s * recording.rate_hz, truth)
+        touch = float(task.touch_counts)
+        in_contact = score_image(image.ravel(), truth, live, task.sampling.cols, touch, scores)
         if not in_contact:
             contact_since_s = None
         elif contact_since_s is None:
             contact_since_s = end_s
-        yield image, scores if in_contact else None, end_s - (contact_since_s or 0.0), spent_us, end_s
+        yield _Frame(image, end_s, spent_us, scores, in_contact, end_s - (contact_since_s or 0.0))
         number += 1
         begin_s = number * task.period_s
 
 
+def _median(durations_us: Sequence[float]) -> dict[str, float | None]:
+    return {"median": _percentile(durations_us, 50), "p99": _percentile(durations_us, 99)}
+
+
 def _percentiles(values: Sequence[float], low: int, high: int) -> dict[str, float | None]:
-    if not values:
-        return {f"p{low}": None, f"p{high}": None}
-    return {f"p{low}": float(np.percentile(values, low)), f"p{high}": float(np.percentile(values, high))}
+    return {f"p{low}": _percentile(values, low), f"p{high}": _percentile(values, high)}
+
+
+def _percentile(values: Sequence[float], percent: int) -> float | None:
+    return float(np.percentile(values, percent)) if len(values) else None

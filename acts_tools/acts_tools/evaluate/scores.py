@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from typing import Any
 
 import numba
 import numpy as np
 from numpy.typing import NDArray
 
-_ERROR, _SUPPORT, _COP, _TOUCH_COP, _INVENTED = range(5)
+_ERROR, _SUPPORT, _COP, _TOUCH_COP, INVENTED = range(5)
 FRAME_SCORES = 5
 """Numbers that `score_image` writes."""
 
@@ -36,8 +36,9 @@ def score_image(
     threshold : float
         A taxel above it is pressed [counts].
     out : np.ndarray [shape=(FRAME_SCORES,), dtype=float64]
-        Written when the truth holds a contact: relative error; support accuracy; error of the centre of pressure over
-        all counts, and over pressed taxels [taxels], NaN where the image has none; invented pressure.
+        Written. When the truth holds a contact: relative error; support accuracy; error of the centre of pressure
+        over all counts, and over pressed taxels [taxels], NaN where the image has none. Always: the share of the
+        taxels at or below half the threshold that the image shows as pressed.
 
     Returns
     -------
@@ -73,6 +74,7 @@ def score_image(
             sums[which, 0] += weight
             sums[which, 1] += weight * row
             sums[which, 2] += weight * col
+    out[INVENTED] = invented / untouched if untouched else 0.0
     if sums[2, 0] == 0.0:
         return False
     out[_ERROR] = math.sqrt(error / norm)
@@ -84,7 +86,6 @@ def score_image(
             out[place] = math.sqrt(row * row + col * col)
         else:
             out[place] = math.nan
-    out[_INVENTED] = invented / untouched if untouched else 0.0
     return True
 
 
@@ -99,30 +100,34 @@ def distribution(values: NDArray[np.floating]) -> dict[str, float | None]:
     }
 
 
-@dataclass
 class FrameScores:
     """The scores of many frames, and their summary."""
 
-    rows: list[NDArray[np.float64]] = field(default_factory=list)
+    def __init__(self) -> None:
+        self._table = np.empty((256, FRAME_SCORES))
+        self._n = 0
 
     def add(self, scores: NDArray[np.float64]) -> None:
         """Take what `score_image` wrote."""
-        self.rows.append(scores.copy())
+        if self._n == len(self._table):
+            self._table = np.concatenate((self._table, np.empty_like(self._table)))
+        self._table[self._n] = scores
+        self._n += 1
 
-    def summary(self) -> dict[str, object]:
+    def summary(self) -> dict[str, Any]:
         """What the report says of these frames; numbers are None where there is no frame."""
-        table = np.array(self.rows).reshape(-1, FRAME_SCORES)
-        means = table.mean(axis=0) if len(table) else np.full(FRAME_SCORES, np.nan)
-        relative_error, support, invented = (
-            None if np.isnan(means[column]) else float(means[column]) for column in (_ERROR, _SUPPORT, _INVENTED)
-        )
+        table = self._table[: self._n]
         cop, touch = table[:, _COP], table[:, _TOUCH_COP]
         return {
             "frames": len(table),
-            "relative_error": relative_error,
-            "support_accuracy": support,
+            "relative_error": _mean(table[:, _ERROR]),
+            "support_accuracy": _mean(table[:, _SUPPORT]),
             "cop_error_taxels": distribution(cop[~np.isnan(cop)]),
             "touch_cop_error_taxels": distribution(touch[~np.isnan(touch)]),
-            "missed": float(np.isnan(touch).mean()) if len(table) else None,
-            "invented_rate": invented,
+            "missed": _mean(np.isnan(touch)),
+            "invented_rate": _mean(table[:, INVENTED]),
         }
+
+
+def _mean(values: NDArray) -> float | None:
+    return float(values.mean()) if values.size else None

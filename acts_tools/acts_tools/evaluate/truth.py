@@ -42,12 +42,15 @@ class ContactStart:
         When its first taxel passes the threshold, in frames of the recording.
     end : float
         The last frame of the recording in which one of its taxels is pressed without a break.
+    alone : bool
+        Whether nothing else was pressed in the frame before.
     taxels : np.ndarray [shape=(k,), dtype=int64]
-        Its taxels in the first recorded frame that shows it, and their neighbours.
+        Its taxels in the first recorded frame that shows it, and those of their neighbours that are scored.
     """
 
     onset: float
     end: float
+    alone: bool
     taxels: NDArray[np.int64]
 
 
@@ -66,10 +69,12 @@ def contact_starts(frames: NDArray[np.uint16], live: NDArray[np.bool_], threshol
     """
     starts = []
     pressed = (frames > threshold_counts) & live
+    # Most frames press nothing that the one before did not: they need no further look.
+    any_new = np.concatenate(([False], (pressed[1:] & ~pressed[:-1]).any(axis=(1, 2))))
     for number in range(1, len(frames)):
-        labels, count = ndimage.label(pressed[number], structure=_EIGHT)
-        if not count:
+        if not any_new[number]:
             continue
+        labels, count = ndimage.label(pressed[number], structure=_EIGHT)
         near_before = ndimage.binary_dilation(pressed[number - 1], structure=_EIGHT)
         for label in range(1, count + 1):
             blob = labels == label
@@ -81,6 +86,7 @@ def contact_starts(frames: NDArray[np.uint16], live: NDArray[np.bool_], threshol
             end = number
             while end + 1 < len(frames) and pressed[end + 1][blob].any():
                 end += 1
-            around = ndimage.binary_dilation(blob, structure=_EIGHT)
-            starts.append(ContactStart(number - 1 + share, float(end), np.flatnonzero(around)))
+            around = ndimage.binary_dilation(blob, structure=_EIGHT) & live
+            alone = not pressed[number - 1].any()
+            starts.append(ContactStart(number - 1 + share, float(end), alone, np.flatnonzero(around)))
     return starts

@@ -1,0 +1,83 @@
+"""Dictionaries to evaluate with: from files, and two that are not learnt."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.errors import DictionaryError
+from acts_recon.dictionary import Dictionary, load_dictionary
+
+_ATOMS = 1000
+_SIDE = 8
+
+
+def dictionary_named(word: str) -> Dictionary:
+    """A dictionary from a file of `acts train`, or, for ``FILE:ARRAY``, from an array (pixels, atoms) of any npz file.
+
+    Raises
+    ------
+    DictionaryError
+        When there is none.
+    """
+    name, separator, array = word.rpartition(":")
+    if not separator or Path(word).exists():
+        return load_dictionary(Path(word))
+    try:
+        with np.load(name, allow_pickle=False) as archive:
+            atoms = archive[array]
+    except (OSError, ValueError, KeyError) as error:
+        raise DictionaryError(f"{word}: no array {array!r} can be read from {name} ({error})") from error
+    return Dictionary(atoms, math.isqrt(atoms.shape[0]), {}, word)
+
+
+def cosine_dictionary(side: int = _SIDE, atoms: int = _ATOMS) -> Dictionary:
+    """Overcomplete discrete cosine transform of a patch's pixels in a row, as the paper compares with (S8).
+
+    Atom k is ``cos(pi * k * pixel / atoms)`` over the pixels of the patch, column first, without its mean (but for
+    atom 0), and of norm 1.
+    """
+    pixel, k = np.arange(side**2)[:, None], np.arange(atoms)[None, :]
+    waves = np.cos(np.pi * k * pixel / atoms)
+    waves[:, 1:] -= waves[:, 1:].mean(axis=0)
+    return Dictionary((waves / np.linalg.norm(waves, axis=0)).astype(np.float32), side, {}, "overcomplete DCT")
+
+
+def haar_dictionary(side: int = _SIDE, atoms: int = _ATOMS) -> Dictionary:
+    """Overcomplete Haar: boxes and steps of 1, 2, 4, ... pixels at every place along rows times those along columns.
+
+    Of all such products, 1156 for a patch of 8 x 8, those `atoms` that cover most pixels are taken, each of norm 1.
+
+    Raises
+    ------
+    DictionaryError
+        When a patch of this side has fewer of them.
+    """
+    line = _haar_line(side)
+    products = np.array([np.kron(along_cols, along_rows) for along_cols in line for along_rows in line])
+    if len(products) < atoms:
+        raise DictionaryError(
+            f"{atoms} Haar atoms: a patch of {side} x {side} has {len(products)}; use larger patches or fewer atoms"
+        )
+    widest = np.argsort(-np.count_nonzero(products, axis=1), kind="stable")[:atoms]
+    chosen = products[widest].T
+    return Dictionary((chosen / np.linalg.norm(chosen, axis=0)).astype(np.float32), side, {}, "overcomplete Haar")
+
+
+def _haar_line(side: int) -> NDArray[np.float64]:
+    """Boxes of every dyadic width, then steps, each at every place; np.ndarray [shape=(n, side)]."""
+    rows = []
+    for step in (False, True):
+        width = 2 if step else 1
+        while width <= side:
+            for start in range(side - width + 1):
+                row = np.zeros(side)
+                row[start : start + width] = 1
+                if step:
+                    row[start + width // 2 : start + width] = -1
+                rows.append(row)
+            width *= 2
+    return np.array(rows)

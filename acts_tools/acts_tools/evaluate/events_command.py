@@ -1,0 +1,41 @@
+"""`acts evaluate events`: bounces, slides and taps of the simulated skin."""
+
+from __future__ import annotations
+
+import argparse
+from typing import Any
+
+import numpy as np
+
+from acts_sim.events import EVENT_RATE_HZ, EVENTS, event_recordings
+from acts_tools.evaluate import options, report
+from acts_tools.evaluate.recovery import Recording, evaluate
+
+
+def add_parser(commands: Any) -> None:
+    """Add ``acts evaluate events``."""
+    parser = commands.add_parser("events", help="on simulated bounces, slides and taps")
+    parser.add_argument("--event", nargs="+", default=list(EVENTS), choices=tuple(EVENTS), help="default: all")
+    options.add_arguments(parser, noise_counts=3.0)
+    parser.add_argument(
+        "--recordings", type=options.at_least_one, metavar="N", help="of each kind (default: what steadies the figures)"
+    )
+    parser.set_defaults(evaluate=_run)
+
+
+def _run(arguments: argparse.Namespace) -> int:
+    tasks = options.tasks(arguments)
+    dictionary = options.dictionary(arguments)
+    live = np.ones((32, 32), dtype=bool)
+    results = []
+    print(f"{'event':13} {report.HEADER} {'further p99':>11}")
+    for name in arguments.event:
+        frames = event_recordings(name, arguments.recordings or EVENTS[name].recordings, arguments.seed)
+        recordings = [Recording(one, EVENT_RATE_HZ, live) for one in frames]
+        for task in tasks:
+            scored = evaluate(report.with_progress(recordings, len(recordings), f"{name}: recording"), task, dictionary)
+            results.append({"event": name, **scored})
+            further = report.number(scored["notice_further_ms"]["p99"], 11, 1)
+            print(f"{name:13} {report.line(scored)} {further}", flush=True)
+    report.write_json(arguments.json, {**options.as_report(arguments), "results": results})
+    return 0

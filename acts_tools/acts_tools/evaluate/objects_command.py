@@ -1,0 +1,105 @@
+"""`acts evaluate objects`: support accuracy over M on the objects of the contact model, as the paper's figure 4E."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from acts_core.errors import RecordingError
+from acts_sim.contact_model import ContactModel, FoamConfig
+from acts_sim.objects import OBJECTS, object_named
+from acts_sim.presses import PRESS_RATE_HZ, press_over_time
+from acts_tools.evaluate import options, report
+from acts_tools.evaluate.methods import METHODS
+from acts_tools.evaluate.recovery import Recording, evaluate
+
+_M = (42, 56, 64, 88, 128, 176, 256, 352, 512)
+_PER_FRAME = ("adaptive", "uniform", "random")
+
+
+def add_parser(commands: Any) -> None:
+    """Add ``acts evaluate objects``."""
+    parser = commands.add_parser(
+        "objects",
+        help="support accuracy over M on simulated presses of 30 objects",
+        description="Press every object at a random place, turn and depth, down and up again. Compare the paper's "
+        "method and linear interpolation, each with three ways of sampling, with tracking and a method of ours on the "
+        "same frames, all of them from first to last touch.",
+    )
+    parser.add_argument("--m", nargs="+", type=int, default=list(_M), help="taxels per frame (default: %(default)s)")
+    parser.add_argument("--objects", nargs="+", default=list(OBJECTS), metavar="NAME", help="default: all 30")
+    parser.add_argument("--ours", default=options.METHOD, choices=tuple(METHODS), help="default: %(default)s")
+    parser.add_argument(
+        "--presses", type=options.at_least_one, default=1, metavar="N", help="of each object (default: %(default)s)"
+    )
+    options.add_common_arguments(parser, noise_counts=3.0, onset_s=0.0)
+    parser.add_argument("--picture", type=Path, metavar="PNG", help="draw the curves")
+    parser.set_defaults(evaluate=_run)
+
+
+def _run(arguments: argparse.Namespace) -> int:
+    pairs = [(method, scheme) for method in ("paper", "linear") for scheme in _PER_FRAME]
+    pairs.append((arguments.ours, "tracking"))
+    tasks = [options.task(arguments, scheme, m, method) for m in arguments.m for method, scheme in pairs]
+    dictionary = options.dictionary(arguments)
+    items = [object_named(name) for name in arguments.objects]
+    # Noise is added by the sampling.
+    model = ContactModel(config=FoamConfig(noise_counts=0.0), seed=arguments.seed)
+    live = np.ones((model.geometry.rows, model.geometry.cols), dtype=bool)
+    recordings = [
+        Recording(press_over_time(model, item), PRESS_RATE_HZ, live) for _ in range(arguments.presses) for item in items
+    ]
+    results = []
+    print(report.HEADER)
+    for task in tasks:
+        title = f"{task.sampling.scheme}, M = {task.sampling.m}, {task.method}: press"
+        scored = evaluate(report.with_progress(recordings, len(recordings), title), task, dictionary)
+        results.append(scored)
+        print(report.line(scored), flush=True)
+    curves = {
+        f"{method}, {scheme}": [
+            r["support_accuracy"] for r in results if (r["method"], r["scheme"]) == (method, scheme)
+        ]
+        for method, scheme in pairs
+    }
+    _print_curves(arguments.m, curves)
+    report.write_json(arguments.json, {**options.as_report(arguments), "results": results})
+    if arguments.picture:
+        _draw(arguments.picture, arguments.m, curves)
+    return 0
+
+
+def _print_curves(ms: list[int], curves: dict[str, list[float]]) -> None:
+    print("\n| support accuracy at M = | " + " | ".join(map(str, ms)) + " |")
+    print("|---" * (len(ms) + 1) + "|")
+    for name, values in curves.items():
+        print(f"| {name} | " + " | ".join(f"{value:.4f}" for value in values) + " |")
+
+
+def _draw(path: Path, ms: list[int], curves: dict[str, list[float]]) -> None:
+    # Imported here: it takes long, and only this needs it.
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    figure, axes = pyplot.subplots(figsize=(7, 4.5), layout="constrained")
+    colours = {"adaptive": "tab:blue", "uniform": "tab:orange", "random": "tab:green", "tracking": "tab:red"}
+    for name, values in curves.items():
+        method, scheme = name.split(", ")
+        style = ":" if method == "linear" else "-"
+        axes.plot(ms, values, style, marker="o", markersize=3, color=colours[scheme], label=name)
+    axes.set_xscale("log", base=2)
+    axes.set_xticks(ms, [str(m) for m in ms])
+    axes.set_xlabel("taxels measured per frame, M")
+    axes.set_ylabel("support accuracy")
+    axes.grid(alpha=0.3)
+    axes.legend(fontsize=8)
+    try:
+        figure.savefig(path, dpi=110)
+    except OSError as error:
+        raise RecordingError(f"{path}: cannot be written ({error.strerror}); its folder must exist") from error
+    pyplot.close(figure)

@@ -1,0 +1,101 @@
+"""The part of the command line that all evaluations share."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from acts_core.sampling import SCHEMES, SamplingConfig
+from acts_core.settings import default_of, describe
+from acts_recon.dictionary import Dictionary
+from acts_recon.shipped import shipped_dictionary_path
+from acts_tools.evaluate.dictionaries import dictionary_named
+from acts_tools.evaluate.methods import METHODS
+from acts_tools.evaluate.recovery import FOLLOW_COUNTS, Task
+
+METHOD = "acts"
+"""Recovers unless another method is asked for."""
+
+
+def add_arguments(parser: argparse.ArgumentParser, **defaults: float) -> None:
+    """Add how a frame is sampled, recovered and scored; `defaults` are those of settings of `Task`, where others."""
+    parser.add_argument("--scheme", nargs="+", default=["tracking"], choices=tuple(SCHEMES), help="default: tracking")
+    parser.add_argument("--m", nargs="+", type=int, default=[55], help="taxels per frame (default: 55)")
+    parser.add_argument("--method", nargs="+", default=[METHOD], choices=tuple(METHODS), help=f"default: {METHOD}")
+    add_common_arguments(parser, **defaults)
+
+
+def add_common_arguments(parser: argparse.ArgumentParser, **defaults: float) -> None:
+    """Add everything but schemes, M and methods; see `add_arguments`."""
+    parser.add_argument(
+        "--dictionary", metavar="FILE", help="of the methods that use a learnt one (default: the shipped)"
+    )
+    for name, info in describe(Task).items():
+        default = defaults.get(name, default_of(Task, name))
+        parser.add_argument(
+            f"--{name.replace('_', '-')}",
+            type=type(default),
+            default=default,
+            metavar="X",
+            help=f"{info.description} (default: %(default)s)",
+        )
+    parser.add_argument(
+        "--search-counts",
+        type=int,
+        metavar="X",
+        help="counts above which the sampling searches around a taxel or follows it (default: "
+        f"{FOLLOW_COUNTS} for tracking, as --touch-counts for the others)",
+    )
+    parser.add_argument("--seed", type=int, default=1, metavar="X", help="of everything random (default: %(default)s)")
+    parser.add_argument("--json", type=Path, metavar="OUT", help="write the results here, too")
+
+
+def at_least_one(word: str) -> int:
+    """A whole number above 0, for argparse."""
+    number = int(word)
+    if number < 1:
+        raise argparse.ArgumentTypeError(f"{word}: allowed is 1 or more")
+    return number
+
+
+def dictionary(arguments: argparse.Namespace) -> Dictionary:
+    """The learnt dictionary that was asked for."""
+    return dictionary_named(arguments.dictionary or str(shipped_dictionary_path()))
+
+
+def task(arguments: argparse.Namespace, scheme: str, m: int, method: str, shape: tuple[int, ...] = (32, 32)) -> Task:
+    """What the arguments say of one scheme, M and method on an array of `shape`.
+
+    Raises
+    ------
+    SettingsError
+        When something is out of range.
+    """
+    threshold = arguments.search_counts
+    if threshold is None:
+        threshold = min(FOLLOW_COUNTS, arguments.touch_counts) if scheme == "tracking" else arguments.touch_counts
+    rows, cols = shape
+    sampling = SamplingConfig(
+        scheme=scheme,
+        rows=rows,
+        cols=cols,
+        m=rows * cols if scheme == "raster" else m,
+        threshold_counts=threshold,
+        seed=arguments.seed,
+    )
+    return Task(sampling, method, **{name: getattr(arguments, name) for name in describe(Task)})
+
+
+def tasks(arguments: argparse.Namespace, shape: tuple[int, ...] = (32, 32)) -> list[Task]:
+    """Every scheme with every M and every method."""
+    return [
+        task(arguments, scheme, m, method, shape)
+        for scheme in arguments.scheme
+        for m in arguments.m
+        for method in arguments.method
+    ]
+
+
+def as_report(arguments: argparse.Namespace) -> dict[str, object]:
+    """What a report says of the arguments."""
+    return {name: getattr(arguments, name) for name in describe(Task)}

@@ -1,0 +1,70 @@
+"""`acts evaluate recovery`: score sampling schemes and recovery methods on recordings."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from acts_core.errors import RecordingError
+from acts_core.frames_file import load_frames
+from acts_sim.objects import OBJECTS
+from acts_tools.evaluate import options, report
+from acts_tools.evaluate.recovery import Recording, evaluate
+from acts_tools.train import model_frames
+
+
+def add_parser(commands: Any) -> None:
+    """Add ``acts evaluate recovery``."""
+    parser = commands.add_parser("recovery", help="on recordings, or on single presses of the contact model")
+    source = parser.add_mutually_exclusive_group(required=True)
+    source.add_argument(
+        "--frames",
+        type=Path,
+        metavar="NPZ",
+        help="`frames` (n, rows, cols) of 0 to 1023 counts with `rate_hz`; optionally `live`, `start`, `length`",
+    )
+    source.add_argument(
+        "--presses", type=options.at_least_one, metavar="N", help="N still presses of the objects of the contact model"
+    )
+    options.add_arguments(parser)
+    parser.add_argument(
+        "--peaks", action="store_true", help="of each recording only one sampled frame, at its moment of most counts"
+    )
+    parser.add_argument(
+        "--every", type=options.at_least_one, default=1, metavar="N", help="only every Nth recording, for a quick look"
+    )
+    parser.set_defaults(evaluate=_run)
+
+
+def _run(arguments: argparse.Namespace) -> int:
+    recordings = _recordings(arguments)
+    tasks = options.tasks(arguments, recordings[0].frames.shape[1:])
+    dictionary = options.dictionary(arguments)
+    results = []
+    print(report.HEADER)
+    for task in tasks:
+        title = f"{task.sampling.scheme}, M = {task.sampling.m}, {task.method}: recording"
+        results.append(evaluate(report.with_progress(recordings, len(recordings), title), task, dictionary))
+        print(report.line(results[-1]), flush=True)
+    source = arguments.frames.name if arguments.frames else f"{arguments.presses} presses"
+    report.write_json(arguments.json, {"frames_file": source, **options.as_report(arguments), "results": results})
+    return 0
+
+
+def _recordings(arguments: argparse.Namespace) -> Sequence[Recording]:
+    if arguments.presses:
+        frames = model_frames(list(OBJECTS.values()), arguments.presses, seed=arguments.seed)
+        live = np.ones(frames.shape[1:], dtype=bool)
+        return [Recording(frame[None], 1.0, live) for frame in frames][:: arguments.every]
+    recorded = load_frames(arguments.frames)
+    if recorded.rate_hz is None:
+        raise RecordingError(f"{arguments.frames}: has no rate_hz; needed is how many frames were recorded per second")
+    rate_hz = recorded.rate_hz
+    if arguments.peaks:
+        return [Recording(frame[None], rate_hz, recorded.live) for frame in recorded.peak_frames()][:: arguments.every]
+    parts = list(zip(recorded.start, recorded.length, strict=True))[:: arguments.every]
+    return [Recording(recorded.frames[start : start + n], rate_hz, recorded.live) for start, n in parts]

@@ -1,0 +1,65 @@
+"""What the evaluations print and write."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import Any, TypeVar
+
+from acts_core.errors import RecordingError
+
+HEADER = (
+    f"{'scheme':9} {'M':>4} {'method':6} {'frames':>7} {'rel.err':>8} {'support':>8} {'CoP mean':>9} {'p95':>7} "
+    f"{'touch mean':>10} {'p95':>7} {'missed':>7} {'invented':>9} {'notice p50':>10} {'p99 ms':>7} {'us':>7} "
+    f"{'onset err':>9}"
+)
+
+Item = TypeVar("Item")
+
+
+def line(result: dict[str, Any]) -> str:
+    """One entry of `results` as a line under `HEADER`; `touch` is the centre of pressed taxels."""
+    cop, touch, notice = (result[name] for name in ("cop_error_taxels", "touch_cop_error_taxels", "notice_ms"))
+    return (
+        f"{result['scheme']:9} {result['m']:4} {result['method']:6} {result['frames']:7} "
+        f"{number(result['relative_error'], 8, 4)} {number(result['support_accuracy'], 8, 4)} "
+        f"{number(cop['mean'], 9, 4)} {number(cop['p95'], 7, 3)} "
+        f"{number(touch['mean'], 10, 4)} {number(touch['p95'], 7, 3)} "
+        f"{number(result['missed'], 7, 4)} {number(result['invented_rate'], 9, 6)} "
+        f"{number(notice['p50'], 10, 1)} {number(notice['p99'], 7, 1)} "
+        f"{number(result['frame_us']['median'], 7, 1)} {number(result['onset']['relative_error'], 9, 4)}"
+    )
+
+
+def number(value: float | None, width: int, digits: int) -> str:
+    """A number of a table, a dash for None."""
+    return f"{'-':>{width}}" if value is None else f"{value:{width}.{digits}f}"
+
+
+def write_json(path: Path | None, report: dict[str, Any]) -> None:
+    """Write a report, unless `path` is None.
+
+    Raises
+    ------
+    RecordingError
+        When it cannot be written.
+    """
+    if path is None:
+        return
+    try:
+        path.write_text(json.dumps(report, indent=2) + "\n")
+    except OSError as error:
+        raise RecordingError(f"{path}: cannot be written ({error.strerror}); its folder must exist") from error
+
+
+def with_progress(items: Iterable[Item], total: int, title: str) -> Iterator[Item]:
+    """Pass items on; on a terminal, stderr tells how many."""
+    if not sys.stderr.isatty():
+        yield from items
+        return
+    for done, item in enumerate(items):
+        print(f"\r\033[K{title}: {done} of {total}", end="", file=sys.stderr, flush=True)
+        yield item
+    print("\r\033[K", end="", file=sys.stderr, flush=True)
