@@ -10,6 +10,7 @@ from acts_core.frames import SampleFrame
 from acts_driver.board import BoardLink
 from acts_driver.board_results import BoardResult, BoardResults
 from acts_driver.board_session import BoardSession, BoardStatus
+from acts_driver.left_over import LeftOver
 from acts_driver.reader import LogCallback, Reader
 from acts_driver.report import DriverReport
 from acts_driver.settings import DriverSettings
@@ -64,6 +65,7 @@ class Intake:
         self._results = BoardResults()
         self._link = BoardLink(source.write)
         decoder = settings.make_decoder(self._take)
+        self._left_over = LeftOver(decoder)
         self.stream = FrameStream(*size, has_board_clock=decoder.has_board_clock)
         self.session = (
             BoardSession(self._link, settings, size=size, log=log, on_change=on_board)
@@ -115,16 +117,18 @@ class Intake:
         return level, message, {**values, **results}
 
     def _take(self, message: BoardMessage) -> None:
+        self._left_over.take(message)
         self._link.take(message)
         self._results.take(message)
 
     def _on_frames(self, frames: list[SampleFrame], arrival_ns: int) -> None:
         """Frames that were read together; on the reader's thread."""
+        session = self.session
+        frames = self._left_over.new(frames, is_known=session is None or session.wait_for_verdict(0.0))
         accepted = self.stream.accept(frames, arrival_ns)
         results = self._results.stamped(accepted)
         if self.stream.wrong_size_last != self._wrong_size_told:
             self._tell_wrong_size()
-        session = self.session
         if session is not None:
             if self.stream.statistics.restarts != self._restarts_told:
                 self._restarts_told = self.stream.statistics.restarts

@@ -50,6 +50,11 @@ class PtyBoard:
         self._master = -1
         self._slave = -1
 
+    @property
+    def master(self) -> int:
+        """The board's end."""
+        return self._master
+
     def plug_in(self) -> None:
         """Open a new pseudo-terminal and set the link."""
         self._master, self._slave = os.openpty()
