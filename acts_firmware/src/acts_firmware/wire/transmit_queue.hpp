@@ -7,7 +7,7 @@
 
 namespace acts {
 
-// 128 KB: half a second of frames of 55 taxels at 1 kHz, in the Teensy's second RAM bank.
+// 128 KB: half a second of frames of 55 taxels at 1 kHz. Part of the `Firmware`, so in the fast RAM of the Teensy.
 class TransmitQueue {
  public:
   static constexpr std::size_t kCapacity = 131072;
