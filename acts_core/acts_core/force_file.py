@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +10,7 @@ from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX
 from acts_core.errors import SettingsError
+from acts_core.npz_file import read_npz
 
 _NAMES = ("newtons", "counts")
 
@@ -38,16 +38,16 @@ def read_force_points(path: Path) -> tuple[NDArray[np.float64], NDArray[np.float
         if path.suffix == ".csv":
             newtons, counts = _from_csv(path)
         elif path.suffix == ".npz":
-            with np.load(path, allow_pickle=False) as archive:
-                missing = [name for name in _NAMES if name not in archive]
-                if missing:
-                    raise SettingsError(f"{path}: no array {missing[0]!r}; needed are `newtons` and `counts`")
-                newtons, counts = (np.asarray(archive[name], dtype=np.float64) for name in _NAMES)
+            content = read_npz(path, _NAMES, error=SettingsError, hint="give a file of newtons and counts")
+            missing = [name for name in _NAMES if name not in content]
+            if missing:
+                raise SettingsError(f"{path}: no array {missing[0]!r}; needed are `newtons` and `counts`")
+            newtons, counts = (np.asarray(content[name], dtype=np.float64) for name in _NAMES)
         else:
             raise SettingsError(f"{path}: a force response is a .csv or .npz file of newtons and counts")
     except OSError as error:
         raise SettingsError(f"{path}: cannot be read ({error.strerror or error}); give an existing file") from error
-    except (ValueError, EOFError, zipfile.BadZipFile, csv.Error) as error:
+    except (ValueError, TypeError, csv.Error) as error:
         raise SettingsError(f"{path}: damaged, or not what its name says ({error})") from error
     _check(path, newtons, counts)
     return newtons, counts
@@ -75,16 +75,21 @@ def _check(path: Path, newtons: NDArray[np.float64], counts: NDArray[np.float64]
         raise SettingsError(f"{path}: newtons {newtons.shape}, counts {counts.shape}: needed are as many, two or more")
     if not (np.isfinite(newtons).all() and np.isfinite(counts).all()):
         raise SettingsError(f"{path}: a point is not finite")
-    if newtons[0] < 0 or (np.diff(newtons) <= 0).any():
-        raise SettingsError(f"{path}: newtons must begin at 0 or above and grow from point to point")
+    # The first point is compared with what lies just below 0.
+    not_above = np.diff(newtons, prepend=-np.finfo(np.float64).tiny) <= 0
+    if not_above.any():
+        at = int(np.argmax(not_above))
+        raise SettingsError(
+            f"{path}: point {at + 1}, {newtons[at]:g} N: newtons must begin at 0 or above and grow from point to point"
+        )
     if counts[0] < 0 or counts[-1] > COUNT_MAX:
         raise SettingsError(f"{path}: counts {counts[0]:g} to {counts[-1]:g}: allowed are 0 to {COUNT_MAX}")
     flat = (np.diff(counts) <= 0) & ~((counts[1:] == 0) & (counts[:-1] == 0))
     if flat.any():
         at = int(np.argmax(flat)) + 1
         raise SettingsError(
-            f"{path}: counts fall or stay at {counts[at]:g} ({newtons[at]:g} N): they must grow from point to point, "
-            "but for zeros at the beginning"
+            f"{path}: point {at + 1}: counts fall or stay at {counts[at]:g} ({newtons[at]:g} N): they must grow from "
+            "point to point, but for zeros at the beginning"
         )
     if counts[-1] == 0:
         raise SettingsError(f"{path}: all counts are 0")

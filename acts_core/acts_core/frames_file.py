@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import zipfile
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,6 +10,7 @@ from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX
 from acts_core.errors import RecordingError
+from acts_core.npz_file import read_npz
 
 
 @dataclass(frozen=True)
@@ -50,18 +50,10 @@ def load_frames(path: Path) -> FramesFile:
     RecordingError
         When it cannot be read or its arrays do not fit together.
     """
-    try:
-        archive = np.load(path, allow_pickle=False)
-        if not isinstance(archive, np.lib.npyio.NpzFile) or "frames" not in archive:
-            raise RecordingError(f"{path}: needed is an npz file with an array `frames` (n, rows, cols)")
-        with archive:
-            content = {
-                name: archive[name] for name in ("frames", "live", "start", "length", "rate_hz") if name in archive
-            }
-    except OSError as error:
-        raise RecordingError(f"{path}: cannot be read ({error.strerror or error})") from error
-    except (ValueError, EOFError, zipfile.BadZipFile) as error:
-        raise RecordingError(f"{path}: not an npz file, or damaged ({error})") from error
+    needed = "needed is an npz file with an array `frames` (n, rows, cols)"
+    content = read_npz(path, ("frames", "live", "start", "length", "rate_hz"), error=RecordingError, hint=needed)
+    if "frames" not in content:
+        raise RecordingError(f"{path}: no array `frames`; {needed}")
     frames = content["frames"]
     if frames.ndim != 3 or not len(frames) or not np.issubdtype(frames.dtype, np.number):
         raise RecordingError(f"{path}: frames {frames.shape}, {frames.dtype}: needed are numbers (n, rows, cols)")

@@ -92,7 +92,7 @@ def test_the_table_of_the_default_is_the_default() -> None:
         ([0.0], [0.0], "two or more"),
         ([0.0, np.nan], [0.0, 5.0], "not finite"),
         ([-1.0, 1.0], [0.0, 5.0], "newtons must begin"),
-        ([0.0, 1.0, 1.0], [0.0, 5.0, 6.0], "newtons must"),
+        ([0.0, 1.0, 1.0], [0.0, 5.0, 6.0], "point 3, 1 N: newtons must"),
         ([0.0, 1.0], [0.0, 1024.0], "allowed are 0 to 1023"),
         ([0.0, 1.0, 2.0], [0.0, 5.0, 4.0], r"fall or stay at 4 \(2 N\)"),
         ([0.0, 1.0, 2.0], [0.0, 5.0, 5.0], "fall or stay"),
@@ -121,7 +121,7 @@ def test_files_that_are_no_response_are_refused(tmp_path: Path) -> None:
     assert "point 2, counts: 'much'" in refusal("word.csv", b"newtons,counts\n0,0\n1,much\n")
     assert "point 1, counts: None" in refusal("short.csv", b"newtons,counts\n0\n")
     assert "damaged" in refusal("binary.csv", b"newtons,counts\n\xff\xfe")
-    assert "damaged" in refusal("text.npz", b"newtons,counts\n0,0\n")
+    assert "not an npz file" in refusal("text.npz", b"newtons,counts\n0,0\n")
     assert ".csv or .npz" in refusal("response.txt", b"newtons,counts\n0,0\n")
     np.savez(tmp_path / "other.npz", grams=[1.0])
     assert "no array 'newtons'" in refusal("other.npz", None)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import zipfile
 from dataclasses import dataclass
 from enum import IntEnum
 from pathlib import Path
@@ -13,6 +12,7 @@ from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import ArrayError, SettingsError
+from acts_core.npz_file import read_npz
 
 _FORMAT = "acts_baseline"
 _VERSION = 1
@@ -102,20 +102,18 @@ class Baseline:
             When the file cannot be read, is no baseline, or one of another array.
         """
         again = "calibrate again, or remove the file"
+        content = read_npz(path, error=SettingsError, hint=again)
         try:
-            with np.load(path, allow_pickle=False) as archive:
-                if str(archive["format"]) != _FORMAT or int(archive["version"]) != _VERSION:
-                    raise SettingsError(f"{path}: no baseline of this release; {again}")
-                baseline = cls(
-                    counts=archive["baseline"].astype(np.float32),
-                    noise_counts=archive["noise"].astype(np.float32),
-                    valid=archive["valid"].astype(np.bool_),
-                    source=BaselineSource.FILE,
-                    time_ns=int(archive["time_ns"]),
-                )
-        except OSError as error:
-            raise SettingsError(f"{path}: cannot be read ({error.strerror or error})") from error
-        except (ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile, ArrayError) as error:
+            if str(content["format"]) != _FORMAT or int(content["version"]) != _VERSION:
+                raise SettingsError(f"{path}: no baseline of this release; {again}")
+            baseline = cls(
+                counts=content["baseline"].astype(np.float32),
+                noise_counts=content["noise"].astype(np.float32),
+                valid=content["valid"].astype(np.bool_),
+                source=BaselineSource.FILE,
+                time_ns=int(content["time_ns"]),
+            )
+        except (ValueError, KeyError, TypeError, ArrayError) as error:
             raise SettingsError(f"{path}: no baseline, or a damaged one ({error}); {again}") from error
         if baseline.counts.shape != (rows, cols):
             given = " x ".join(map(str, baseline.counts.shape))

@@ -62,6 +62,8 @@ class BaselineServices:
             self._tracker.set(baseline)
             self._publish(baseline)
             node.get_logger().info(f"baseline of {int(baseline.valid.sum())} taxels from {self._path}")
+        elif self._path is not None:
+            node.get_logger().info(f"no baseline yet: {self._path} is not there, the service ~/calibrate writes it")
         self._timer = node.create_timer(_PUBLISH_PERIOD_S, self._publish_where_moved)
 
     def values(self) -> dict[str, object]:

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import zipfile
 from pathlib import Path
-
-import numpy as np
 
 from acts_core.board_models import BoardModel, object_library, patch_dictionary
 from acts_core.errors import ArrayError, BoardError
+from acts_core.npz_file import read_npz
 
 
 def load_model(path: Path) -> BoardModel:
@@ -19,20 +17,13 @@ def load_model(path: Path) -> BoardModel:
     BoardError
         The file is missing, is neither, or a board cannot hold it.
     """
-    try:
-        with np.load(path, allow_pickle=False) as archive:
-            content = {name: archive[name] for name in ("atoms", "columns", "classes") if name in archive}
-    except OSError as error:
-        raise BoardError(f"model {path}: cannot be read ({error.strerror or error})") from error
-    except (ValueError, EOFError, AttributeError, zipfile.BadZipFile) as error:
-        raise BoardError(f"model {path}: not an npz file, or damaged ({error})") from error
+    needed = "needed is a dictionary (atoms), as of `acts train`, or an object library (columns, classes)"
+    content = read_npz(path, ("atoms", "columns", "classes"), error=BoardError, hint=needed)
     try:
         if "atoms" in content:
             return patch_dictionary(content["atoms"])
         if "columns" in content and "classes" in content:
             return object_library(content["columns"], content["classes"])
     except ArrayError as error:
-        raise BoardError(f"model {path}: {error}") from error
-    raise BoardError(
-        f"model {path}: needed is a dictionary (atoms), as of `acts train`, or an object library (columns, classes)"
-    )
+        raise BoardError(f"{path}: {error}") from error
+    raise BoardError(f"{path}: no model for a board; {needed}")

@@ -15,6 +15,7 @@ from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import RecordingError
 from acts_core.frames import SampleFrame, Scheme
 from acts_core.frames_file import FramesFile, load_frames
+from acts_core.npz_file import read_npz
 from acts_core.sampling import SCHEMES, Sampler, SamplingConfig, measure_in
 
 MEASUREMENT_US = 17.877
@@ -73,7 +74,7 @@ def open_recording(options: ReplayOptions) -> Recording:
     if not path.exists():
         raise RecordingError(f"there is no recording '{path}'; give a bag (folder or .mcap) or an .npz file")
     if path.suffix == ".npz":
-        if "indices" in _names_in(path):
+        if _has_samples(path):
             return RecordedSamples.load(path)
         content = load_frames(path)
         rows, cols = content.frames.shape[1:]
@@ -182,7 +183,7 @@ class RecordedSamples:
         RecordingError
             It cannot be read, or its arrays do not fit together.
         """
-        content = _load(path)
+        content = read_npz(path, error=RecordingError)
         for name in ("indices", "counts"):
             if name not in content or content[name].ndim != 2 or content[name].dtype.kind not in "iu":
                 raise RecordingError(f"{path}: needed are whole numbers indices (n, m) and counts (n, m)")
@@ -227,24 +228,13 @@ class RecordedSamples:
             )
 
 
-def _load(path: Path) -> dict[str, NDArray[Any]]:
-    try:
-        with np.load(path, allow_pickle=False) as archive:
-            return {name: archive[name] for name in archive.files}
-    except OSError as error:
-        raise RecordingError(f"{path}: cannot be read ({error.strerror or error})") from error
-    except (ValueError, EOFError, zipfile.BadZipFile, AttributeError) as error:
-        raise RecordingError(f"{path}: not an npz file, or damaged ({error})") from error
-
-
-def _names_in(path: Path) -> list[str]:
+def _has_samples(path: Path) -> bool:
     try:
         with zipfile.ZipFile(path) as archive:
-            return [name.removesuffix(".npy") for name in archive.namelist()]
-    except OSError as error:
-        raise RecordingError(f"{path}: cannot be read ({error.strerror or error})") from error
-    except zipfile.BadZipFile as error:
-        raise RecordingError(f"{path}: not an npz file, or damaged ({error})") from error
+            return "indices.npy" in archive.namelist()
+    except (OSError, ValueError, zipfile.BadZipFile):
+        # Who reads it tells what is wrong with it.
+        return False
 
 
 def _rate_of(content: FramesFile, path: Path) -> float:

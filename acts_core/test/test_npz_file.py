@@ -1,0 +1,73 @@
+"""Arrays out of sound, damaged and other files."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import tempfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from acts_core.errors import ActsError, SettingsError
+from acts_core.npz_file import read_npz
+
+
+def archive() -> bytes:
+    file = io.BytesIO()
+    np.savez_compressed(file, a=np.arange(300), b=np.eye(7), text="words")
+    return file.getvalue()
+
+
+WHOLE = archive()
+
+
+def test_arrays_are_read_by_name(tmp_path: Path) -> None:
+    (tmp_path / "x.npz").write_bytes(WHOLE)
+    assert set(read_npz(tmp_path / "x.npz", error=ActsError)) == {"a", "b", "text"}
+    found = read_npz(tmp_path / "x.npz", ("a", "c"), error=ActsError)
+    assert found.keys() == {"a"}
+    np.testing.assert_array_equal(found["a"], np.arange(300))
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (None, "No such file"),
+        (b"", "not an npz file"),
+        (b"words", "not an npz file"),
+        (WHOLE[: len(WHOLE) // 2], "not an npz file, or a part of one"),
+    ],
+)
+def test_what_is_wrong_and_what_to_do_is_said(content: bytes | None, words: str, tmp_path: Path) -> None:
+    path = tmp_path / "x.npz"
+    if content is not None:
+        path.write_bytes(content)
+    with pytest.raises(SettingsError, match=words) as caught:
+        read_npz(path, error=SettingsError, hint="make it anew")
+    assert str(caught.value).startswith(str(path))
+    assert str(caught.value).endswith("; make it anew")
+    assert "pickle" not in str(caught.value)
+
+
+def test_pickled_arrays_and_folders_are_refused(tmp_path: Path) -> None:
+    np.savez(tmp_path / "x.npz", a=np.array([{}]))
+    for path in (tmp_path / "x.npz", tmp_path):
+        with pytest.raises(SettingsError):
+            read_npz(path, error=SettingsError)
+
+
+@given(st.lists(st.tuples(st.integers(0, len(WHOLE) - 1), st.integers(1, 255)), min_size=1, max_size=4))
+@settings(max_examples=300, deadline=None)
+def test_no_damage_raises_anything_else(damage: list[tuple[int, int]]) -> None:
+    content = bytearray(WHOLE)
+    for at, turned in damage:
+        content[at] ^= turned
+    with tempfile.NamedTemporaryFile(suffix=".npz") as file:
+        file.write(content)
+        file.flush()
+        with contextlib.suppress(SettingsError):
+            read_npz(Path(file.name), error=SettingsError)
