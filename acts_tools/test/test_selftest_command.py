@@ -75,9 +75,9 @@ def test_the_board_gets_its_settings_back_even_when_interrupted(tmp_path: Path) 
 
         def settings() -> object:
             with BoardReader(str(board.link), "binary", 32, 32) as reader:
-                reply = reader.query()
-            assert reply is not None
-            return reply.state.settings
+                state = reader.query()
+            assert state is not None
+            return state.settings
 
         own = settings()
         assert own.scheme == "tracking"  # type: ignore[attr-defined]

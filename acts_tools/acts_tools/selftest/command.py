@@ -99,20 +99,22 @@ def _simulated(arguments: argparse.Namespace, stack: ExitStack) -> SimulatedSkin
 
 
 def _test(arguments: argparse.Namespace, skin: SimulatedSkin | None) -> SelfTest:
+    from acts_driver.board_session import version_in_words
     from acts_tools.selftest.session import BoardReader
 
     port = arguments.port if skin is None else skin.port
     with BoardReader(port, arguments.protocol, arguments.rows, arguments.cols) as board:
-        reply = board.query()
-        if reply is None:
+        state = board.query()
+        if state is None:
             print("the board takes no commands: it is tested with the frames that it sends", file=sys.stderr)
-            return _phases(arguments, skin, board, 0.0)
-        with board.full_frames(reply.state.settings) as settings:
-            return _phases(arguments, skin, board, float(settings.frame_period_us))
+            return _phases(arguments, skin, board, "", 0.0)
+        who = f", board {state.board_id}, firmware {version_in_words(state)}"
+        with board.full_frames(state.settings) as settings:
+            return _phases(arguments, skin, board, who, float(settings.frame_period_us))
 
 
 def _phases(
-    arguments: argparse.Namespace, skin: SimulatedSkin | None, board: BoardReader, frame_period_us: float
+    arguments: argparse.Namespace, skin: SimulatedSkin | None, board: BoardReader, who: str, frame_period_us: float
 ) -> SelfTest:
     from acts_driver.selftest.findings import Thresholds
     from acts_driver.selftest.timing import judge_timing, measure_timing
@@ -141,7 +143,7 @@ def _phases(
             touched = board.record(rows, cols, seconds, _Countdown(seconds))
         touch = measure_touched(touched, untouched, thresholds)
         findings += judge_touched(touch, untouched, thresholds)
-    name = board.name if skin is None else "the virtual board"
+    name = (board.name if skin is None else "the virtual board") + who
     return SelfTest(name, rows, cols, first.scheme.name.lower(), thresholds, findings, untouched, timing, touch)
 
 

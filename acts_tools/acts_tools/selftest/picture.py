@@ -19,13 +19,13 @@ from matplotlib.patches import Rectangle
 _FAULT = "#00c8ff"
 _COLOURS = {Level.PASS: "#2ca02c", Level.WARN: "#e08a00", Level.FAIL: "#d62728"}
 _ROWS_COLOUR, _COLS_COLOUR = "#1f77b4", "#9467bd"
-_LINE_CHARACTERS = 62
+_LINE_CHARACTERS = 56
 
 
 def draw(test: SelfTest, path: Path) -> None:
     """Draw a self-test into a PNG file; its folder is made."""
     figure = plt.figure(figsize=(15, 9.2), layout="constrained")
-    grid = figure.add_gridspec(2, 3, height_ratios=[1.25, 1])
+    grid = figure.add_gridspec(2, 3, height_ratios=[1.25, 1], width_ratios=[1, 1, 1.3])
     figure.suptitle(f"Self-test of {test.board}: {test.verdict}", fontsize=14, color=_COLOURS[test.level])
     noise = test.skin.noise_counts
     _draw_map(figure, grid[0, 0], noise, "noise [counts]", max(float(np.nanmax(noise)), 2.0), "viridis", test, "noise")
@@ -138,6 +138,11 @@ def _draw_findings(axes: Any, findings: list[Finding]) -> None:
         text = f"{finding.name}: {finding.text}"
         if len(text) > _LINE_CHARACTERS:
             text = text[: _LINE_CHARACTERS - 1] + "…"
-        axes.text(0.0, y, finding.level.name, color=_COLOURS[finding.level], weight="bold", fontsize=9, va="top")
-        axes.text(0.14, y, text, fontsize=9, va="top")
+        level = axes.text(
+            0.0, y, finding.level.name, color=_COLOURS[finding.level], weight="bold", fontsize=9, va="top"
+        )
+        words = axes.text(0.16, y, text, fontsize=9, va="top")
+        # They may be longer than the axes are wide, which must not push the other axes together.
+        level.set_in_layout(False)
+        words.set_in_layout(False)
         y -= 0.068

@@ -42,9 +42,8 @@ class SelfTest:
         counts = {level: sum(finding.level is level for finding in self.findings) for level in Level}
         if self.level is Level.PASS:
             return f"PASS: {len(self.findings)} items, nothing found"
-        return (
-            f"{self.level.name}: {counts[Level.FAIL]} faults, {counts[Level.WARN]} warnings, {counts[Level.PASS]} good"
-        )
+        faults, warnings = _counted(counts[Level.FAIL], "fault"), _counted(counts[Level.WARN], "warning")
+        return f"{self.level.name}: {faults}, {warnings}, {counts[Level.PASS]} good"
 
     def text(self) -> str:
         """The report for a person."""
@@ -83,6 +82,10 @@ class SelfTest:
             "thresholds": asdict(self.thresholds),
         }
         return json.dumps(content, indent=1) + "\n"
+
+
+def _counted(n: int, thing: str) -> str:
+    return f"{n} {thing}" if n == 1 else f"{n} {thing}s"
 
 
 def _number(value: float) -> float | None:

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+import queue
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 
-from acts_core.board_messages import BoardMessage
-from acts_core.commands import BoardSettings, Reply, encode_configure, encode_query
+from acts_core.commands import BoardSettings, BoardState
 from acts_core.delimited import DelimitedDecoder
 from acts_core.errors import PortError
 from acts_core.frames import SampleFrame
 from acts_core.raster_ascii import RasterDecoder
 from acts_core.wire import StreamDecoder
+from acts_driver.board import BoardLink, NoAnswerError, RefusedError
+from acts_driver.reader import Reader
 from acts_driver.selftest.record import FrameRecord
 from acts_driver.source import SerialSource
 
@@ -21,6 +23,7 @@ _REPLY_S = 0.5
 _TRIES = 4
 _SILENT_S = 5.0
 _SETTLE_FRAMES = 3
+_LOOK_S = 0.1
 
 
 class BoardReader:
@@ -38,20 +41,24 @@ class BoardReader:
 
     def __init__(self, port: str, protocol: str, rows: int, cols: int) -> None:
         self._source = SerialSource(port)
-        self._reply: Reply | None = None
         self._is_binary = protocol == "binary"
+        # More patient than the driver: full frames come slowly, and nothing else waits.
+        self._link = BoardLink(self._source.write, reply_timeout_s=_REPLY_S, tries=_TRIES)
         self._decoder: DelimitedDecoder = (
-            StreamDecoder(on_message=self._keep_reply) if self._is_binary else RasterDecoder(rows, cols)
+            StreamDecoder(self._link.take) if self._is_binary else RasterDecoder(rows, cols)
         )
-        self._request = time.monotonic_ns() & 0xFFFFFFFF
+        self._batches: queue.SimpleQueue[tuple[list[SampleFrame], int]] = queue.SimpleQueue()
+        self._reader = Reader(
+            self._source, self._decoder, lambda frames, arrival_ns: self._batches.put((frames, arrival_ns))
+        )
 
     def __enter__(self) -> BoardReader:
         self._source.open()
-        self._decoder.reset()
+        self._reader.start(is_open=True)
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._source.close()
+        self._reader.stop()
 
     @property
     def name(self) -> str:
@@ -63,9 +70,14 @@ class BoardReader:
         """Whether the frames carry a clock."""
         return self._decoder.has_board_clock
 
-    def query(self) -> Reply | None:
+    def query(self) -> BoardState | None:
         """The board's state; None where it does not understand commands."""
-        return self._exchange(encode_query) if self._is_binary else None
+        if not self._is_binary:
+            return None
+        try:
+            return self._link.query().state
+        except (NoAnswerError, RefusedError):
+            return None
 
     @contextmanager
     def full_frames(self, own: BoardSettings) -> Iterator[BoardSettings]:
@@ -75,13 +87,21 @@ class BoardReader:
         ------
         BoardSettings
             What is in force; `own` where the board does not do it.
+
+        Raises
+        ------
+        NoAnswerError, PortError
+            The board has stopped answering, or is gone.
         """
         wanted = replace(own, scheme="raster", output="samples", frame_period_us=0)
         try:
-            reply = self._exchange(lambda request: encode_configure(request, wanted))
-            yield wanted if reply is not None and reply.ok else own
+            try:
+                in_force = self._link.configure(wanted).state.settings
+            except RefusedError:
+                in_force = own
+            yield in_force
         finally:
-            self._exchange(lambda request: encode_configure(request, own))
+            self._link.configure(own)
 
     def first_frame(self) -> SampleFrame:
         """The next frame but a few, which may have been measured under other settings.
@@ -124,25 +144,16 @@ class BoardReader:
     def _read_while(
         self, condition: Callable[[], bool], take: Callable[[SampleFrame, int], None], longest_s: float
     ) -> None:
+        """Take the frames that come from now on."""
+        while not self._batches.empty():
+            self._batches.get()
         end_s = time.monotonic() + longest_s
         while condition() and time.monotonic() < end_s:
-            data = self._source.read()
-            arrival_ns = time.time_ns()
-            for frame in self._decoder.feed(data):
+            if self._reader.problem or self._reader.reconnects:
+                raise PortError(f"{self._reader.problem or f'port {self.name} was lost'}; begin again")
+            try:
+                frames, arrival_ns = self._batches.get(timeout=_LOOK_S)
+            except queue.Empty:
+                continue
+            for frame in frames:
                 take(frame, arrival_ns)
-
-    def _keep_reply(self, message: BoardMessage) -> None:
-        if isinstance(message, Reply) and message.request == self._request:
-            self._reply = message
-
-    def _exchange(self, encode: Callable[[int], bytes]) -> Reply | None:
-        """A command and its reply; repeated where none comes, which is harmless. None where none ever comes."""
-        self._request = (self._request + 1) & 0xFFFFFFFF
-        self._reply = None
-        packet = encode(self._request)
-        for _ in range(_TRIES):
-            self._source.write(packet, _REPLY_S)
-            self._read_while(lambda: self._reply is None, lambda frame, arrival_ns: None, _REPLY_S)
-            if self._reply is not None:
-                break
-        return self._reply
