@@ -1,0 +1,224 @@
+"""The contacts in an image one by one, each with what the image's uncertainty leaves of its numbers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage, special
+
+from acts_core.array import COUNT_MAX, ArrayGeometry
+from acts_core.force import ForceResponse, MeasuredForceResponse, force_table
+from acts_core.settings import setting, validate
+from acts_recon.blob_kernels import MAX_BLOBS
+
+
+@dataclass(frozen=True)
+class BlobConfig:
+    """Settings of contacts with numbers."""
+
+    touch_counts: int = setting(60, "counts above which a taxel becomes pressed", minimum=0, maximum=COUNT_MAX)
+    hysteresis_counts: int = setting(
+        10, "a pressed taxel ceases to be at so many counts less; never below 0", minimum=0, maximum=COUNT_MAX
+    )
+    bridge_s: float = setting(
+        0.02, "a contact that comes back within this time keeps its number [s]", minimum=0.0, maximum=10.0
+    )
+    memory_s: float = setting(
+        10.0, "contacts that became one get their numbers back within this time [s]", minimum=0.0, maximum=1000.0
+    )
+
+    def __post_init__(self) -> None:
+        validate(self)
+
+    @property
+    def release_counts(self) -> int:
+        """Counts at or below which a pressed taxel ceases to be."""
+        return max(self.touch_counts - self.hysteresis_counts, 0)
+
+
+class TrackedBlob(NamedTuple):
+    """A contact with a number; positions are in the skin's frame (see `ArrayGeometry`). None of it is ever NaN.
+
+    Standard deviations (``_sd_``) are 0 where the uncertainty of the image is not known.
+
+    Attributes
+    ----------
+    number : int
+        Which contact this is; from 1.
+    merged : int
+        How many other numbered contacts it has taken in.
+    age_s : float
+        Since it began [s].
+    x_m, y_m : float
+        Centre of pressure: mean position of its taxels, weighted by force [m].
+    vx_m_s, vy_m_s : float
+        Velocity of the centre of pressure [m/s].
+    force_n : float
+        Sum of the forces on its taxels [N].
+    peak_counts : float
+        Its largest value [counts].
+    area_m2 : float
+        Area of its taxels [m^2].
+    active_taxels : int
+    spread_m : float
+        Root mean square distance of the force from the centre of pressure [m].
+    angle_rad : float
+        Direction of the longest extent, from x towards y, above -pi/2 to pi/2; 0 where it has none.
+    x_sd_m, y_sd_m, vx_sd_m_s, vy_sd_m_s, force_sd_n, area_sd_m2 : float
+        Standard deviations of what their names say.
+    """
+
+    number: int
+    merged: int
+    age_s: float
+    x_m: float
+    y_m: float
+    vx_m_s: float
+    vy_m_s: float
+    force_n: float
+    peak_counts: float
+    area_m2: float
+    active_taxels: int
+    spread_m: float
+    angle_rad: float
+    x_sd_m: float
+    y_sd_m: float
+    vx_sd_m_s: float
+    vy_sd_m_s: float
+    force_sd_n: float
+    area_sd_m2: float
+
+
+@dataclass(frozen=True)
+class Blob:
+    """A contact in one image, without regard to the ones before.
+
+    Attributes
+    ----------
+    taxels : np.ndarray [shape=(n,), dtype=intp]
+        Its pressed taxels, row-major indices, growing.
+    x_m, y_m : float
+        Centre of pressure [m].
+    force_n, peak_counts : float
+        Sum of forces [N], largest value [counts].
+    moments_m2 : tuple of float
+        Central second moments of the force, xx, xy and yy [m^2].
+    x_var, y_var, force_var, taxels_var : float
+        Variances of position [m^2], force [N^2] and number of taxels.
+    """
+
+    taxels: NDArray[np.intp]
+    x_m: float
+    y_m: float
+    force_n: float
+    peak_counts: float
+    moments_m2: tuple[float, float, float]
+    x_var: float
+    y_var: float
+    force_var: float
+    taxels_var: float
+
+
+def slope_table(force_n: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Slope of a force table; where the table ends flat because the taxel is saturated, the last slope before.
+
+    Parameters
+    ----------
+    force_n : np.ndarray [shape=(1025,), dtype=float64]
+        See `acts_core.force.force_table`.
+
+    Returns
+    -------
+    np.ndarray [shape=(1024,), dtype=float64]
+        Newtons a count, between each count and the next.
+    """
+    slope = np.diff(force_n)
+    rising = np.flatnonzero(slope > 0)
+    if rising.size:
+        # The table may end within the last step that rises, which then is too flat.
+        slope[rising[-1] :] = slope[rising[-2:]].max()
+    return slope
+
+
+def find_blobs(
+    image: NDArray[np.floating],
+    geometry: ArrayGeometry,
+    response: ForceResponse | MeasuredForceResponse,
+    config: BlobConfig | None = None,
+    *,
+    sigma: NDArray[np.floating] | None = None,
+    pressed_before: NDArray[np.bool_] | None = None,
+) -> list[Blob]:
+    """Find the contacts in an image; the plain twin of `acts_recon.blob_kernels.find_blobs`.
+
+    A contact is a group of pressed taxels that touch along a side or at a corner. The strongest `MAX_BLOBS` are kept.
+
+    Uncertainty, to first order and with the errors of taxels independent: the error of a pressed taxel of `c` counts
+    and standard deviation `s` changes the force by ``f'(c) s``. With probability ``q = Phi(-abs(c - threshold) / s)`` it
+    is on the wrong side of its threshold, and its whole force should not be there; likewise an untouched neighbour
+    should be there with the threshold's force. Variances of the force are the sum of ``e**2 = (f' s)**2 + q f**2`` over the
+    taxels, those of the centre of pressure the sum of ``e**2 (x_taxel - x)**2 / F**2``, that of the number of taxels the
+    sum of ``q``.
+
+    Parameters
+    ----------
+    image : np.ndarray [shape=(rows, cols), dtype=float]
+        Counts.
+    geometry : ArrayGeometry
+    response : ForceResponse or MeasuredForceResponse
+    config : BlobConfig, optional
+    sigma : np.ndarray [shape=(rows, cols), dtype=float], optional
+        Standard deviations of the taxels [counts]; without them variances are 0.
+    pressed_before : np.ndarray [shape=(rows, cols), dtype=bool], optional
+        Which taxels were pressed in the frame before, for the hysteresis.
+
+    Returns
+    -------
+    list of Blob
+        In the order of their first taxels.
+    """
+    config = config or BlobConfig()
+    before = np.zeros(image.shape, dtype=np.bool_) if pressed_before is None else pressed_before
+    threshold = np.where(before, config.release_counts, config.touch_counts).astype(np.float64)
+    neighbours = np.ones((3, 3))
+    groups, n_groups = ndimage.label(image > threshold, structure=neighbours)
+    slopes = slope_table(force_table(response))
+    blobs = []
+    for group in range(1, n_groups + 1):
+        inside = groups == group
+        edge = ndimage.binary_dilation(inside, structure=neighbours) & (groups == 0)
+        row, col = np.nonzero(inside)
+        x, y = geometry.x_m(col), geometry.y_m(row)
+        counts = np.clip(image[inside], 0, COUNT_MAX).astype(np.float64)
+        force = response.force_n(counts)
+        total = float(force.sum())
+        x_m, y_m = float(force @ x) / total, float(force @ y) / total
+        moments = [float(force @ product) / total for product in ((x - x_m) ** 2, (x - x_m) * (y - y_m), (y - y_m) ** 2)]
+        square = np.zeros(image.shape)
+        wrong = np.zeros(image.shape)
+        if sigma is not None:
+            distance = np.abs(np.clip(image, 0, COUNT_MAX) - threshold)
+            unsure = (inside | edge) & (sigma > 0)
+            wrong[unsure] = special.ndtr(-distance[unsure] / sigma[unsure])
+            square[inside] = (slopes[counts.astype(np.intp)] * sigma[inside]) ** 2 + wrong[inside] * force**2
+            square[edge] = wrong[edge] * response.force_n(threshold[edge]) ** 2
+        all_x, all_y = geometry.x_m(np.arange(geometry.cols))[None, :], geometry.y_m(np.arange(geometry.rows))[:, None]
+        blobs.append(
+            Blob(
+                taxels=np.flatnonzero(inside),
+                x_m=x_m,
+                y_m=y_m,
+                force_n=total,
+                peak_counts=float(counts.max()),
+                moments_m2=(moments[0], moments[1], moments[2]),
+                x_var=float((square * (all_x - x_m) ** 2).sum()) / total**2,
+                y_var=float((square * (all_y - y_m) ** 2).sum()) / total**2,
+                force_var=float(square.sum()),
+                taxels_var=float(wrong.sum()),
+            )
+        )
+    strongest = sorted(blobs, key=lambda blob: -blob.force_n)[:MAX_BLOBS]
+    return [blob for blob in blobs if any(blob is kept for kept in strongest)]

@@ -1,0 +1,139 @@
+"""Topics ``contacts`` and ``contacts_view`` of the reconstruction node: the contacts one by one, with numbers."""
+
+from __future__ import annotations
+
+import time
+
+import numpy as np
+from builtin_interfaces.msg import Duration
+from numpy.typing import NDArray
+from rclpy.node import Node
+from visualization_msgs.msg import Marker, MarkerArray
+
+from acts_core.array import ArrayGeometry
+from acts_core.force import ForceResponse, MeasuredForceResponse
+from acts_msgs.msg import Contacts, TactileSamples, TrackedContact
+from acts_recon.blob_kernels import MAX_BLOBS
+from acts_recon.blob_tracker import BlobTracker
+from acts_recon.blobs import BlobConfig, TrackedBlob
+from acts_recon.rate_limit import RateLimit
+from acts_ros import qos
+
+_VIEW_RATE_HZ = 30.0
+_MARKER_LIFETIME_S = 0.2
+_MARKER_HEIGHT_M = 0.004
+_MAX_ID = 2**31
+
+
+class ContactsPublisher:
+    """Finds and follows the contacts of every image, and publishes acts_msgs/Contacts, while somebody listens.
+
+    For viewers there is a visualization_msgs/MarkerArray besides, at most 30 times a second: a disc as large as the
+    contact and its number.
+
+    Parameters
+    ----------
+    node : Node
+    geometry : ArrayGeometry
+        Of the images.
+    response : ForceResponse or MeasuredForceResponse
+    config : BlobConfig
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        geometry: ArrayGeometry,
+        response: ForceResponse | MeasuredForceResponse,
+        config: BlobConfig,
+    ) -> None:
+        self._tracker = BlobTracker(geometry, response, config)
+        self._publisher = node.create_publisher(Contacts, "contacts", **qos.overridable(qos.STREAM))
+        self._view_publisher = node.create_publisher(MarkerArray, "contacts_view", **qos.overridable(qos.VIEW))
+        self._view_limit = RateLimit(_VIEW_RATE_HZ)
+        # Filled anew for every frame: making messages costs more than sending them.
+        self._message = Contacts()
+        self._entries = [TrackedContact() for _ in range(MAX_BLOBS)]
+        self._send = False
+        self._send_view = False
+
+    def look_for_subscribers(self) -> None:
+        """To be called now and then: whether somebody listens."""
+        self._send = self._publisher.get_subscription_count() > 0
+        self._send_view = self._view_publisher.get_subscription_count() > 0
+
+    def publish(
+        self, samples: TactileSamples, image: NDArray[np.float32], sigma: NDArray[np.float32] | None = None
+    ) -> None:
+        """Find the contacts in the image made of these samples, and publish them.
+
+        Parameters
+        ----------
+        samples : TactileSamples
+        image : np.ndarray [shape=(rows, cols), dtype=float32]
+            Counts.
+        sigma : np.ndarray [shape=(rows, cols), dtype=float32], optional
+            Standard deviation of every taxel [counts], where it is known.
+        """
+        if not (self._send or self._send_view):
+            return
+        stamp = samples.header.stamp
+        found = self._tracker.step(image, stamp.sec + 1e-9 * stamp.nanosec, sigma)
+        if self._send:
+            message = self._message
+            message.header = samples.header
+            message.sequence = samples.sequence
+            message.dropped = self._tracker.dropped
+            for blob, entry in zip(found, self._entries, strict=False):
+                _fill(entry, blob)
+            message.contacts = self._entries[: len(found)]
+            self._publisher.publish(message)
+        if self._send_view and self._view_limit.due(time.monotonic()):
+            markers = [marker for blob in found for marker in _markers(samples, blob)]
+            self._view_publisher.publish(MarkerArray(markers=markers))
+
+
+def _fill(entry: TrackedContact, blob: TrackedBlob) -> None:
+    entry.number = blob.number
+    entry.merged = blob.merged
+    entry.age = blob.age_s
+    entry.position.x = blob.x_m
+    entry.position.y = blob.y_m
+    entry.velocity.x = blob.vx_m_s
+    entry.velocity.y = blob.vy_m_s
+    entry.force = blob.force_n
+    entry.peak = blob.peak_counts
+    entry.area = blob.area_m2
+    entry.active_taxels = blob.active_taxels
+    entry.spread = blob.spread_m
+    entry.orientation = blob.angle_rad
+    entry.position_sigma.x = blob.x_sd_m
+    entry.position_sigma.y = blob.y_sd_m
+    entry.velocity_sigma.x = blob.vx_sd_m_s
+    entry.velocity_sigma.y = blob.vy_sd_m_s
+    entry.force_sigma = blob.force_sd_n
+    entry.area_sigma = blob.area_sd_m2
+
+
+def _markers(samples: TactileSamples, blob: TrackedBlob) -> list[Marker]:
+    """A disc and a number; both vanish by themselves when they are not sent again."""
+    markers = []
+    diameter_m = 2.0 * float(np.sqrt(blob.area_m2 / np.pi))
+    # Colours by number, far apart for numbers that follow one another.
+    hue = 2 * np.pi * ((blob.number * 0.618) % 1.0)
+    red, green, blue = (float(0.5 + 0.5 * np.cos(hue + shift)) for shift in (0.0, 2.1, 4.2))
+    for namespace, kind in (("contacts", Marker.CYLINDER), ("numbers", Marker.TEXT_VIEW_FACING)):
+        marker = Marker(header=samples.header, ns=namespace, id=blob.number % _MAX_ID, type=kind, action=Marker.ADD)
+        marker.lifetime = Duration(nanosec=round(1e9 * _MARKER_LIFETIME_S))
+        marker.pose.position.x, marker.pose.position.y = blob.x_m, blob.y_m
+        marker.pose.orientation.w = 1.0
+        marker.color.r, marker.color.g, marker.color.b, marker.color.a = red, green, blue, 0.8
+        if kind == Marker.CYLINDER:
+            marker.scale.x = marker.scale.y = diameter_m
+            marker.scale.z = _MARKER_HEIGHT_M
+        else:
+            marker.pose.position.z = 3 * _MARKER_HEIGHT_M
+            marker.scale.z = 2.5 * _MARKER_HEIGHT_M
+            marker.text = str(blob.number)
+        markers.append(marker)
+    return markers
