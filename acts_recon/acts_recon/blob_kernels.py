@@ -223,11 +223,11 @@ def _propagate(
     for i in range(n + border.shape[0]):
         pressed = i < n
         t = members[blob.first + i] if pressed else border[i - n]
-        deviation = np.float64(sigma[t])
-        if not deviation > 0.0:
+        if not sigma[t] > 0.0:
             continue
-        deviation = min(deviation, float(COUNT_MAX))
-        value = min(max(np.float64(image[t]), 0.0), float(COUNT_MAX))
+        deviation = float(min(sigma[t], COUNT_MAX))
+        # What is not a number is not pressed.
+        value = float(min(image[t], COUNT_MAX)) if image[t] > 0.0 else 0.0
         threshold = release_counts if state[t] & _BEFORE else touch_counts
         wrong = 0.5 * math.erfc(abs(value - threshold) / (math.sqrt(2.0) * deviation))
         weight = _force(value if pressed else threshold, force_n)

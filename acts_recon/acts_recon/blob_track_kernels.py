@@ -4,8 +4,9 @@ Every contact that has a number is a track: active (seen in the last frame), awa
 (part of another track's contact, its host). `docs/reconstruction.md` says what becomes of the numbers; here is how:
 
 1. Tracks are predicted to the frame's time: by constant velocity, merged ones as an offset from their host's own part.
-2. Pairs of track and contact are given in the order of their distances where they overlap (the contact covers taxels that were
-   the track's) or lie within a gate. Merged tracks take part where their host's taxels are now two contacts or more.
+2. Pairs of track and contact are made in the order of their distances, where they overlap (the contact covers taxels
+   that were the track's) or lie within a gate. Merged tracks take part where their host's taxels are now two contacts
+   or more.
 3. An active track without a contact, whose taxels another's contact covers, is merged. The stronger is host.
 4. Contacts left over are new.
 """
@@ -19,45 +20,21 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_recon.blob_kernels import MAX_BLOBS
-
-MAX_TRACKS = 2 * MAX_BLOBS
-FREE, ACTIVE, AWAY, MERGED = 0, 1, 2, 3
-NUMBERS = 2**32
-
-TRACK = np.dtype(
-    [
-        ("number", "i8"),
-        ("state", "i8"),
-        ("host", "i8"),
-        ("blob", "i8"),
-        # Filter of position and velocity, and its covariances, axis by axis [m, s].
-        ("x", "f8"),
-        ("y", "f8"),
-        ("vx", "f8"),
-        ("vy", "f8"),
-        ("x_pp", "f8"),
-        ("x_pv", "f8"),
-        ("x_vv", "f8"),
-        ("y_pp", "f8"),
-        ("y_pv", "f8"),
-        ("y_vv", "f8"),
-        # Force of its contact, and the contact's second moments when it had not taken in others.
-        ("force_n", "f8"),
-        ("xx_m2", "f8"),
-        ("xy_m2", "f8"),
-        ("yy_m2", "f8"),
-        ("began_s", "f8"),
-        ("seen_s", "f8"),
-        # Merged: since when; place and velocity relative to the host's own part; part of the whole contact's force.
-        ("merged_s", "f8"),
-        ("dx", "f8"),
-        ("dy", "f8"),
-        ("dvx", "f8"),
-        ("dvy", "f8"),
-        ("share", "f8"),
-    ]
+from acts_recon.blob_motion_kernels import (
+    ACTIVE,
+    AWAY,
+    FREE,
+    MAX_TRACKS,
+    MERGED,
+    NONE,
+    count_merged,
+    leave,
+    own_part,
+    predict,
+    update,
 )
+
+NUMBERS = 2**32
 
 FOUND = np.dtype(
     [
@@ -84,25 +61,12 @@ FOUND = np.dtype(
 )
 """What `follow` says of each contact: the fields of `acts_recon.blobs.TrackedBlob`."""
 
-_NONE = -1
-# Contacts change their velocity by this much in a second (1-sigma), and begin with this one.
-_ACCELERATION_M_S2 = 20.0
-_FIRST_SPEED_M_S = 0.7
-_FASTEST_M_S = 2.5
-# After a pause of the frames this long a contact is looked for where it was, not where it was going.
-_PAUSE_S = 0.1
-# A pair without overlap is no further apart than this plus three standard deviations of the prediction.
+# A pair without overlap is no further apart than this plus three standard deviations of the prediction, and no further
+# than it gets at this speed.
 _GATE_TAXELS = 1.5
-# Error of the centre of pressure by sampling the skin in taxels: a taxel's side over sqrt(12) for one taxel, less for more;
-# and what is assumed where the uncertainty of the image is not known.
-_SAMPLING_TAXELS = 0.29
-_UNKNOWN_TAXELS = 0.2
+_FASTEST_M_S = 2.5
 # What parts from a contact is a merged one only if it has this part of the force expected of that.
 _LEAST_SHARE = 0.25
-# Filter of the offset between two merged contacts.
-_OFFSET_GAIN = 0.3
-_OFFSET_RATE_GAIN = 0.03
-_OFFSET_RATE_DECAY_S = 0.3
 
 
 @numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
@@ -159,9 +123,9 @@ def follow(
         Contacts written: `n`.
     """
     pitch = math.sqrt(pitch_m * pitch_y_m)
-    _predict(time_s, dt_s, bridge_s, memory_s, tracks)
+    predict(time_s, dt_s, bridge_s, memory_s, tracks)
     for b in range(n):
-        track_of[b] = _NONE
+        track_of[b] = NONE
         for t in range(MAX_TRACKS):
             overlap[b, t] = 0
         for i in range(blobs[b].first, blobs[b].last):
@@ -172,88 +136,26 @@ def follow(
     _prefer_the_stronger(n, blobs, tracks, overlap, track_of)
     _part(tracks)
     for t in range(MAX_TRACKS):
-        if tracks[t].state == ACTIVE and tracks[t].blob == _NONE:
+        if tracks[t].state == ACTIVE and tracks[t].blob == NONE:
             host = _covering(n, t, overlap, track_of)
-            if host == _NONE:
+            if host == NONE:
                 tracks[t].state = AWAY
             else:
                 _merge(time_s, t, host, blobs, tracks)
     for b in range(n):
-        if track_of[b] == _NONE:
+        if track_of[b] == NONE:
             track_of[b] = _begin(time_s, b, blobs, tracks, next_number)
     for b in range(n):
-        _update(time_s, dt_s, blobs[b], pitch_m, pitch_y_m, sigma_known, track_of[b], tracks)
+        update(time_s, dt_s, blobs[b], pitch_m, pitch_y_m, sigma_known, track_of[b], tracks)
     # Taxels of a contact that is away stay its own until another takes them.
     for i in range(owner.shape[0]):
         if owner[i] >= 0 and tracks[owner[i]].state != AWAY:
-            owner[i] = _NONE
+            owner[i] = NONE
     for b in range(n):
         for i in range(blobs[b].first, blobs[b].last):
             owner[members[i]] = track_of[b]
     _report(time_s, n, blobs, pitch_m * pitch_y_m, sigma_known, tracks, track_of, found)
     return n
-
-
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
-def _predict(time_s: float, dt_s: float, bridge_s: float, memory_s: float, tracks: NDArray[Any]) -> None:
-    variance = (_ACCELERATION_M_S2 * dt_s) ** 2
-    decay = math.exp(-dt_s / _OFFSET_RATE_DECAY_S)
-    for t in range(MAX_TRACKS):
-        track = tracks[t]
-        track.blob = _NONE
-        if track.state == AWAY and time_s - track.seen_s > bridge_s:
-            track.state = FREE
-            for other in range(MAX_TRACKS):
-                if tracks[other].state == MERGED and tracks[other].host == t:
-                    tracks[other].state = FREE
-        elif track.state == MERGED:
-            track.dx += track.dvx * dt_s
-            track.dy += track.dvy * dt_s
-            track.dvx *= decay
-            track.dvy *= decay
-            if time_s - track.merged_s > memory_s:
-                _leave(t, tracks)
-                track.state = FREE
-        if track.state == ACTIVE or track.state == AWAY:
-            if dt_s > _PAUSE_S:
-                track.vx = track.vy = 0.0
-            track.x += track.vx * dt_s
-            track.y += track.vy * dt_s
-            track.x_pp += dt_s * (2.0 * track.x_pv + dt_s * track.x_vv) + 0.25 * variance * dt_s**2
-            track.x_pv += dt_s * track.x_vv + 0.5 * variance * dt_s
-            track.x_vv += variance
-            track.y_pp += dt_s * (2.0 * track.y_pv + dt_s * track.y_vv) + 0.25 * variance * dt_s**2
-            track.y_pv += dt_s * track.y_vv + 0.5 * variance * dt_s
-            track.y_vv += variance
-
-
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
-def _own_part(t: int, tracks: NDArray[Any]) -> tuple[float, float]:
-    """Where a track itself is, without those merged with it."""
-    x, y = tracks[t].x, tracks[t].y
-    for other in range(MAX_TRACKS):
-        if tracks[other].state == MERGED and tracks[other].host == t:
-            x -= tracks[other].share * tracks[other].dx
-            y -= tracks[other].share * tracks[other].dy
-    return x, y
-
-
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
-def _merged(t: int, tracks: NDArray[Any]) -> int:
-    count = 0
-    for other in range(MAX_TRACKS):
-        if tracks[other].state == MERGED and tracks[other].host == t:
-            count += 1
-    return count
-
-
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
-def _leave(t: int, tracks: NDArray[Any]) -> None:
-    """Share the force anew among those that stay with the host of `t`."""
-    rest = max(1.0 - tracks[t].share, 1e-3)
-    for other in range(MAX_TRACKS):
-        if other != t and tracks[other].state == MERGED and tracks[other].host == tracks[t].host:
-            tracks[other].share = min(tracks[other].share / rest, 1.0)
 
 
 @numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
@@ -279,13 +181,12 @@ def _weigh(
         for b in range(n):
             if overlap[b, t] > 0:
                 covered += 1
-        parts = covered >= 2 and _merged(t, tracks) > 0
+        parts = covered >= 2 and count_merged(t, tracks) > 0
         x, y = track.x, track.y
         if parts:
-            x, y = _own_part(t, tracks)
-        free = _GATE_TAXELS * pitch
+            x, y = own_part(t, tracks)
         reach = _FASTEST_M_S * min(time_s - track.seen_s, bridge_s)
-        gate = free + min(3.0 * math.sqrt(max(track.x_pp, track.y_pp)), reach)
+        gate = _GATE_TAXELS * pitch + min(3.0 * math.sqrt(max(track.x_pp, track.y_pp)), reach)
         for b in range(n):
             distance = math.hypot(blobs[b].x_m - x, blobs[b].y_m - y)
             if overlap[b, t] > 0:
@@ -307,17 +208,17 @@ def _weigh(
 def _assign(n: int, tracks: NDArray[Any], cost: NDArray[np.float64], track_of: NDArray[np.int64]) -> None:
     while True:
         best = math.inf
-        best_b = best_t = _NONE
+        best_b = best_t = NONE
         for b in range(n):
-            if track_of[b] != _NONE:
+            if track_of[b] != NONE:
                 continue
             for t in range(MAX_TRACKS):
-                if cost[b, t] == math.inf or tracks[t].blob != _NONE:
+                if cost[b, t] == math.inf or tracks[t].blob != NONE:
                     continue
-                older = best_t != _NONE and tracks[t].number < tracks[best_t].number
+                older = best_t != NONE and tracks[t].number < tracks[best_t].number
                 if cost[b, t] < best or (cost[b, t] == best and older):
                     best, best_b, best_t = cost[b, t], b, t
-        if best_b == _NONE:
+        if best_b == NONE:
             return
         tracks[best_t].blob = best_b
         track_of[best_b] = best_t
@@ -331,25 +232,25 @@ def _prefer_the_stronger(
         track = tracks[t]
         if track.state != ACTIVE:
             continue
-        if track.blob == _NONE:
+        if track.blob == NONE:
             # Two became one: its number is that of the stronger.
             for b in range(n):
                 holder = track_of[b]
-                if overlap[b, t] == 0 or holder == _NONE or tracks[holder].state == MERGED:
+                if overlap[b, t] == 0 or holder == NONE or tracks[holder].state == MERGED:
                     continue
                 weaker = tracks[holder].force_n < track.force_n
                 if tracks[holder].force_n == track.force_n:
                     weaker = tracks[holder].number > track.number
                 if weaker and overlap[b, holder] > 0:
-                    tracks[holder].blob = _NONE
+                    tracks[holder].blob = NONE
                     track.blob = b
                     track_of[b] = t
                     break
-        elif _merged(t, tracks) == 0:
+        elif count_merged(t, tracks) == 0:
             # One became two: the stronger keeps its number.
             for b in range(n):
-                if track_of[b] == _NONE and overlap[b, t] > 0 and blobs[b].force_n > blobs[track.blob].force_n:
-                    track_of[track.blob] = _NONE
+                if track_of[b] == NONE and overlap[b, t] > 0 and blobs[b].force_n > blobs[track.blob].force_n:
+                    track_of[track.blob] = NONE
                     track.blob = b
                     track_of[b] = t
 
@@ -359,7 +260,7 @@ def _part(tracks: NDArray[Any]) -> None:
     """Make active what was merged and has a contact of its own again."""
     for t in range(MAX_TRACKS):
         track = tracks[t]
-        if track.state != MERGED or track.blob == _NONE:
+        if track.state != MERGED or track.blob == NONE:
             continue
         host = tracks[track.host]
         host_vx = host.vx - track.share * track.dvx
@@ -370,20 +271,20 @@ def _part(tracks: NDArray[Any]) -> None:
         track.x = track.y = math.inf
         # Where the host is, without this one.
         host_x, host_y = host.x - track.share * track.dx, host.y - track.share * track.dy
-        _leave(t, tracks)
+        leave(t, tracks)
         host.vx, host.vy = host_vx, host_vy
         host.x, host.y = host_x, host_y
         track.state = ACTIVE
-        track.host = _NONE
+        track.host = NONE
 
 
 @numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
 def _covering(n: int, t: int, overlap: NDArray[np.int32], track_of: NDArray[np.int64]) -> int:
     """The track whose contact covers most of what was `t`'s."""
-    host = _NONE
+    host = NONE
     most = 0
     for b in range(n):
-        if track_of[b] != _NONE and overlap[b, t] > most:
+        if track_of[b] != NONE and overlap[b, t] > most:
             most = overlap[b, t]
             host = track_of[b]
     return host
@@ -395,8 +296,8 @@ def _merge(time_s: float, t: int, h: int, blobs: NDArray[Any], tracks: NDArray[A
     if host.x == math.inf:
         # It has just parted from this very track, which is now gone into it.
         host.x, host.y = blobs[host.blob].x_m, blobs[host.blob].y_m
-    x, y = _own_part(t, tracks)
-    host_x, host_y = _own_part(h, tracks)
+    x, y = own_part(t, tracks)
+    host_x, host_y = own_part(h, tracks)
     share = track.force_n / max(track.force_n + host.force_n, 1e-30)
     own = 1.0
     for other in range(MAX_TRACKS):
@@ -421,7 +322,7 @@ def _merge(time_s: float, t: int, h: int, blobs: NDArray[Any], tracks: NDArray[A
     track.dvx, track.dvy = track.vx - host.vx, track.vy - host.vy
     host.vx += share * track.dvx
     host.vy += share * track.dvy
-    if _merged(h, tracks) > 1:
+    if count_merged(h, tracks) > 1:
         # Of more than two nobody says where they are in the contact: they stay as they were when they joined.
         track.dvx = track.dvy = 0.0
     host.x = host.y = math.inf
@@ -429,12 +330,12 @@ def _merge(time_s: float, t: int, h: int, blobs: NDArray[Any], tracks: NDArray[A
 
 @numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
 def _begin(time_s: float, b: int, blobs: NDArray[Any], tracks: NDArray[Any], next_number: NDArray[np.int64]) -> int:
-    place = _NONE
+    place = NONE
     for t in range(MAX_TRACKS):
         if tracks[t].state == FREE:
             place = t
             break
-    if place == _NONE:
+    if place == NONE:
         # There are twice as many places as active tracks; the one merged or away for longest goes.
         longest = math.inf
         for t in range(MAX_TRACKS):
@@ -443,7 +344,7 @@ def _begin(time_s: float, b: int, blobs: NDArray[Any], tracks: NDArray[Any], nex
                 longest = since
                 place = t
         if tracks[place].state == MERGED:
-            _leave(place, tracks)
+            leave(place, tracks)
         for other in range(MAX_TRACKS):
             if tracks[other].state == MERGED and tracks[other].host == place:
                 tracks[other].state = FREE
@@ -451,96 +352,12 @@ def _begin(time_s: float, b: int, blobs: NDArray[Any], tracks: NDArray[Any], nex
     track.number = next_number[0]
     next_number[0] = next_number[0] % (NUMBERS - 1) + 1
     track.state = ACTIVE
-    track.host = _NONE
+    track.host = NONE
     track.blob = b
     track.x = track.y = math.inf
     track.vx = track.vy = 0.0
     track.began_s = time_s
     return place
-
-
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
-def _update(
-    time_s: float,
-    dt_s: float,
-    blob: Any,
-    pitch_m: float,
-    pitch_y_m: float,
-    sigma_known: bool,
-    t: int,
-    tracks: NDArray[Any],
-) -> None:
-    track = tracks[t]
-    floor = _SAMPLING_TAXELS / blob.taxels
-    square = floor * floor + (0.0 if sigma_known else _UNKNOWN_TAXELS**2)
-    x_var = blob.x_var + square * pitch_m**2
-    y_var = blob.y_var + square * pitch_y_m**2
-    jump = track.x == math.inf
-    if not jump:
-        dx, dy = blob.x_m - track.x, blob.y_m - track.y
-        jump = abs(dx) > 0.5 * pitch_m + 3.0 * math.sqrt(track.x_pp + x_var)
-        jump = jump or abs(dy) > 0.5 * pitch_y_m + 3.0 * math.sqrt(track.y_pp + y_var)
-    if jump:
-        # New, joined or parted: no motion explains it, so that it says nothing about the velocity.
-        track.x, track.y = blob.x_m, blob.y_m
-        track.x_pp, track.y_pp = x_var, y_var
-        track.x_pv = track.y_pv = 0.0
-        track.x_vv = track.y_vv = _FIRST_SPEED_M_S**2
-    else:
-        total = track.x_pp + x_var
-        gain, rate_gain = track.x_pp / total, track.x_pv / total
-        track.x += gain * dx
-        track.vx += rate_gain * dx
-        track.x_vv -= rate_gain * track.x_pv
-        track.x_pv *= 1.0 - gain
-        track.x_pp *= 1.0 - gain
-        total = track.y_pp + y_var
-        gain, rate_gain = track.y_pp / total, track.y_pv / total
-        track.y += gain * dy
-        track.vy += rate_gain * dy
-        track.y_vv -= rate_gain * track.y_pv
-        track.y_pv *= 1.0 - gain
-        track.y_pp *= 1.0 - gain
-    track.state = ACTIVE
-    track.seen_s = time_s
-    track.force_n = blob.force_n
-    guests = _merged(t, tracks)
-    if guests == 0:
-        track.xx_m2, track.xy_m2, track.yy_m2 = blob.xx_m2, blob.xy_m2, blob.yy_m2
-    elif guests == 1 and not jump and dt_s > 0.0:
-        _follow_offset(dt_s, blob, pitch_m, t, tracks)
-
-
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
-def _follow_offset(dt_s: float, blob: Any, pitch_m: float, t: int, tracks: NDArray[Any]) -> None:
-    """Where in a contact of two the two are.
-
-    What the contact's second moments exceed those of the two alone is, along one axis, ``w (1 - w)`` times their distance
-    squared, with ``w`` the part of one in the force. Which way along the axis is known from the frame before; where
-    they pass through one another, from their velocities.
-    """
-    for g in range(MAX_TRACKS):
-        if tracks[g].state == MERGED and tracks[g].host == t:
-            break
-    guest, host = tracks[g], tracks[t]
-    w = guest.share
-    xx = blob.xx_m2 - (1.0 - w) * host.xx_m2 - w * guest.xx_m2
-    xy = blob.xy_m2 - (1.0 - w) * host.xy_m2 - w * guest.xy_m2
-    yy = blob.yy_m2 - (1.0 - w) * host.yy_m2 - w * guest.yy_m2
-    largest = 0.5 * (xx + yy) + math.hypot(0.5 * (xx - yy), xy)
-    distance = math.sqrt(max(largest, 0.0) / max(w * (1.0 - w), 1e-3))
-    if distance < pitch_m:
-        return
-    angle = 0.5 * math.atan2(2.0 * xy, xx - yy)
-    x, y = distance * math.cos(angle), distance * math.sin(angle)
-    if x * guest.dx + y * guest.dy < 0.0:
-        x, y = -x, -y
-    x -= guest.dx
-    y -= guest.dy
-    guest.dx += _OFFSET_GAIN * x
-    guest.dy += _OFFSET_GAIN * y
-    guest.dvx += _OFFSET_RATE_GAIN * x / dt_s
-    guest.dvy += _OFFSET_RATE_GAIN * y / dt_s
 
 
 @numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
@@ -564,7 +381,7 @@ def _report(
                 place += 1
         blob, entry = blobs[b], found[place]
         entry.number = me.number
-        entry.merged = _merged(track_of[b], tracks)
+        entry.merged = count_merged(track_of[b], tracks)
         entry.age_s = time_s - me.began_s
         entry.x_m, entry.y_m = blob.x_m, blob.y_m
         entry.vx_m_s, entry.vy_m_s = me.vx, me.vy

@@ -10,7 +10,7 @@ from acts_core.errors import ArrayError
 from acts_core.force import ForceResponse, MeasuredForceResponse, force_table
 from acts_recon import blob_kernels, blob_track_kernels
 from acts_recon.blob_kernels import MAX_BLOBS
-from acts_recon.blob_track_kernels import MAX_TRACKS
+from acts_recon.blob_motion_kernels import FREE, MAX_TRACKS, TRACK
 from acts_recon.blobs import BlobConfig, TrackedBlob, slope_table
 
 _LONGEST_PAUSE_S = 1.0
@@ -45,7 +45,7 @@ class BlobTracker:
         self._state = np.zeros(size, dtype=np.uint8)
         self._work = tuple(np.zeros(size, dtype=np.int32) for _ in range(3))
         self._blobs = np.zeros(MAX_BLOBS + 1, dtype=blob_kernels.BLOB)
-        self._tracks = np.zeros(MAX_TRACKS, dtype=blob_track_kernels.TRACK)
+        self._tracks = np.zeros(MAX_TRACKS, dtype=TRACK)
         self._owner = np.full(size, -1, dtype=np.int8)
         self._pairs = np.zeros((MAX_BLOBS, MAX_TRACKS), dtype=np.int32), np.zeros((MAX_BLOBS, MAX_TRACKS))
         self._track_of = np.zeros(MAX_BLOBS, dtype=np.int64)
@@ -126,7 +126,7 @@ class BlobTracker:
     def reset(self) -> None:
         """Forget all contacts; numbers go on."""
         self._state[:] = 0
-        self._tracks["state"] = blob_track_kernels.FREE
+        self._tracks["state"] = FREE
         self._owner[:] = -1
 
     def _flat(self, image: NDArray[np.float32], name: str) -> NDArray[np.float32]:

@@ -157,11 +157,11 @@ def find_blobs(
     A contact is a group of pressed taxels that touch along a side or at a corner. The strongest `MAX_BLOBS` are kept.
 
     Uncertainty, to first order and with the errors of taxels independent: the error of a pressed taxel of `c` counts
-    and standard deviation `s` changes the force by ``f'(c) s``. With probability ``q = Phi(-abs(c - threshold) / s)`` it
-    is on the wrong side of its threshold, and its whole force should not be there; likewise an untouched neighbour
-    should be there with the threshold's force. Variances of the force are the sum of ``e**2 = (f' s)**2 + q f**2`` over the
-    taxels, those of the centre of pressure the sum of ``e**2 (x_taxel - x)**2 / F**2``, that of the number of taxels the
-    sum of ``q``.
+    and standard deviation `s` changes the force by ``f'(c) s``. With probability ``q = Phi(-abs(c - threshold) / s)``
+    it is on the wrong side of its threshold, and its whole force should not be there; likewise an untouched neighbour
+    should be there with the threshold's force. The variance of the force is the sum of ``e**2 = (f' s)**2 + q f**2``
+    over the taxels, that of the centre of pressure the sum of ``e**2 (x_taxel - x)**2 / F**2``, that of the number of
+    taxels the sum of ``q``.
 
     Parameters
     ----------
@@ -196,7 +196,9 @@ def find_blobs(
         force = response.force_n(counts)
         total = float(force.sum())
         x_m, y_m = float(force @ x) / total, float(force @ y) / total
-        moments = [float(force @ product) / total for product in ((x - x_m) ** 2, (x - x_m) * (y - y_m), (y - y_m) ** 2)]
+        moments = [
+            float(force @ product) / total for product in ((x - x_m) ** 2, (x - x_m) * (y - y_m), (y - y_m) ** 2)
+        ]
         square = np.zeros(image.shape)
         wrong = np.zeros(image.shape)
         if sigma is not None:

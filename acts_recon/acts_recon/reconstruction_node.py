@@ -21,6 +21,7 @@ from acts_msgs.msg import Baseline, TactileSamples
 from acts_msgs.msg import Contact as ContactMessage
 from acts_recon.baseline import BaselineSubtraction
 from acts_recon.contact import Contact
+from acts_recon.contacts_publisher import ContactsPublisher
 from acts_recon.image import mono16, rgb8
 from acts_recon.object_publisher import ObjectPublisher
 from acts_recon.rate_limit import RateLimit
@@ -64,6 +65,9 @@ class ReconstructionNode(Node):
         self._objects: ObjectPublisher | None = None
         if classifier is not None:
             self._objects = ObjectPublisher(self, classifier, self._settings.object_rate_hz)
+        self._contacts = ContactsPublisher(
+            self, self._reconstructor.geometry, self._reconstructor.response, self._settings.blob_config()
+        )
 
         self._frames = 0
         self._lost = 0
@@ -86,6 +90,7 @@ class ReconstructionNode(Node):
         self._send_cop = self._cop_publisher.get_subscription_count() > 0
         self._send_raw = self._raw_publisher.get_subscription_count() > 0
         self._send_view = self._view_publisher.get_subscription_count() > 0
+        self._contacts.look_for_subscribers()
         if self._objects is not None:
             self._objects.look_for_subscribers()
 
@@ -115,6 +120,7 @@ class ReconstructionNode(Node):
             self._raw_publisher.publish(self._raw)
         if self._send_view:
             self._publish_view(samples)
+        self._contacts.publish(samples, self._reconstructor.image)
         if self._objects is not None:
             self._objects.publish(samples, indices, counts)
         self._durations_s.append(time.perf_counter() - began_s)

@@ -9,6 +9,7 @@ from acts_core.array import COUNT_MAX, MAX_SIDE, ArrayGeometry
 from acts_core.force import ForceResponse, MeasuredForceResponse
 from acts_core.layouts import LAYOUTS, layout
 from acts_core.settings import default_of, setting, validate
+from acts_recon.blobs import BlobConfig
 from acts_recon.classification import Classifier, ClassifierConfig
 from acts_recon.dictionary import load_dictionary
 from acts_recon.object_library import load_object_library
@@ -79,6 +80,24 @@ class ReconstructionSettings:
     image_full_scale_counts: float = setting(
         float(COUNT_MAX), "counts shown white in the topic image", minimum=1.0, maximum=float(COUNT_MAX)
     )
+    contacts_hysteresis_counts: int = setting(
+        default_of(BlobConfig, "hysteresis_counts"),
+        "topic contacts: a pressed taxel ceases to be at so many counts below touch_counts",
+        minimum=0,
+        maximum=COUNT_MAX,
+    )
+    contacts_bridge_s: float = setting(
+        default_of(BlobConfig, "bridge_s"),
+        "topic contacts: a contact that comes back within this time keeps its number [s]",
+        minimum=0.0,
+        maximum=10.0,
+    )
+    contacts_memory_s: float = setting(
+        default_of(BlobConfig, "memory_s"),
+        "topic contacts: contacts that became one get their numbers back within this time [s]",
+        minimum=0.0,
+        maximum=1000.0,
+    )
     object_library: str = setting("", "path of an object library, to publish the topic object; empty: off")
     object_columns: int = setting(
         default_of(ClassifierConfig, "max_columns"),
@@ -124,6 +143,15 @@ class ReconstructionSettings:
         if self.force_response:
             return ForceResponse.from_file(Path(self.force_response))
         return ForceResponse(self.force_full_scale_counts, self.force_dead_n, self.force_half_n)
+
+    def blob_config(self) -> BlobConfig:
+        """How contacts are told from one another and followed."""
+        return BlobConfig(
+            touch_counts=self.touch_counts,
+            hysteresis_counts=self.contacts_hysteresis_counts,
+            bridge_s=self.contacts_bridge_s,
+            memory_s=self.contacts_memory_s,
+        )
 
     def classifier(self) -> Classifier | None:
         """Load the object library and make everything ready for the first frame; None where there is to be none.

@@ -100,7 +100,12 @@ def test_sliding_contacts_keep_their_numbers(
     def presses(k: int) -> list[Press]:
         along = step * (k - frames / 2)
         return [
-            (15.5 + 9 * (i - (len(kinds) - 1) / 2) - along * np.sin(angle), 15.5 + along * np.cos(angle), width, newtons)
+            (
+                15.5 + 9 * (i - (len(kinds) - 1) / 2) - along * np.sin(angle),
+                15.5 + along * np.cos(angle),
+                width,
+                newtons,
+            )
             for i, (width, newtons) in enumerate(kinds)
         ]
 
@@ -279,7 +284,12 @@ def small_tracker() -> BlobTracker:
 
 @pytest.mark.parametrize(
     "image",
-    [np.zeros((32, 31), np.float32), np.zeros((32, 32)), np.zeros((64, 32), np.float32)[::2], np.zeros(1024, np.float32)],
+    [
+        np.zeros((32, 31), np.float32),
+        np.zeros((32, 32)),
+        np.zeros((64, 32), np.float32)[::2],
+        np.zeros(1024, np.float32),
+    ],
 )
 def test_images_of_another_kind_are_refused(tracker: BlobTracker, image: NDArray) -> None:
     with pytest.raises(ArrayError, match="needed is"):

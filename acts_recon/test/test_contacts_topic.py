@@ -1,0 +1,168 @@
+"""Topics contacts and contacts_view over real DDS; ROS_DOMAIN_IDs 120 and 121."""
+
+import time
+from array import array
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+import rclpy
+from numpy.typing import NDArray
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from recon_samples import bump
+from visualization_msgs.msg import Marker, MarkerArray
+
+from acts_core.array import ArrayGeometry
+from acts_core.force import ForceResponse
+from acts_msgs.msg import Contacts, TactileSamples
+from acts_recon.blob_kernels import MAX_BLOBS
+from acts_recon.blob_tracker import BlobTracker
+from acts_recon.blobs import BlobConfig
+from acts_recon.contacts_publisher import ContactsPublisher
+from acts_recon.reconstruction_node import ReconstructionNode
+from acts_ros import qos
+
+DEADLINE_S = 30.0
+GEOMETRY = ArrayGeometry()
+
+
+class Peers:
+    """Nodes in namespace /plate, one of them to listen, and what it heard."""
+
+    def __init__(self, domain_id: int) -> None:
+        self.context = Context()
+        rclpy.init(context=self.context, domain_id=domain_id)
+        self.executor = SingleThreadedExecutor(context=self.context)
+        self.nodes: list[Node] = []
+        self.listener = self.add(Node("listener", namespace="/plate", context=self.context))
+        self.received: dict[str, list[Any]] = {}
+
+    def add(self, node: Node) -> Node:
+        self.nodes.append(node)
+        self.executor.add_node(node)
+        return node
+
+    def listen(self, kind: type, topic: str, profile: Any) -> None:
+        messages = self.received.setdefault(topic, [])
+        subscription = self.listener.create_subscription(kind, topic, messages.append, profile)
+        self.until(lambda: subscription.get_publisher_count() > 0)
+
+    def until(self, condition: Callable[[], bool]) -> None:
+        deadline = time.monotonic() + DEADLINE_S
+        while not condition():
+            assert time.monotonic() < deadline, "timed out"
+            self.executor.spin_once(timeout_sec=0.05)
+
+    def close(self) -> None:
+        self.executor.shutdown()
+        for node in self.nodes:
+            node.destroy_node()
+        rclpy.try_shutdown(context=self.context)
+
+
+@pytest.fixture
+def make_peers() -> Iterator[Callable[[int], Peers]]:
+    made: list[Peers] = []
+
+    def make(domain_id: int) -> Peers:
+        made.append(Peers(domain_id))
+        return made[-1]
+
+    yield make
+    for peers in made:
+        peers.close()
+
+
+def samples_of(image: NDArray, sequence: int) -> TactileSamples:
+    """All taxels of an image, one frame a millisecond."""
+    message = TactileSamples(sequence=sequence, rows=32, cols=32, scheme=TactileSamples.SCHEME_RASTER)
+    message.header.frame_id = "plate"
+    message.header.stamp.sec = 100
+    message.header.stamp.nanosec = 1_000_000 * sequence
+    message.indices = array("H", np.arange(1024, dtype=np.uint16).tobytes())
+    message.counts = array("H", image.astype(np.uint16).tobytes())
+    return message
+
+
+def test_the_node_publishes_contacts_with_numbers_that_last(make_peers: Callable[[int], Peers]) -> None:
+    peers = make_peers(120)
+    node = peers.add(ReconstructionNode(context=peers.context, namespace="/plate", cli_args=[]))
+    assert node.get_parameter("contacts_bridge_s").value == pytest.approx(0.02)
+    publisher = peers.listener.create_publisher(TactileSamples, "samples", qos.STREAM)
+    peers.until(lambda: publisher.get_subscription_count() == 1)
+    peers.listen(Contacts, "contacts", qos.STREAM)
+    peers.until(lambda: node._contacts._send)
+
+    images = [
+        np.maximum(bump(GEOMETRY, 8, 6 + 0.4 * k), bump(GEOMETRY, 24, 26 - 0.4 * k, width=1.2)) for k in range(20)
+    ]
+    for sequence, image in enumerate(images):
+        publisher.publish(samples_of(image, sequence))
+        peers.until(lambda sequence=sequence: len(peers.received["contacts"]) > sequence)
+    publisher.publish(samples_of(np.zeros((32, 32)), 20))
+    peers.until(lambda: len(peers.received["contacts"]) > 20)
+
+    *pressed, untouched = peers.received["contacts"]
+    assert [message.sequence for message in pressed] == list(range(20))
+    assert all([contact.number for contact in message.contacts] == [1, 2] for message in pressed)
+    assert (untouched.sequence, list(untouched.contacts), untouched.dropped) == (20, [], 0)
+    last = pressed[-1]
+    assert last.header.frame_id == "plate"
+    assert (last.header.stamp.sec, last.header.stamp.nanosec) == (100, 19_000_000)
+    upper, lower = last.contacts
+    assert upper.position.x == pytest.approx(float(GEOMETRY.x_m(13.6)), abs=0.1 * GEOMETRY.pitch_m)
+    assert upper.position.y == pytest.approx(float(GEOMETRY.y_m(8)), abs=0.1 * GEOMETRY.pitch_m)
+    assert (upper.position.z, upper.velocity.z) == (0, 0)
+    assert upper.velocity.x == pytest.approx(400 * GEOMETRY.pitch_m, rel=0.1)
+    assert lower.velocity.x == pytest.approx(-400 * GEOMETRY.pitch_m, rel=0.1)
+    assert upper.age == pytest.approx(0.019, abs=1e-5)
+    assert upper.force > lower.force > 1
+    assert upper.active_taxels > lower.active_taxels > 10
+    assert upper.area == pytest.approx(upper.active_taxels * GEOMETRY.taxel_area_m2)
+
+
+def test_standard_deviations_and_markers_are_those_of_the_contact(make_peers: Callable[[int], Peers]) -> None:
+    peers = make_peers(121)
+    node = peers.add(Node("maker", namespace="/plate", context=peers.context))
+    response = ForceResponse()
+    contacts = ContactsPublisher(node, GEOMETRY, response, BlobConfig())
+    image = bump(GEOMETRY, 20.0, 12.0).astype(np.float32)
+    sigma = np.full((32, 32), 5, dtype=np.float32)
+    # Nobody listens: nothing is found, and no number is used up.
+    contacts.publish(samples_of(image, 0), image, sigma)
+    peers.listen(Contacts, "contacts", qos.STREAM)
+    peers.listen(MarkerArray, "contacts_view", qos.VIEW)
+    peers.until(lambda: contacts.look_for_subscribers() or (contacts._send and contacts._send_view))
+
+    (expected,) = BlobTracker(GEOMETRY, response).step(image, 0.0, sigma)
+    contacts.publish(samples_of(image, 1), image, sigma)
+    peers.until(lambda: all(peers.received.values()))
+    ((contact,),) = (message.contacts for message in peers.received["contacts"])
+    assert contact.number == 1
+    assert contact.position_sigma.x == expected.x_sd_m > 0
+    assert contact.position_sigma.y == expected.y_sd_m > 0
+    assert contact.velocity_sigma.x == expected.vx_sd_m_s > 0
+    assert contact.force_sigma == pytest.approx(expected.force_sd_n)
+    assert contact.area_sigma == pytest.approx(expected.area_sd_m2)
+    assert contact.spread == pytest.approx(expected.spread_m)
+    assert contact.orientation == pytest.approx(expected.angle_rad)
+
+    (markers,) = peers.received["contacts_view"]
+    disc, text = markers.markers
+    assert (disc.type, text.type, text.text) == (Marker.CYLINDER, Marker.TEXT_VIEW_FACING, "1")
+    assert (disc.header.frame_id, disc.id, disc.action) == ("plate", 1, Marker.ADD)
+    assert disc.pose.position.x == text.pose.position.x == contact.position.x
+    assert np.pi * (disc.scale.x / 2) ** 2 == pytest.approx(contact.area)
+    assert 0 < disc.lifetime.nanosec < 1e9
+
+    # More than fit: said, and as many as fit are sent.
+    many = np.zeros((32, 32), dtype=np.float32)
+    many[::4, ::4] = 200
+    contacts.publish(samples_of(many, 2), many)
+    peers.until(lambda: len(peers.received["contacts"]) == 2)
+    assert len(peers.received["contacts"][1].contacts) == MAX_BLOBS
+    assert peers.received["contacts"][1].dropped == 64 - MAX_BLOBS
+    assert peers.received["contacts"][1].contacts[0].position_sigma.x == 0
