@@ -10,8 +10,6 @@
 
 namespace {
 
-constexpr long kCountMax = 1023;
-
 // What one reading differs from what the skin would let it be.
 struct Noise {
   explicit Noise(std::uint64_t seed, double counts)
@@ -47,7 +45,7 @@ class RecordingReader final : public acts::TaxelReader {
     const double first = frames_[before * taxels_ + taxel];
     const double second = frames_[after * taxels_ + taxel];
     const long counts = std::lround(first + share * (second - first) + noise_.draw());
-    return static_cast<std::uint16_t>(std::clamp(counts, 0L, kCountMax));
+    return static_cast<std::uint16_t>(std::clamp(counts, 0L, long{acts::kCountMax}));
   }
 
  private:

@@ -208,7 +208,7 @@ def test_control_refuses_in_words_and_goes_with_the_board(tmp_path: Path) -> Non
         inject(board, "earthquake:9", "drop:0.5", "freeze:0")
         event(board, "freeze:0", over=False)
         assert "unknown fault 'earthquake'; allowed are unplug, reset," in board.errors.read_text()
-        assert "drop:0.5: allowed is a whole number from 1 to 1e+06" in board.errors.read_text()
+        assert "drop:0.5: allowed is a whole number N from 1 to 1000000" in board.errors.read_text()
         assert board.terminate() == 0
         assert not (tmp_path / "control").exists()
 
@@ -217,11 +217,11 @@ def test_control_refuses_in_words_and_goes_with_the_board(tmp_path: Path) -> Non
     ("fault", "message"),
     [
         ("flood", "unknown fault 'flood'"),
-        ("unplug:x", "'x' is no number of S"),
-        ("unplug:-1", "unplug:-1: allowed is a number from 0 to 3600"),
-        ("version:256", "allowed is a whole number from 0 to 255"),
+        ("unplug:x", "unplug:x: allowed is a number S from 0 to 3600"),
+        ("unplug:-1", "unplug:-1: allowed is a number S from 0 to 3600"),
+        ("version:256", "allowed is a whole number V from 0 to 255"),
         ("drop:1@-1", "seconds since the start"),
-        ("drop:1@", "'' is no number of seconds"),
+        ("drop:1@", "drop:1@: the time after @ is in seconds"),
     ],
 )
 def test_refused_faults(fault: str, message: str) -> None:

@@ -73,6 +73,7 @@ def test_a_broken_address_line_is_pulled_low(tmp_path: Path) -> None:
         ("dead=1,-1", "allowed is one of"),
         ("stuck=1,1,1024", "COUNTS to 1023"),
         ("address-bit=6", "B to 5"),
+        ("address-bit=3", "none of 8 columns has this bit set"),
         ("loose-row=1", "allowed is one of"),
     ],
 )

@@ -22,6 +22,7 @@ struct KindInfo {
 
 constexpr double kLongestS = 3600.0;
 constexpr double kMost = 1e6;
+constexpr double kLatestS = 1e9;
 
 const std::vector<KindInfo>& kinds() {
   static const std::vector<KindInfo> kKinds = {
@@ -49,13 +50,11 @@ const std::vector<KindInfo>& kinds() {
   return kKinds;
 }
 
-double number(const std::string& text, const std::string& what) {
+std::optional<double> number(const std::string& text) {
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !std::isfinite(value)) {
-    throw FaultError("'" + text + "' is no number of " + what);
-  }
-  return value;
+  const bool whole_text = !text.empty() && end == text.c_str() + text.size();
+  return whole_text && std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
 }
 
 }  // namespace
@@ -71,18 +70,18 @@ Fault parse_fault(const std::string& text) {
     if (name != info.name) {
       continue;
     }
-    const double value = colon == std::string::npos ? info.usual : number(fault.substr(colon + 1), info.unit);
-    if (value < info.minimum || value > info.maximum || (info.is_whole && value != std::floor(value))) {
+    const std::optional<double> value = colon == std::string::npos ? info.usual : number(fault.substr(colon + 1));
+    if (!value || *value < info.minimum || *value > info.maximum || (info.is_whole && *value != std::floor(*value))) {
       std::ostringstream allowed;
-      allowed << fault << ": allowed is a " << (info.is_whole ? "whole " : "") << "number from " << info.minimum
-              << " to " << info.maximum;
+      allowed << fault << ": allowed is a " << (info.is_whole ? "whole " : "") << "number " << info.unit << " from "
+              << std::lround(info.minimum) << " to " << std::lround(info.maximum);
       throw FaultError(allowed.str());
     }
-    const double due_s = at == std::string::npos ? 0.0 : number(text.substr(at + 1), "seconds");
-    if (due_s < 0.0 || due_s > 1e9) {
-      throw FaultError(text + ": the time after @ is in seconds since the start, 0 to 1e9");
+    const std::optional<double> due_s = at == std::string::npos ? 0.0 : number(text.substr(at + 1));
+    if (!due_s || *due_s < 0.0 || *due_s > kLatestS) {
+      throw FaultError(text + ": the time after @ is in seconds since the start, 0 to 1000000000");
     }
-    return {info.kind, value, static_cast<std::int64_t>(due_s * 1e9), fault};
+    return {info.kind, *value, static_cast<std::int64_t>(*due_s * 1e9), fault};
   }
   throw FaultError("unknown fault '" + name + "'; allowed are " + names);
 }

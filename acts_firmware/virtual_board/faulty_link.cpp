@@ -115,7 +115,7 @@ bool FaultyLink::fetch(TransmitQueue& output) {
 }
 
 void FaultyLink::distort() {
-  if (version_ != kPacketVersion) {
+  if (version_ != kPacketVersion && protocol_ == Protocol::kBinary) {
     set_version();
   }
   if (!armed_.empty()) {

@@ -85,6 +85,7 @@ void WiringFaults::add(const std::string& words) {
     fault.highest_col = values[0];
   } else if (name == "address-bit") {
     broken_address_ |= 1U << values[0];
+    fault.address_bit = values[0];
   } else if (name == "dead" || name == "stuck") {
     fixed_.push_back({values[0], values[1], name == "stuck" ? values[2] : 0.0});
     fault.highest_row = values[0];
@@ -106,6 +107,9 @@ void WiringFaults::check(int rows, int cols) const {
       throw std::invalid_argument(fault.words + ": an array of " + std::to_string(rows) + " x " + std::to_string(cols) +
                                   " has the rows 0 to " + std::to_string(rows - 1) + " and the columns 0 to " +
                                   std::to_string(cols - 1));
+    }
+    if (fault.address_bit >= 0 && cols <= 1 << fault.address_bit) {
+      throw std::invalid_argument(fault.words + ": none of " + std::to_string(cols) + " columns has this bit set");
     }
   }
 }

@@ -42,6 +42,7 @@ class WiringFaults {
     std::string words;
     int highest_row = -1;
     int highest_col = -1;
+    int address_bit = -1;
   };
   struct FixedTaxel {
     int row;
