@@ -196,7 +196,8 @@ class BoardSession:
             self._wake.clear()
             opening = self._opening
             with self._turn:
-                self._round()
+                if not self._round():
+                    self._due = None
                 due = self._due
             self._heard = opening
             self._verdict.set()
@@ -205,33 +206,36 @@ class BoardSession:
                 self._upload(due, opening)
             self._wake.wait(_ASK_EVERY_S)
 
-    def _round(self) -> None:
-        self._due = None
+    def _round(self) -> bool:
+        """Ask the board and bring it to what is wanted; whether that came off, so that a model may be due."""
         try:
             state = self._link.query().state
         except PortError as error:
             self._set(BoardStatus(problem=str(error)))
-            return
+            return False
         except NoAnswerError as error:
             self._set(BoardStatus(problem=str(error), is_silent=True))
-            return
+            return False
         except BoardError as error:
             self._set(BoardStatus(problem=str(error), is_wrong_version=True))
-            return
+            return False
         self._see(state)
         wanted = (self._parameters, self._own)
         if self.status.is_wrong_version or wanted == self._refused:
-            return
+            return False
         try:
             self._bring(state)
         except PortError:
-            return
+            return False
         except NoAnswerError:
             self.wake()
+            return False
         except ActsError as error:
             # Not told again until something has changed.
             self._refused = wanted
             self._set(replace(self.status, problem=str(error)))
+            return False
+        return True
 
     def _see(self, state: BoardState) -> None:
         """Take notice of what the board said about itself."""

@@ -61,7 +61,7 @@ def held(rig: Rig) -> int:
     return 0 if state is None else state.model.crc32
 
 
-def test_frames_and_reports_go_on_during_an_upload(tmp_path: Path, rig: Rig) -> None:
+def test_frames_and_reports_go_on_during_an_upload(tmp_path: Path, rig: Rig, capfd: pytest.CaptureFixture[str]) -> None:
     models = dictionaries(tmp_path)
     # A slow board answers slowly: the upload takes seconds.
     with VirtualBoard(tmp_path / "board", "--rate-hz", "20") as board:
@@ -82,6 +82,7 @@ def test_frames_and_reports_go_on_during_an_upload(tmp_path: Path, rig: Rig) -> 
         numbers = np.array([message.sequence for message in rig.samples])
         assert (np.diff(numbers) == 1).all()
         assert status_of(rig).problem == ""
+        assert "holds no model" not in capfd.readouterr().err, "a model on its way is none that is missing"
 
 
 def test_nothing_is_lost_at_1_khz_during_an_upload(tmp_path: Path, rig: Rig) -> None:
