@@ -1,0 +1,125 @@
+"""`acts driver`: what a running driver can be asked and told, for machines without the `ros2` command."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from acts_core.errors import BoardError, SettingsError
+from acts_core.settings import default_of
+
+if TYPE_CHECKING:
+    from rclpy.client import Client
+
+_FOUND_S = 10.0
+_ANSWER_S = 30.0
+_SERVICES = {"query": "query_board", "calibrate": "calibrate", "tare": "tare"}
+
+_EPILOG = """\
+examples:
+  acts driver query                        which board, firmware and settings
+  acts driver calibrate                    leave the skin alone for 3 s before
+  acts driver tare                         whatever lies on the skin now reads 0
+  acts driver set scheme=tracking m=128    all of them or none
+  acts driver -n left_hand query           the driver of another skin
+
+docs/driver.md lists the parameters that can be set.
+"""
+
+
+def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add ``driver`` to the acts command."""
+    parser = subparsers.add_parser(
+        "driver",
+        help="ask or tell a running driver",
+        description="Ask a running driver about its board, calibrate or tare it, set parameters of the board.",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("-n", "--namespace", default="plate", help="of the skin (plate)")
+    parser.add_argument("what", choices=(*_SERVICES, "set"))
+    parser.add_argument("values", nargs="*", metavar="NAME=VALUE", help="parameters, with set")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Ask, print the answer; 1 where the driver refuses."""
+    is_set = arguments.what == "set"
+    if bool(arguments.values) != is_set:
+        raise SettingsError("`acts driver set` takes parameters, such as m=128; the others take none")
+    values = parameters_of(arguments.values)
+    # Late: rclpy takes a second, and a wrong parameter is told without it.
+    from rcl_interfaces.srv import SetParametersAtomically
+    from rclpy.parameter import Parameter
+    from std_srvs.srv import Trigger
+
+    node = f"/{arguments.namespace.strip('/')}/driver".replace("//", "/")
+    if is_set:
+        request = SetParametersAtomically.Request()
+        request.parameters = [Parameter(name, value=value).to_parameter_msg() for name, value in values.items()]
+        result = _call(SetParametersAtomically, f"{node}/set_parameters_atomically", request).result
+        succeeded, words = result.successful, result.reason or "set: " + ", ".join(arguments.values)
+    else:
+        response = _call(Trigger, f"{node}/{_SERVICES[arguments.what]}", Trigger.Request())
+        succeeded, words = response.success, response.message
+    print(words, file=sys.stdout if succeeded else sys.stderr)
+    return 0 if succeeded else 1
+
+
+def parameters_of(words: list[str]) -> dict[str, Any]:
+    """Parameters of the board out of ``NAME=VALUE``, with the types that they are declared with.
+
+    Raises
+    ------
+    SettingsError
+        No such parameter, or a value of another type.
+    """
+    from acts_driver.board_parameters import BOARD_PARAMETERS, BoardParameters
+
+    values: dict[str, Any] = {}
+    for word in words:
+        name, is_given, text = word.partition("=")
+        if not is_given or name not in BOARD_PARAMETERS:
+            raise SettingsError(f"{word}: needed is NAME=VALUE with one of {', '.join(BOARD_PARAMETERS)}")
+        kind: Any = type(default_of(BoardParameters, name))
+        try:
+            values[name] = _absolute(text) if name == "model" else kind(text)
+        except ValueError:
+            raise SettingsError(
+                f"{word}: needed is a {'whole number' if kind is int else 'number'} for {name}"
+            ) from None
+    return values
+
+
+def _absolute(path: str) -> str:
+    """A path that means the same in the driver's folder as in ours."""
+    return path if path in ("", "none") else str(Path(path).expanduser().absolute())
+
+
+def _call(kind: Any, name: str, request: Any) -> Any:
+    import rclpy
+    from rclpy.context import Context
+    from rclpy.executors import SingleThreadedExecutor
+    from rclpy.node import Node
+
+    context = Context()
+    rclpy.init(args=[], context=context)
+    node = Node("acts_driver_command", context=context, start_parameter_services=False, enable_rosout=False)
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+    try:
+        client: Client[Any, Any] = node.create_client(kind, name)
+        if not client.wait_for_service(timeout_sec=_FOUND_S):
+            raise BoardError(
+                f"no driver offers {name}: is it launched, in this namespace (--namespace) and with this ROS_DOMAIN_ID?"
+            )
+        future = client.call_async(request)
+        executor.spin_until_future_complete(future, timeout_sec=_ANSWER_S)
+        if not future.done():
+            raise BoardError(f"{name} has not answered within {_ANSWER_S:g} s")
+        return future.result()
+    finally:
+        executor.shutdown()
+        node.destroy_node()
+        rclpy.try_shutdown(context=context)
