@@ -9,7 +9,14 @@ from core_firmware import CoreFirmware
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from acts_core.board_models import MODEL_CAPACITY, BoardModel, ModelKind, object_library, patch_dictionary
+from acts_core.board_models import (
+    MODEL_CAPACITY,
+    PATCH_SIDE_MAX,
+    BoardModel,
+    ModelKind,
+    object_library,
+    patch_dictionary,
+)
 from acts_core.commands import (
     NO_MODEL,
     BoardSettings,
@@ -28,7 +35,7 @@ from acts_core.commands import (
 def models(draw: st.DrawFn) -> BoardModel:
     random = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
     if draw(st.booleans()):
-        side = draw(st.integers(1, 12))
+        side = draw(st.integers(1, PATCH_SIDE_MAX))
         atoms = random.normal(size=(side * side, draw(st.integers(1, 200))))
         return patch_dictionary(atoms, patch_step=draw(st.integers(1, side)))
     columns = random.random((draw(st.integers(1, 1024)), draw(st.integers(1, 60))))
