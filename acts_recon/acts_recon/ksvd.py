@@ -53,12 +53,30 @@ class KsvdProgress:
     replaced: int
 
 
+@dataclass(frozen=True)
+class KsvdState:
+    """All that one iteration hands to the next: from here the learning goes on as if it had never stopped.
+
+    Attributes
+    ----------
+    iteration : int
+        Iterations done, at least 1.
+    atoms : np.ndarray [shape=(config.atoms, n_pixels), dtype=float32]
+        A row an atom.
+    """
+
+    iteration: int
+    atoms: NDArray[np.float32]
+
+
 def learn_dictionary(
     patches: NDArray[np.floating],
     config: KsvdConfig,
     *,
     rng: np.random.Generator,
     progress: Callable[[KsvdProgress], None] | None = None,
+    save: Callable[[KsvdState], None] | None = None,
+    resume: KsvdState | None = None,
 ) -> NDArray[np.float32]:
     """Learn atoms from patches.
 
@@ -71,6 +89,10 @@ def learn_dictionary(
         Same state, same atoms (on the same processor: the last digits of sums may differ between processors).
     progress : callable or None
         Called after every iteration.
+    save : callable or None
+        Called before `progress`, after every iteration but the last; the atoms are valid during the call.
+    resume : KsvdState or None
+        What `save` got, with the same patches, configuration and `rng`: the result is the same, bit for bit.
 
     Returns
     -------
@@ -80,17 +102,26 @@ def learn_dictionary(
     Raises
     ------
     ArrayError
-        When the patches are too few, of the wrong shape, all 0 or not finite.
+        When the patches are too few, of the wrong shape, all 0 or not finite, or `resume` does not fit.
     """
     X = _checked(patches, config)
     # Every patch counts alike, however hard it was pressed: what is learnt is shape.
     X /= np.linalg.norm(X, axis=1, keepdims=True)
     n, n_pixels = X.shape
     D = np.ascontiguousarray(X[rng.choice(n, size=config.atoms, replace=False)])
+    first = 1
+    if resume is not None:
+        if resume.atoms.shape != D.shape or not 1 <= resume.iteration < config.iterations:
+            raise ArrayError(
+                f"state after iteration {resume.iteration} with atoms {resume.atoms.shape}: "
+                f"needed are 1 to {config.iterations - 1} and {D.shape}"
+            )
+        D[:] = resume.atoms
+        first = resume.iteration + 1
     sparsity = min(config.sparsity, n_pixels, config.atoms)
     chosen = np.zeros((n, sparsity), dtype=np.int32)
     coefficients = np.zeros((n, sparsity), dtype=np.float32)
-    for iteration in range(1, config.iterations + 1):
+    for iteration in range(first, config.iterations + 1):
         code_patches(X @ D.T, D @ D.T, chosen, coefficients)
         residual = X - _synthesis(D, chosen, coefficients)
         order = np.argsort(chosen.ravel(), kind="stable").astype(np.int64)
@@ -99,6 +130,8 @@ def learn_dictionary(
         error = float(np.linalg.norm(residual) / np.linalg.norm(X))
         # After the last iteration a fresh patch would be an atom that nothing was fitted to.
         replaced = 0 if iteration == config.iterations else _replace(D, X, residual, chosen, coefficients, config)
+        if save is not None and iteration < config.iterations:
+            save(KsvdState(iteration, D))
         if progress is not None:
             progress(KsvdProgress(iteration, config.iterations, error, replaced))
     peak = np.take_along_axis(D, np.argmax(np.abs(D), axis=1)[:, None], axis=1)

@@ -3,7 +3,7 @@ import pytest
 from numpy.typing import NDArray
 
 from acts_core.errors import ArrayError, SettingsError
-from acts_recon.ksvd import KsvdConfig, KsvdProgress, learn_dictionary
+from acts_recon.ksvd import KsvdConfig, KsvdProgress, KsvdState, learn_dictionary
 from acts_recon.ksvd_kernels import code_patches
 from acts_recon.training_patches import prune_coherent, random_patches
 
@@ -38,6 +38,24 @@ def test_atoms_are_unit_norm_with_a_positive_peak_and_seeded() -> None:
     np.testing.assert_allclose(np.linalg.norm(first, axis=0), 1, rtol=1e-5)
     assert (np.take_along_axis(first, np.abs(first).argmax(axis=0)[None], axis=0) > 0).all()
     assert np.array_equal(first, learn_dictionary(patches, config, rng=np.random.default_rng(5)))
+
+
+def test_learning_goes_on_where_it_stopped() -> None:
+    patches, _ = planted(np.random.default_rng(1), 300)
+    config = KsvdConfig(atoms=30, sparsity=3, iterations=5)
+    states: list[KsvdState] = []
+    whole = learn_dictionary(
+        patches,
+        config,
+        rng=np.random.default_rng(5),
+        save=lambda state: states.append(KsvdState(state.iteration, state.atoms.copy())),
+    )
+    assert [state.iteration for state in states] == [1, 2, 3, 4]
+    for state in states:
+        again = learn_dictionary(patches, config, rng=np.random.default_rng(5), resume=state)
+        assert np.array_equal(again, whole)
+    with pytest.raises(ArrayError, match="state after iteration 4"):
+        learn_dictionary(patches, KsvdConfig(atoms=30, iterations=4), rng=np.random.default_rng(5), resume=states[3])
 
 
 def test_repeated_atoms_are_replaced() -> None:

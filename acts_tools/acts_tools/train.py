@@ -1,4 +1,4 @@
-"""`acts train`: learn a dictionary from the contact model, or from frames of an npz file."""
+"""`acts train`: learn a dictionary from recordings or from the contact model."""
 
 from __future__ import annotations
 
@@ -13,13 +13,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import RecordingError, SettingsError
-from acts_core.frames_file import load_frames
 from acts_core.settings import default_of
 from acts_recon.dictionary import Dictionary, save_dictionary
 from acts_recon.ksvd import KsvdConfig, KsvdProgress, learn_dictionary
 from acts_recon.training_patches import prune_coherent, random_patches
-from acts_sim.contact_model import ContactModel, FoamConfig
-from acts_sim.objects import OBJECTS, ContactObject, object_named
+from acts_sim.contact_model import FoamConfig
+from acts_sim.objects import OBJECTS, object_named
+from acts_tools.training.checkpoint import Checkpoint
+from acts_tools.training.frames import Source, model_frames, recorded_frames
+from acts_tools.training.progress import ProgressBar
+
+__all__ = ["add_parser", "choose_patches", "model_frames", "run"]
 
 _PLACES_PER_PATCH = 40
 """Places tried for every patch wanted: most of the skin is untouched in most frames."""
@@ -34,10 +38,19 @@ def add_parser(subparsers: Any) -> None:
         "train",
         help="train a dictionary for the reconstruction",
         description="Learn a dictionary by K-SVD and write it to a file that the node reconstruction reads (its "
-        "parameter dictionary). Frames come from the contact model, or from an npz file with `frames` (n, rows, cols).",
+        "parameter dictionary). Frames come from the contact model, or from recordings. Interrupted, the same command "
+        "goes on from the last finished iteration, which is kept beside the output (FILE.partial).",
     )
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help="dictionary file to write")
-    parser.add_argument("--frames", type=Path, metavar="NPZ", help="learn from these frames, not the contact model")
+    parser.add_argument(
+        "--frames",
+        nargs="+",
+        type=Path,
+        metavar="PATH",
+        help="learn from recordings, not the contact model: npz files with `frames` (n, rows, cols), or bags with full "
+        "frames (images in mono16, or samples of the scheme raster)",
+    )
+    parser.add_argument("--topic", default="", help="of the bags (default: the only one that has full frames)")
     parser.add_argument("--objects", nargs="+", metavar="NAME", help="objects of the contact model (default: all)")
     parser.add_argument("--presses", type=int, default=3000, help="frames of the contact model (default: %(default)s)")
     parser.add_argument("--seed", type=int, default=0, help="of everything random (default: %(default)s)")
@@ -70,17 +83,9 @@ def run(arguments: argparse.Namespace) -> int:
     _check(arguments)
     config = KsvdConfig(atoms=arguments.atoms, sparsity=arguments.sparsity, iterations=arguments.iterations)
     rng = np.random.default_rng(arguments.seed)
-    if arguments.frames is None:
-        objects = [object_named(name) for name in arguments.objects] if arguments.objects else list(OBJECTS.values())
-        print(f"pressing {len(objects)} objects into the contact model {arguments.presses} times", flush=True)
-        frames = model_frames(objects, arguments.presses, arguments.seed)
-        source = f"{arguments.presses} presses of {len(objects)} objects into the ACTS contact model"
-    else:
-        frames = load_frames(arguments.frames).frames
-        digest = hashlib.sha256(arguments.frames.read_bytes()).hexdigest()
-        source = f"{len(frames)} frames of {arguments.frames.name} (sha256 {digest})"
+    source, settings = _source(arguments)
     patches = choose_patches(
-        frames,
+        source.frames,
         arguments.patches,
         size=arguments.patch_size,
         touch_counts=arguments.touch_counts,
@@ -88,8 +93,6 @@ def run(arguments: argparse.Namespace) -> int:
         coherence=arguments.coherence,
         rng=rng,
     )
-    print(f"{len(patches)} patches; learning {config.atoms} atoms in {config.iterations} iterations", flush=True)
-    atoms = learn_dictionary(patches, config, rng=rng, progress=_show)
     settings = {
         **asdict(config),
         "seed": arguments.seed,
@@ -97,20 +100,52 @@ def run(arguments: argparse.Namespace) -> int:
         "min_active": arguments.min_active,
         "touch_counts": arguments.touch_counts,
         "patch_coherence": arguments.coherence,
+        **settings,
     }
-    if arguments.frames is None:
-        settings |= {"presses": arguments.presses, "objects": [item.name for item in objects], **asdict(FoamConfig())}
-    dictionary = Dictionary(atoms, arguments.patch_size, settings, f"Learnt by K-SVD (acts train) from {source}.")
+    # Everything that the result depends on; the patches stand for the frames and for how they were chosen.
+    checkpoint = Checkpoint(
+        arguments.output.with_name(arguments.output.name + ".partial"),
+        {**settings, "patches_sha256": hashlib.sha256(patches.tobytes()).hexdigest()},
+    )
+    state = checkpoint.load()
+    done = 0 if state is None else state.iteration
+    print(
+        f"{len(patches)} patches; learning {config.atoms} atoms in {config.iterations} iterations"
+        + (f", the first {done} of them taken from {checkpoint.path}" if done else ""),
+        flush=True,
+    )
+    bar = ProgressBar("iteration", config.iterations, done=done)
+
+    def show(progress: KsvdProgress) -> None:
+        unexplained = 100 * progress.relative_error
+        bar.show(progress.iteration, f"{unexplained:.2f} % unexplained, {progress.replaced} atoms replaced")
+
+    try:
+        atoms = learn_dictionary(patches, config, rng=rng, progress=show, save=checkpoint.save, resume=state)
+    except KeyboardInterrupt:
+        if checkpoint.path.exists():
+            print(f"\ninterrupted; {checkpoint.path} holds what is done: the same command goes on", file=sys.stderr)
+        raise
+    provenance = f"Learnt by K-SVD (acts train) from {source.description}."
+    dictionary = Dictionary(atoms, arguments.patch_size, settings, provenance)
     save_dictionary(dictionary, arguments.output)
+    checkpoint.remove()
     size_kb = arguments.output.stat().st_size / 1000
     print(f"{arguments.output}: {dictionary.n_atoms} atoms, {size_kb:.0f} kB, sha256 {dictionary.sha256}")
     return 0
 
 
-def model_frames(objects: list[ContactObject], presses: int, seed: int) -> NDArray[np.uint16]:
-    """Frames of random presses of objects in turn; np.ndarray [shape=(presses, 32, 32), dtype=uint16]."""
-    model = ContactModel(seed=seed)
-    return np.stack([model.random_frame(objects[i % len(objects)]) for i in range(presses)])
+def _source(arguments: argparse.Namespace) -> tuple[Source, dict[str, Any]]:
+    """The frames, and the settings they were made with."""
+    if arguments.frames is not None:
+        return recorded_frames(arguments.frames, arguments.topic), {}
+    objects = [object_named(name) for name in arguments.objects] if arguments.objects else list(OBJECTS.values())
+    print(f"pressing {len(objects)} objects into the contact model", flush=True)
+    bar = ProgressBar("press", arguments.presses)
+    frames = model_frames(objects, arguments.presses, arguments.seed, bar.show)
+    description = f"{arguments.presses} presses of {len(objects)} objects into the ACTS contact model"
+    made = {"presses": arguments.presses, "objects": [item.name for item in objects], **asdict(FoamConfig())}
+    return Source(frames, description), made
 
 
 def choose_patches(
@@ -157,17 +192,7 @@ def _check(arguments: argparse.Namespace) -> None:
             raise SettingsError(f"--{option} {value}: allowed is {lowest} to {highest}")
     if arguments.frames is not None and arguments.objects:
         raise SettingsError("--objects names objects of the contact model and does not go with --frames; leave one out")
+    if arguments.frames is None and arguments.topic:
+        raise SettingsError(f"--topic {arguments.topic}: a topic of the bags of --frames, which were not given")
     if not arguments.output.parent.is_dir():
         raise RecordingError(f"{arguments.output}: the folder {arguments.output.parent} does not exist; make it first")
-
-
-def _show(progress: KsvdProgress) -> None:
-    last = progress.iteration == progress.iterations
-    text = (
-        f"iteration {progress.iteration} of {progress.iterations}: {100 * progress.relative_error:.2f} % unexplained, "
-        f"{progress.replaced} atoms replaced"
-    )
-    if sys.stdout.isatty():
-        print(f"\r\033[K{text}", end="\n" if last else "", flush=True)
-    else:
-        print(text, flush=True)

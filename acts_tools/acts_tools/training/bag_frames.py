@@ -1,0 +1,172 @@
+"""Full frames out of a bag: images in counts, or samples of whole frames."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+from rclpy.serialization import deserialize_message
+from sensor_msgs.msg import Image
+
+from acts_core.array import COUNT_MAX
+from acts_core.errors import ArrayError, RecordingError
+from acts_msgs.msg import Baseline, TactileSamples
+from acts_recon.baseline import BaselineSubtraction
+from acts_ros.bags import require_rosbags
+
+_IMAGE = "sensor_msgs/msg/Image"
+_SAMPLES = "acts_msgs/msg/TactileSamples"
+_BASELINE = "acts_msgs/msg/Baseline"
+_NEEDED = (
+    "needed is one of type acts_msgs/msg/TactileSamples whose frames are rasters (every taxel measured: scheme "
+    "raster), or of type sensor_msgs/msg/Image with encoding mono16 (image_raw)"
+)
+
+_Message = TypeVar("_Message")
+
+
+def bag_frames(path: Path, topic: str = "") -> tuple[NDArray[np.uint16], str]:
+    """Read all full frames of one topic.
+
+    From samples the baseline is subtracted that the bag holds beside them (topic ``baseline`` of the same skin), as the
+    reconstruction does; images have had theirs subtracted.
+
+    Parameters
+    ----------
+    path : Path
+        Folder in rosbag2's layout, or an MCAP file.
+    topic : str
+        Full name; empty for the only one that has full frames.
+
+    Returns
+    -------
+    frames : np.ndarray [shape=(n, rows, cols), dtype=uint16]
+        Counts, 0 to 1023.
+    topic : str
+        Where they are from.
+
+    Raises
+    ------
+    RecordingError
+        There is no bag, it is damaged, or no topic (several, where none was named) has full frames.
+    """
+    require_rosbags()
+    # Imports rosbags, which a ROS installation need not have.
+    from acts_ros.bags.reading import open_bag
+
+    with open_bag(path) as bag:
+        if bag.note:
+            print(f"note: {bag.note}", file=sys.stderr)
+        types = bag.topics()
+        if topic:
+            if types.get(topic) not in (_IMAGE, _SAMPLES):
+                raise RecordingError(
+                    f"the bag '{path}' has {f'{types[topic]} on' if topic in types else 'no topic'} {topic}; "
+                    f"{_NEEDED}. It has {_listed(sorted(types))}"
+                )
+        else:
+            fitting = [name for name in sorted(types) if _is_full(bag, path, name, types[name])]
+            if len(fitting) != 1:
+                raise RecordingError(
+                    f"the bag '{path}' has full frames on {_listed(fitting)}: choose one with --topic"
+                    if fitting
+                    else f"the bag '{path}' has no topic of full frames, only {_listed(sorted(types))}; {_NEEDED}"
+                )
+            topic = fitting[0]
+        read = _images(bag, path, topic) if types[topic] == _IMAGE else _rasters(bag, path, topic, types)
+        frames = list(read)
+    if not frames:
+        raise RecordingError(f"the bag '{path}' has no messages on {topic}")
+    if len({frame.shape for frame in frames}) > 1:
+        raise RecordingError(f"frames of different sizes on {topic} in '{path}': needed are those of one array")
+    return np.stack(frames), topic
+
+
+def _is_full(bag: Any, path: Path, topic: str, kind: str) -> bool:
+    """Whether the first message of a topic holds a full frame."""
+    if kind == _IMAGE:
+        first = next(_messages(bag, path, topic, Image), None)
+        return first is not None and first.encoding == "mono16"
+    if kind == _SAMPLES:
+        samples = next(_messages(bag, path, topic, TactileSamples), None)
+        return samples is not None and len(samples.indices) == samples.rows * samples.cols
+    return False
+
+
+def _images(bag: Any, path: Path, topic: str) -> Iterator[NDArray[np.uint16]]:
+    for number, image in enumerate(_messages(bag, path, topic, Image)):
+        data = bytes(image.data)
+        step = image.step
+        if image.encoding != "mono16" or step < 2 * image.width or len(data) != step * image.height or not data:
+            raise RecordingError(
+                f"message {number} of {topic} in '{path}' is an image {image.width} x {image.height}, "
+                f"{image.encoding}, of {len(data)} bytes: needed is mono16"
+            )
+        rows = np.frombuffer(data, dtype=np.uint8).reshape(image.height, step)[:, : 2 * image.width]
+        frame = np.ascontiguousarray(rows).view(">u2" if image.is_bigendian else "<u2").astype(np.uint16)
+        yield _checked(frame, f"message {number} of {topic} in '{path}'")
+
+
+def _rasters(bag: Any, path: Path, topic: str, types: dict[str, str]) -> Iterator[NDArray[np.uint16]]:
+    beside = f"{topic.rsplit('/', 1)[0]}/baseline"
+    topics = [topic, beside] if types.get(beside) == _BASELINE else [topic]
+    baseline: BaselineSubtraction | None = None
+    latest: Baseline | None = None
+    number = -1
+    for name, _, data in bag.messages(topics):
+        if name == beside:
+            latest, baseline = _parsed(data, Baseline, f"a message of {beside} in '{path}'"), None
+            continue
+        number += 1
+        where = f"message {number} of {topic} in '{path}'"
+        samples = _parsed(data, TactileSamples, where)
+        size = samples.rows * samples.cols
+        indices = np.asarray(samples.indices, dtype=np.uint16)
+        counts = np.asarray(samples.counts, dtype=np.uint16)
+        if len(indices) != size or len(counts) != size or size == 0 or np.unique(indices).size != size:
+            raise RecordingError(
+                f"{where} holds {len(indices)} samples of {samples.rows} x {samples.cols} taxels: to learn from, every "
+                "taxel must have been measured; record with the sampling scheme raster"
+            )
+        if indices.max() >= size:
+            raise RecordingError(f"{where} holds index {indices.max()}; {size} taxels have 0 to {size - 1}")
+        if latest is not None and baseline is None:
+            baseline = BaselineSubtraction(size)
+            try:
+                baseline.set(np.asarray(latest.baseline, dtype=np.float32), np.asarray(latest.valid, dtype=np.bool_))
+            except ArrayError as error:
+                raise RecordingError(f"{beside} in '{path}' does not fit {topic}: {error}") from error
+        frame = np.zeros(size, dtype=np.uint16)
+        frame[indices] = counts if baseline is None else baseline.apply(indices, counts)
+        yield _checked(frame.reshape(samples.rows, samples.cols), where)
+
+
+def _checked(frame: NDArray[np.uint16], where: str) -> NDArray[np.uint16]:
+    if frame.max() > COUNT_MAX:
+        raise RecordingError(f"{where} holds {frame.max()} counts; allowed is 0 to {COUNT_MAX}")
+    return frame
+
+
+def _messages(bag: Any, path: Path, topic: str, kind: type[_Message]) -> Iterator[_Message]:
+    for number, (_, _, data) in enumerate(bag.messages([topic])):
+        yield _parsed(data, kind, f"message {number} of {topic} in '{path}'")
+
+
+def _parsed(data: bytes, kind: type[_Message], where: str) -> _Message:
+    try:
+        message = deserialize_message(data, kind)
+    # rclpy has no exception of its own for bytes that are no such message.
+    except (RuntimeError, ValueError) as error:
+        raise RecordingError(
+            f"{where} cannot be read: {error}; was it recorded with another version of its package?"
+        ) from error
+    assert isinstance(message, kind)
+    return message
+
+
+def _listed(names: list[str]) -> str:
+    return ", ".join(names) or "none"

@@ -1,0 +1,97 @@
+"""What an interrupted training left behind, so that the same command goes on from there."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from acts_core.errors import RecordingError
+from acts_recon.ksvd import KsvdState
+from acts_recon.model_file import ModelFile
+
+
+@dataclass(frozen=True)
+class Checkpoint:
+    """The file beside the output that holds the last finished iteration.
+
+    Attributes
+    ----------
+    path : Path
+        The output's name and ``.partial``.
+    settings : mapping
+        Plain values, in which everything that the result depends on is named, the data by their hash.
+    """
+
+    path: Path
+    settings: Mapping[str, Any]
+
+    @property
+    def _file(self) -> ModelFile:
+        return ModelFile(
+            kind="a checkpoint of `acts train`",
+            format="acts-training-1",
+            fields=("iteration", "atoms", "settings"),
+            remedy=f"delete {self.path} to begin anew",
+            error=RecordingError,
+        )
+
+    def save(self, state: KsvdState) -> None:
+        """Replace the file at once: whenever the power goes, there is the old one or the new one.
+
+        Raises
+        ------
+        RecordingError
+            It cannot be written.
+        """
+        fresh = self.path.with_name(self.path.name + ".new")
+        self._file.write(
+            fresh,
+            {
+                "iteration": state.iteration,
+                "atoms": state.atoms,
+                "settings": json.dumps(dict(self.settings), sort_keys=True),
+            },
+        )
+        try:
+            fresh.replace(self.path)
+        except OSError as error:
+            raise RecordingError(f"{self.path}: cannot be written ({error.strerror})") from error
+
+    def load(self) -> KsvdState | None:
+        """What is there; None when there is nothing.
+
+        Raises
+        ------
+        RecordingError
+            The file is damaged, or belongs to a training with other settings or other data.
+        """
+        if not self.path.exists():
+            return None
+        content = self._file.read(self.path)
+        try:
+            found = dict(json.loads(str(content["settings"])))
+            iteration = int(content["iteration"])
+        except (TypeError, ValueError) as error:
+            raise RecordingError(f"{self.path}: damaged ({error}); {self._file.remedy}") from error
+        # Through JSON, as those of the file went: a tuple comes back as a list.
+        here = json.loads(json.dumps(dict(self.settings)))
+        others = [
+            f"{name} {found.get(name)} there, {here.get(name)} here"
+            for name in sorted({*found, *here})
+            if found.get(name) != here.get(name)
+        ]
+        if others:
+            raise RecordingError(
+                f"{self.path}: left by a training with other settings or data ({'; '.join(others)}). Repeat that "
+                f"command to finish it, delete the file to begin anew, or choose another -o"
+            )
+        return KsvdState(iteration, np.asarray(content["atoms"], dtype=np.float32))
+
+    def remove(self) -> None:
+        """Remove the file, which the finished output makes needless."""
+        self.path.unlink(missing_ok=True)

@@ -1,0 +1,104 @@
+"""Full frames to learn from: of recordings (npz files and bags) and of the contact model."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.errors import RecordingError
+from acts_core.frames_file import load_frames
+from acts_sim.contact_model import ContactModel
+from acts_sim.objects import ContactObject
+
+
+@dataclass(frozen=True)
+class Source:
+    """Frames and where they are from.
+
+    Attributes
+    ----------
+    frames : np.ndarray [shape=(n, rows, cols), dtype=uint16]
+        Counts, 0 to 1023.
+    description : str
+        For the dictionary's provenance.
+    """
+
+    frames: NDArray[np.uint16]
+    description: str
+
+
+def is_bag(path: Path) -> bool:
+    """Whether a path is to be read as a bag: a folder, or a file of one of rosbag2's storages."""
+    return path.is_dir() or path.suffix in (".mcap", ".db3")
+
+
+def recorded_frames(paths: Sequence[Path], topic: str = "") -> Source:
+    """All frames of recordings.
+
+    Parameters
+    ----------
+    paths : sequence of Path
+        npz files with `frames`, or bags (see `acts_tools.training.bag_frames`).
+    topic : str
+        Of the bags; empty for the only one that has full frames.
+
+    Raises
+    ------
+    RecordingError
+        One cannot be read, has no full frames, or frames of another size.
+    """
+    if topic and not any(map(is_bag, paths)):
+        raise RecordingError(f"--topic {topic}: none of the recordings is a bag; leave it out")
+    parts: list[NDArray[np.uint16]] = []
+    descriptions = []
+    for path in paths:
+        if is_bag(path):
+            from acts_tools.training.bag_frames import bag_frames
+
+            frames, used = bag_frames(path, topic)
+            description = f"{len(frames)} frames of {used} in {path.resolve().name}"
+        else:
+            frames = load_frames(path).frames
+            description = f"{len(frames)} frames of {path.name}"
+        if parts and frames.shape[1:] != parts[0].shape[1:]:
+            raise RecordingError(
+                f"{path}: frames of {_size(frames)}, those of {paths[0]} are {_size(parts[0])}: all must be of one size"
+            )
+        parts.append(frames)
+        descriptions.append(f"{description} (sha256 {_digest(path)})")
+    return Source(np.concatenate(parts), ", ".join(descriptions))
+
+
+def model_frames(
+    objects: list[ContactObject], presses: int, seed: int, show: Callable[[int], None] = lambda _: None
+) -> NDArray[np.uint16]:
+    """Frames of random presses of objects in turn; np.ndarray [shape=(presses, 32, 32), dtype=uint16].
+
+    `show` is told how many there are, after each.
+    """
+    model = ContactModel(seed=seed)
+    frames = []
+    for i in range(presses):
+        frames.append(model.random_frame(objects[i % len(objects)]))
+        show(i + 1)
+    return np.stack(frames)
+
+
+def _digest(path: Path) -> str:
+    """Hash of a file, or of all files of a folder in the order of their names."""
+    digest = hashlib.sha256()
+    for part in sorted(path.iterdir()) if path.is_dir() else [path]:
+        if part.is_file():
+            with part.open("rb") as file:
+                while piece := file.read(1 << 20):
+                    digest.update(piece)
+    return digest.hexdigest()
+
+
+def _size(frames: NDArray) -> str:
+    return f"{frames.shape[1]} x {frames.shape[2]} taxels"
