@@ -1,0 +1,211 @@
+"""How fast FastOMP recovers an image: against scikit-learn, against SPAMS, and against what the processor can do.
+
+A frame is 55 samples of 32 x 32, its 49 patches of 8 x 8 overlap, the dictionary is the shipped one with 1000 atoms.
+Two kinds of frames: adaptive samples of single presses, in which only the patches that were touched need atoms, and
+random samples of a skin that is pressed everywhere, in which all do.
+
+Our time is that of a whole frame, from its samples to the image. The peers get their work prepared (measured rows of
+the dictionary cut out, for SPAMS also normalised) and are timed for the pursuit alone: a call for each patch, as many
+atoms as we take. All take turns on the same frames, in CPU time of one thread.
+
+The limit is the multiply-adds that FastOMP is made of, over the most that this core does in registers.
+"""
+
+from __future__ import annotations
+
+import time
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.array import COUNT_MAX
+from acts_core.sampling import Sampler, SamplingConfig, measure_in
+from acts_recon import fastomp_kernels as kernels
+from acts_recon.dictionary import load_dictionary
+from acts_recon.fastomp import SPARSITY_RATIO, fast_omp, sparsity
+from acts_recon.patches import PatchLayout, patch_layout
+from acts_recon.shipped import shipped_dictionary_path
+from acts_sim.objects import OBJECTS
+from acts_tools.bench.multiply_adds import peak_per_s
+from acts_tools.bench.peers import SCIKIT_LEARN, SPAMS, missing, peer
+from acts_tools.bench.result import Figure, Result
+from acts_tools.bench.workbench import Workbench
+from acts_tools.train import model_frames
+
+M = 55
+TOUCH_COUNTS = 60
+FRAMES = 10
+CALLS = 50
+"""Of ours in a turn; it is much shorter than theirs."""
+
+Samples = tuple[NDArray[np.uint16], NDArray[np.uint16]]
+
+
+@dataclass(frozen=True)
+class Problem:
+    """What a patch asks of a pursuit."""
+
+    A: NDArray[np.float32]
+    y: NDArray[np.float32]
+    atoms: int
+
+
+def measure(workbench: Workbench) -> Result:
+    """Time both kinds of frames, for half of the time each."""
+    layout = patch_layout(32, 32)
+    atoms = load_dictionary(shipped_dictionary_path(), patch_size=8).atoms
+    peak = peak_per_s()
+    figures = [Figure("peak", "multiply-adds of one core, in registers", peak / 1e9, "thousand million/s")]
+    problems: list[str] = []
+    for kind, title, frames in (("press", "a press", _presses()), ("skin", "the whole skin", _pressed_everywhere())):
+        workbench.check_stop()
+        figures += _compare(kind, title, frames, layout, atoms, peak, workbench, problems)
+    return Result(figures, problems)
+
+
+def multiply_adds(problem: Problem) -> int:
+    """Of FastOMP on one patch: correlations, orthogonalisation, residual, coefficients, and the patch itself.
+
+    Comparing correlations is not counted, nor is anything that is done once for a frame.
+    """
+    (m, n_atoms), s = problem.A.shape, problem.atoms
+    correlations = s * m * n_atoms
+    orthogonal = s * (s - 1) // 2 * 2 * m
+    rest = s * 4 * m + s * (s - 1) // 2
+    return correlations + orthogonal + rest + s * 64
+
+
+def patch_problems(layout: PatchLayout, atoms: NDArray[np.float32], samples: Samples) -> list[Problem]:
+    """The patches of a frame in which something was pressed."""
+    value = np.zeros(layout.rows * layout.cols, dtype=np.float32)
+    measured = np.zeros(value.size, dtype=bool)
+    value[samples[0]] = np.where(samples[1] > TOUCH_COUNTS, samples[1], 0)
+    measured[samples[0]] = True
+    problems = []
+    for taxels in layout.taxels:
+        rows = np.flatnonzero(measured[taxels])
+        y = value[taxels[rows]]
+        if y.any():
+            problems.append(Problem(np.ascontiguousarray(atoms[rows]), y, sparsity(rows.size)))
+    return problems
+
+
+def _compare(
+    kind: str,
+    title: str,
+    frames: list[Samples],
+    layout: PatchLayout,
+    atoms: NDArray[np.float32],
+    peak: float,
+    workbench: Workbench,
+    problems: list[str],
+) -> list[Figure]:
+    work = [patch_problems(layout, atoms, samples) for samples in frames]
+    recover = _recovery(layout, atoms)
+    contenders: dict[str, Callable[[], Any]] = {
+        "ours": lambda: [recover(samples) for _ in range(CALLS) for samples in frames]
+    }
+    linear_model, spams = peer(SCIKIT_LEARN, "linear_model"), peer(SPAMS)
+    if linear_model is not None:
+        contenders["sklearn"] = lambda: [_by_sklearn(linear_model, one) for patches in work for one in patches]
+    if spams is not None:
+        ready = [_for_spams(one) for patches in work for one in patches]
+        contenders["spams"] = lambda: [spams.omp(y, A, L=n, numThreads=1) for A, y, n in ready]
+        if not all(_agrees(spams, one) for one in work[0]):
+            problems.append("SPAMS finds other codes than FastOMP where it should find the same")
+    with warnings.catch_warnings():
+        # scikit-learn complains of atoms that are alike on the few measured pixels; it is timed, not used.
+        warnings.simplefilter("ignore")
+        seconds = _take_turns(contenders, workbench)
+    seconds["ours"] /= CALLS
+    ours_us = 1e6 * float(np.median(seconds["ours"])) / len(frames)
+    limit_us = 1e6 * sum(multiply_adds(one) for patches in work for one in patches) / len(frames) / peak
+    n_patches = sum(map(len, work)) / len(frames)
+    figures = [
+        Figure(f"{kind}.us", f"FastOMP, {title}: {n_patches:.0f} of 49 patches pressed", ours_us, "us"),
+        Figure(f"{kind}.limit_us", "    the arithmetic limit", limit_us, "us"),
+        Figure(f"{kind}.to_limit", "    to the arithmetic limit", ours_us / limit_us, "times", is_ratio=True),
+    ]
+    for name, library, label in (
+        ("sklearn", SCIKIT_LEARN, "scikit-learn, orthogonal_mp"),
+        ("spams", SPAMS, "SPAMS, omp"),
+    ):
+        if name not in seconds:
+            figures.append(Figure(f"{kind}.{name}_us", f"    {label}", missing(library)))
+            continue
+        theirs_us = 1e6 * float(np.median(seconds[name])) / len(frames)
+        ratio = float(np.median(seconds[name] / seconds["ours"]))
+        figures.append(Figure(f"{kind}.{name}_us", f"    {label}", theirs_us, "us"))
+        figures.append(Figure(f"{kind}.{name}_ratio", f"    {label}, to ours", ratio, "times", is_ratio=True))
+    return figures
+
+
+def _recovery(layout: PatchLayout, atoms: NDArray[np.float32]) -> Callable[[Samples], None]:
+    model = (
+        kernels.in_blocks(atoms),
+        np.ascontiguousarray(atoms.T),
+        layout.taxels,
+        layout.overlap,
+        layout.entry_start,
+        layout.entry_patch,
+        layout.entry_pixel,
+    )
+    workspace = kernels.Workspace(layout.rows * layout.cols, layout.n_patches, layout.size**2).arrays()
+    image = np.zeros(layout.rows * layout.cols, dtype=np.float32)
+
+    def recover(samples: Samples) -> None:
+        code = kernels.recover_image(*model, *samples, TOUCH_COUNTS, COUNT_MAX, SPARSITY_RATIO, True, *workspace, image)
+        assert code == kernels.OK
+
+    return recover
+
+
+def _by_sklearn(linear_model: Any, problem: Problem) -> Any:
+    return linear_model.orthogonal_mp(problem.A, problem.y, n_nonzero_coefs=problem.atoms)
+
+
+def _for_spams(problem: Problem) -> tuple[NDArray[np.float32], NDArray[np.float32], int]:
+    norms = np.maximum(np.linalg.norm(problem.A, axis=0), np.float32(1e-6))
+    return np.asfortranarray(problem.A / norms), np.asfortranarray(problem.y[:, None]), problem.atoms
+
+
+def _agrees(spams: Any, problem: Problem) -> bool:
+    """Whether the first atom is the same on normalised columns: what is timed does what we do."""
+    A, y, _ = _for_spams(problem)
+    codes = spams.omp(y, A, L=1, numThreads=1)
+    found = int(codes.indices[0])
+    first = int(fast_omp(A, y[:, 0], 1)[0][0])
+    size = np.abs(y[:, 0] @ A)
+    return bool(np.isclose(size[found], size[first], rtol=1e-4))
+
+
+def _take_turns(contenders: dict[str, Callable[[], Any]], workbench: Workbench) -> dict[str, NDArray[np.float64]]:
+    """CPU time of every contender in every turn [s]."""
+    for run in contenders.values():
+        run()
+    seconds: dict[str, list[float]] = {name: [] for name in contenders}
+    end_s = time.monotonic() + workbench.seconds / 2
+    while time.monotonic() < end_s or len(seconds["ours"]) < 3:
+        workbench.check_stop()
+        for name, run in contenders.items():
+            begin_s = time.thread_time()
+            run()
+            seconds[name].append(time.thread_time() - begin_s)
+    return {name: np.array(times) for name, times in seconds.items()}
+
+
+def _presses() -> list[Samples]:
+    frames = model_frames(list(OBJECTS.values()), 3 * FRAMES, seed=1)[::3]
+    sampler = Sampler(SamplingConfig(m=M, threshold_counts=50))
+    return [sampler.frame(measure_in(frame)) for frame in frames]
+
+
+def _pressed_everywhere() -> list[Samples]:
+    row, col = np.indices((32, 32))
+    field = (500 + 300 * np.sin(row / 5) * np.cos(col / 4)).astype(np.uint16)
+    sampler = Sampler(SamplingConfig(scheme="random", m=M))
+    return [sampler.frame(measure_in(field)) for _ in range(FRAMES)]
