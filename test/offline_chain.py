@@ -19,9 +19,7 @@ from acts_control.trajectory import Trajectory, TrajectoryConfig
 from acts_core.array import COUNT_MAX, ArrayGeometry
 from acts_core.sampling import Sampler, SamplingConfig, measure_in
 from acts_core.ur5e import LEVEL_Q_RAD, tilt_of, wrist_angles_for_tilt
-from acts_recon.dictionary import load_dictionary
-from acts_recon.reconstructor import Reconstructor
-from acts_recon.shipped import shipped_dictionary_path
+from acts_recon.reconstruction_settings import ReconstructionSettings
 from acts_sim.ball_plate import JointMotion
 from acts_sim.ur.joints import JointState, Servo
 from acts_sim.world import Phase, World, WorldConfig
@@ -41,6 +39,8 @@ class Chain:
     ----------
     scheme : str
         How the board samples.
+    method : str
+        How images are recovered, see `acts_recon.recovery.METHODS`.
     touch_delay_ms, command_delay_ms : int
         From the last measurement to the estimate, and from the control step to the robot's servo.
     """
@@ -51,6 +51,8 @@ class Chain:
     robot: RobotConfig = field(default_factory=RobotConfig)
     trajectory: TrajectoryConfig = field(default_factory=TrajectoryConfig)
     scheme: str = "tracking"
+    method: str = "fusion"
+    threshold_counts: int = 60
     noise_counts: float = 1.5
     touch_delay_ms: int = 2
     command_delay_ms: int = 3
@@ -68,8 +70,10 @@ def run(chain: Chain, limit_s: float = 60.0) -> Recording:
     rng = np.random.default_rng(chain.seed)
     geometry = ArrayGeometry()
     world = World(chain.world)
-    sampler = Sampler(SamplingConfig(chain.scheme, geometry.rows, geometry.cols, 55, threshold_counts=60))
-    reconstructor = Reconstructor(geometry, load_dictionary(shipped_dictionary_path()))
+    sampler = Sampler(
+        SamplingConfig(chain.scheme, geometry.rows, geometry.cols, 55, threshold_counts=chain.threshold_counts)
+    )
+    recovery = ReconstructionSettings(method=chain.method).recovery()
     estimator = BallEstimator(chain.estimator)
     controller = BallController(chain.controller)
     trajectory = Trajectory(chain.trajectory)
@@ -91,7 +95,8 @@ def run(chain: Chain, limit_s: float = 60.0) -> Recording:
         noisy = world.counts + rng.normal(0.0, chain.noise_counts, world.counts.shape)
         counts = np.clip(np.rint(noisy), 0, COUNT_MAX).astype(np.uint16)
         indices, values = sampler.frame(measure_in(counts.reshape(geometry.rows, geometry.cols)))
-        contact = reconstructor.step(indices, values)
+        # Here a frame is taken at one instant.
+        contact = recovery.step(indices, values, now_ms * STEP_S, 0.0)
         stamp_ns = now_ms * 1_000_000
         measurement = ContactMeasurement(stamp_ns, contact.in_contact, contact.x_m, contact.y_m, contact.force_n)
         touches.append((now_ms + chain.touch_delay_ms, measurement))

@@ -167,7 +167,7 @@ class FusionEstimator:
         return self.image
 
     def confidence(self) -> NDArray[np.uint8]:
-        """How sure the image is: 255 sure, 128 where sigma is `confidence_counts`, 0 unknown.
+        """How sure the image is: 255 sure, 128 where sigma is `confidence_counts`, near 0 unknown.
 
         Returns
         -------

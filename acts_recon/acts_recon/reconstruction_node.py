@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from statistics import median
 
 import numpy as np
+from builtin_interfaces.msg import Duration, Time
 from geometry_msgs.msg import PointStamped
 from numpy.typing import NDArray
 from rclpy.node import Node
@@ -36,28 +37,30 @@ _SEQUENCE_MODULUS = 2**32
 
 
 class ReconstructionNode(Node):
-    """Translates between topics and `Reconstructor`.
+    """Translates between topics and a `Recovery`.
 
     Subscribes ``samples`` (acts_msgs/TactileSamples). Publishes for every frame ``contact`` (acts_msgs/Contact), while
     in contact ``cop`` (geometry_msgs/PointStamped), and where somebody listens ``image_raw`` (sensor_msgs/Image,
-            contact = self._reconstructor.step(indices, counts)
+    mono16, counts), ``confidence`` (mono8, with the method ``fusion``) and ``image`` (rgb8, for viewers).
     """
 
     def __init__(self, *, cli_args: Sequence[str] | None = None, **options: object) -> None:
         super().__init__("reconstruction", cli_args=cli_args, **node_options(), **options)
         self._settings = declare(self, ReconstructionSettings)
-        self.get_logger().info("loading the dictionary and compiling (the first time on a machine takes some seconds)")
-        self._reconstructor = self._settings.reconstructor()
+        self.get_logger().info("compiling (the first time on a machine takes some seconds)")
+        self._recovery = self._settings.recovery()
         self._baseline = BaselineSubtraction(self._settings.rows * self._settings.cols)
         self._contact_publisher = self.create_publisher(ContactMessage, "contact", **qos.overridable(qos.STREAM))
         self._cop_publisher = self.create_publisher(PointStamped, "cop", **qos.overridable(qos.STREAM))
         self._raw_publisher = self.create_publisher(Image, "image_raw", **qos.overridable(qos.STREAM))
+        self._confidence_publisher = self.create_publisher(Image, "confidence", **qos.overridable(qos.STREAM))
         self._view_publisher = self.create_publisher(Image, "image", **qos.overridable(qos.VIEW))
         # Filled anew for every frame: making messages costs more than sending them.
         self._contact = ContactMessage()
         self._cop = PointStamped()
-        rows, cols = self._reconstructor.image.shape
+        rows, cols = self._recovery.image.shape
         self._raw = _empty_image(rows, cols, "mono16", 2)
+        self._sureness = _empty_image(rows, cols, "mono8", 1)
         scale = self._settings.image_scale
         self._view = _empty_image(rows * scale, cols * scale, "rgb8", 3)
         self._view_limit = RateLimit(self._settings.image_rate_hz)
@@ -66,7 +69,7 @@ class ReconstructionNode(Node):
         if classifier is not None:
             self._objects = ObjectPublisher(self, classifier, self._settings.object_rate_hz)
         self._contacts = ContactsPublisher(
-            self, self._reconstructor.geometry, self._reconstructor.response, self._settings.blob_config()
+            self, self._recovery.geometry, self._recovery.response, self._settings.blob_config()
         )
 
         self._frames = 0
@@ -89,6 +92,7 @@ class ReconstructionNode(Node):
     def _look_for_subscribers(self) -> None:
         self._send_cop = self._cop_publisher.get_subscription_count() > 0
         self._send_raw = self._raw_publisher.get_subscription_count() > 0
+        self._send_confidence = self._confidence_publisher.get_subscription_count() > 0
         self._send_view = self._view_publisher.get_subscription_count() > 0
         self._contacts.look_for_subscribers()
         if self._objects is not None:
@@ -105,9 +109,11 @@ class ReconstructionNode(Node):
             )
             return
         indices = _as_numpy(samples.indices)
+        if self._began_anew(samples.sequence):
+            self._recovery.reset()
         counts = self._baseline.apply(indices, _as_numpy(samples.counts))
         try:
-            contact = self._reconstructor.step(indices, counts)
+            contact = self._recovery.step(indices, counts, _seconds(samples.header.stamp), _seconds(samples.duration))
         except ArrayError as error:
             self._reject("bad_frame", str(error))
             return
@@ -116,11 +122,13 @@ class ReconstructionNode(Node):
         self._publish_contact(samples, contact)
         if self._send_raw:
             self._raw.header = samples.header
-            self._raw.data = array("B", mono16(self._reconstructor.image))
+            self._raw.data = array("B", mono16(self._recovery.image))
             self._raw_publisher.publish(self._raw)
+        if self._send_confidence:
+            self._publish_confidence(samples)
         if self._send_view:
             self._publish_view(samples)
-        self._contacts.publish(samples, self._reconstructor.image)
+        self._contacts.publish(samples, self._recovery.image, self._recovery.sigma)
         if self._objects is not None:
             self._objects.publish(samples, indices, counts)
         self._durations_s.append(time.perf_counter() - began_s)
@@ -158,25 +166,37 @@ class ReconstructionNode(Node):
             self._cop.point = message.centre_of_pressure
             self._cop_publisher.publish(self._cop)
 
+    def _publish_confidence(self, samples: TactileSamples) -> None:
+        confidence = self._recovery.confidence()
+        if confidence is None:
+            return
+        self._sureness.header = samples.header
+        self._sureness.data = array("B", confidence.tobytes())
+        self._confidence_publisher.publish(self._sureness)
+
     def _publish_view(self, samples: TactileSamples) -> None:
         if not self._view_limit.due(time.monotonic()):
             return
         self._view.header = samples.header
         pixels = rgb8(
-            self._reconstructor.image,
+            self._recovery.image,
             scale=self._settings.image_scale,
             full_scale_counts=self._settings.image_full_scale_counts,
         )
         self._view.data = array("B", pixels)
         self._view_publisher.publish(self._view)
 
+    def _began_anew(self, sequence: int) -> bool:
+        """Whether the board counts from the start again: half the range back is no gap."""
+        return self._last_sequence is not None and self._gap(sequence) >= _SEQUENCE_MODULUS // 2
+
     def _follow(self, sequence: int) -> None:
-        if self._last_sequence is not None:
-            gap = (sequence - self._last_sequence - 1) % _SEQUENCE_MODULUS
-            # Half the range back is not a gap but a board that began anew.
-            if gap < _SEQUENCE_MODULUS // 2:
-                self._lost += gap
+        if self._last_sequence is not None and not self._began_anew(sequence):
+            self._lost += self._gap(sequence)
         self._last_sequence = sequence
+
+    def _gap(self, sequence: int) -> int:
+        return (sequence - (self._last_sequence or 0) - 1) % _SEQUENCE_MODULUS
 
     def _reject(self, kind: str, reason: str) -> None:
         self._rejected[kind] += 1
@@ -204,6 +224,10 @@ class ReconstructionNode(Node):
         if not new_frames:
             return WARN, "no samples", values
         return OK, f"{rate_hz:.0f} frames/s", values
+
+
+def _seconds(moment: Time | Duration) -> float:
+    return float(moment.sec) + 1e-9 * moment.nanosec
 
 
 def _as_numpy(field: array) -> NDArray[np.uint16]:

@@ -12,8 +12,10 @@ from acts_core.settings import default_of, setting, validate
 from acts_recon.blobs import BlobConfig
 from acts_recon.classification import Classifier, ClassifierConfig
 from acts_recon.dictionary import load_dictionary
+from acts_recon.fusion import FusionConfig, FusionEstimator
 from acts_recon.object_library import load_object_library
 from acts_recon.reconstructor import Reconstructor, ReconstructorConfig
+from acts_recon.recovery import METHODS, FusedRecovery, PerFrameRecovery, Recovery
 from acts_recon.shipped import shipped_dictionary_path
 
 _ARRAY = ArrayGeometry()
@@ -40,6 +42,18 @@ class ReconstructionSettings:
         "distance between neighbouring rows of the image [m]; 0: as pitch_m, the paper's where that is 0",
         minimum=0.0,
         maximum=1.0,
+    )
+    method: str = setting(
+        "fusion",
+        "fusion: the image is estimated from all samples so far; per_frame: from each frame alone, as in the paper, "
+        "with dictionary, patch_step, sparsity_ratio and keep_measured",
+        choices=METHODS,
+    )
+    noise_counts: float = setting(
+        default_of(FusionConfig, "noise_counts"),
+        "standard deviation of a reading about the truth, for fusion [counts]",
+        minimum=0.0,
+        maximum=100.0,
     )
     dictionary: str = setting("", "path of a dictionary file made by `acts train`; empty for the shipped one")
     touch_counts: int = setting(
@@ -138,6 +152,24 @@ class ReconstructionSettings:
             self._response(),
             None if self.layout == "square" else arranged,
         )
+
+    def recovery(self) -> Recovery:
+        """Make the method that `method` names ready for the first frame; takes seconds when not yet compiled.
+
+        Raises
+        ------
+        DictionaryError, ArrayError, SettingsError
+            As `reconstructor`.
+        """
+        if self.method == "per_frame":
+            return PerFrameRecovery(self.reconstructor())
+        arranged = layout(self.layout, self.rows, self.cols)
+        estimator = FusionEstimator(
+            arranged.geometry(self.pitch_m, self.row_pitch_m),
+            FusionConfig(noise_counts=self.noise_counts),
+            None if self.layout == "square" else arranged,
+        )
+        return FusedRecovery(estimator, self._response(), self.touch_counts)
 
     def _response(self) -> ForceResponse | MeasuredForceResponse:
         if self.force_response:

@@ -1,4 +1,4 @@
-"""The node over real DDS; ROS_DOMAIN_IDs 28 and 40 to 45."""
+"""The node over real DDS; ROS_DOMAIN_IDs 28, 40 to 45 and 110 to 112."""
 
 import os
 import subprocess
@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 import rclpy
+from builtin_interfaces.msg import Duration, Time
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PointStamped
 from numpy.typing import NDArray
@@ -20,13 +21,17 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from recon_samples import bump, sample
 from sensor_msgs.msg import Image
+from std_msgs.msg import Header
 
 from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError, DictionaryError, ObjectLibraryError, SettingsError
+from acts_core.force import ForceResponse
 from acts_core.layouts import layout
 from acts_msgs.msg import Contact, ObjectClass, TactileSamples
 from acts_recon.classification import Classifier, ClassifierConfig
+from acts_recon.contact import find_contact
 from acts_recon.dictionary import Dictionary, save_dictionary
+from acts_recon.fusion import FusionEstimator
 from acts_recon.object_library import build_object_library, save_object_library
 from acts_recon.reconstruction_node import ReconstructionNode
 from acts_recon.reconstructor import Reconstructor
@@ -130,7 +135,7 @@ def make_bench(dictionary_path: Path) -> Iterator[Callable[..., Bench]]:
 def test_contact_cop_and_images_are_those_of_the_samples(
     make_bench: Callable[..., Bench], dictionary: Dictionary
 ) -> None:
-    bench = make_bench(40, image_scale=4, image_rate_hz=1000.0)
+    bench = make_bench(40, method="per_frame", image_scale=4, image_rate_hz=1000.0)
     bench.listen(PointStamped, "cop", qos.STREAM)
     bench.listen(Image, "image_raw", qos.STREAM)
     bench.listen(Image, "image", qos.VIEW)
@@ -174,6 +179,68 @@ def test_contact_cop_and_images_are_those_of_the_samples(
     assert len(bench.received["cop"]) == 1
 
 
+def timed(time_ms: int) -> dict[str, Any]:
+    """Stamp and duration of a frame of 55 samples."""
+    header = Header(frame_id="plate", stamp=Time(sec=100 + time_ms // 1000, nanosec=time_ms % 1000 * 1_000_000))
+    return {"header": header, "duration": Duration(nanosec=983_235)}
+
+
+def test_fusion_keeps_what_earlier_frames_showed_and_says_how_sure_it_is(make_bench: Callable[..., Bench]) -> None:
+    bench = make_bench(110, layout="glove")
+    bench.listen(Image, "image_raw", qos.STREAM)
+    bench.listen(Image, "confidence", qos.STREAM)
+    bench.until(lambda: bench.node._send_raw and bench.node._send_confidence)
+
+    glove = layout("glove")
+    geometry = glove.geometry()
+    picture = bump(geometry, 20.2, 11.7)
+    matrix = glove.matrix(picture).ravel()
+    estimator = FusionEstimator(geometry, layout=glove)
+    order = np.random.default_rng(6).permutation(1024)
+    for k in range(15):
+        indices = order[55 * k : 55 * k + 55]
+        end_s = 100 + k * 1e-3
+        estimator.step(indices.astype(np.uint16), matrix[indices].astype(np.uint16), end_s, 983_235e-9)
+        bench.send(k, indices, matrix[indices], **timed(k))
+    contact = bench.contact(14)
+    expected = find_contact(estimator.image, geometry, ForceResponse(), touch_counts=60)
+    assert contact.in_contact
+    assert contact.active_taxels == expected.active_taxels
+    assert contact.centre_of_pressure.x == pytest.approx(expected.x_m, abs=1e-5)
+    assert contact.force == pytest.approx(expected.force_n, rel=1e-3)
+    bench.until(lambda: len(bench.received["image_raw"]) == len(bench.received["confidence"]) == 15)
+    raw, confidence = bench.received["image_raw"][-1], bench.received["confidence"][-1]
+    assert raw.header == confidence.header == contact.header
+    pixels = np.frombuffer(raw.data, dtype="<u2").reshape(32, 32)
+    assert np.abs(pixels - estimator.image).max() <= 1
+    assert (confidence.height, confidence.width, confidence.encoding, confidence.step) == (32, 32, "mono8", 32)
+    sure = np.frombuffer(confidence.data, dtype=np.uint8).reshape(32, 32).astype(int)
+    assert np.abs(sure - estimator.confidence()).max() <= 1
+    assert sure.min() < 5
+    assert sure.max() > 250
+
+
+@pytest.mark.parametrize(
+    ("domain_id", "sequence", "time_ms"),
+    [
+        pytest.param(111, 3, 1002, id="dropout"),
+        pytest.param(112, 0, 2, id="restart"),
+    ],
+)
+def test_a_dropout_and_a_restart_of_the_board_begin_anew(
+    make_bench: Callable[..., Bench], domain_id: int, sequence: int, time_ms: int
+) -> None:
+    bench = make_bench(domain_id)
+    pressed = bump(ArrayGeometry(), 20.2, 11.7).ravel()
+    everything, corner = np.arange(1024), np.arange(10)
+    bench.send(1, everything, pressed, **timed(0))
+    bench.send(2, corner, pressed[corner], **timed(1))
+    assert bench.contact(1).in_contact
+    assert bench.contact(2).active_taxels == bench.contact(1).active_taxels
+    bench.send(sequence, corner, pressed[corner], **timed(time_ms))
+    assert not bench.contact(sequence).in_contact
+
+
 def test_the_object_is_the_one_of_the_library(make_bench: Callable[..., Bench], tmp_path: Path) -> None:
     places = {"high": (6.0, 16.0), "low": (25.0, 16.0)}
     library = build_object_library([bump(ArrayGeometry(), *place) for place in places.values()], list(places))
@@ -199,7 +266,7 @@ def test_the_object_is_the_one_of_the_library(make_bench: Callable[..., Bench], 
 
 
 def test_images_and_contacts_are_those_of_the_layout(make_bench: Callable[..., Bench], dictionary: Dictionary) -> None:
-    bench = make_bench(28, layout="insole", image_scale=2, image_rate_hz=1000.0)
+    bench = make_bench(28, method="per_frame", layout="insole", image_scale=2, image_rate_hz=1000.0)
     bench.listen(Image, "image_raw", qos.STREAM)
     bench.listen(Image, "image", qos.VIEW)
     bench.until(lambda: bench.node._send_raw and bench.node._send_view)
@@ -287,11 +354,16 @@ def test_the_viewer_image_keeps_its_rate_and_costs_nothing_unheard(make_bench: C
 @pytest.mark.parametrize(
     ("parameters", "error", "word"),
     [
-        ({"dictionary": "/no/such/file.npz"}, DictionaryError, "/no/such/file.npz: cannot be read"),
-        ({"dictionary": __file__}, DictionaryError, "not an npz file"),
+        ({"method": "guess"}, SettingsError, "method = 'guess'"),
+        (
+            {"method": "per_frame", "dictionary": "/no/such/file.npz"},
+            DictionaryError,
+            "/no/such/file.npz: cannot be read",
+        ),
+        ({"method": "per_frame", "dictionary": __file__}, DictionaryError, "not an npz file"),
         ({"object_library": "/no/such/objects.npz"}, ObjectLibraryError, "/no/such/objects.npz: cannot be read"),
         ({"object_columns": 1025}, SettingsError, "object_columns = 1025"),
-        ({"rows": 7}, ArrayError, "do not fit a side of 7"),
+        ({"method": "per_frame", "rows": 7}, ArrayError, "do not fit a side of 7"),
         ({"layout": "sock"}, SettingsError, "layout = 'sock'"),
         ({"layout": "glove", "rows": 16}, ArrayError, "16 x 32.*use square"),
         ({"touch_count": 60}, SettingsError, "'touch_count'.*'touch_counts'"),
@@ -312,7 +384,7 @@ def test_the_program_ends_with_one_line_and_exit_code_1() -> None:
     command = [sys.executable, "-c", "from acts_recon.reconstruction_node import main; main()"]
     environment = {**os.environ, "ROS_DOMAIN_ID": "44"}
     result = subprocess.run(
-        [*command, "--ros-args", "-p", "dictionary:=/no/such.npz"],
+        [*command, "--ros-args", "-p", "dictionary:=/no/such.npz", "-p", "method:=per_frame"],
         env=environment,
         capture_output=True,
         text=True,
