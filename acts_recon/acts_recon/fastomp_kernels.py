@@ -41,14 +41,21 @@ def pursue(
 ) -> int:
     """`acts_recon.fastomp.fast_omp` on the measured `pixels` of a patch; returns the number of chosen atoms.
 
-    `y`, `residual` and the rows of `Q` must be as long as `padded` of the most pixels.
+    `y`, `residual` and the rows of `Q` must be as long as `padded` of the most pixels. `pixels` and `y` are reordered.
     """
+    # Pixels that read 0 add nothing to the first correlations: they go to the end, and the first round leaves them out.
+    relevant = 0
+    for p in range(m):
+        if y[p] != 0:
+            y[p], y[relevant] = y[relevant], y[p]
+            pixels[p], pixels[relevant] = pixels[relevant], pixels[p]
+            relevant += 1
     n = (m + LANES - 1) // LANES * LANES
     for p in range(n):
         residual[p] = y[p] if p < m else np.float32(0.0)
     s = 0
     for i in range(n_atoms):
-        atom = best_column(blocks, pixels, residual, m)
+        atom = best_column(blocks, pixels, residual, relevant if i == 0 else m)
         if atom < 0:
             break
         chosen[i] = atom
