@@ -27,6 +27,8 @@ class FramesFile:
         First frame and number of frames of each recording; one recording when the file does not say.
     rate_hz : float or None
         Frames per second; None when the file does not say.
+    label : tuple of str
+        What each recording shows; empty when the file does not say.
     """
 
     frames: NDArray[np.uint16]
@@ -34,6 +36,7 @@ class FramesFile:
     start: NDArray[np.int64]
     length: NDArray[np.int64]
     rate_hz: float | None = None
+    label: tuple[str, ...] = ()
 
     def peak_frames(self) -> NDArray[np.uint16]:
         """The frame with the largest sum of each recording; np.ndarray [shape=(n_recordings, rows, cols)]."""
@@ -51,7 +54,9 @@ def load_frames(path: Path) -> FramesFile:
         When it cannot be read or its arrays do not fit together.
     """
     needed = "needed is an npz file with an array `frames` (n, rows, cols)"
-    content = read_npz(path, ("frames", "live", "start", "length", "rate_hz"), error=RecordingError, hint=needed)
+    content = read_npz(
+        path, ("frames", "live", "start", "length", "rate_hz", "label"), error=RecordingError, hint=needed
+    )
     if "frames" not in content:
         raise RecordingError(f"{path}: no array `frames`; {needed}")
     frames = content["frames"]
@@ -73,4 +78,11 @@ def load_frames(path: Path) -> FramesFile:
         if given.size != 1 or given.dtype.kind not in "fiu" or not 0 < given.item() < np.inf:
             raise RecordingError(f"{path}: rate_hz = {given}: needed is one positive number of frames per second")
         rate_hz = float(given.item())
-    return FramesFile(np.rint(frames).astype(np.uint16), live, start, length, rate_hz)
+    label: tuple[str, ...] = ()
+    if "label" in content:
+        if content["label"].shape != start.shape or content["label"].dtype.kind != "U":
+            raise RecordingError(
+                f"{path}: label {content['label'].shape}: needed is a text for each of {start.size} recordings"
+            )
+        label = tuple(content["label"].tolist())
+    return FramesFile(np.rint(frames).astype(np.uint16), live, start, length, rate_hz, label)

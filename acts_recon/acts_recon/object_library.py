@@ -16,9 +16,9 @@ from acts_recon.model_file import ModelFile
 
 _FILE = ModelFile(
     kind="an object library",
-    format="acts-objects-1",
-    fields=("rows", "cols", "columns", "classes", "names", "provenance", "sha256"),
-    remedy="write one with acts_recon.object_library.save_object_library",
+    format="acts-objects-2",
+    fields=("rows", "cols", "columns", "norms_counts", "classes", "names", "provenance", "sha256"),
+    remedy="write one with acts library",
     error=ObjectLibraryError,
 )
 
@@ -38,6 +38,8 @@ class ObjectLibrary:
         Size of the array.
     columns : np.ndarray [shape=(rows * cols, n_columns), dtype=float32]
         A frame a column, taxels row-major; every column has norm 1.
+    norms_counts : np.ndarray [shape=(n_columns,), dtype=float32]
+        Norm that each column had before it was scaled [counts]: how hard was pressed.
     classes : np.ndarray [shape=(n_columns,), dtype=int64]
         Class number of every column: 0 to ``n_classes - 1``, each at least once.
     names : tuple of str
@@ -54,6 +56,7 @@ class ObjectLibrary:
     rows: int
     cols: int
     columns: NDArray[np.float32]
+    norms_counts: NDArray[np.float32]
     classes: NDArray[np.int64]
     names: tuple[str, ...]
     provenance: str = ""
@@ -74,9 +77,16 @@ class ObjectLibrary:
         if np.abs(norms - 1).max() > _NORM_TOLERANCE:
             worst = int(np.argmax(np.abs(norms - 1)))
             raise ObjectLibraryError(f"column {worst} has norm {norms[worst]:.4g}; scale every column to norm 1")
+        pressed = np.asarray(self.norms_counts)
+        if pressed.shape != norms.shape or pressed.dtype.kind != "f" or not np.all((pressed > 0) & (pressed < np.inf)):
+            raise ObjectLibraryError(
+                f"norms_counts of shape {pressed.shape}, {pressed.dtype}: needed is a positive, finite float for each "
+                f"of the {norms.size} columns"
+            )
         names = tuple(str(name) for name in self.names)
         self._check_names(names)
         object.__setattr__(self, "columns", np.ascontiguousarray(columns, dtype=np.float32))
+        object.__setattr__(self, "norms_counts", np.ascontiguousarray(pressed, dtype=np.float32))
         object.__setattr__(self, "classes", self._checked_classes(columns.shape[1], len(names)))
         object.__setattr__(self, "names", names)
 
@@ -116,6 +126,7 @@ class ObjectLibrary:
         """Hash of everything but the provenance, as stored in the file."""
         digest = hashlib.sha256(f"{self.rows} {self.cols} {self.n_columns} {list(self.names)}".encode())
         digest.update(self.columns.astype("<f4").tobytes())
+        digest.update(self.norms_counts.astype("<f4").tobytes())
         digest.update(self.classes.astype("<i8").tobytes())
         return digest.hexdigest()
 
@@ -165,6 +176,7 @@ def build_object_library(
         rows=full.shape[1],
         cols=full.shape[2],
         columns=(flat / norms[:, None]).T.astype(np.float32),
+        norms_counts=norms.astype(np.float32),
         classes=classes.astype(np.int64),
         names=tuple(names.tolist()),
         provenance=provenance,
@@ -185,6 +197,7 @@ def save_object_library(library: ObjectLibrary, path: Path) -> None:
             "rows": library.rows,
             "cols": library.cols,
             "columns": library.columns,
+            "norms_counts": library.norms_counts,
             "classes": library.classes,
             "names": np.array(library.names, dtype=np.str_),
             "provenance": library.provenance,
@@ -213,6 +226,7 @@ def load_object_library(path: Path, *, shape: tuple[int, int] | None = None) -> 
             rows=int(content["rows"]),
             cols=int(content["cols"]),
             columns=content["columns"],
+            norms_counts=content["norms_counts"],
             classes=content["classes"],
             names=tuple(content["names"].tolist()),
             provenance=str(content["provenance"]),

@@ -23,10 +23,11 @@ def write(path: Path, **changes: object) -> Path:
     """A library file with some fields changed; None leaves a field out."""
     good = build_object_library(frames(), LABELS)
     content: dict[str, object] = {
-        "format": "acts-objects-1",
+        "format": "acts-objects-2",
         "rows": 2,
         "cols": 2,
         "columns": good.columns,
+        "norms_counts": good.norms_counts,
         "classes": good.classes,
         "names": np.array(good.names),
         "provenance": "",
@@ -92,7 +93,7 @@ def test_what_was_saved_is_loaded(library: ObjectLibrary, tmp_path: Path) -> Non
         ({"names": np.array(["a", "a"])}, "a name of its own"),
         ({"names": np.array([], dtype="U1")}, "0 names"),
         ({"names": np.array(["a", "b"])}, "hash"),
-        ({"format": "acts-dictionary-1"}, "readable is 'acts-objects-1'"),
+        ({"format": "acts-dictionary-1"}, "readable is 'acts-objects-2'"),
         ({"sha256": None}, "lacks sha256, so it is not an object library"),
     ],
 )

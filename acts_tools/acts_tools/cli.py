@@ -19,6 +19,7 @@ COMMANDS = {
     "driver": ("acts_tools.driver_command", "ask or tell a running driver: query, calibrate, tare, set"),
     "selftest": ("acts_tools.selftest.command", "test a board, its wiring and its skin"),
     "train": ("acts_tools.train", "train a dictionary for the reconstruction"),
+    "library": ("acts_tools.library", "write a library of known objects for the classification"),
     "bench": ("acts_tools.bench.command", "measure throughput, CPU and latency"),
     "evaluate": ("acts_tools.evaluate.command", "score the recovery of images on recordings"),
     "demo": ("acts_tools.demo.command", "run a demonstration with everything simulated"),

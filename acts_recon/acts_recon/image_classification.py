@@ -1,0 +1,227 @@
+"""Which object presses: known objects against an image of which some taxels are surer than others.
+
+Beyond the paper's SRC (`acts_recon.classification`), which explains the samples of one frame. Here the whole skin is
+compared, as far as it is known: an image put together from the samples of several frames, each taxel weighted by its
+uncertainty. Five things make the difference (docs/recovery.md has the figures):
+
+- What was measured and not pressed speaks against an object as loudly as what is pressed speaks for it.
+- An object that has only begun to press shows its lowest parts. Each column of the library is therefore known at
+  several depths: a constant taken off its forces, cut at 0, is on an elastic foundation the same object less deep.
+- How hard is pressed goes with how deep: a small object pressed hard is no large one that has just touched.
+- A class explains the image by a mixture without negative parts of its own columns only: presses between the known.
+- What the last frames left unexplained counts on, fading.
+
+`classify_image` is the plain version, in double precision, of a single image; `ImageClassifier` runs
+`acts_recon.image_classification_kernels`, in single precision, and remembers.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import nnls
+
+from acts_core.array import COUNT_MAX
+from acts_core.errors import ArrayError
+from acts_core.force import ForceResponse, MeasuredForceResponse
+from acts_core.residuals import confidence_of
+from acts_core.settings import setting, validate
+from acts_recon import image_classification_kernels as kernels
+from acts_recon.classification import Classification
+from acts_recon.object_library import ObjectLibrary
+from acts_recon.unrest import Unrest
+
+LEVELS = (0.0, 0.2, 0.4, 0.6, 0.75, 0.87, 0.94)
+"""What is taken off a column's forces to know it less deep, as shares of the largest."""
+
+REFINED_CLASSES = 5
+"""Classes that may mix their columns: those of which one column alone explains most."""
+
+MIXED_COLUMNS = 6
+"""Columns, of all depths, that a class mixes: those that alone explain most."""
+
+
+@dataclass(frozen=True)
+class ImageClassifierConfig:
+    """Settings of the classification of images."""
+
+    touch_counts: int = setting(15, "counts above which a taxel is pressed; others are 0", minimum=0, maximum=COUNT_MAX)
+    noise_counts: float = setting(6.0, "standard deviation of a fresh, unpressed taxel", minimum=0.1, maximum=COUNT_MAX)
+    relative_error: float = setting(
+        0.08, "standard deviation of a pressed taxel from the library's, of its value", minimum=0, maximum=10
+    )
+    force_error: float = setting(
+        0.2, "standard deviation of how hard is pressed, from the library's at that depth, as a logarithm", minimum=0.01
+    )
+    memory_s: float = setting(0.003, "time in which what a frame said fades to a third [s]", minimum=0, maximum=10)
+
+    def __post_init__(self) -> None:
+        validate(self)
+
+
+def less_deep(
+    library: ObjectLibrary, response: ForceResponse | MeasuredForceResponse | None = None
+) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.int64]]:
+    """Every column of a library at all `LEVELS`.
+
+    Returns
+    -------
+    patterns : np.ndarray [shape=(n_columns * n_levels, taxels), dtype=float32]
+        Each of norm 1.
+    norms_counts : np.ndarray [shape=(n_columns * n_levels,), dtype=float32]
+        Norm of each as it was pressed [counts].
+    classes : np.ndarray [shape=(n_columns * n_levels,), dtype=int64]
+    """
+    response = response or ForceResponse()
+    counts = (library.columns * library.norms_counts).T.astype(np.float64)
+    forces_n = response.force_n(counts)
+    # Level 0 is the frame as it was measured; above full scale there is no way from counts to force and back.
+    cut = [counts]
+    for level in LEVELS[1:]:
+        less_n = np.maximum(forces_n - level * forces_n.max(axis=1, keepdims=True), 0.0)
+        cut.append(np.where(less_n > 0, response.counts(less_n), 0.0))
+    patterns = np.stack(cut, axis=1).reshape(-1, counts.shape[1])
+    norms_counts = np.linalg.norm(patterns, axis=1)
+    return (
+        (patterns / norms_counts[:, None]).astype(np.float32),
+        norms_counts.astype(np.float32),
+        np.repeat(library.classes, len(LEVELS)),
+    )
+
+
+def against_force(force: float, config: ImageClassifierConfig) -> float:
+    """What a force speaks against a pattern, as a share of the image's square.
+
+    Parameters
+    ----------
+    force : float
+        Of the image in relation to the pattern as it was pressed; above 0.
+    config : ImageClassifierConfig
+    """
+    return (config.relative_error / config.force_error * math.log(force)) ** 2
+
+
+def classify_image(
+    library: ObjectLibrary,
+    image: NDArray[np.floating],
+    sigma: NDArray[np.floating],
+    config: ImageClassifierConfig | None = None,
+) -> Classification:
+    """Classify one image, plainly, without memory; see `ImageClassifier.step`."""
+    config = config or ImageClassifierConfig()
+    patterns, norms_counts, classes = less_deep(library)
+    x = np.asarray(image, dtype=np.float64).ravel()
+    x = np.where(x > config.touch_counts, x, 0.0)
+    residuals = np.ones(library.n_classes)
+    if not x.any():
+        return Classification(False, 0, residuals, 0.0)
+    spread = np.asarray(sigma, dtype=np.float64).ravel()
+    root = 1 / np.sqrt(config.noise_counts**2 + (config.relative_error * x) ** 2 + spread**2)
+    y, A = root * x, root[:, None] * patterns.T.astype(np.float64)
+    square = y @ y
+    dots, norms = y @ A, np.einsum("ij,ij->j", A, A)
+    left = np.full(library.n_classes, square)
+    # How much of the image each pattern alone explains, less what its force speaks against it.
+    explained = np.zeros(classes.size)
+    for p in np.flatnonzero((dots > 0) & (norms > 0)):
+        force = dots[p] / norms[p] / norms_counts[p]
+        explained[p] = max(dots[p] ** 2 / norms[p] - square * against_force(force, config), 0.0)
+    best = np.array([explained[classes == number].max() for number in range(library.n_classes)])
+    left -= best
+    for number in np.argsort(-best, kind="stable")[:REFINED_CLASSES]:
+        own = np.flatnonzero(classes == number)
+        mixed = own[np.argsort(-explained[own], kind="stable")[:MIXED_COLUMNS]]
+        shares, unexplained = nnls(A[:, mixed], y)
+        force = float((shares / norms_counts[mixed]).sum())
+        if force > 0:
+            left[number] = min(left[number], unexplained**2 + square * against_force(force, config))
+    residuals = np.sqrt(np.maximum(left, 0) / square)
+    return Classification(True, int(np.argmin(residuals)), residuals, confidence_of(residuals))
+
+
+class ImageClassifier:
+    """Classifies image after image; everything is compiled before the first one.
+
+    Parameters
+    ----------
+    library : ObjectLibrary
+        Best of frames whose counts above some 15 are kept: also faint parts tell objects apart.
+    config : ImageClassifierConfig, optional
+    """
+
+    def __init__(self, library: ObjectLibrary, config: ImageClassifierConfig | None = None) -> None:
+        self.library = library
+        self.config = config or ImageClassifierConfig()
+        self._model = kernels.Model(*less_deep(library), library.n_classes)
+        self._state = kernels.State(library.rows * library.cols, len(self._model.classes), library.n_classes)
+        self._unrest = Unrest(library.rows, library.cols, self.config.touch_counts)
+        # Compile, or load from the cache, what the first image would otherwise wait seconds for.
+        image = np.full((library.rows, library.cols), COUNT_MAX, dtype=np.float32)
+        self.step(image, np.zeros_like(image), np.zeros_like(image), 0.001)
+        self.reset()
+
+    def reset(self) -> None:
+        """Forget all frames."""
+        self._unrest.reset()
+        self._state.left.fill(0)
+        self._state.energy.fill(0)
+
+    def step(
+        self,
+        image: NDArray[np.float32],
+        sigma: NDArray[np.float32],
+        age_s: NDArray[np.float32],
+        period_s: float,
+    ) -> Classification:
+        """Classify the next image.
+
+        Parameters
+        ----------
+        image : np.ndarray [shape=(rows, cols), dtype=float32]
+            Counts.
+        sigma : np.ndarray [shape=(rows, cols), dtype=float32]
+            How far each may be off, a standard deviation [counts].
+        age_s : np.ndarray [shape=(rows, cols), dtype=float32]
+            Time since each was measured [s]; inf: never.
+        period_s : float
+            Time since the last image [s].
+
+        Returns
+        -------
+        Classification
+            Its `residuals` are overwritten by the next image: copy what is to be kept.
+
+        Raises
+        ------
+        ArrayError
+            When the image does not fit the library.
+        """
+        shape = (self.library.rows, self.library.cols)
+        for name, array in (("image", image), ("sigma", sigma), ("age_s", age_s)):
+            if array.shape != shape or array.dtype != np.float32 or not array.flags.c_contiguous:
+                raise ArrayError(
+                    f"{name} {array.shape}, {array.dtype}: needed is a C-contiguous float32 array of "
+                    f"{shape[0]} x {shape[1]}"
+                )
+        config, state = self.config, self._state
+        kept = math.exp(-period_s / config.memory_s) if config.memory_s > 0 else 0.0
+        doubt = np.hypot(sigma, self._unrest.step(image, age_s, period_s))
+        touched = kernels.class_residuals(
+            *self._model.arrays(),
+            image.ravel(),
+            doubt.ravel(),
+            config.touch_counts,
+            config.noise_counts,
+            config.relative_error,
+            config.relative_error / config.force_error,
+            kept,
+            REFINED_CLASSES,
+            MIXED_COLUMNS,
+            *state.arrays(),
+        )
+        if not touched:
+            return Classification(False, 0, state.residuals, 0.0)
+        return Classification(True, int(np.argmin(state.residuals)), state.residuals, confidence_of(state.residuals))

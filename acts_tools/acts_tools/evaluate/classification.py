@@ -1,0 +1,266 @@
+"""Which object presses: the paper's SRC and ours on the same presses of simulated objects, over M and over time.
+
+The paper's method: adaptive sampling, each frame alone (`acts_recon.classification`). Ours: tracking sampling, what is
+known of several frames (`acts_recon.image_classification`). Both sample the same recordings through the firmware's own
+sampler with frames that begin at the same times, and know the objects from the same library presses.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.array import ArrayGeometry
+from acts_core.sampling import SamplingConfig
+from acts_recon.classification import Classifier, ClassifierConfig
+from acts_recon.fusion import FusionEstimator
+from acts_recon.image_classification import ImageClassifier, ImageClassifierConfig
+from acts_recon.object_library import ObjectLibrary, build_object_library
+from acts_sim.contact_model import FoamConfig
+from acts_sim.objects import ContactObject
+from acts_sim.pressing_arm import RATE_HZ as RECORDED_HZ
+from acts_sim.pressing_arm import PressingArm, PressingConfig
+from acts_tools.evaluate.board_sampler import BoardSampler
+from acts_tools.evaluate.recovery import SAMPLE_US
+
+PAPER, ACTS = "paper", "acts"
+TOUCH_COUNTS = 60
+"""The paper's touch: its library, samples and search know nothing below. Contact is said to begin there."""
+
+TIMES_MS = (2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 25, 30, 40, 50, 60, 80)
+MIDDLE_MS = 60.0
+"""When a press is held: the time of the accuracy over M."""
+
+M_OVER_TIME = 64
+MS = (42, 48, 56, 64, 88, 128, 256, 512)
+_BEFORE_S = 0.100
+"""Untouched before a press, so that tracking has walked the skin."""
+
+_LISTEN_S = 0.025
+"""How long before the first answer that is asked for our method begins to classify; it forgets faster."""
+
+
+class Contender(Protocol):
+    """A way to sample and to classify."""
+
+    sampling: SamplingConfig
+
+    def reset(self) -> None:
+        """Another recording begins."""
+
+    def take(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float) -> None:
+        """Take a frame of samples of which no answer is needed."""
+
+    def answer(
+        self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float
+    ) -> int | None:
+        """Take a frame of samples and return the class; None where nothing presses."""
+
+
+class PerFrameSrc:
+    """The paper's method: adaptive sampling, SRC on the samples of one frame."""
+
+    def __init__(self, library: ObjectLibrary, m: int, *, touch_counts: int = TOUCH_COUNTS) -> None:
+        self.sampling = SamplingConfig(
+            scheme="adaptive", rows=library.rows, cols=library.cols, m=m, threshold_counts=touch_counts
+        )
+        self._classifier = Classifier(library, ClassifierConfig(touch_counts=touch_counts))
+
+    def reset(self) -> None:
+        """Nothing is kept."""
+
+    def take(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float) -> None:
+        """Nothing is kept."""
+
+    def answer(
+        self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float
+    ) -> int | None:
+        """See `Contender`."""
+        result = self._classifier.step(indices, counts)
+        return result.best if result.touched else None
+
+
+class FusedImage:
+    """Ours: tracking sampling, all that is known of the skin."""
+
+    def __init__(
+        self, library: ObjectLibrary, m: int, config: ImageClassifierConfig | None = None, *, period_s: float
+    ) -> None:
+        self._classifier = ImageClassifier(library, config)
+        self.sampling = SamplingConfig(
+            scheme="tracking",
+            rows=library.rows,
+            cols=library.cols,
+            m=m,
+            threshold_counts=self._classifier.config.touch_counts,
+        )
+        self._period_s = period_s
+        self._estimator = FusionEstimator(ArrayGeometry(rows=library.rows, cols=library.cols))
+
+    def reset(self) -> None:
+        """See `Contender`."""
+        self._estimator.reset()
+        self._classifier.reset()
+
+    def take(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float) -> None:
+        """See `Contender`."""
+        self._estimator.step(indices, counts, end_s, duration_s)
+
+    def answer(
+        self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float
+    ) -> int | None:
+        """See `Contender`."""
+        image = self._estimator.step(indices, counts, end_s, duration_s)
+        result = self._classifier.step(image, self._estimator.sigma, self._estimator.age_s, self._period_s)
+        return result.best if result.touched else None
+
+
+def frame_period_s(m: int, rate_hz: float = 1000.0) -> float:
+    """From frame to frame [s]: as fast as asked, or as fast as `m` measurements go."""
+    return max(1 / rate_hz, m * SAMPLE_US * 1e-6)
+
+
+def answers(
+    contender: Contender,
+    frames: NDArray[np.uint16],
+    recorded_hz: float,
+    contact_s: float,
+    times_s: Sequence[float],
+    *,
+    run_up_s: float | None = None,
+) -> list[int | None]:
+    """Play a recording; the last answer that is there at each of some times since contact.
+
+    Parameters
+    ----------
+    contender : Contender
+    frames : np.ndarray [shape=(n, rows, cols), dtype=uint16]
+    recorded_hz : float
+        Frames of the recording per second.
+    contact_s : float
+        When contact begins [s]; then a frame of samples begins, too.
+    times_s : sequence of float
+        Since contact, rising [s].
+    run_up_s : float, optional
+        How much is played before contact [s]; everything by default.
+
+    Returns
+    -------
+    list of int or None [len(times_s)]
+        Classes; None where nothing was seen to press.
+    """
+    m = contender.sampling.m
+    period_s, step_s = frame_period_s(m), SAMPLE_US * 1e-6
+    run_up_s = contact_s if run_up_s is None else run_up_s
+    contender.reset()
+    sampler = BoardSampler(contender.sampling)
+    # The number of the last frame whose answer is there at each time; frame 0 begins with the contact.
+    wanted = [int(np.floor((time_s - m * step_s) / period_s + 1e-6)) for time_s in times_s]
+    listen = wanted[0] - int(_LISTEN_S / period_s)
+    found: dict[int, int | None] = {}
+    for number in range(min(-int(run_up_s / period_s), wanted[0]), wanted[-1] + 1):
+        begin_s = contact_s + number * period_s
+        indices, counts = sampler.frame(frames, begin_s * recorded_hz, step_s * recorded_hz)
+        end_s = begin_s + m * step_s
+        if number < listen:
+            contender.take(indices, counts, end_s, m * step_s)
+        else:
+            found[number] = contender.answer(indices, counts, end_s, m * step_s)
+    return [found[number] for number in wanted]
+
+
+@dataclass(frozen=True)
+class Trials:
+    """What is pressed how often.
+
+    Attributes
+    ----------
+    arms : int
+        Arms, each with its own skin, spots and library.
+    presses : int
+        Of every object on every arm.
+    columns : int
+        Library presses of every object on every arm, none of them among `presses`.
+    seed : int
+    """
+
+    arms: int = 4
+    presses: int = 3
+    columns: int = 5
+    seed: int = 1
+    pressing: PressingConfig = field(default_factory=PressingConfig)
+    foam: FoamConfig = field(default_factory=FoamConfig)
+    objects: tuple[ContactObject, ...] | None = None
+
+
+@dataclass
+class Score:
+    """How often a method was right: one row a press, one column a question."""
+
+    rows: list[list[bool]] = field(default_factory=list)
+
+    def summary(self, questions: Sequence[float], name: str) -> list[dict[str, Any]]:
+        """Accuracy with its 95 % interval (Wilson) for every question."""
+        right = np.array(self.rows, dtype=bool)
+        return [
+            {name: question, **accuracy(int(right[:, column].sum()), len(right))}
+            for column, question in enumerate(questions)
+        ]
+
+
+def accuracy(right: int, n: int) -> dict[str, Any]:
+    """Accuracy of `right` answers of `n`, with its 95 % interval by Wilson's method."""
+    z = 1.959964
+    share = right / n
+    middle = (share + z * z / (2 * n)) / (1 + z * z / n)
+    half = z / (1 + z * z / n) * float(np.sqrt(share * (1 - share) / n + z * z / (4 * n * n)))
+    # Rounded off: at all or none right the bound is 1 or 0, but for the last digit.
+    low, high = max(middle - half, 0.0), min(middle + half, 1.0)
+    return {"accuracy": share, "low": low, "high": high, "presses": n}
+
+
+def run_trials(trials: Trials, ms: Sequence[int] = MS, times_ms: Sequence[float] = TIMES_MS) -> dict[str, Any]:
+    """Press, sample, classify.
+
+    Returns
+    -------
+    dict
+        `over_m` and `over_time`: by method ("paper", "acts") a list of accuracies.
+    """
+    over_m = {method: {m: Score() for m in ms} for method in (PAPER, ACTS)}
+    over_time = {method: Score() for method in (PAPER, ACTS)}
+    times_s = [1e-3 * time_ms for time_ms in times_ms]
+    after_s = 1e-3 * max(MIDDLE_MS, *times_ms) + 0.015
+    for number in range(trials.arms):
+        arm = PressingArm(trials.objects, trials.pressing, trials.foam, seed=trials.seed * 1000 + number)
+        known, labels = arm.held_frames(trials.columns)
+        coarse = build_object_library(known, labels, touch_counts=TOUCH_COUNTS)
+        fine = build_object_library(known, labels, touch_counts=ImageClassifierConfig().touch_counts)
+
+        def pair(m: int, coarse: ObjectLibrary = coarse, fine: ObjectLibrary = fine) -> dict[str, Contender]:
+            return {PAPER: PerFrameSrc(coarse, m), ACTS: FusedImage(fine, m, period_s=frame_period_s(m))}
+
+        contenders = {m: pair(m) for m in ms}
+        timed = pair(M_OVER_TIME)
+        for item in range(len(arm.objects)):
+            wanted = coarse.names.index(arm.objects[item].name)
+            for _ in range(trials.presses):
+                frames = arm.recording(item, _BEFORE_S, after_s)
+                contact_s = float(np.argmax(frames.max(axis=(1, 2)) > TOUCH_COUNTS)) / RECORDED_HZ
+                for method, contender in timed.items():
+                    found = answers(contender, frames, RECORDED_HZ, contact_s, times_s)
+                    over_time[method].rows.append([answer == wanted for answer in found])
+                for m in ms:
+                    for method, contender in contenders[m].items():
+                        found = answers(contender, frames, RECORDED_HZ, contact_s, [1e-3 * MIDDLE_MS])
+                        over_m[method][m].rows.append([found[0] == wanted])
+    return {
+        "over_m": {
+            method: [score.summary([m], "m")[0] for m, score in scores.items()] for method, scores in over_m.items()
+        },
+        "over_time": {method: score.summary(times_ms, "time_ms") for method, score in over_time.items()},
+    }

@@ -1,0 +1,100 @@
+"""`acts evaluate classification`: which object presses, by the paper's SRC and by ours, on the same presses."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+from typing import Any
+
+from acts_core.errors import RecordingError
+from acts_core.frames_file import load_frames
+from acts_core.settings import default_of
+from acts_sim.objects import OBJECTS, object_named
+from acts_sim.pressing_arm import PressingConfig
+from acts_tools.evaluate import options
+from acts_tools.evaluate.classification import M_OVER_TIME, MS, Trials, run_trials
+from acts_tools.evaluate.classification_recorded import run_recorded
+from acts_tools.evaluate.classification_report import draw, table
+
+
+def add_parser(commands: Any) -> None:
+    """Add ``acts evaluate classification``."""
+    parser = commands.add_parser(
+        "classification",
+        help="which object presses: accuracy over M and over time since contact",
+        description="Press 30 simulated objects again and again, or take labelled recordings (--frames), and tell "
+        "which one it is: by the paper's method (adaptive sampling, SRC on each frame alone) and by ours (tracking, "
+        "all that is known of the skin), on the same frames and with the same library.",
+    )
+    parser.add_argument(
+        "--frames",
+        type=Path,
+        metavar="NPZ",
+        help="`frames`, `rate_hz`, `start`, `length` and a `label` for each recording; the first half of each label's "
+        "recordings becomes the library, the rest is classified",
+    )
+    parser.add_argument(
+        "--m", nargs="+", type=int, metavar="M", help=f"taxels per frame (default: {MS}; of --frames: 55)"
+    )
+    for name, text in (
+        ("arms", "simulated arms, each with a skin, spots and a library of its own"),
+        ("presses", "of every object on every arm"),
+        ("columns", "presses of every object in the library of an arm"),
+    ):
+        parser.add_argument(
+            f"--{name}",
+            type=options.at_least_one,
+            default=getattr(Trials(), name),
+            help=f"{text} (default: %(default)s)",
+        )
+    parser.add_argument("--objects", nargs="+", default=list(OBJECTS), metavar="NAME", help="default: all 30")
+    for name, text in (
+        ("miss_taxels", "how far presses miss their spot, standard deviation [taxels]"),
+        ("miss_deg", "how far they miss their turn, standard deviation [degrees]"),
+    ):
+        default = default_of(PressingConfig, name)
+        parser.add_argument(
+            f"--{name.replace('_', '-')}",
+            type=float,
+            default=default,
+            metavar="X",
+            help=f"{text} (default: %(default)s)",
+        )
+    parser.add_argument("--seed", type=int, default=1, metavar="X", help="of everything random (default: %(default)s)")
+    parser.add_argument("--json", type=Path, metavar="OUT", help="write the results here, too")
+    parser.add_argument("--picture", type=Path, metavar="PNG", help="draw both curves (not of --frames)")
+    parser.set_defaults(evaluate=_run)
+
+
+def _run(arguments: argparse.Namespace) -> int:
+    if arguments.frames:
+        results = run_recorded(load_frames(arguments.frames), arguments.m or [55])
+        print(
+            f"{results['library']} recordings in the library, {results['presses']} classified, "
+            f"{results['classes']} objects"
+        )
+        print(table(results["over_m"], "m", "accuracy at M ="))
+    else:
+        trials = Trials(
+            arms=arguments.arms,
+            presses=arguments.presses,
+            columns=arguments.columns,
+            seed=arguments.seed,
+            pressing=PressingConfig(miss_taxels=arguments.miss_taxels, miss_deg=arguments.miss_deg),
+            objects=tuple(object_named(name) for name in arguments.objects),
+        )
+        results = run_trials(trials, arguments.m or MS)
+        print(table(results["over_m"], "m", "accuracy, held, at M ="))
+        print()
+        print(table(results["over_time"], "time_ms", f"accuracy at M = {M_OVER_TIME}, ms since contact"))
+        if arguments.picture:
+            draw(arguments.picture, results, M_OVER_TIME)
+    if arguments.json:
+        try:
+            arguments.json.write_text(json.dumps(results, indent=2) + "\n")
+        except OSError as error:
+            raise RecordingError(
+                f"{arguments.json}: cannot be written ({error.strerror}); its folder must exist"
+            ) from error
+    return 0

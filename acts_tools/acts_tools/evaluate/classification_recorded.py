@@ -1,0 +1,93 @@
+"""Which object is grasped, on labelled recordings: the paper's SRC, ours, and nearest neighbour on full frames."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from acts_core.errors import RecordingError
+from acts_core.frames_file import FramesFile
+from acts_recon.image_classification import ImageClassifierConfig
+from acts_recon.object_library import build_object_library
+from acts_tools.evaluate.classification import (
+    ACTS,
+    PAPER,
+    TOUCH_COUNTS,
+    Contender,
+    FusedImage,
+    PerFrameSrc,
+    accuracy,
+    answers,
+    frame_period_s,
+)
+
+NEAREST = "nearest"
+_RUN_UP_S = 1.0
+"""Played before the frame that is classified."""
+
+
+def run_recorded(recorded: FramesFile, ms: Sequence[int]) -> dict[str, Any]:
+    """Classify the strongest frame of every recording by the strongest frames of other recordings.
+
+    The first half of each object's recordings, as they follow one another in the file, is the library; the rest is
+    classified. Recordings without a touch in their strongest frame are left out.
+
+    Returns
+    -------
+    dict
+        `over_m`: by method a list of accuracies; `library`, `presses`, `classes`: how many.
+
+    Raises
+    ------
+    RecordingError
+        When there is no label or rate, or an object has fewer than two recordings.
+    """
+    if recorded.rate_hz is None or not recorded.label:
+        raise RecordingError("needed are `rate_hz` and a `label` for every recording (start, length)")
+    flat = recorded.frames * recorded.live
+    peaks = [
+        int(s + np.argmax(flat[s : s + n].sum(axis=(1, 2), dtype=np.int64)))
+        for s, n in zip(recorded.start, recorded.length, strict=True)
+    ]
+    known, asked = _split(recorded, [flat[peak].max() > TOUCH_COUNTS for peak in peaks])
+    frames = np.stack([flat[peaks[number]] for number in known])
+    labels = [recorded.label[number] for number in known]
+    coarse = build_object_library(frames, labels, touch_counts=TOUCH_COUNTS)
+    fine = build_object_library(frames, labels, touch_counts=ImageClassifierConfig().touch_counts)
+    truth = [coarse.names.index(recorded.label[number]) for number in asked]
+    over_m: dict[str, list[dict[str, Any]]] = {PAPER: [], ACTS: [], NEAREST: []}
+    cosines = np.stack([flat[peaks[number]].ravel() for number in asked]) @ fine.columns
+    nearest = fine.classes[np.argmax(cosines, axis=1)]
+    for m in ms:
+        contenders: dict[str, Contender] = {
+            PAPER: PerFrameSrc(coarse, m),
+            ACTS: FusedImage(fine, m, period_s=frame_period_s(m)),
+        }
+        for method, contender in contenders.items():
+            right = 0
+            for number, wanted in zip(asked, truth, strict=True):
+                start, length = recorded.start[number], recorded.length[number]
+                frames = np.ascontiguousarray(flat[start : start + length])
+                peak_s = (peaks[number] - start) / recorded.rate_hz
+                # The last frame of samples that ends by the strongest moment; a recording's first frame is held before.
+                before_s = min(peak_s, _RUN_UP_S)
+                found = answers(contender, frames, recorded.rate_hz, peak_s, [0.0], run_up_s=before_s)
+                right += found[0] == wanted
+            over_m[method].append({"m": m, **accuracy(right, len(asked))})
+        over_m[NEAREST].append({"m": m, **accuracy(int((nearest == truth).sum()), len(asked))})
+    return {"over_m": over_m, "library": len(known), "presses": len(asked), "classes": coarse.n_classes}
+
+
+def _split(recorded: FramesFile, touched: Sequence[bool]) -> tuple[list[int], list[int]]:
+    """Numbers of the recordings that are known, and of those asked about."""
+    known, asked = [], []
+    for label in sorted(set(recorded.label)):
+        own = [n for n, other in enumerate(recorded.label) if other == label and touched[n]]
+        if len(own) < 2:
+            raise RecordingError(f"{label!r} has {len(own)} recordings with a touch; needed are at least 2")
+        half = len(own) // 2
+        known += own[:half]
+        asked += own[half:]
+    return known, asked

@@ -1,0 +1,67 @@
+"""Tables and the picture of `acts evaluate classification`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from acts_core.errors import RecordingError
+
+PUBLISHED_OVER_M = {42: 0.756, 48: 0.849, 56: 0.901, 64: 0.934, 88: 0.991, 128: 0.997, 256: 0.997, 512: 0.992}
+"""Accuracy of SRC with adaptive sampling over M (paper, Fig. 4F)."""
+
+PUBLISHED_AT_20_MS = 0.886
+"""The same 20 ms after first contact, M = 64 (paper, Fig. 4G); a running mean over the frames since contact."""
+
+_COLOURS = {"paper": "tab:blue", "acts": "tab:red"}
+_NAMES = {"paper": "adaptive, SRC a frame", "acts": "tracking, fused image"}
+
+
+def table(results: dict[str, list[dict[str, Any]]], question: str, heading: str) -> str:
+    """One row a question, one column a method: accuracy and its 95 % interval."""
+    methods = list(results)
+    lines = [f"| {heading} | " + " | ".join(methods) + " |", "|---" * (len(methods) + 1) + "|"]
+    for row in zip(*results.values(), strict=True):
+        cells = (f"{cell['accuracy']:.3f} ({cell['low']:.3f} to {cell['high']:.3f})" for cell in row)
+        lines.append(f"| {row[0][question]:g} | " + " | ".join(cells) + " |")
+    return "\n".join(lines)
+
+
+def draw(path: Path, results: dict[str, Any], m_over_time: int) -> None:
+    """Draw accuracy over M and over time since contact, with their intervals, into a PNG file.
+
+    Raises
+    ------
+    RecordingError
+        When it cannot be written.
+    """
+    # Imported here: it takes long, and only this needs it.
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    figure, (left, right) = pyplot.subplots(1, 2, figsize=(10, 4.2), layout="constrained")
+    for axes, curves, question in ((left, results["over_m"], "m"), (right, results["over_time"], "time_ms")):
+        for method, cells in curves.items():
+            x = [cell[question] for cell in cells]
+            axes.plot(x, [cell["accuracy"] for cell in cells], "o-", ms=3, color=_COLOURS[method], label=_NAMES[method])
+            axes.fill_between(
+                x, [cell["low"] for cell in cells], [cell["high"] for cell in cells], color=_COLOURS[method], alpha=0.15
+            )
+        axes.set(ylabel="accuracy", ylim=(0, 1.02))
+        axes.grid(alpha=0.3)
+    ms = [m for m in PUBLISHED_OVER_M if any(cell["m"] == m for cell in results["over_m"]["paper"])]
+    left.plot(ms, [PUBLISHED_OVER_M[m] for m in ms], "k:", lw=1, label="published (Fig. 4F)")
+    left.set_xscale("log", base=2)
+    left.set_xticks(ms, [str(m) for m in ms], fontsize=7)
+    left.set(xlabel="taxels measured per frame, M", title="pressed and held", ylim=(0.6, 1.01))
+    right.plot([20], [PUBLISHED_AT_20_MS], "k*", label="published (Fig. 4G)")
+    right.set(xlabel="time since contact [ms]", title=f"M = {m_over_time}")
+    left.legend(fontsize=8, loc="lower right")
+    right.legend(fontsize=8, loc="lower right")
+    try:
+        figure.savefig(path, dpi=100)
+    except OSError as error:
+        raise RecordingError(f"{path}: cannot be written ({error.strerror}); its folder must exist") from error
+    pyplot.close(figure)

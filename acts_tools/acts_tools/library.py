@@ -1,0 +1,86 @@
+"""`acts library`: write a library of known objects, from labelled recordings or from simulated presses."""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from acts_core.errors import RecordingError
+from acts_core.frames_file import load_frames
+from acts_recon.image_classification import ImageClassifierConfig
+from acts_recon.object_library import build_object_library, save_object_library
+from acts_sim.objects import OBJECTS, object_named
+from acts_sim.pressing_arm import PressingArm
+
+
+def add_parser(subparsers: Any) -> None:
+    """Add ``acts library`` to the acts command."""
+    parser = subparsers.add_parser(
+        "library",
+        help="write a library of known objects for the classification",
+        description="Write the file that the node reconstruction reads to tell objects apart (its parameter "
+        "object_library). Of every labelled recording of an npz file it takes the strongest frame; without --frames it "
+        "presses simulated objects.",
+    )
+    parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help="library file to write")
+    parser.add_argument(
+        "--frames", type=Path, metavar="NPZ", help="`frames`, `start`, `length` and a `label` for each recording"
+    )
+    parser.add_argument("--objects", nargs="+", metavar="NAME", help="only these objects or labels (default: all)")
+    parser.add_argument(
+        "--presses", type=_at_least_one, default=5, metavar="N", help="of each simulated object (default: %(default)s)"
+    )
+    parser.add_argument("--seed", type=int, default=0, metavar="X", help="of simulated presses (default: %(default)s)")
+    parser.add_argument(
+        "--touch-counts",
+        type=int,
+        default=ImageClassifierConfig().touch_counts,
+        metavar="X",
+        help="counts at or below are taken as 0 (default: %(default)s)",
+    )
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Write a library as the command line says; returns the exit code.
+
+    Raises
+    ------
+    ActsError
+        When the frames cannot be read, have no labels, or the file cannot be written.
+    """
+    if arguments.frames is None:
+        objects = [object_named(name) for name in arguments.objects] if arguments.objects else list(OBJECTS.values())
+        frames, labels = PressingArm(objects, seed=arguments.seed).held_frames(arguments.presses)
+        source = f"{arguments.presses} presses of {len(objects)} objects into the ACTS contact model"
+    else:
+        recorded = load_frames(arguments.frames)
+        if not recorded.label:
+            raise RecordingError(f"{arguments.frames}: has no label; needed is what each recording shows")
+        unknown = sorted(set(arguments.objects or ()) - set(recorded.label))
+        if unknown:
+            raise RecordingError(
+                f"{arguments.frames}: no recording shows {', '.join(unknown)}; labels are "
+                f"{', '.join(sorted(set(recorded.label)))}"
+            )
+        chosen = [n for n, label in enumerate(recorded.label) if not arguments.objects or label in arguments.objects]
+        frames = np.stack([recorded.peak_frames()[n] for n in chosen])
+        labels = [recorded.label[n] for n in chosen]
+        digest = hashlib.sha256(arguments.frames.read_bytes()).hexdigest()
+        source = f"{len(labels)} recordings of {arguments.frames.name} (sha256 {digest})"
+    library = build_object_library(
+        frames, labels, touch_counts=arguments.touch_counts, provenance=f"Made by acts library from {source}."
+    )
+    save_object_library(library, arguments.output)
+    print(f"{arguments.output}: {library.n_classes} objects, {library.n_columns} frames, sha256 {library.sha256}")
+    return 0
+
+
+def _at_least_one(word: str) -> int:
+    number = int(word)
+    if number < 1:
+        raise argparse.ArgumentTypeError(f"{word}: allowed is 1 or more")
+    return number

@@ -1,0 +1,126 @@
+"""Classification on simulated presses and on recordings; thresholds are measured, with margin."""
+
+import argparse
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from acts_core.errors import ActsError, RecordingError
+from acts_recon.object_library import load_object_library
+from acts_sim.objects import object_named
+from acts_sim.pressing_arm import PressingArm
+from acts_tools import library
+from acts_tools.evaluate import command
+from acts_tools.evaluate.classification import Trials, accuracy, run_trials
+
+SIX = ("circle", "square", "hex_nut", "tape_roll", "golf_ball", "tennis_ball")
+
+
+def evaluate(*words: object) -> int:
+    parser = argparse.ArgumentParser()
+    command.add_parser(parser.add_subparsers())
+    return command.run(parser.parse_args(["evaluate", "classification", *(str(word) for word in words)]))
+
+
+def make_library(*words: object) -> int:
+    parser = argparse.ArgumentParser()
+    library.add_parser(parser.add_subparsers())
+    return library.run(parser.parse_args(["library", *(str(word) for word in words)]))
+
+
+@pytest.fixture(scope="module")
+def grasps(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Four labelled recordings of each of three objects, at 100 Hz."""
+    path = tmp_path_factory.mktemp("grasps") / "grasps.npz"
+    arm = PressingArm([object_named(name) for name in SIX[:3]], seed=3)
+    recordings = [arm.recording(number, 0.02, 0.06)[::10] for number in range(3) for _ in range(4)]
+    lengths = [len(recording) for recording in recordings]
+    np.savez(
+        path,
+        frames=np.concatenate(recordings),
+        rate_hz=100.0,
+        start=np.cumsum([0, *lengths[:-1]]),
+        length=lengths,
+        label=[SIX[number] for number in range(3) for _ in range(4)],
+    )
+    return path
+
+
+def test_ours_is_above_the_papers_method_on_the_same_presses() -> None:
+    trials = Trials(arms=1, presses=3, columns=3, objects=tuple(object_named(name) for name in SIX))
+    results = run_trials(trials, (42,), (2, 5, 20))
+    paper, acts = ([cell["accuracy"] for cell in results["over_time"][method]] for method in ("paper", "acts"))
+    assert all(ours > theirs for ours, theirs in zip(acts[:2], paper[:2], strict=True))
+    assert acts[2] >= paper[2]
+    assert acts[2] > 0.8
+    held = {method: cells[0] for method, cells in results["over_m"].items()}
+    assert held["acts"]["accuracy"] >= max(held["paper"]["accuracy"], 0.9)
+    assert held["acts"]["presses"] == 18
+    assert run_trials(trials, (42,), (2, 5, 20)) == results
+
+
+def test_intervals_are_wilsons() -> None:
+    cell = accuracy(8, 10)
+    assert cell["accuracy"] == 0.8
+    assert (cell["low"], cell["high"]) == pytest.approx((0.4902, 0.9433), abs=1e-4)
+    assert accuracy(10, 10)["high"] == pytest.approx(1)
+    assert accuracy(0, 10)["low"] == 0
+
+
+def test_tables_report_and_picture(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    report, picture = tmp_path / "c.json", tmp_path / "c.png"
+    words = ("--arms", 1, "--presses", 1, "--columns", 2, "--m", 64, "--objects", "circle", "comb")
+    assert evaluate(*words, "--json", report, "--picture", picture) == 0
+    output = capsys.readouterr().out
+    assert "| accuracy, held, at M = | paper | acts |" in output
+    assert "ms since contact | paper | acts |" in output
+    assert set(json.loads(report.read_text())) == {"over_m", "over_time"}
+    assert picture.read_bytes().startswith(b"\x89PNG")
+
+
+def test_labelled_recordings(grasps: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert evaluate("--frames", grasps) == 0
+    output = capsys.readouterr().out
+    assert "6 recordings in the library, 6 classified, 3 objects" in output
+    assert "| accuracy at M = | paper | acts | nearest |" in output
+    line = next(line for line in output.splitlines() if line.startswith("| 55 "))
+    assert line.split("|")[3].startswith(" 1.000")
+    assert line.split("|")[4].startswith(" 1.000")
+
+
+def test_libraries_from_recordings_and_from_presses(grasps: Path, tmp_path: Path) -> None:
+    path = tmp_path / "objects.npz"
+    assert make_library("-o", path, "--frames", grasps, "--objects", "circle", "square") == 0
+    loaded = load_object_library(path, shape=(32, 32))
+    assert (loaded.names, loaded.n_columns) == (("circle", "square"), 8)
+    assert "grasps.npz (sha256 " in loaded.provenance
+    assert make_library("-o", path, "--objects", "comb", "x", "--presses", 2, "--seed", 5) == 0
+    loaded = load_object_library(path)
+    assert (loaded.names, loaded.n_columns) == (("comb", "x"), 4)
+    assert make_library("-o", path, "--objects", "comb", "x", "--presses", 2, "--seed", 5) == 0
+    assert load_object_library(path).sha256 == loaded.sha256
+
+
+def test_what_cannot_be_is_refused(grasps: Path, tmp_path: Path) -> None:
+    plain = tmp_path / "plain.npz"
+    np.savez(plain, frames=np.zeros((2, 4, 4), np.uint16), rate_hz=31.0)
+    cases: list[tuple[Callable[[], int], type[ActsError], str]] = [
+        (lambda: evaluate("--frames", plain), RecordingError, "a `label` for every recording"),
+        (lambda: make_library("-o", tmp_path / "o.npz", "--frames", plain), RecordingError, "has no label"),
+        (
+            lambda: make_library("-o", tmp_path / "o.npz", "--frames", grasps, "--objects", "cat"),
+            RecordingError,
+            "no recording shows cat; labels are circle",
+        ),
+        (
+            lambda: evaluate("--frames", grasps, "--json", tmp_path / "no" / "c.json"),
+            RecordingError,
+            "its folder must exist",
+        ),
+    ]
+    for call, error, word in cases:
+        with pytest.raises(error, match=word):
+            call()
