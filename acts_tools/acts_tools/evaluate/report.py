@@ -13,7 +13,7 @@ from acts_core.errors import RecordingError
 HEADER = (
     f"{'scheme':9} {'M':>4} {'method':6} {'frames':>7} {'rel.err':>8} {'support':>8} {'CoP mean':>9} {'p95':>7} "
     f"{'touch mean':>10} {'p95':>7} {'missed':>7} {'invented':>9} {'notice p50':>10} {'p99 ms':>7} {'us':>7} "
-    f"{'onset err':>9}"
+    f"{'onset err':>9} {'touch':>6}"
 )
 
 Item = TypeVar("Item")
@@ -29,7 +29,8 @@ def line(result: dict[str, Any]) -> str:
         f"{number(touch['mean'], 10, 4)} {number(touch['p95'], 7, 3)} "
         f"{number(result['missed'], 7, 4)} {number(result['invented_rate'], 9, 6)} "
         f"{number(notice['p50'], 10, 1)} {number(notice['p99'], 7, 1)} "
-        f"{number(result['frame_us']['median'], 7, 1)} {number(result['onset']['relative_error'], 9, 4)}"
+        f"{number(result['frame_us']['median'], 7, 1)} {number(result['onset']['relative_error'], 9, 4)} "
+        f"{number(result['onset']['touch_cop_error_taxels']['mean'], 6, 2)}"
     )
 
 
