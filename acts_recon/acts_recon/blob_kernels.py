@@ -49,6 +49,8 @@ def find_blobs(
     cols: int,
     touch_counts: float,
     release_counts: float,
+    noise_counts: float,
+    together: float,
     force_n: NDArray[np.float64],
     slope_n: NDArray[np.float64],
     pitch_m: float,
@@ -70,6 +72,8 @@ def find_blobs(
     cols : int
     touch_counts, release_counts : float
         Above the first a taxel becomes pressed, at or below the second it ceases to be.
+    noise_counts, together : float
+        Deviations beyond the first are of guesses; so many guesses err together.
     force_n : np.ndarray [shape=(1025,), dtype=float64]
         The table of `acts_core.force.force_table`.
     slope_n : np.ndarray [shape=(1024,), dtype=float64]
@@ -135,8 +139,8 @@ def find_blobs(
         _describe(image, rows, cols, force_n, pitch_m, pitch_y_m, members, blob)
         if sigma.shape[0] > 0:
             _propagate(
-                image, sigma, rows, cols, touch_counts, release_counts, force_n, slope_n, pitch_m, pitch_y_m,
-                state, members, border[:n_border], blob,
+                image, sigma, rows, cols, touch_counts, release_counts, noise_counts, together, force_n, slope_n,
+                pitch_m, pitch_y_m, state, members, border[:n_border], blob,
             )  # fmt: skip
         else:
             blob.x_var = blob.y_var = blob.force_var = blob.taxels_var = 0.0
@@ -208,6 +212,8 @@ def _propagate(
     cols: int,
     touch_counts: float,
     release_counts: float,
+    noise_counts: float,
+    together: float,
     force_n: NDArray[np.float64],
     slope_n: NDArray[np.float64],
     pitch_m: float,
@@ -235,6 +241,10 @@ def _propagate(
         if pressed:
             slope = slope_n[int(value)]
             square += slope * slope * deviation * deviation
+        if deviation > noise_counts:
+            factor = together - (together - 1.0) * (noise_counts / deviation) ** 2
+            square *= factor
+            wrong *= factor
         row = t // cols
         x = ((t - row * cols) - (cols - 1) / 2) * pitch_m - blob.x_m
         y = ((rows - 1) / 2 - row) * pitch_y_m - blob.y_m

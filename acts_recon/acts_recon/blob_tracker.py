@@ -93,6 +93,8 @@ class BlobTracker:
             geometry.cols,
             float(config.touch_counts),
             float(config.release_counts),
+            config.noise_counts,
+            config.err_together,
             self._force_n,
             self._slope_n,
             geometry.pitch_m,

@@ -14,6 +14,8 @@ from acts_core.force import ForceResponse, MeasuredForceResponse, force_table
 from acts_core.settings import setting, validate
 from acts_recon.blob_kernels import MAX_BLOBS
 
+_TINY_COUNTS = 1e-9
+
 
 @dataclass(frozen=True)
 class BlobConfig:
@@ -22,6 +24,15 @@ class BlobConfig:
     touch_counts: int = setting(60, "counts above which a taxel becomes pressed", minimum=0, maximum=COUNT_MAX)
     hysteresis_counts: int = setting(
         10, "a pressed taxel ceases to be at so many counts less; never below 0", minimum=0, maximum=COUNT_MAX
+    )
+    noise_counts: float = setting(
+        2.0,
+        "standard deviation of a reading; what an image's is beyond it is that of a guess [counts]",
+        minimum=0.0,
+        maximum=100.0,
+    )
+    err_together: float = setting(
+        5.0, "guesses that err together: as many as this are one independent error", minimum=1.0, maximum=100.0
     )
     bridge_s: float = setting(
         0.02, "a contact that comes back within this time keeps its number [s]", minimum=0.0, maximum=10.0
@@ -156,12 +167,14 @@ def find_blobs(
 
     A contact is a group of pressed taxels that touch along a side or at a corner. The strongest `MAX_BLOBS` are kept.
 
-    Uncertainty, to first order and with the errors of taxels independent: the error of a pressed taxel of `c` counts
+    Uncertainty, to first order: the error of a pressed taxel of `c` counts
     and standard deviation `s` changes the force by ``f'(c) s``. With probability ``q = Phi(-abs(c - threshold) / s)``
     it is on the wrong side of its threshold, and its whole force should not be there; likewise an untouched neighbour
     should be there with the threshold's force. The variance of the force is the sum of ``e**2 = (f' s)**2 + q f**2``
     over the taxels, that of the centre of pressure the sum of ``e**2 (x_taxel - x)**2 / F**2``, that of the number of
-    taxels the sum of ``q``.
+    taxels the sum of ``q``. The noise of readings is independent indeed; guesses err with their neighbours (a contact
+    moved further than was thought). So what a taxel adds is multiplied by a factor that goes from 1 for
+    ``s <= noise_counts`` towards `err_together`: ``together - (together - 1) noise**2 / s**2``.
 
     Parameters
     ----------
@@ -207,6 +220,10 @@ def find_blobs(
             wrong[unsure] = special.ndtr(-distance[unsure] / sigma[unsure])
             square[inside] = (slopes[counts.astype(np.intp)] * sigma[inside]) ** 2 + wrong[inside] * force**2
             square[edge] = wrong[edge] * response.force_n(threshold[edge]) ** 2
+            guessed = np.maximum(sigma / max(config.noise_counts, _TINY_COUNTS), 1.0)
+            factor = config.err_together - (config.err_together - 1.0) / guessed**2
+            square *= factor
+            wrong *= factor
         all_x, all_y = geometry.x_m(np.arange(geometry.cols))[None, :], geometry.y_m(np.arange(geometry.rows))[:, None]
         blobs.append(
             Blob(

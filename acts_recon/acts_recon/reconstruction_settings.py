@@ -183,6 +183,7 @@ class ReconstructionSettings:
             hysteresis_counts=self.contacts_hysteresis_counts,
             bridge_s=self.contacts_bridge_s,
             memory_s=self.contacts_memory_s,
+            noise_counts=self.noise_counts,
         )
 
     def classifier(self) -> Classifier | None:

@@ -44,6 +44,8 @@ def by_kernel(
         geometry.cols,
         float(config.touch_counts),
         float(config.release_counts),
+        config.noise_counts,
+        config.err_together,
         TABLE,
         slope_table(TABLE),
         geometry.pitch_m,
@@ -74,7 +76,9 @@ def test_kernel_equals_twin(
     hysteresis_counts: int,
     sigma_known: bool,
 ) -> None:
-    config = BlobConfig(touch_counts=touch_counts, hysteresis_counts=min(hysteresis_counts, touch_counts - 1))
+    config = BlobConfig(
+        touch_counts=touch_counts, hysteresis_counts=min(hysteresis_counts, touch_counts - 1), noise_counts=20.0
+    )
     deviations = sigma if sigma_known else None
     expected = find_blobs(image, GEOMETRY, BY_TABLE, config, sigma=deviations, pressed_before=before)
     found, dropped = by_kernel(image, config, sigma=deviations, before=before)
@@ -138,12 +142,23 @@ def test_the_force_of_a_saturated_taxel_is_the_least_certain() -> None:
     assert slope[1023] == slope.max()
 
 
+def test_guesses_are_less_certain_than_readings_of_the_same_deviation() -> None:
+    image = bump(GEOMETRY, 5.3, 4.1)
+    sigma = np.full((12, 9), 10.0)
+    variances = []
+    for noise_counts in (10.0, 0.0):
+        ((_, blob),), _ = by_kernel(image, BlobConfig(noise_counts=noise_counts, err_together=4.0), sigma=sigma)
+        variances.append([float(blob[name]) for name in ("x_var", "y_var", "force_var", "taxels_var")])
+    readings, guesses = variances
+    assert guesses == pytest.approx([4 * variance for variance in readings])
+
+
 @pytest.mark.parametrize(("width", "peak", "noise"), [(1.5, 700, 5), (0.6, 300, 5), (2.5, 900, 3), (1.5, 700, 20)])
 def test_errors_are_as_large_as_the_standard_deviations_say(width: float, peak: float, noise: float) -> None:
     """Monte Carlo: noise of known size on contacts at random places."""
     rng = np.random.default_rng(3)
     geometry = ArrayGeometry(rows=20, cols=20)
-    config = BlobConfig(hysteresis_counts=0)
+    config = BlobConfig(hysteresis_counts=0, noise_counts=noise)
     row, col = np.indices((20, 20))
     squares: dict[str, list[float]] = {"x_m": [], "y_m": [], "force_n": [], "taxels": []}
     for _ in range(600):
