@@ -37,8 +37,6 @@ BLOB = np.dtype(
 )
 """What `find_blobs` writes of each contact."""
 
-_NOW = 1
-_BEFORE = 2
 _TINY_N = 1e-30
 
 
@@ -80,7 +78,7 @@ def find_blobs(
         Its slope, see `acts_recon.blobs.slope_table` [N/count].
     pitch_m, pitch_y_m : float
     state : np.ndarray [shape=(rows * cols,), dtype=uint8]
-        Which taxels are and were pressed; kept from frame to frame, zero at first.
+        Which taxels are pressed; kept from frame to frame, zero at first.
     label, members, border : np.ndarray [shape=(rows * cols,), dtype=int32]
         Written: work space; `members` holds the taxels of the contacts.
     blobs : np.ndarray [shape=(MAX_BLOBS + 1,), dtype=BLOB]
@@ -94,16 +92,14 @@ def find_blobs(
     size = image.shape[0]
     rows = size // cols
     for t in range(size):
-        before = state[t] & _NOW
-        threshold = release_counts if before else touch_counts
-        state[t] = before * _BEFORE + (_NOW if image[t] > threshold else 0)
+        state[t] = 1 if image[t] > (release_counts if state[t] else touch_counts) else 0
         label[t] = 0
     groups = 0
     n_members = 0
     kept = 0
     dropped = 0
     for seed in range(size):
-        if not state[seed] & _NOW or label[seed] > 0:
+        if not state[seed] or label[seed] > 0:
             continue
         groups += 1
         first = n_members
@@ -119,7 +115,7 @@ def find_blobs(
             for r in range(max(row - 1, 0), min(row + 2, rows)):
                 for c in range(max(col - 1, 0), min(col + 2, cols)):
                     other = r * cols + c
-                    if state[other] & _NOW:
+                    if state[other]:
                         if label[other] == 0:
                             label[other] = groups
                             members[n_members] = other
@@ -136,11 +132,17 @@ def find_blobs(
         blob = blobs[place]
         blob.first = first
         blob.last = n_members
-        _describe(image, rows, cols, force_n, pitch_m, pitch_y_m, members, blob)
+        # What only the hysteresis holds joins, but does not count, unless there is nothing else.
+        least = release_counts
+        for i in range(first, n_members):
+            if image[members[i]] > touch_counts:
+                least = touch_counts
+                break
+        _describe(image, rows, cols, least, force_n, pitch_m, pitch_y_m, members, blob)
         if sigma.shape[0] > 0:
             _propagate(
-                image, sigma, rows, cols, touch_counts, release_counts, noise_counts, together, force_n, slope_n,
-                pitch_m, pitch_y_m, state, members, border[:n_border], blob,
+                image, sigma, rows, cols, least, noise_counts, together, force_n, slope_n, pitch_m, pitch_y_m,
+                members, border[:n_border], blob,
             )  # fmt: skip
         else:
             blob.x_var = blob.y_var = blob.force_var = blob.taxels_var = 0.0
@@ -166,6 +168,7 @@ def _describe(
     image: NDArray[np.float32],
     rows: int,
     cols: int,
+    least: float,
     force_n: NDArray[np.float64],
     pitch_m: float,
     pitch_y_m: float,
@@ -173,7 +176,10 @@ def _describe(
     blob: Any,
 ) -> None:
     total = by_col = by_row = peak = 0.0
+    taxels = 0
     for i in range(blob.first, blob.last):
+        if image[members[i]] <= least:
+            continue
         row = members[i] // cols
         col = members[i] - row * cols
         value = min(np.float64(image[members[i]]), float(COUNT_MAX))
@@ -182,11 +188,14 @@ def _describe(
         by_col += weight * col
         by_row += weight * row
         peak = max(peak, value)
+        taxels += 1
     # A measured response may say next to 0 N for a pressed taxel.
     mean_col = by_col / max(total, _TINY_N)
     mean_row = by_row / max(total, _TINY_N)
     xx = xy = yy = 0.0
     for i in range(blob.first, blob.last):
+        if image[members[i]] <= least:
+            continue
         row = members[i] // cols
         weight = _force(np.float64(image[members[i]]), force_n)
         x = (members[i] - row * cols - mean_col) * pitch_m
@@ -198,7 +207,7 @@ def _describe(
     blob.y_m = ((rows - 1) / 2 - mean_row) * pitch_y_m
     blob.force_n = total
     blob.peak_counts = peak
-    blob.taxels = blob.last - blob.first
+    blob.taxels = taxels
     blob.xx_m2 = xx / max(total, _TINY_N)
     blob.xy_m2 = xy / max(total, _TINY_N)
     blob.yy_m2 = yy / max(total, _TINY_N)
@@ -210,15 +219,13 @@ def _propagate(
     sigma: NDArray[np.float32],
     rows: int,
     cols: int,
-    touch_counts: float,
-    release_counts: float,
+    least: float,
     noise_counts: float,
     together: float,
     force_n: NDArray[np.float64],
     slope_n: NDArray[np.float64],
     pitch_m: float,
     pitch_y_m: float,
-    state: NDArray[np.uint8],
     members: NDArray[np.int32],
     border: NDArray[np.int32],
     blob: Any,
@@ -227,16 +234,15 @@ def _propagate(
     x_var = y_var = force_var = taxels_var = 0.0
     n = blob.last - blob.first
     for i in range(n + border.shape[0]):
-        pressed = i < n
-        t = members[blob.first + i] if pressed else border[i - n]
+        t = members[blob.first + i] if i < n else border[i - n]
+        pressed = i < n and image[t] > least
         if not sigma[t] > 0.0:
             continue
         deviation = float(min(sigma[t], COUNT_MAX))
         # What is not a number is not pressed.
         value = float(min(image[t], COUNT_MAX)) if image[t] > 0.0 else 0.0
-        threshold = release_counts if state[t] & _BEFORE else touch_counts
-        wrong = 0.5 * math.erfc(abs(value - threshold) / (math.sqrt(2.0) * deviation))
-        weight = _force(value if pressed else threshold, force_n)
+        wrong = 0.5 * math.erfc(abs(value - least) / (math.sqrt(2.0) * deviation))
+        weight = _force(value if pressed else least, force_n)
         square = weight * weight * wrong
         if pressed:
             slope = slope_n[int(value)]

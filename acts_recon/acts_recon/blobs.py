@@ -110,7 +110,9 @@ class Blob:
     Attributes
     ----------
     taxels : np.ndarray [shape=(n,), dtype=intp]
-        Its pressed taxels, row-major indices, growing.
+        Its pressed taxels, row-major indices, growing; also those that only the hysteresis holds.
+    active_taxels : int
+        Those that count: above the touch threshold, or all where none is.
     x_m, y_m : float
         Centre of pressure [m].
     force_n, peak_counts : float
@@ -122,6 +124,7 @@ class Blob:
     """
 
     taxels: NDArray[np.intp]
+    active_taxels: int
     x_m: float
     y_m: float
     force_n: float
@@ -166,6 +169,8 @@ def find_blobs(
     """Find the contacts in an image; the plain twin of `acts_recon.blob_kernels.find_blobs`.
 
     A contact is a group of pressed taxels that touch along a side or at a corner. The strongest `MAX_BLOBS` are kept.
+    Taxels that only the hysteresis holds join a contact together, but do not count in its numbers, so that these
+    depend on the image alone; but where a contact has no others.
 
     Uncertainty, to first order: the error of a pressed taxel of `c` counts
     and standard deviation `s` changes the force by ``f'(c) s``. With probability ``q = Phi(-abs(c - threshold) / s)``
@@ -201,8 +206,11 @@ def find_blobs(
     slopes = slope_table(force_table(response))
     blobs = []
     for group in range(1, n_groups + 1):
-        inside = groups == group
-        edge = ndimage.binary_dilation(inside, structure=neighbours) & (groups == 0)
+        whole = groups == group
+        touched = whole & (image > config.touch_counts)
+        inside = touched if touched.any() else whole
+        least = float(config.touch_counts if touched.any() else config.release_counts)
+        edge = ndimage.binary_dilation(whole, structure=neighbours) & ((groups == 0) | whole) & ~inside
         row, col = np.nonzero(inside)
         x, y = geometry.x_m(col), geometry.y_m(row)
         counts = np.clip(image[inside], 0, COUNT_MAX).astype(np.float64)
@@ -215,11 +223,11 @@ def find_blobs(
         square = np.zeros(image.shape)
         wrong = np.zeros(image.shape)
         if sigma is not None:
-            distance = np.abs(np.clip(image, 0, COUNT_MAX) - threshold)
+            distance = np.abs(np.clip(image, 0, COUNT_MAX) - least)
             unsure = (inside | edge) & (sigma > 0)
             wrong[unsure] = special.ndtr(-distance[unsure] / sigma[unsure])
             square[inside] = (slopes[counts.astype(np.intp)] * sigma[inside]) ** 2 + wrong[inside] * force**2
-            square[edge] = wrong[edge] * response.force_n(threshold[edge]) ** 2
+            square[edge] = wrong[edge] * float(response.force_n(least)) ** 2
             guessed = np.maximum(sigma / max(config.noise_counts, _TINY_COUNTS), 1.0)
             factor = config.err_together - (config.err_together - 1.0) / guessed**2
             square *= factor
@@ -227,7 +235,8 @@ def find_blobs(
         all_x, all_y = geometry.x_m(np.arange(geometry.cols))[None, :], geometry.y_m(np.arange(geometry.rows))[:, None]
         blobs.append(
             Blob(
-                taxels=np.flatnonzero(inside),
+                taxels=np.flatnonzero(whole),
+                active_taxels=int(inside.sum()),
                 x_m=x_m,
                 y_m=y_m,
                 force_n=total,

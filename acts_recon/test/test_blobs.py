@@ -88,6 +88,7 @@ def test_kernel_equals_twin(
     assert dropped == 0 or len(found) == blob_kernels.MAX_BLOBS
     for (taxels, blob), twin in zip(found, expected, strict=True):
         assert np.array_equal(taxels, twin.taxels)
+        assert blob["taxels"] == twin.active_taxels
         for field in FIELDS:
             assert blob[field] == pytest.approx(getattr(twin, field), rel=1e-5, abs=1e-9), field
         moments = (blob["xx_m2"], blob["xy_m2"], blob["yy_m2"])
@@ -123,6 +124,19 @@ def test_a_pressed_taxel_holds_until_it_is_below_the_hysteresis() -> None:
     image[4, 4] = 50
     assert by_kernel(image, config, before=before)[0] == []
     assert BlobConfig(touch_counts=5, hysteresis_counts=10).release_counts == 0
+
+
+def test_taxels_that_only_the_hysteresis_holds_join_but_do_not_count() -> None:
+    image = np.zeros((12, 9), dtype=np.float32)
+    image[4, 2] = image[4, 4] = 300
+    image[4, 3] = 55
+    before = np.zeros((12, 9), dtype=np.bool_)
+    assert len(by_kernel(image, BlobConfig(), before=before)[0]) == 2
+    before[4, 3] = True
+    ((taxels, blob),), _ = by_kernel(image, BlobConfig(), before=before)
+    contact = find_contact(image, GEOMETRY, RESPONSE)
+    assert taxels.tolist() == [38, 39, 40]
+    assert (blob["taxels"], blob["force_n"]) == (2, pytest.approx(contact.force_n))
 
 
 def test_of_too_many_contacts_the_weakest_are_left_out() -> None:
