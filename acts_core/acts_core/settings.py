@@ -61,14 +61,19 @@ class SettingInfo:
         if self.choices:
             words.append("one of " + ", ".join(choice or "empty" for choice in self.choices))
         if self.minimum is not None and self.maximum is not None:
-            words.append(f"{self.minimum:g} to {self.maximum:g}")
+            words.append(f"{_number(self.minimum)} to {_number(self.maximum)}")
         elif self.minimum is not None:
-            words.append(f"{self.minimum:g} or more")
+            words.append(f"{_number(self.minimum)} or more")
         elif self.maximum is not None:
-            words.append(f"{self.maximum:g} or less")
+            words.append(f"{_number(self.maximum)} or less")
         if self.length is not None:
             words.append(f"{self.length} values")
         return ", ".join(words)
+
+
+def _number(value: float) -> str:
+    # Whole numbers in full: 9.22337e+18 is none that one could enter.
+    return str(value) if isinstance(value, int) else f"{value:g}"
 
 
 def setting(

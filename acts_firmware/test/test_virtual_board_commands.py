@@ -101,7 +101,8 @@ def test_a_host_that_leaves_at_once_is_heard(tmp_path: Path) -> None:
     with BoardProcess(tmp_path) as board:
         os.write(board.open_port(), encode_configure(1, settings))
         board.close_port()
-        (reply,) = Host(board).ask(encode_query(2))
+        # A board that did not notice the gap answers the first command here as well.
+        *_, reply = Host(board).ask(encode_query(2))
         assert (reply.request, reply.state.settings) == (2, settings)
 
 

@@ -119,6 +119,17 @@ class ReconstructionNode(Node):
             return
         self._frames += 1
         self._follow(samples.sequence)
+        try:
+            self._publish(samples, indices, counts, contact)
+        except RuntimeError:
+            # A signal may end the context while a frame is worked on; all of rclpy's own errors are RuntimeErrors.
+            if self.context.ok():
+                raise
+        self._durations_s.append(time.perf_counter() - began_s)
+
+    def _publish(
+        self, samples: TactileSamples, indices: NDArray[np.uint16], counts: NDArray[np.uint16], contact: Contact
+    ) -> None:
         self._publish_contact(samples, contact)
         if self._send_raw:
             self._raw.header = samples.header
@@ -131,7 +142,6 @@ class ReconstructionNode(Node):
         self._contacts.publish(samples, self._recovery.image, self._recovery.sigma)
         if self._objects is not None:
             self._objects.publish(samples, indices, counts)
-        self._durations_s.append(time.perf_counter() - began_s)
 
     def _on_baseline(self, message: Baseline) -> None:
         settings = self._settings
