@@ -8,7 +8,9 @@ every taxel the last measurement, its age and how fast it changed, and carries t
   may move differently; where they explain less than a share of the changes they are not used.
 - **Slopes.** What motion does not explain goes on changing as it did, for a while.
 - **Innovations.** What a sample shows beyond what was predicted, holds in part for the taxels around it.
-- **No invented pressure.** A taxel that was lately measured untouched, with none beside it pressed, gets nothing.
+- **No invented pressure.** A taxel that was measured untouched, with none beside it pressed, is 0: noise of a thousand
+  taxels, small as it is, would draw the centre of pressure to the middle. (In the frame that measures it, it is
+  what was measured.)
 - **Doubt.** Sigma grows with age, as fast as predictions of the taxel and those around it have failed so far; one
   factor for all follows how well the sigmas themselves have held.
 
@@ -40,7 +42,7 @@ class FusionConfig:
         2.0, "standard deviation of a reading about the truth [counts]", minimum=0.0, maximum=100.0
     )
     quiet_counts: float = setting(
-        4.0, "a taxel at or below is untouched, a surprise at or below is noise [counts]", minimum=0.0, maximum=500.0
+        9.0, "a taxel at or below is untouched, a surprise at or below is noise [counts]", minimum=0.0, maximum=500.0
     )
     quiet_s: float = setting(0.010, "how long a taxel measured untouched is taken for untouched [s]", minimum=0.0)
     horizon_s: float = setting(0.020, "measurements older than this foretell no change [s]", minimum=1e-4, maximum=10.0)

@@ -368,10 +368,12 @@ def _spread(state: State, indices: NDArray[np.uint16], rows: int, cols: int, tun
 
 @numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
 def _keep_quiet(state: State, rows: int, cols: int, tuning: Tuning) -> None:
-    """Where a taxel was lately measured untouched and none beside it is pressed, nothing has been added."""
+    """A taxel measured untouched, with none beside it pressed, is 0: lately, or as long as nothing was added."""
     image, value, quiet = state.image, state.value, _F(tuning.quiet_counts)
     for i in range(image.shape[0]):
-        if not (image[i] > value[i] and value[i] <= quiet and state.age[i] < _F(tuning.quiet_s)):
+        if state.fresh[i] or not (image[i] > _F(0) and value[i] <= quiet):
+            continue
+        if image[i] > quiet and not state.age[i] < _F(tuning.quiet_s):
             continue
         row = i // cols
         col = i - row * cols
@@ -380,7 +382,7 @@ def _keep_quiet(state: State, rows: int, cols: int, tuning: Tuning) -> None:
             for c in range(max(col - 1, 0), min(col + 2, cols)):
                 pressed = pressed or value[r * cols + c] > quiet
         if not pressed:
-            image[i] = value[i]
+            image[i] = _F(0)
 
 
 @numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]

@@ -160,8 +160,8 @@ class PlainFusion:
         untouched = self.value <= tuning.quiet_counts
         beside = ndimage.binary_dilation(~untouched, structure=np.ones((3, 3)))
         lately = self.age < tuning.quiet_s
-        quiet = untouched & lately & ~beside
-        self.image[quiet] = np.minimum(self.image[quiet], self.value[quiet])
+        quiet = untouched & ~beside & ~self.fresh & (lately | (self.image <= tuning.quiet_counts))
+        self.image[quiet] = 0
 
     def _doubt(self, rate: Floats) -> None:
         tuning = self._tuning

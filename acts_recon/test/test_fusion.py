@@ -133,7 +133,8 @@ def test_nothing_is_added_where_the_skin_was_lately_measured_untouched(
             for col in range(3):
                 beside |= pressed[row : row + SMALL.rows, col : col + SMALL.cols]
         quiet = ~beside & (estimator.age_s < config.quiet_s)
-        assert (image[quiet] <= last.reshape(image.shape)[quiet]).all()
+        quiet &= ~np.isin(np.arange(SMALL.size), indices).reshape(image.shape)
+        assert not image[quiet].any()
 
 
 @given(streams())
@@ -249,7 +250,7 @@ def test_frames_may_be_lost_and_a_jump_of_the_clock_begins_anew() -> None:
     frame = bump(ArrayGeometry(), 16, 16).ravel()
     estimator.step(everything, frame, 100.0, 0.0)
     estimator.step(u16(0), u16(0), 100.2, 0.0)
-    assert np.array_equal(estimator.image.ravel(), frame)
+    assert np.array_equal(estimator.image.ravel()[frame > 15], frame[frame > 15])
     assert estimator.age_s[16, 16] == pytest.approx(0.2)
     for end_s in (99.0, 105.0):
         estimator.step(everything, frame, 100.0, 0.0)
@@ -264,7 +265,8 @@ def test_a_still_contact_is_exact_after_one_round() -> None:
     estimator = FusionEstimator(ArrayGeometry())
     for k in range(1, 200):
         image = estimator.step(*sampler.frame(measure_in(frame)), 0.001 * k, DURATION_S)
-    assert np.array_equal(image, frame)
+    assert np.array_equal(image[frame > 15], frame[frame > 15])
+    assert np.abs(image - frame).max() <= estimator.config.quiet_counts
 
 
 def test_samples_come_by_matrix_index_and_results_are_the_pictures() -> None:
