@@ -72,7 +72,7 @@ def test_a_pressed_disc_becomes_a_contact_where_it_is(tactile: Launched, tmp_pat
     assert contact.centre_of_pressure.y == pytest.approx(float(geometry.y_m(8)), abs=geometry.pitch_m / 4)
     samples = tactile.wait_for_messages("/plate/samples", TactileSamples, 200)
     assert {len(message.indices) for message in samples} == {55}
-    assert {message.scheme for message in samples} == {TactileSamples.SCHEME_ADAPTIVE}
+    assert {message.scheme for message in samples} == {TactileSamples.SCHEME_TRACKING}
     image = tactile.wait_for_message("/plate/image_raw", Image)
     assert (image.height, image.width, image.encoding) == (32, 32, "mono16")
     assert tactile.wait_for_message("/plate/image", Image).height % 32 == 0

@@ -37,8 +37,8 @@ FRAME_S = 0.001
 NOISE_COUNTS = 1.5
 # Below it reconstruction and contact see nothing.
 TOUCH_COUNTS = 60
-# Mean relative error; measured are 0.30 and 0.39.
-GRASP_ERROR_LIMIT = 0.5
+# Mean relative error: of samples fused over time, and of each frame alone; measured are 0.07 and 0.39.
+GRASP_ERROR_LIMIT = 0.2
 FIGURE_ERROR_LIMIT = 0.6
 
 GRASPS = DATA / "sdh_weiss" / "grasps_canvas.npz"
@@ -68,8 +68,10 @@ class TrueField:
         return self.frames[before] + (position - before) * (self.frames[after] - self.frames[before])
 
 
-def replay(npy: Path, rate_hz: float, domain_id: int, run_dir: Path) -> list[Seen]:
+def replay(npy: Path, rate_hz: float, domain_id: int, run_dir: Path, method: str) -> list[Seen]:
     """Frames of a recording after the way through board, driver and reconstruction."""
+    params = npy.with_suffix(".yaml")
+    params.write_text(f"/**/reconstruction:\n  ros__parameters:\n    method: {method}\n")
     parts: dict[str, dict[tuple[int, int], object]] = {"samples": {}, "image_raw": {}, "contact": {}}
     with launched(
         "acts_bringup",
@@ -77,6 +79,7 @@ def replay(npy: Path, rate_hz: float, domain_id: int, run_dir: Path) -> list[See
         domain_id=domain_id,
         run_dir=str(run_dir),
         ball="false",
+        params_file=str(params),
         recording=str(npy),
         recording_rate_hz=str(rate_hz),
     ) as launch:
@@ -112,9 +115,8 @@ def frame_time_s(samples: TactileSamples) -> float:
     return float(samples.sequence) * FRAME_S
 
 
-def check(seen: list[Seen], field: TrueField) -> None:
-    """What arrived is what was pressed, and what was made of it is what the algorithms make of it."""
-    reconstructor = Reconstructor(ArrayGeometry(), load_dictionary(shipped_dictionary_path()))
+def check_samples(seen: list[Seen], field: TrueField) -> None:
+    """What arrived is what was pressed."""
     for one in seen:
         indices = np.array(one.samples.indices, dtype=np.uint16)
         counts = np.array(one.samples.counts, dtype=np.uint16)
@@ -123,8 +125,17 @@ def check(seen: list[Seen], field: TrueField) -> None:
         measurement_s = 1e-9 * one.samples.duration.nanosec / indices.size
         truth = np.array([field.at(start_s + order * measurement_s).flat[index] for order, index in enumerate(indices)])
         assert np.abs(counts - np.clip(truth, 0, 1023)).max() < 6 * NOISE_COUNTS + 1
+        # Measured taxels keep their values, but what cannot be told from noise may show as 0.
+        image = one.image.ravel()[indices]
+        assert np.all((image == counts) | ((image == 0) & (counts <= TOUCH_COUNTS)))
 
-        contact = reconstructor.step(indices, counts)
+
+def check_recovery(seen: list[Seen]) -> None:
+    """What was made of each frame alone is what the algorithms make of it."""
+    reconstructor = Reconstructor(ArrayGeometry(), load_dictionary(shipped_dictionary_path()))
+    for one in seen:
+        indices = np.array(one.samples.indices, dtype=np.uint16)
+        contact = reconstructor.step(indices, np.array(one.samples.counts, dtype=np.uint16))
         assert np.abs(one.image - reconstructor.image).max() <= 0.5 + 1e-3
         assert one.contact.in_contact == contact.in_contact
         assert one.contact.active_taxels == contact.active_taxels
@@ -180,8 +191,8 @@ def test_real_grasps_arrive_as_they_were_pressed(tmp_path: Path, run_dir: Path) 
         busiest = int(np.argmax([load[s : s + n].mean() for s, n in zip(data["start"], data["length"], strict=True)]))
     exported = export_recording(GRASPS, tmp_path / "grasp.npy", recordings=[busiest])
     field = TrueField(exported.path, exported.rate_hz)
-    seen = replay(exported.path, exported.rate_hz, 72, run_dir)
-    check(seen, field)
+    seen = replay(exported.path, exported.rate_hz, 72, run_dir, "fusion")
+    check_samples(seen, field)
     errors = relative_errors(seen, field)
     assert errors.size > 0
     assert errors.mean() < GRASP_ERROR_LIMIT
@@ -197,8 +208,9 @@ def test_real_grasps_arrive_as_they_were_pressed(tmp_path: Path, run_dir: Path) 
 def test_the_papers_frame_arrives_as_it_was_pressed(tmp_path: Path, run_dir: Path) -> None:
     exported = export_recording(FIGURES, tmp_path / "figure.npy", kind="full_raster", repeat=2)
     field = TrueField(exported.path, exported.rate_hz)
-    seen = replay(exported.path, exported.rate_hz, 73, run_dir)
-    check(seen, field)
+    seen = replay(exported.path, exported.rate_hz, 73, run_dir, "per_frame")
+    check_samples(seen, field)
+    check_recovery(seen)
     assert relative_errors(seen, field).mean() < FIGURE_ERROR_LIMIT
     rows = [(f"paper, {name}", seen[i], field.at(0.0)) for i, name in enumerate(exported.labels)]
     draw(rows, ROOT / "out" / "recorded_paper.png")

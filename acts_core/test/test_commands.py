@@ -164,7 +164,7 @@ def test_settings_from_any_bytes_are_valid_or_refused(data: bytes) -> None:
         ({"scheme": "hybrid", "adaptive_quota": 0}, "adaptive_quota = 0"),
         ({"scheme": "spiral"}, "one of adaptive"),
         ({"output": "video"}, "one of samples, image, object"),
-        ({"frame_period_us": 1_000_001}, "0 to 1e"),
+        ({"frame_period_us": 1_000_001}, "0 to 1000000 "),
         ({"seed": -1}, "seed"),
     ],
 )
