@@ -225,7 +225,8 @@ def find_blobs(
         if sigma is not None:
             distance = np.abs(np.clip(image, 0, COUNT_MAX) - least)
             unsure = (inside | edge) & (sigma > 0)
-            wrong[unsure] = special.ndtr(-distance[unsure] / sigma[unsure])
+            with np.errstate(over="ignore"):  # a sigma of next to nothing: infinitely far, and rightly so
+                wrong[unsure] = special.ndtr(-distance[unsure] / sigma[unsure])
             square[inside] = (slopes[counts.astype(np.intp)] * sigma[inside]) ** 2 + wrong[inside] * force**2
             square[edge] = wrong[edge] * float(response.force_n(least)) ** 2
             guessed = np.maximum(sigma / max(config.noise_counts, _TINY_COUNTS), 1.0)
