@@ -2,7 +2,7 @@
 
 Beyond the paper's SRC (`acts_recon.classification`), which explains the samples of one frame. Here the whole skin is
 compared, as far as it is known: an image put together from the samples of several frames, each taxel weighted by its
-uncertainty. Five things make the difference (docs/recovery.md has the figures):
+uncertainty. Six things make the difference (docs/recovery.md has the figures):
 
 - What was measured and not pressed speaks against an object as loudly as what is pressed speaks for it.
 - An object that has only begun to press shows its lowest parts. Each column of the library is therefore known at
@@ -10,6 +10,8 @@ uncertainty. Five things make the difference (docs/recovery.md has the figures):
 - How hard is pressed goes with how deep: a small object pressed hard is no large one that has just touched.
 - A class explains the image by a mixture without negative parts of its own columns only: presses between the known.
 - What the last frames left unexplained counts on, fading.
+- Once the skin rests, nothing has to be guessed from few, old or shallow values: the paper's SRC on the whole image is
+  then the better judge of objects that are alike, and has its say.
 
 `classify_image` is the plain version, in double precision, of a single image; `ImageClassifier` runs
 `acts_recon.image_classification_kernels`, in single precision, and remembers.
@@ -30,7 +32,7 @@ from acts_core.force import ForceResponse, MeasuredForceResponse
 from acts_core.residuals import confidence_of
 from acts_core.settings import setting, validate
 from acts_recon import image_classification_kernels as kernels
-from acts_recon.classification import Classification
+from acts_recon.classification import Classification, Classifier, ClassifierConfig, classify
 from acts_recon.object_library import ObjectLibrary
 from acts_recon.unrest import Unrest
 
@@ -42,6 +44,15 @@ REFINED_CLASSES = 5
 
 MIXED_COLUMNS = 6
 """Columns, of all depths, that a class mixes: those that alone explain most."""
+
+SRC_COLUMNS = 64
+"""Library columns that explain a resting image in SRC at most."""
+
+KNOWN_COUNTS = 200.0
+"""Standard deviation up to which a taxel is a sample for SRC, which knows no uncertainty."""
+
+_LEAST_WEIGHT = 0.01
+"""Below it SRC is not asked: it would take time and change nothing."""
 
 
 @dataclass(frozen=True)
@@ -57,6 +68,12 @@ class ImageClassifierConfig:
         0.2, "standard deviation of how hard is pressed, from the library's at that depth, as a logarithm", minimum=0.01
     )
     memory_s: float = setting(0.003, "time in which what a frame said fades to a third [s]", minimum=0, maximum=10)
+    src_weight: float = setting(
+        2.0, "weight of SRC on a resting image against the comparison of images; 0: none", minimum=0, maximum=100
+    )
+    rest_counts_per_s: float = setting(
+        4000.0, "unrest of the skin at which SRC has half its weight [counts/s]", minimum=1, maximum=1e9
+    )
 
     def __post_init__(self) -> None:
         validate(self)
@@ -104,13 +121,31 @@ def against_force(force: float, config: ImageClassifierConfig) -> float:
     return (config.relative_error / config.force_error * math.log(force)) ** 2
 
 
+def src_config(config: ImageClassifierConfig) -> ClassifierConfig:
+    """How SRC is set up for resting images."""
+    return ClassifierConfig(touch_counts=config.touch_counts, max_columns=SRC_COLUMNS)
+
+
+def known_samples(
+    image: NDArray[np.floating], doubt: NDArray[np.floating]
+) -> tuple[NDArray[np.uint16], NDArray[np.uint16]]:
+    """Indices and counts of the taxels that are known well enough to be samples."""
+    indices = np.flatnonzero(doubt.ravel() <= KNOWN_COUNTS).astype(np.uint16)
+    return indices, np.clip(np.rint(image.ravel()[indices]), 0, COUNT_MAX).astype(np.uint16)
+
+
+def src_weight(rate_counts_per_s: float, config: ImageClassifierConfig) -> float:
+    """Weight of SRC's residuals against those of the comparison of images, by the unrest of the skin."""
+    return config.src_weight / (1 + (rate_counts_per_s / config.rest_counts_per_s) ** 2)
+
+
 def classify_image(
     library: ObjectLibrary,
     image: NDArray[np.floating],
     sigma: NDArray[np.floating],
     config: ImageClassifierConfig | None = None,
 ) -> Classification:
-    """Classify one image, plainly, without memory; see `ImageClassifier.step`."""
+    """Classify one image of a resting skin, plainly, without memory; see `ImageClassifier.step`."""
     config = config or ImageClassifierConfig()
     patterns, norms_counts, classes = less_deep(library)
     x = np.asarray(image, dtype=np.float64).ravel()
@@ -139,6 +174,9 @@ def classify_image(
         if force > 0:
             left[number] = min(left[number], unexplained**2 + square * against_force(force, config))
     residuals = np.sqrt(np.maximum(left, 0) / square)
+    src = classify(library, *known_samples(x, spread), src_config(config))
+    weight = src_weight(0.0, config) if src.touched else 0.0
+    residuals = (residuals * src.residuals**weight) ** (1 / (1 + weight))
     return Classification(True, int(np.argmin(residuals)), residuals, confidence_of(residuals))
 
 
@@ -158,6 +196,7 @@ class ImageClassifier:
         self._model = kernels.Model(*less_deep(library), library.n_classes)
         self._state = kernels.State(library.rows * library.cols, len(self._model.classes), library.n_classes)
         self._unrest = Unrest(library.rows, library.cols, self.config.touch_counts)
+        self._src = Classifier(library, src_config(self.config))
         # Compile, or load from the cache, what the first image would otherwise wait seconds for.
         image = np.full((library.rows, library.cols), COUNT_MAX, dtype=np.float32)
         self.step(image, np.zeros_like(image), np.zeros_like(image), 0.001)
@@ -224,4 +263,10 @@ class ImageClassifier:
         )
         if not touched:
             return Classification(False, 0, state.residuals, 0.0)
+        weight = src_weight(self._unrest.rate_counts_per_s, config)
+        if weight >= _LEAST_WEIGHT:
+            # The weighted geometric mean: neither judge can outvote what the other excludes.
+            indices, counts = known_samples(image, doubt)
+            if indices.size and (src := self._src.step(indices, counts)).touched:
+                np.power(state.residuals * src.residuals**weight, 1 / (1 + weight), out=state.residuals)
         return Classification(True, int(np.argmin(state.residuals)), state.residuals, confidence_of(state.residuals))

@@ -10,7 +10,15 @@ from recon_samples import bump
 from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError, SettingsError
 from acts_core.force import ForceResponse
-from acts_recon.image_classification import ImageClassifier, ImageClassifierConfig, classify_image, less_deep
+from acts_recon.classification import Classifier
+from acts_recon.image_classification import (
+    ImageClassifier,
+    ImageClassifierConfig,
+    classify_image,
+    known_samples,
+    less_deep,
+    src_config,
+)
 from acts_recon.object_library import ObjectLibrary, build_object_library
 from acts_recon.unrest import Unrest
 
@@ -87,7 +95,7 @@ def test_kernel_equals_twin_on_random_images() -> None:
 
 
 def test_frames_before_count_on_and_fade(objects: ObjectLibrary) -> None:
-    classifier = ImageClassifier(objects, ImageClassifierConfig(memory_s=0.01))
+    classifier = ImageClassifier(objects, ImageClassifierConfig(memory_s=0.01, src_weight=0.0))
     old = np.full_like(CERTAIN, 0.5)
     for _ in range(5):
         classifier.step(image_of(6.0), CERTAIN, old, 0.001)
@@ -135,3 +143,28 @@ def test_impossible_images_are_refused(objects: ObjectLibrary) -> None:
             classifier.step(image, sigma, CERTAIN, 0.001)
     with pytest.raises(SettingsError, match="memory_s = -1"):
         ImageClassifierConfig(memory_s=-1.0)
+
+
+def test_src_has_its_say_once_the_skin_rests(objects: ObjectLibrary) -> None:
+    config, without = ImageClassifierConfig(memory_s=0.0), ImageClassifierConfig(memory_s=0.0, src_weight=0.0)
+    classifier, plain = ImageClassifier(objects, config), ImageClassifier(objects, without)
+    image = image_of(3.0)
+    fresh, old = CERTAIN, np.full_like(CERTAIN, 0.5)
+    # Everything has changed within a millisecond: SRC is not asked.
+    classifier.step(CERTAIN, CERTAIN, fresh, 0.001)
+    plain.step(CERTAIN, CERTAIN, fresh, 0.001)
+    rising = classifier.step(image, CERTAIN, fresh, 0.001).residuals.copy()
+    np.testing.assert_array_equal(rising, plain.step(image, CERTAIN, fresh, 0.001).residuals)
+    for _ in range(40):
+        resting = classifier.step(image, CERTAIN, old, 0.001).residuals
+        alone = plain.step(image, CERTAIN, old, 0.001).residuals
+    src = Classifier(objects, src_config(config)).step(*known_samples(image, CERTAIN)).residuals
+    np.testing.assert_allclose(resting, (alone * src**2) ** (1 / 3), rtol=1e-3)
+
+
+def test_src_gets_only_what_is_known() -> None:
+    image = np.array([[10.4, 2000.0], [-3.0, 500.0]], dtype=np.float32)
+    indices, counts = known_samples(image, np.array([[0.0, 49.0], [1.0, np.inf]]))
+    assert indices.tolist() == [0, 1, 2]
+    assert counts.tolist() == [10, 1023, 0]
+    assert indices.dtype == counts.dtype == np.uint16
