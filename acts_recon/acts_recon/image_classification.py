@@ -15,6 +15,7 @@ uncertainty. Six things make the difference (docs/recovery.md has the figures):
 
 `classify_image` is the plain version, in double precision, of a single image; `ImageClassifier` runs
 `acts_recon.image_classification_kernels`, in single precision, and remembers.
+SRC on a whole image takes far longer than the comparison: `src_weight` 0 leaves it out.
 """
 
 from __future__ import annotations
