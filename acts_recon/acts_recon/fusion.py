@@ -32,6 +32,7 @@ from acts_core.settings import setting, validate
 from acts_recon import fusion_kernels as kernels
 from acts_recon.fastomp_kernels import OK
 from acts_recon.frame_check import place_table, require_samples, why_refused
+from acts_recon.fusion_state import Tuning, forget, new_state
 
 
 @dataclass(frozen=True)
@@ -68,9 +69,9 @@ class FusionConfig:
         validate(self)
 
     @property
-    def tuning(self) -> kernels.Tuning:
+    def tuning(self) -> Tuning:
         """For the kernels."""
-        return kernels.Tuning(*(float(getattr(self, name)) for name in kernels.Tuning._fields))
+        return Tuning(*(float(getattr(self, name)) for name in Tuning._fields))
 
 
 class FusionEstimator:
@@ -101,7 +102,7 @@ class FusionEstimator:
         if layout is not None:
             self._places = place_table(layout, geometry)
             self._matrix_size = (layout.matrix_rows, layout.matrix_cols)
-        self._state = kernels.new_state(geometry.rows, geometry.cols)
+        self._state = new_state(geometry.rows, geometry.cols)
         self._confidence = np.zeros(geometry.size, dtype=np.uint8)
         self._end_s: float | None = None
         shape = (geometry.rows, geometry.cols)
@@ -118,7 +119,7 @@ class FusionEstimator:
 
     def reset(self) -> None:
         """Forget everything."""
-        kernels.forget(self._state)
+        forget(self._state)
         self._end_s = None
 
     def step(

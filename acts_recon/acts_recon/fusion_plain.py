@@ -17,17 +17,15 @@ from acts_recon.fusion_kernels import (
     SCALE_STEP,
     SHORTEST_S,
     SPREAD_PRIOR,
-    TILE,
-    UNKNOWN_COUNTS,
     UNREST_SHARE,
-    Tuning,
 )
+from acts_recon.fusion_state import TILE, UNKNOWN_COUNTS, Tuning
 
 Floats = NDArray[np.float64]
 
 
 class PlainFusion:
-    """What is known of every taxel, as `acts_recon.fusion_kernels.State`; arrays are (rows, cols).
+    """What is known of every taxel, as `acts_recon.fusion_state.State`; arrays are (rows, cols).
 
     Parameters
     ----------

@@ -15,8 +15,8 @@ from acts_core.errors import ArrayError, SettingsError
 from acts_core.layouts import layout
 from acts_core.sampling import Sampler, SamplingConfig, measure_in
 from acts_recon.fusion import FusionConfig, FusionEstimator
-from acts_recon.fusion_kernels import UNKNOWN_COUNTS
 from acts_recon.fusion_plain import PlainFusion
+from acts_recon.fusion_state import UNKNOWN_COUNTS
 
 DURATION_S = 55 * 17.877e-6
 SMALL = ArrayGeometry(rows=9, cols=13)

@@ -1,0 +1,110 @@
+"""What the fusion's kernels are given: settings, and what is known of every taxel."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+TILE = 4
+"""Side of the tiles in which the motion is summed up [taxels]."""
+
+UNKNOWN_COUNTS = 300.0
+"""Sigma of a taxel of which nothing is known: that of any count being equally likely."""
+
+
+class Tuning(NamedTuple):
+    """`acts_recon.fusion.FusionConfig` for the kernels; times [s], counts."""
+
+    noise_counts: float
+    quiet_counts: float
+    quiet_s: float
+    horizon_s: float
+    damping_s: float
+    slope_memory_s: float
+    motion_memory_s: float
+    motion_share: float
+    spread_gain: float
+
+
+class State(NamedTuple):
+    """What is known of every taxel, and the buffers that `fuse` works in. Arrays of taxels are flat.
+
+    Attributes
+    ----------
+    image, sigma : np.ndarray [shape=(taxels,), dtype=float32]
+        Estimate at the end of the last frame and its standard deviation [counts].
+    value, slope, age : np.ndarray [shape=(taxels,), dtype=float32]
+        Last measurement [counts], how fast it changed [counts/s], and how long it has been [s]; inf: never.
+    unrest : np.ndarray [shape=(taxels,), dtype=float32]
+        Mean square of the error that predictions gather per second [(counts/s)^2].
+    fresh : np.ndarray [shape=(taxels,), dtype=bool]
+        Whether the taxel was measured in the last frame.
+    evidence, row_sums : np.ndarray [shape=(tile_rows, tile_cols, 6), dtype=float32]
+        Sums of gradients and changes over the last milliseconds, and over the tiles beside.
+    velocity : np.ndarray [shape=(tile_rows, tile_cols, 3), dtype=float32]
+        Columns and rows per second, and the share of the changes that they explain; 0: not used.
+    log_scale : np.ndarray [shape=(1,), dtype=float32]
+        Logarithm of what all error variances are multiplied by, from how well predictions have held.
+    before, rate, innovation, total, unrest_total, weight, seen
+        Scratch.
+    """
+
+    image: NDArray[np.float32]
+    sigma: NDArray[np.float32]
+    value: NDArray[np.float32]
+    slope: NDArray[np.float32]
+    age: NDArray[np.float32]
+    unrest: NDArray[np.float32]
+    fresh: NDArray[np.bool_]
+    evidence: NDArray[np.float32]
+    row_sums: NDArray[np.float32]
+    velocity: NDArray[np.float32]
+    log_scale: NDArray[np.float32]
+    before: NDArray[np.float32]
+    rate: NDArray[np.float32]
+    innovation: NDArray[np.float32]
+    total: NDArray[np.float32]
+    unrest_total: NDArray[np.float32]
+    weight: NDArray[np.float32]
+    seen: NDArray[np.bool_]
+
+
+def new_state(rows: int, cols: int) -> State:
+    """Allocate everything for an array of which nothing is known yet."""
+    tiles = (-(-rows // TILE), -(-cols // TILE))
+
+    def taxels() -> NDArray[np.float32]:
+        return np.zeros(rows * cols, dtype=np.float32)
+
+    state = State(
+        image=taxels(),
+        sigma=taxels(),
+        value=taxels(),
+        slope=taxels(),
+        age=taxels(),
+        unrest=taxels(),
+        fresh=np.zeros(rows * cols, dtype=np.bool_),
+        evidence=np.zeros((*tiles, 6), dtype=np.float32),
+        row_sums=np.zeros((*tiles, 6), dtype=np.float32),
+        velocity=np.zeros((*tiles, 3), dtype=np.float32),
+        log_scale=np.zeros(1, dtype=np.float32),
+        before=taxels(),
+        rate=taxels(),
+        innovation=taxels(),
+        total=taxels(),
+        unrest_total=taxels(),
+        weight=taxels(),
+        seen=np.zeros(rows * cols, dtype=np.bool_),
+    )
+    forget(state)
+    return state
+
+
+def forget(state: State) -> None:
+    """Make a state as good as new."""
+    for array in state:
+        array.fill(0)
+    state.age.fill(np.inf)
+    state.sigma.fill(UNKNOWN_COUNTS)
