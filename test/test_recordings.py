@@ -37,8 +37,9 @@ FRAME_S = 0.001
 NOISE_COUNTS = 1.5
 # Below it reconstruction and contact see nothing.
 TOUCH_COUNTS = 60
-# Mean relative error: of samples fused over time, and of each frame alone; measured are 0.07 and 0.39.
-GRASP_ERROR_LIMIT = 0.2
+# Mean relative error: of samples fused over time (0.012 over the whole recording, 0.022 in the worst 400 frames in a row),
+# and of each frame alone (0.39).
+GRASP_ERROR_LIMIT = 0.05
 FIGURE_ERROR_LIMIT = 0.6
 
 GRASPS = DATA / "sdh_weiss" / "grasps_canvas.npz"
@@ -95,7 +96,11 @@ def replay(npy: Path, rate_hz: float, domain_id: int, run_dir: Path, method: str
         def whole() -> list[tuple[int, int]]:
             return sorted(set.intersection(*(set(part) for part in parts.values())))
 
-        launch.probe.wait_for(lambda: len(whole()) >= FRAMES, START_S, f"{FRAMES} whole frames")
+        def enough() -> bool:
+            # Short of that there cannot be enough whole ones; to look at all of them takes longer than a frame lasts.
+            return min(map(len, parts.values())) >= FRAMES and len(whole()) >= FRAMES
+
+        launch.probe.wait_for(enough, START_S, f"{FRAMES} whole frames")
         stamps = whole()[:FRAMES]
         assert launch.stop() == 0
     seen = []
@@ -143,13 +148,13 @@ def check_recovery(seen: list[Seen]) -> None:
         assert one.contact.force == pytest.approx(contact.force_n, rel=1e-5, abs=1e-6)
 
 
-def relative_errors(seen: list[Seen], field: TrueField) -> NDArray[np.float64]:
-    """Norm of the image's error over the norm of the truth, for frames that touch anything."""
+def relative_errors(seen: list[Seen], field: TrueField, floor_counts: float) -> NDArray[np.float64]:
+    """Norm of the image's error over the norm of the truth above a floor, for frames that touch anything."""
     errors = []
     for one in seen:
         truth = field.at(frame_time_s(one.samples) + FRAME_S / 2)
-        truth = np.where(truth > TOUCH_COUNTS, truth, 0.0)
-        if truth.any():
+        if truth.max() > TOUCH_COUNTS:
+            truth = np.where(truth > floor_counts, truth, 0.0)
             errors.append(np.linalg.norm(one.image - truth) / np.linalg.norm(truth))
     return np.array(errors)
 
@@ -193,7 +198,8 @@ def test_real_grasps_arrive_as_they_were_pressed(tmp_path: Path, run_dir: Path) 
     field = TrueField(exported.path, exported.rate_hz)
     seen = replay(exported.path, exported.rate_hz, 72, run_dir, "fusion")
     check_samples(seen, field)
-    errors = relative_errors(seen, field)
+    # The fusion shows small counts, too: those at the rim of a contact are most of what a grasp begins with.
+    errors = relative_errors(seen, field, floor_counts=0.0)
     assert errors.size > 0
     assert errors.mean() < GRASP_ERROR_LIMIT
     chosen = np.linspace(0, len(seen) - 1, 6).astype(int)
@@ -211,6 +217,6 @@ def test_the_papers_frame_arrives_as_it_was_pressed(tmp_path: Path, run_dir: Pat
     seen = replay(exported.path, exported.rate_hz, 73, run_dir, "per_frame")
     check_samples(seen, field)
     check_recovery(seen)
-    assert relative_errors(seen, field).mean() < FIGURE_ERROR_LIMIT
+    assert relative_errors(seen, field, TOUCH_COUNTS).mean() < FIGURE_ERROR_LIMIT
     rows = [(f"paper, {name}", seen[i], field.at(0.0)) for i, name in enumerate(exported.labels)]
     draw(rows, ROOT / "out" / "recorded_paper.png")
