@@ -12,6 +12,7 @@ from acts_core.sampling import SamplingConfig
 from acts_recon.dictionary import Dictionary, load_dictionary
 from acts_recon.shipped import shipped_dictionary_path
 from acts_tools.cli import main
+from acts_tools.evaluate import calibration
 from acts_tools.evaluate.recovery import Recording, Task, evaluate
 from acts_tools.evaluate.scores import FRAME_SCORES, score_image
 from acts_tools.evaluate.truth import contact_starts
@@ -130,6 +131,41 @@ def test_noise_is_added_to_what_is_measured_and_not_to_the_truth(dictionary: Dic
     )
     assert clean["relative_error"] == 0
     assert 0.02 < noisy["relative_error"] < 0.1
+
+
+def test_errors_are_counted_in_sigmas_touched_and_untouched_apart() -> None:
+    sums = np.zeros(calibration.SUMS)
+    sigma = np.full(1024, 10, dtype=np.float32)
+    image, truth = np.zeros((2, 1024), dtype=np.float32)
+    truth[:4] = 100
+    image[:4] = [100, 95, 115, 130]
+    image[4:8] = [0, 10, 20, 21]
+    live = np.zeros(1024, dtype=bool)
+    live[:8] = True
+    for _ in range(2):
+        calibration.add_errors(image, sigma, truth, live, 50.0, sums)
+    result = calibration.summary(sums)
+    assert result is not None
+    assert result["touched"] == {
+        "ratio": pytest.approx(np.sqrt((0.5**2 + 1.5**2 + 3.0**2) / 4)),
+        "within_1": 0.5,
+        "within_2": 0.75,
+    }
+    assert result["untouched"] == {
+        "ratio": pytest.approx(np.sqrt((1.0 + 4.0 + 2.1**2) / 4)),
+        "within_1": 0.5,
+        "within_2": 0.75,
+    }
+    assert calibration.summary(np.zeros(calibration.SUMS)) is None
+
+
+def test_a_method_that_knows_no_sigma_has_no_calibration(dictionary: Dictionary) -> None:
+    frames = still(100, PRESSED)
+    assert scored(dictionary, frames, "last")["sigma"] is None
+    known = scored(dictionary, frames, "acts")
+    assert known["sigma"]["touched"] == {"ratio": 0, "within_1": 1, "within_2": 1}
+    assert known["onset"]["sigma"]["touched"]["within_2"] > 0.9
+    assert known["sigma"]["untouched"]["ratio"] < 0.01
 
 
 def test_peaks_are_single_frames_held_still(tmp_path: Path) -> None:

@@ -20,6 +20,8 @@ class Linear:
     What comes out is clipped to 0 to 1023. Where the measured taxels span no triangle the nearest one's value is taken.
     """
 
+    sigma = None
+
     def __init__(self, geometry: ArrayGeometry) -> None:
         row, col = np.divmod(np.arange(geometry.rows * geometry.cols), geometry.cols)
         self._places = np.stack((row, col), axis=1).astype(np.float64)
@@ -116,6 +118,8 @@ class GaussianProcess:
     amplitude; all fixed: of several kernels the best on presses of the contact model. What comes out is clipped to 0 to
     1023.
     """
+
+    sigma = None
 
     def __init__(self, geometry: ArrayGeometry) -> None:
         row, col = np.divmod(np.arange(geometry.rows * geometry.cols), geometry.cols)

@@ -20,8 +20,12 @@ from acts_tools.evaluate.interpolation import GaussianProcess, Linear
 class Method(Protocol):
     """Makes an image of every frame of samples.
 
-    How to add one: a class with these two functions, and a line in `METHODS`.
+    How to add one: a class with these, and a line in `METHODS`.
     """
+
+    @property
+    def sigma(self) -> NDArray[np.float32] | None:
+        """Standard deviation of the last image [counts], (rows, cols); None from a method that does not know."""
 
     def reset(self) -> None:
         """Forget everything: another recording begins."""
@@ -47,6 +51,8 @@ class Method(Protocol):
 
 class ZeroFill:
     """What was not measured in this frame is 0."""
+
+    sigma = None
 
     def __init__(self, geometry: ArrayGeometry) -> None:
         self._image = np.zeros((geometry.rows, geometry.cols), dtype=np.float32)
@@ -81,6 +87,8 @@ class LastValue(ZeroFill):
 class PerFrame:
     """The paper's method: FastOMP over patches, each frame alone."""
 
+    sigma = None
+
     def __init__(self, geometry: ArrayGeometry, dictionary: Dictionary, touch_counts: int) -> None:
         self._reconstructor = Reconstructor(geometry, dictionary, ReconstructorConfig(touch_counts=touch_counts))
 
@@ -100,6 +108,7 @@ class Fused:
 
     def __init__(self, geometry: ArrayGeometry) -> None:
         self._estimator = FusionEstimator(geometry)
+        self.sigma: NDArray[np.float32] | None = self._estimator.sigma
 
     def reset(self) -> None:
         """Forget everything."""

@@ -17,6 +17,7 @@ from acts_core.array import COUNT_MAX, ArrayGeometry
 from acts_core.sampling import SamplingConfig
 from acts_core.settings import setting, validate
 from acts_recon.dictionary import Dictionary
+from acts_tools.evaluate import calibration
 from acts_tools.evaluate.board_sampler import BoardSampler
 from acts_tools.evaluate.methods import Method, method_named
 from acts_tools.evaluate.scores import FRAME_SCORES, INVENTED, FrameScores, score_image
@@ -95,6 +96,7 @@ class _Frame:
     end_s: float
     spent_us: float
     scores: NDArray[np.float64]
+    errors: NDArray[np.float64]
     in_contact: bool
     since_s: float
 
@@ -144,6 +146,7 @@ def evaluate(recordings: Iterable[Recording], task: Task, dictionary: Dictionary
     nothing = np.zeros(task.sampling.m, dtype=np.uint16)
     method.step(np.arange(task.sampling.m, dtype=np.uint16), nothing, 0.0, task.duration_s)
     settled, onset = FrameScores(), FrameScores()
+    settled_errors, onset_errors = np.zeros(calibration.SUMS), np.zeros(calibration.SUMS)
     contact_us: list[float] = []
     untouched_us: list[float] = []
     untouched_invented: list[float] = []
@@ -156,7 +159,10 @@ def evaluate(recordings: Iterable[Recording], task: Task, dictionary: Dictionary
         for frame in _play(recording, task, method):
             notices.look(frame)
             if frame.in_contact:
-                (onset if frame.since_s < task.onset_s else settled).add(frame.scores)
+                new = frame.since_s < task.onset_s
+                (onset if new else settled).add(frame.scores)
+                errors = onset_errors if new else settled_errors
+                errors += frame.errors
                 contact_us.append(frame.spent_us)
             else:
                 untouched_us.append(frame.spent_us)
@@ -169,13 +175,14 @@ def evaluate(recordings: Iterable[Recording], task: Task, dictionary: Dictionary
         "m": task.sampling.m,
         "method": task.method,
         **settled.summary(),
+        "sigma": calibration.summary(settled_errors),
         "notice_ms": _percentiles(first_ms + further_ms, 50, 99),
         "notice_further_ms": _percentiles(further_ms, 50, 99),
         "contacts": len(first_ms) + len(further_ms),
         "contacts_missed": missed,
         "frame_us": _median(contact_us or untouched_us),
         "rate_hz": 1.0 / task.period_s,
-        "onset": onset.summary(),
+        "onset": {**onset.summary(), "sigma": calibration.summary(onset_errors)},
         "untouched": {
             "frames": len(untouched_invented),
             "invented_rate": float(np.mean(untouched_invented)) if untouched_invented else None,
@@ -203,11 +210,14 @@ def _play(recording: Recording, task: Task, method: Method) -> Iterator[_Frame]:
         interpolate(flat, end_s * recording.rate_hz, truth)
         touch = float(task.touch_counts)
         in_contact = score_image(image.ravel(), truth, live, task.sampling.cols, touch, scores)
+        errors = np.zeros(calibration.SUMS)
+        if method.sigma is not None:
+            calibration.add_errors(image.ravel(), method.sigma.ravel(), truth, live, touch, errors)
         if not in_contact:
             contact_since_s = None
         elif contact_since_s is None:
             contact_since_s = end_s
-        yield _Frame(image, end_s, spent_us, scores, in_contact, end_s - (contact_since_s or 0.0))
+        yield _Frame(image, end_s, spent_us, scores, errors, in_contact, end_s - (contact_since_s or 0.0))
         number += 1
         begin_s = number * task.period_s
 
