@@ -37,8 +37,8 @@ FRAME_S = 0.001
 NOISE_COUNTS = 1.5
 # Below it reconstruction and contact see nothing.
 TOUCH_COUNTS = 60
-# Mean relative error: of samples fused over time (0.012 over the whole recording, 0.022 in the worst 400 frames in a row),
-# and of each frame alone (0.39).
+# Mean relative error: of samples fused over time (0.012 over the whole recording, 0.022 in the worst 400 frames in a
+# row), and of each frame alone (0.39).
 GRASP_ERROR_LIMIT = 0.05
 FIGURE_ERROR_LIMIT = 0.6
 
