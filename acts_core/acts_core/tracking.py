@@ -4,7 +4,7 @@ ACTS' own, beyond the paper, whose discussion asks for combinations of sampling 
 frame anew: a contact between the first taxels of the search is found in no frame, and one that is large uses up a frame
 before the others are found. Here frames remember: a part of each goes to the taxels that were pressed and to those
 around them, the rest to a search that is taken up where the last frame left it. What the search finds is looked at from
-all sides in the same frame.
+all sides in the same frame; what is known to be pressed is measured last, so that the image shows it as it is.
 """
 
 from __future__ import annotations
@@ -21,10 +21,12 @@ class Tracking:
 
     A taxel is flagged as pressed when it was above the threshold the last time it was measured. Candidates are the
     flagged taxels and their eight neighbours, as they stand when the frame begins. Of the `m` taxels of a frame, up to
-    ``m - search_quota`` are candidates, row by row, cyclically from the first one that the frame before left out. Then
-    `search_quota` follow the order of search from where it stopped, without those that this frame has measured already.
-    What is left goes to the neighbours of the taxels that this frame found newly pressed, breadth first, and where
-    there are none (any more) to the search.
+    ``m - search_quota`` are candidates: row by row, cyclically from the first one that the frame before left out. They
+    are measured at the end of the frame: an image is of that moment, and what is pressed is what changes.
+
+    Before them `search_quota` or more follow the order of search from where it stopped, without the candidates of this
+    frame and what it has measured already. What exceeds the quota goes to the neighbours of the taxels that the search
+    found newly pressed, breadth first, and where there are none (any more) to the search.
 
     So in every frame `m` taxels are measured, none twice, and
 
@@ -61,6 +63,8 @@ class Tracking:
         """Sample one frame; as `acts_core.sampling.Sampler.frame`."""
         rows, cols = self._pressed.shape
         followed = self._follow()
+        others = self._m - len(followed)
+        reserved = set(followed)
         measured: dict[int, int] = {}
         found: deque[tuple[int, int]] = deque()
 
@@ -72,23 +76,26 @@ class Tracking:
                 found.append((row, col))
             self._pressed[row, col] = pressed
 
-        for index in followed:
-            take(index)
+        def is_free(index: int) -> bool:
+            return index not in measured and index not in reserved
+
         searched = 0
-        while len(measured) < self._m:
+        while len(measured) < others:
             if found and searched >= self._search_quota:
                 row, col = found.popleft()
                 for near_row in range(max(row - 1, 0), min(row + 2, rows)):
                     for near_col in range(max(col - 1, 0), min(col + 2, cols)):
                         index = near_row * cols + near_col
-                        if index not in measured and len(measured) < self._m:
+                        if is_free(index) and len(measured) < others:
                             take(index)
                 continue
             index = self._order[self._walk]
             self._walk = (self._walk + 1) % len(self._order)
-            if index not in measured:
+            if is_free(index):
                 take(index)
                 searched += 1
+        for index in followed:
+            take(index)
         return np.array(list(measured), dtype=np.uint16), np.array(list(measured.values()), dtype=np.uint16)
 
     def _follow(self) -> list[int]:

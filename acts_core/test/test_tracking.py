@@ -59,7 +59,7 @@ def test_untouched_it_walks_the_order_of_search_from_frame_to_frame() -> None:
     assert walked == np.resize(dither_order(32, 32), 40 * 55).tolist()
 
 
-def test_a_found_contact_and_its_ring_come_first_row_by_row_then_the_search_goes_on() -> None:
+def test_the_search_goes_on_then_a_found_contact_and_its_ring_end_the_frame_row_by_row() -> None:
     field = contact(16, 16, side=1)  # in the first lattice of the search
     order = dither_order(32, 32).tolist()
     sampler = Sampler(SamplingConfig("tracking"))
@@ -67,11 +67,11 @@ def test_a_found_contact_and_its_ring_come_first_row_by_row_then_the_search_goes
         pass
     indices, counts = sampler.frame(measure_in(field))
     around = [row * 32 + col for row in (15, 16, 17) for col in (15, 16, 17)]
-    assert indices[:9].tolist() == around
-    assert counts[:9].tolist() == [0, 0, 0, 0, 500, 0, 0, 0, 0]
-    start = order.index(indices[9])
+    assert indices[-9:].tolist() == around
+    assert counts[-9:].tolist() == [0, 0, 0, 0, 500, 0, 0, 0, 0]
+    start = order.index(indices[0])
     searched = [index for index in order[start:] + order[:start] if index not in around]
-    assert indices[9:].tolist() == searched[:46]
+    assert indices[:-9].tolist() == searched[:46]
 
 
 def test_what_the_search_finds_is_seen_whole_in_the_same_frame_after_the_search_had_its_share() -> None:
@@ -87,7 +87,7 @@ def test_candidates_that_do_not_fit_are_taken_in_turns() -> None:
     sampler = Sampler(SamplingConfig("tracking", 4, 4, 5, search_share=0.4))
     for _ in range(8):  # finds all 16
         sampler.frame(measure_in(field))
-    followed = [sampler.frame(measure_in(field))[0][:3].tolist() for _ in range(16)]
+    followed = [sampler.frame(measure_in(field))[0][-3:].tolist() for _ in range(16)]
     flat = [index for frame in followed for index in frame]
     assert all(after == (before + 1) % 16 for before, after in pairwise(flat))
 

@@ -7,48 +7,57 @@ namespace acts {
 void Tracking::reset() {
   pressed_.fill(false);
   pressed_near_.fill(0);
+  reserved_.fill(false);
   cursor_ = 0;
   walk_ = 0;
 }
 
 void Tracking::sample(const SamplingConfig& config, const DitherOrder& order, Measurement& frame) {
   const int followed = list_candidates(order.size(), config.m - config.search_quota);
+  const int others = config.m - followed;
   found_count_ = 0;
-  for (int i = 0; i < followed; ++i) {
-    track(config, candidates_[static_cast<std::size_t>(i)], frame);
-  }
   int searched = 0;
   int looked_around = 0;
-  while (frame.size() < config.m) {
+  while (frame.size() < others) {
     if (looked_around < found_count_ && searched >= config.search_quota) {
-      look_around(config, found_[static_cast<std::size_t>(looked_around++)], frame);
+      look_around(config, others, found_[static_cast<std::size_t>(looked_around++)], frame);
       continue;
     }
     const int index = order[walk_];
     walk_ = walk_ + 1 == order.size() ? 0 : walk_ + 1;
-    if (!frame.has(index)) {
+    if (is_free(index, frame)) {
       track(config, index, frame);
       ++searched;
     }
   }
+  for (int i = 0; i < followed; ++i) {
+    const int index = candidates_[static_cast<std::size_t>(i)];
+    reserved_[static_cast<std::size_t>(index)] = false;
+    track(config, index, frame);
+  }
 }
 
-// Measures the neighbours of a taxel that was found pressed, as far as the frame goes.
-void Tracking::look_around(const SamplingConfig& config, int index, Measurement& frame) {
+// Measures the neighbours of a taxel that was found pressed, as long as the frame has fewer than `others`.
+void Tracking::look_around(const SamplingConfig& config, int others, int index, Measurement& frame) {
   const int row = index / config.cols;
   const int col = index % config.cols;
   for (int r = std::max(row - 1, 0); r <= std::min(row + 1, config.rows - 1); ++r) {
     for (int c = std::max(col - 1, 0); c <= std::min(col + 1, config.cols - 1); ++c) {
       const int near = r * config.cols + c;
-      if (frame.size() < config.m && !frame.has(near)) {
+      if (frame.size() < others && is_free(near, frame)) {
         track(config, near, frame);
       }
     }
   }
 }
 
-// Lists up to `limit` candidates, row by row and cyclically from the cursor on, before measurements change them. The
-// first one left out is where the next frame begins.
+// Whether the frame neither has a taxel nor keeps it for its end.
+bool Tracking::is_free(int index, const Measurement& frame) const {
+  return !frame.has(index) && !reserved_[static_cast<std::size_t>(index)];
+}
+
+// Lists and reserves up to `limit` candidates, row by row and cyclically from the cursor on, before measurements change
+// them. The first one left out is where the next frame begins.
 int Tracking::list_candidates(int taxels, int limit) {
   int listed = 0;
   int index = cursor_;
@@ -60,6 +69,7 @@ int Tracking::list_candidates(int taxels, int limit) {
         break;
       }
       candidates_[static_cast<std::size_t>(listed++)] = static_cast<std::uint16_t>(index);
+      reserved_[static_cast<std::size_t>(index)] = true;
     }
     index = index + 1 == taxels ? 0 : index + 1;
   }
