@@ -10,11 +10,11 @@
 
 namespace acts {
 
-// Candidates are what was pressed, and its neighbours. They get at most m - search_quota taxels of a frame, in turns, and
-// the end of it: an image is of that moment, and what is pressed is what changes. Before them a search that goes on from
-// frame to frame gets search_quota or more; what is left when it has had these goes first to the neighbours of what it
-// found newly pressed. So every taxel is measured at least once in any ceil(rows * cols / search_quota) frames, and
-// every lasting candidate at least once in any ceil(candidates / (m - search_quota)).
+// Candidates are what was pressed, and its neighbours. They get at most m - search_quota taxels of a frame, in turns,
+// and the end of it: an image is of that moment, and what is pressed is what changes. Before them a search that goes on
+// from frame to frame gets search_quota or more; what is left when it has had these goes first to the neighbours of
+// what it found newly pressed. So every taxel is measured at least once in any ceil(rows * cols / search_quota) frames,
+// and every lasting candidate at least once in any ceil(candidates / (m - search_quota)).
 class Tracking {
  public:
   // Forgets what was pressed and where the search stopped.
@@ -32,7 +32,7 @@ class Tracking {
   std::array<bool, kMaxTaxels> pressed_{};
   std::array<std::uint8_t, kMaxTaxels> pressed_near_{};
   std::array<std::uint16_t, kMaxTaxels> candidates_{};
-  std::array<bool, kMaxTaxels> reserved_{};         // candidates that this frame has still to measure
+  std::array<bool, kMaxTaxels> reserved_{};        // candidates that this frame has still to measure
   std::array<std::uint16_t, kMaxTaxels> found_{};  // newly pressed in this frame
   int found_count_ = 0;
   int cursor_ = 0;  // the taxel from which candidates are taken
