@@ -12,7 +12,7 @@ every taxel the last measurement, its age and how fast it changed, and carries t
   taxels, small as it is, would draw the centre of pressure to the middle. (In the frame that measures it, it is
   what was measured.)
 - **Doubt.** Sigma grows with age, as fast as predictions of the taxel and those around it have failed so far; one
-  factor for all follows how well the sigmas themselves have held.
+  factor for all follows how well the sigmas themselves have held, another the surprise of the last frame.
 
 `acts_recon.fusion_kernels` does the work, `acts_recon.fusion_plain` is its readable twin.
 """

@@ -31,9 +31,13 @@ IDLE_COUNTS_PER_S = 20.0
 UNREST_SHARE = 0.3
 # Errors over less time than this say little about the error per time [s].
 SHORTEST_S = 5e-4
+# What surprises on a taxel not measured within the horizon is a new contact, which came about so long ago [s].
+NOTICED_S = 3e-3
 # From 1 error at odds with sigma to the correction of all sigmas, as a logarithm; and its limit.
 SCALE_STEP = 0.01
 SCALE_LIMIT = 3.0
+# What the surprise of one frame says of that frame counts as if so many samples more had been as expected.
+CALM_SAMPLES = 4.0
 # Squared errors beyond this many variances count as this many: a new contact says little about known ones.
 OUTLIER = 25.0
 # What a sample says about the others is halved where their weights sum up to this.
@@ -194,6 +198,7 @@ def _take(
     horizon, noise_variance = _F(tuning.horizon_s), _F(tuning.noise_counts) ** 2
     scale = _F(math.exp(state.log_scale[0]))
     surprise = _F(0)
+    compared = _F(0)
     for k in range(m):
         i = int(np.int64(indices[k]))
         lag = _F(lag_step_s * (m - 1 - k))
@@ -206,23 +211,26 @@ def _take(
             if gathered > noise_variance:
                 ratio = innovation * innovation / (_F(2) * noise_variance + scale * gathered)
                 surprise += min(ratio, _F(OUTLIER)) - _F(1)
+                compared += _F(1)
             share = since / (since + _F(tuning.slope_memory_s))
             state.slope[i] += share * ((count - state.value[i]) / since - state.slope[i])
         else:
             state.slope[i] = _F(0)
-        error = _excess(innovation, since, noise_variance)
-        state.unrest[i] += _F(UNREST_SHARE) * (error - state.unrest[i])
+        error = _excess(innovation, since if since < horizon else _F(NOTICED_S), noise_variance)
+        begins = error > state.unrest[i] and not since < horizon
+        state.unrest[i] += (_F(1) if begins else _F(UNREST_SHARE)) * (error - state.unrest[i])
         state.value[i] = count
         state.age[i] = lag
         state.fresh[i] = True
     log_scale = state.log_scale[0] + _F(SCALE_STEP) * surprise
     state.log_scale[0] = min(max(log_scale, -_F(SCALE_LIMIT)), _F(SCALE_LIMIT))
+    state.frame_scale[0] = max(_F(1) + surprise / (compared + _F(CALM_SAMPLES)), _F(1))
 
 
 @numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
 def _excess(innovation: np.float32, since: np.float32, noise_variance: np.float32) -> np.float32:
     """Squared error per squared second of a prediction that noise does not account for."""
-    time = min(max(since, _F(0)), _F(1)) + _F(SHORTEST_S)
+    time = max(since, _F(0)) + _F(SHORTEST_S)
     return max(innovation * innovation - _F(2) * noise_variance, _F(0)) / (time * time)
 
 
@@ -284,22 +292,35 @@ def _keep_quiet(state: State, rows: int, cols: int, tuning: Tuning) -> None:
 
 
 @numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
-def _doubt(state: State, tuning: Tuning) -> None:
-    """Standard deviations from noise, age, what predictions of the taxel gathered, and how well all have held."""
-    scale = _F(math.exp(state.log_scale[0]))
+def _doubt(state: State, rows: int, cols: int, tuning: Tuning) -> None:
+    """Standard deviations from noise, age, what predictions of the taxel gathered, and how well all have held.
+
+    Where a taxel was not measured, what moves beside it may have come to it: half of its doubt is that of the most
+    doubtful around it.
+    """
+    scale = _F(math.exp(state.log_scale[0])) * state.frame_scale[0]
     idle, horizon = _F(IDLE_COUNTS_PER_S), _F(tuning.horizon_s)
     noise_variance = _F(tuning.noise_counts) ** 2
     limit = _F(UNKNOWN_COUNTS)
-    for i in range(state.sigma.shape[0]):
-        age = state.age[i]
-        known = min(age, _F(1e3))
-        gathering = min(age, horizon)
-        variance = noise_variance + scale * state.unrest[i] * gathering * gathering + (idle * known) ** 2
-        if state.fresh[i]:
-            # Its value is kept as measured, though it has been changing since.
-            lag_error = state.rate[i] * age
-            variance += lag_error * lag_error
-        state.sigma[i] = min(_F(math.sqrt(variance)), limit)
+    unrest, in_row = state.unrest, state.before
+    for row in range(rows):
+        for i in range(row * cols, (row + 1) * cols):
+            in_row[i] = max(unrest[i], unrest[max(i - 1, row * cols)], unrest[min(i + 1, (row + 1) * cols - 1)])
+    for row in range(rows):
+        above, below = (-cols if row > 0 else 0), (cols if row + 1 < rows else 0)
+        for i in range(row * cols, (row + 1) * cols):
+            age = state.age[i]
+            known = min(age, _F(1e3))
+            gathering = min(age, horizon)
+            variance = noise_variance + (idle * known) ** 2
+            if state.fresh[i]:
+                # Its value is kept as measured, though it has been changing since.
+                lag_error = state.rate[i] * age
+                variance += scale * unrest[i] * gathering * gathering + lag_error * lag_error
+            else:
+                around = max(in_row[i], in_row[i + above], in_row[i + below])
+                variance += scale * _F(0.5) * (unrest[i] + around) * gathering * gathering
+            state.sigma[i] = min(_F(math.sqrt(variance)), limit)
 
 
 @numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
@@ -335,7 +356,7 @@ def fuse(
     _take(state, indices, counts, lag_step_s, tuning)
     _spread(state, indices, rows, cols, tuning)
     _keep_quiet(state, rows, cols, tuning)
-    _doubt(state, tuning)
+    _doubt(state, rows, cols, tuning)
 
 
 @numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]

@@ -9,7 +9,9 @@ from scipy import ndimage
 from acts_core.array import COUNT_MAX
 from acts_recon.fusion_kernels import (
     AROUND,
+    CALM_SAMPLES,
     IDLE_COUNTS_PER_S,
+    NOTICED_S,
     OUTLIER,
     REACH,
     RIDGE,
@@ -47,6 +49,7 @@ class PlainFusion:
         self.fresh = np.zeros(shape, dtype=bool)
         self.evidence = np.zeros((6, *tiles))
         self.log_scale = 0.0
+        self.frame_scale = 1.0
 
     def step(
         self, indices: NDArray[np.integer], counts: NDArray[np.integer], period_s: float, duration_s: float
@@ -122,14 +125,18 @@ class PlainFusion:
         moving = gathered > noise_variance
         ratio = innovation[moving] ** 2 / (2 * noise_variance + np.exp(self.log_scale) * gathered[moving])
         surprise = float((np.minimum(ratio, OUTLIER) - 1).sum())
+        self.frame_scale = max(1 + surprise / (np.count_nonzero(moving) + CALM_SAMPLES), 1.0)
         self.log_scale = float(np.clip(self.log_scale + SCALE_STEP * surprise, -SCALE_LIMIT, SCALE_LIMIT))
 
         time = np.where(known, since, 1.0)
         share = time / (time + tuning.slope_memory_s)
         slope = self.slope[at] + share * ((y - self.value[at]) / time - self.slope[at])
         self.slope[at] = np.where(known, slope, 0)
-        excess = np.maximum(innovation**2 - 2 * noise_variance, 0) / (np.clip(since, 0, 1) + SHORTEST_S) ** 2
-        self.unrest[at] += UNREST_SHARE * (excess - self.unrest[at])
+        stale = since >= tuning.horizon_s
+        over = np.where(stale, NOTICED_S, np.maximum(since, 0)) + SHORTEST_S
+        excess = np.maximum(innovation**2 - 2 * noise_variance, 0) / over**2
+        begins = stale & (excess > self.unrest[at])
+        self.unrest[at] += np.where(begins, 1, UNREST_SHARE) * (excess - self.unrest[at])
         self.value[at], self.age[at], self.fresh[at] = y, lag, True
         return innovation
 
@@ -164,7 +171,9 @@ class PlainFusion:
     def _doubt(self, rate: Floats) -> None:
         tuning = self._tuning
         gathering = np.minimum(self.age, tuning.horizon_s)
-        variance = tuning.noise_counts**2 + np.exp(self.log_scale) * self.unrest * gathering**2
+        around = ndimage.maximum_filter(self.unrest, size=3, mode="nearest")
+        unrest = np.where(self.fresh, self.unrest, (self.unrest + around) / 2)
+        variance = tuning.noise_counts**2 + self.frame_scale * np.exp(self.log_scale) * unrest * gathering**2
         variance += (IDLE_COUNTS_PER_S * np.minimum(self.age, 1e3)) ** 2
         variance += np.where(self.fresh, rate * np.where(self.fresh, self.age, 0), 0) ** 2
         self.sigma = np.minimum(np.sqrt(variance), UNKNOWN_COUNTS)

@@ -47,6 +47,8 @@ class State(NamedTuple):
         Columns and rows per second, and the share of the changes that they explain; 0: not used.
     log_scale : np.ndarray [shape=(1,), dtype=float32]
         Logarithm of what all error variances are multiplied by, from how well predictions have held.
+    frame_scale : np.ndarray [shape=(1,), dtype=float32]
+        What they are multiplied by besides, for the surprise of the last frame; at least 1.
     before, rate, innovation, total, unrest_total, weight, seen
         Scratch.
     """
@@ -62,6 +64,7 @@ class State(NamedTuple):
     row_sums: NDArray[np.float32]
     velocity: NDArray[np.float32]
     log_scale: NDArray[np.float32]
+    frame_scale: NDArray[np.float32]
     before: NDArray[np.float32]
     rate: NDArray[np.float32]
     innovation: NDArray[np.float32]
@@ -90,6 +93,7 @@ def new_state(rows: int, cols: int) -> State:
         row_sums=np.zeros((*tiles, 6), dtype=np.float32),
         velocity=np.zeros((*tiles, 3), dtype=np.float32),
         log_scale=np.zeros(1, dtype=np.float32),
+        frame_scale=np.zeros(1, dtype=np.float32),
         before=taxels(),
         rate=taxels(),
         innovation=taxels(),
