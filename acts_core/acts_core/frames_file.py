@@ -12,6 +12,9 @@ from acts_core.array import COUNT_MAX
 from acts_core.errors import RecordingError
 from acts_core.npz_file import read_npz
 
+_CHUNK = 4096
+"""Frames rounded at a time."""
+
 
 @dataclass(frozen=True)
 class FramesFile:
@@ -46,7 +49,7 @@ class FramesFile:
 
 
 def load_frames(path: Path) -> FramesFile:
-    """Read a file of frames.
+    """Read a file of frames; recordings of no frames are left out.
 
     Raises
     ------
@@ -59,30 +62,79 @@ def load_frames(path: Path) -> FramesFile:
     )
     if "frames" not in content:
         raise RecordingError(f"{path}: no array `frames`; {needed}")
-    frames = content["frames"]
-    if frames.ndim != 3 or not len(frames) or not np.issubdtype(frames.dtype, np.number):
-        raise RecordingError(f"{path}: frames {frames.shape}, {frames.dtype}: needed are numbers (n, rows, cols)")
-    # Written so that NaN fails too.
-    if not (np.all(frames >= 0) and np.all(frames <= COUNT_MAX)):
-        raise RecordingError(f"{path}: frames must lie between 0 and {COUNT_MAX} ADC counts, without NaN")
-    live = content.get("live", np.ones(frames.shape[1:], dtype=bool)).astype(bool)
-    start = np.atleast_1d(content.get("start", np.array([0]))).astype(np.int64)
-    length = np.atleast_1d(content.get("length", np.array([len(frames)]))).astype(np.int64)
-    if live.shape != frames.shape[1:]:
-        raise RecordingError(f"{path}: live {live.shape} does not fit frames {frames.shape}")
-    if start.shape != length.shape or np.any(start < 0) or np.any(length < 1) or np.any(start + length > len(frames)):
-        raise RecordingError(f"{path}: start and length do not mark recordings within {len(frames)} frames")
-    rate_hz = None
-    if "rate_hz" in content:
-        given = content["rate_hz"]
-        if given.size != 1 or given.dtype.kind not in "fiu" or not 0 < given.item() < np.inf:
-            raise RecordingError(f"{path}: rate_hz = {given}: needed is one positive number of frames per second")
-        rate_hz = float(given.item())
+    frames = _frames(path, content["frames"])
+    live = _live(path, content.get("live"), frames.shape)
+    start, length = _recordings(path, content, len(frames))
     label: tuple[str, ...] = ()
     if "label" in content:
         if content["label"].shape != start.shape or content["label"].dtype.kind != "U":
             raise RecordingError(
                 f"{path}: label {content['label'].shape}: needed is a text for each of {start.size} recordings"
             )
-        label = tuple(content["label"].tolist())
-    return FramesFile(np.rint(frames).astype(np.uint16), live, start, length, rate_hz, label)
+        label = tuple(content["label"][length > 0].tolist())
+    start, length = start[length > 0], length[length > 0]
+    if not start.size:
+        raise RecordingError(f"{path}: no recording has a frame; `length` says how many each of them has")
+    return FramesFile(frames, live, start, length, _rate_hz(path, content.get("rate_hz")), label)
+
+
+def _frames(path: Path, given: NDArray) -> NDArray[np.uint16]:
+    if given.ndim != 3 or not given.size or given.dtype.kind not in "iuf":
+        raise RecordingError(f"{path}: frames {given.shape}, {given.dtype}: needed are numbers (n, rows, cols)")
+    # Neither a comparison nor a copy of the whole: recordings may fill half of the memory. Written so that NaN fails.
+    if not 0 <= given.min() <= given.max() <= COUNT_MAX:
+        raise RecordingError(
+            f"{path}: frames hold {given.min()} to {given.max()}; they must lie between 0 and {COUNT_MAX} ADC counts, "
+            f"without NaN"
+        )
+    if given.dtype.kind != "f":
+        return np.ascontiguousarray(given, dtype=np.uint16)
+    frames = np.empty(given.shape, dtype=np.uint16)
+    for begin in range(0, len(given), _CHUNK):
+        frames[begin : begin + _CHUNK] = np.rint(given[begin : begin + _CHUNK])
+    return frames
+
+
+def _live(path: Path, given: NDArray | None, shape: tuple[int, ...]) -> NDArray[np.bool_]:
+    if given is None:
+        return np.ones(shape[1:], dtype=bool)
+    if given.shape != shape[1:]:
+        raise RecordingError(f"{path}: live {given.shape} does not fit frames {shape}")
+    if given.dtype.kind not in "biuf" or np.isnan(given).any():
+        raise RecordingError(f"{path}: live, {given.dtype}: needed are true and false, or 1 and 0")
+    return given.astype(bool)
+
+
+def _recordings(path: Path, content: dict[str, NDArray], n: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    start = np.atleast_1d(content.get("start", np.array([0])))
+    length = np.atleast_1d(content.get("length", np.array([n])))
+    for name, given in (("start", start), ("length", length)):
+        # As numbers of frames they are whole; a float that is none of them fails, NaN too.
+        if given.ndim != 1 or given.dtype.kind not in "iuf" or not np.all(given == np.floor(given)):
+            raise RecordingError(
+                f"{path}: {name} {given.shape}, {given.dtype}: needed is one whole number for each recording"
+            )
+    if start.shape != length.shape:
+        raise RecordingError(
+            f"{path}: start has {start.size} numbers, length {length.size}: needed is one per recording"
+        )
+    # Compared before they are converted: what int64 does not hold would come out as something else.
+    outside = (start < 0) | (start > n) | (length < 0) | (length > n)
+    if not outside.any():
+        start, length = start.astype(np.int64), length.astype(np.int64)
+        outside = start + length > n
+    if outside.any():
+        first = int(np.argmax(outside))
+        raise RecordingError(
+            f"{path}: start and length do not mark recordings within {n} frames: the one numbered {first} starts at "
+            f"{start[first]} and has {length[first]}"
+        )
+    return start, length
+
+
+def _rate_hz(path: Path, given: NDArray | None) -> float | None:
+    if given is None:
+        return None
+    if given.size != 1 or given.dtype.kind not in "fiu" or not 0 < given.item() < np.inf:
+        raise RecordingError(f"{path}: rate_hz = {given}: needed is one positive number of frames per second")
+    return float(given.item())

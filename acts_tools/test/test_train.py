@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from acts_core.errors import ActsError, ArrayError, RecordingError, SettingsError
-from acts_core.frames_file import load_frames
 from acts_recon.dictionary import load_dictionary
 from acts_tools import train
 
@@ -72,30 +71,3 @@ def test_wrong_arguments_are_refused(words: list[object], error: type[ActsError]
 def test_a_folder_that_does_not_exist_is_told_before_the_work(tmp_path: Path) -> None:
     with pytest.raises(RecordingError, match="does not exist; make it first"):
         run("-o", tmp_path / "no" / "d.npz")
-
-
-def test_frames_files(tmp_path: Path) -> None:
-    path = tmp_path / "f.npz"
-    frames = np.zeros((6, 4, 5), dtype=np.uint16)
-    frames[[1, 4]] = 7
-    np.savez(path, frames=frames, start=[0, 3], length=[3, 3])
-    loaded = load_frames(path)
-    assert loaded.live.all()
-    assert loaded.rate_hz is None
-    assert loaded.peak_frames().tolist() == frames[[1, 4]].tolist()
-    for changes, word in (
-        ({"frames": frames[0]}, "needed are numbers"),
-        ({"frames": frames[:0]}, "needed are numbers"),
-        ({"frames": np.full((1, 4, 5), np.nan)}, "without NaN"),
-        ({"frames": np.full((1, 4, 5), 1024)}, "between 0 and 1023"),
-        ({"frames": frames, "live": np.ones(3)}, "live"),
-        ({"frames": frames, "start": [4], "length": [3]}, "start and length"),
-        ({"frames": frames, "rate_hz": 0.0}, "rate_hz"),
-        ({"other": frames}, "array `frames`"),
-    ):
-        np.savez(path, **changes)
-        with pytest.raises(RecordingError, match=word):
-            load_frames(path)
-    path.write_bytes(b"nothing")
-    with pytest.raises(RecordingError, match="not an npz file"):
-        load_frames(path)
