@@ -124,6 +124,13 @@ def test_a_contact_that_nobody_sees_is_missed(dictionary: Dictionary) -> None:
     assert result["cop_error_taxels"]["mean"] is None
 
 
+def test_a_contact_that_nobody_saw_until_the_recording_ended_is_missed(dictionary: Dictionary) -> None:
+    frames = np.concatenate([still(20, []), still(40, [(5, 5)])])
+    result = scored(dictionary, frames, sampling=SamplingConfig(scheme="adaptive", m=1))
+    assert result["contacts"] == result["contacts_missed"] == 1
+    assert result["notice_ms"]["p50"] == pytest.approx(40, abs=1.5)
+
+
 def test_noise_is_added_to_what_is_measured_and_not_to_the_truth(dictionary: Dictionary) -> None:
     sampling = SamplingConfig(scheme="raster", m=1024)
     clean, noisy = (

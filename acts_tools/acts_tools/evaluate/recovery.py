@@ -110,6 +110,7 @@ class _Notices:
         self._rate_hz = recording.rate_hz
         self._touch_counts = touch_counts
         self._open: list[ContactStart] = []
+        self._last_s = 0.0
         self.first_ms: list[float] = []
         self.further_ms: list[float] = []
         self.missed = 0
@@ -121,15 +122,24 @@ class _Notices:
         flat = frame.image.ravel()
         still_open = []
         for start in self._open:
-            noticed = flat[start.taxels].max() > self._touch_counts
+            noticed = bool(flat[start.taxels].max() > self._touch_counts)
             if not noticed and position <= start.end:
                 still_open.append(start)
                 continue
-            # One that went unnoticed is at least so late.
-            late_ms = 1e3 * (frame.end_s - start.onset / self._rate_hz)
-            (self.first_ms if start.alone else self.further_ms).append(late_ms)
-            self.missed += not noticed
+            self._count(start, frame.end_s, noticed)
         self._open = still_open
+        self._last_s = frame.end_s
+
+    def end(self) -> None:
+        """Count the contacts that the recording's last image still did not show."""
+        for start in self._open:
+            self._count(start, self._last_s, False)
+        self._open = []
+
+    def _count(self, start: ContactStart, end_s: float, noticed: bool) -> None:
+        # One that went unnoticed is at least so late.
+        (self.first_ms if start.alone else self.further_ms).append(1e3 * (end_s - start.onset / self._rate_hz))
+        self.missed += not noticed
 
 
 def evaluate(recordings: Iterable[Recording], task: Task, dictionary: Dictionary) -> dict[str, Any]:
@@ -167,6 +177,7 @@ def evaluate(recordings: Iterable[Recording], task: Task, dictionary: Dictionary
             else:
                 untouched_us.append(frame.spent_us)
                 untouched_invented.append(float(frame.scores[INVENTED]))
+        notices.end()
         first_ms += notices.first_ms
         further_ms += notices.further_ms
         missed += notices.missed
