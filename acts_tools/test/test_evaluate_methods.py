@@ -9,12 +9,14 @@ from numpy.typing import NDArray
 from acts_core.array import ArrayGeometry
 from acts_core.errors import DictionaryError, SettingsError
 from acts_recon.dictionary import Dictionary, load_dictionary
+from acts_recon.reconstructor import ReconstructorConfig
 from acts_recon.shipped import shipped_dictionary_path
 from acts_tools.evaluate.dictionaries import cosine_dictionary, dictionary_named, haar_dictionary
 from acts_tools.evaluate.methods import METHODS, Method, method_named
 
 SHARED = Path(__file__).resolve().parents[3] / "shared" / "data" / "paper" / "dictionaries.npz"
 GEOMETRY = ArrayGeometry()
+CONFIG = ReconstructorConfig(touch_counts=50)
 
 
 @pytest.fixture(scope="module")
@@ -30,7 +32,7 @@ def step(method: Method, field: NDArray[np.uint16], indices: NDArray[np.uint16])
 def test_every_method_keeps_what_was_measured_and_shows_nothing_on_an_untouched_skin(
     name: str, shipped: Dictionary
 ) -> None:
-    method = method_named(name)(GEOMETRY, shipped, 50)
+    method = method_named(name)(GEOMETRY, shipped, CONFIG)
     rng = np.random.default_rng(1)
     row, col = np.indices((32, 32))
     field = (600 * np.exp(-((row - 9) ** 2 + (col - 20) ** 2) / 8)).astype(np.uint16)
@@ -57,14 +59,14 @@ def test_linear_continues_a_plane_beyond_what_was_measured(shipped: Dictionary) 
     plane = (100 + 10 * row + 5 * col).astype(np.uint16)
     inner = (row >= 4) & (row <= 25) & (col >= 6) & (col <= 20)
     indices = np.random.default_rng(2).permutation(np.flatnonzero(inner))[:60].astype(np.uint16)
-    image = step(METHODS["linear"](GEOMETRY, shipped, 50), plane, indices)
+    image = step(METHODS["linear"](GEOMETRY, shipped, CONFIG), plane, indices)
     np.testing.assert_allclose(image, plane, atol=1e-3)
 
 
 def test_linear_takes_the_nearest_where_there_is_no_triangle(shipped: Dictionary) -> None:
     field = np.zeros((32, 32), dtype=np.uint16)
     field[:, 16:] = 300
-    image = step(METHODS["linear"](GEOMETRY, shipped, 50), field, np.arange(32, dtype=np.uint16))
+    image = step(METHODS["linear"](GEOMETRY, shipped, CONFIG), field, np.arange(32, dtype=np.uint16))
     np.testing.assert_array_equal(image, field)
 
 
@@ -72,7 +74,7 @@ def test_the_gaussian_process_is_exact_with_everything_near_measured(shipped: Di
     row, col = np.indices((32, 32))
     field = (600 * np.exp(-((row - 15) ** 2 + (col - 15) ** 2) / 30)).astype(np.uint16)
     indices = np.flatnonzero((row + col) % 2 == 0).astype(np.uint16)
-    image = step(METHODS["gp"](GEOMETRY, shipped, 50), field, indices)
+    image = step(METHODS["gp"](GEOMETRY, shipped, CONFIG), field, indices)
     assert np.linalg.norm(image - field) < 0.03 * np.linalg.norm(field)
 
 
@@ -80,7 +82,7 @@ def test_last_value_remembers_and_zero_fill_does_not(shipped: Dictionary) -> Non
     field = np.full((32, 32), 77, dtype=np.uint16)
     first, second = np.array([1, 2], dtype=np.uint16), np.array([3], dtype=np.uint16)
     for name, seen in (("last", 3), ("zero", 1)):
-        method = METHODS[name](GEOMETRY, shipped, 50)
+        method = METHODS[name](GEOMETRY, shipped, CONFIG)
         step(method, field, first)
         assert np.count_nonzero(step(method, field, second)) == seen
         method.reset()
@@ -109,7 +111,26 @@ def test_too_many_haar_atoms_are_refused() -> None:
 
 
 def test_dictionaries_by_name(tmp_path: Path) -> None:
-    np.savez(tmp_path / "any.npz", mine=cosine_dictionary().atoms)
+    np.savez(tmp_path / "any.npz", mine=cosine_dictionary().atoms, text="words")
     assert dictionary_named(f"{tmp_path}/any.npz:mine").patch_size == 8
-    with pytest.raises(DictionaryError, match="no array 'nothing'"):
-        dictionary_named(f"{tmp_path}/any.npz:nothing")
+    for array, words in (("nothing", "there is none in"), ("text", r"shape \(\)")):
+        with pytest.raises(DictionaryError, match=f"needed is an array '{array}'.*{words}"):
+            dictionary_named(f"{tmp_path}/any.npz:{array}")
+    with pytest.raises(DictionaryError, match="No such file"):
+        dictionary_named(f"{tmp_path}/none.npz:mine")
+    whole = (tmp_path / "any.npz").read_bytes()
+    (tmp_path / "any.npz").write_bytes(whole[: len(whole) // 2] + b"x" + whole[len(whole) // 2 + 1 :])
+    with pytest.raises(DictionaryError, match="damaged"):
+        dictionary_named(f"{tmp_path}/any.npz:mine")
+
+
+def test_patches_may_lie_closer(shipped: Dictionary) -> None:
+    row, col = np.indices((32, 32))
+    field = (600 * np.exp(-((row - 9) ** 2 + (col - 20) ** 2) / 8)).astype(np.uint16)
+    indices = np.random.default_rng(1).permutation(1024)[:256].astype(np.uint16)
+    errors = []
+    for patch_step in (4, 1):
+        config = ReconstructorConfig(touch_counts=50, patch_step=patch_step)
+        errors.append(np.linalg.norm(step(METHODS["paper"](GEOMETRY, shipped, config), field, indices) - field))
+    # Each taxel then is the mean of up to 64 patches, not of 4.
+    assert errors[1] < errors[0]

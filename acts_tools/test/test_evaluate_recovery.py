@@ -219,7 +219,14 @@ def test_files_without_what_is_needed_are_refused(tmp_path: Path, capsys: pytest
 
 
 @pytest.mark.parametrize(
-    ("option", "word"), [("--rate-hz", "nan"), ("--touch-counts", "2000"), ("--m", "2000"), ("--noise-counts", "-1")]
+    ("option", "word"),
+    [
+        ("--rate-hz", "nan"),
+        ("--touch-counts", "2000"),
+        ("--m", "2000"),
+        ("--noise-counts", "-1"),
+        ("--patch-step", "0"),
+    ],
 )
 def test_settings_out_of_range_are_refused(
     option: str, word: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]

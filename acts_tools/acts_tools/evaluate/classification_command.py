@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import argparse
-import json
 from pathlib import Path
 from typing import Any
 
-from acts_core.errors import RecordingError
 from acts_core.frames_file import load_frames
 from acts_core.settings import default_of
 from acts_sim.objects import OBJECTS, object_named
 from acts_sim.pressing_arm import PressingConfig
-from acts_tools.evaluate import options
+from acts_tools.evaluate import options, report
 from acts_tools.evaluate.classification import M_OVER_TIME, MS, Trials, run_trials
 from acts_tools.evaluate.classification_recorded import run_recorded
 from acts_tools.evaluate.classification_report import draw, table
@@ -68,6 +66,8 @@ def add_parser(commands: Any) -> None:
 
 
 def _run(arguments: argparse.Namespace) -> int:
+    report.require_writable(arguments.json)
+    report.require_writable(arguments.picture)
     if arguments.frames:
         results = run_recorded(load_frames(arguments.frames), arguments.m or [55])
         print(
@@ -90,11 +90,5 @@ def _run(arguments: argparse.Namespace) -> int:
         print(table(results["over_time"], "time_ms", f"accuracy at M = {M_OVER_TIME}, ms since contact"))
         if arguments.picture:
             draw(arguments.picture, results, M_OVER_TIME)
-    if arguments.json:
-        try:
-            arguments.json.write_text(json.dumps(results, indent=2) + "\n")
-        except OSError as error:
-            raise RecordingError(
-                f"{arguments.json}: cannot be written ({error.strerror}); its folder must exist"
-            ) from error
+    report.write_json(arguments.json, results)
     return 0

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import DictionaryError
+from acts_core.npz_file import read_npz
 from acts_recon.dictionary import Dictionary, load_dictionary
 
 _ATOMS = 1000
@@ -26,11 +27,10 @@ def dictionary_named(word: str) -> Dictionary:
     name, separator, array = word.rpartition(":")
     if not separator or Path(word).exists():
         return load_dictionary(Path(word))
-    try:
-        with np.load(name, allow_pickle=False) as archive:
-            atoms = archive[array]
-    except (OSError, ValueError, KeyError) as error:
-        raise DictionaryError(f"{word}: no array {array!r} can be read from {name} ({error})") from error
+    atoms = read_npz(Path(name), (array,), error=DictionaryError).get(array)
+    if atoms is None or atoms.ndim != 2:
+        found = "there is none" if atoms is None else f"it has shape {atoms.shape}"
+        raise DictionaryError(f"{word}: needed is an array {array!r} (pixels, atoms); {found} in {name}")
     return Dictionary(atoms, math.isqrt(atoms.shape[0]), {}, word)
 
 

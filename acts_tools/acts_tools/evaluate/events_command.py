@@ -9,7 +9,8 @@ import numpy as np
 
 from acts_sim.events import EVENT_RATE_HZ, EVENTS, event_recordings
 from acts_tools.evaluate import options, report
-from acts_tools.evaluate.recovery import Recording, evaluate
+from acts_tools.evaluate.progress import evaluate_shown, require_methods
+from acts_tools.evaluate.recovery import Recording
 
 
 def add_parser(commands: Any) -> None:
@@ -27,15 +28,15 @@ def _run(arguments: argparse.Namespace) -> int:
     tasks = options.tasks(arguments)
     dictionary = options.dictionary(arguments)
     live = np.ones((32, 32), dtype=bool)
-    results = []
+    results = report.Results(arguments.json, options.as_report(arguments))
+    require_methods(tasks, dictionary)
     print(f"{'event':13} {report.HEADER} {'further p99':>11}")
     for name in arguments.event:
         frames = event_recordings(name, arguments.recordings or EVENTS[name].recordings, arguments.seed)
         recordings = [Recording(one, EVENT_RATE_HZ, live) for one in frames]
         for task in tasks:
-            scored = evaluate(report.with_progress(recordings, len(recordings), f"{name}: recording"), task, dictionary)
-            results.append({"event": name, **scored})
+            scored = evaluate_shown(recordings, task, dictionary, f"{name}: ")
+            results.add({"event": name, **scored})
             further = report.number(scored["notice_further_ms"]["p99"], 11, 1)
             print(f"{name:13} {report.line(scored)} {further}", flush=True)
-    report.write_json(arguments.json, {**options.as_report(arguments), "results": results})
     return 0

@@ -89,8 +89,8 @@ class PerFrame:
 
     sigma = None
 
-    def __init__(self, geometry: ArrayGeometry, dictionary: Dictionary, touch_counts: int) -> None:
-        self._reconstructor = Reconstructor(geometry, dictionary, ReconstructorConfig(touch_counts=touch_counts))
+    def __init__(self, geometry: ArrayGeometry, dictionary: Dictionary, config: ReconstructorConfig) -> None:
+        self._reconstructor = Reconstructor(geometry, dictionary, config)
 
     def reset(self) -> None:
         """Nothing is kept."""
@@ -121,18 +121,18 @@ class Fused:
         return self._estimator.step(indices, counts, end_s, duration_s)
 
 
-MethodFactory = Callable[[ArrayGeometry, Dictionary, int], Method]
-"""From geometry, dictionary and touch threshold [counts] to a method."""
+MethodFactory = Callable[[ArrayGeometry, Dictionary, ReconstructorConfig], Method]
+"""From geometry, dictionary and the settings of recovery by patches to a method."""
 
 METHODS: dict[str, MethodFactory] = {
     "paper": PerFrame,
-    "acts": lambda geometry, dictionary, touch_counts: Fused(geometry),
-    "dct": lambda geometry, dictionary, touch_counts: PerFrame(geometry, cosine_dictionary(), touch_counts),
-    "haar": lambda geometry, dictionary, touch_counts: PerFrame(geometry, haar_dictionary(), touch_counts),
-    "zero": lambda geometry, dictionary, touch_counts: ZeroFill(geometry),
-    "linear": lambda geometry, dictionary, touch_counts: Linear(geometry),
-    "gp": lambda geometry, dictionary, touch_counts: GaussianProcess(geometry),
-    "last": lambda geometry, dictionary, touch_counts: LastValue(geometry),
+    "acts": lambda geometry, dictionary, config: Fused(geometry),
+    "dct": lambda geometry, dictionary, config: PerFrame(geometry, cosine_dictionary(), config),
+    "haar": lambda geometry, dictionary, config: PerFrame(geometry, haar_dictionary(), config),
+    "zero": lambda geometry, dictionary, config: ZeroFill(geometry),
+    "linear": lambda geometry, dictionary, config: Linear(geometry),
+    "gp": lambda geometry, dictionary, config: GaussianProcess(geometry),
+    "last": lambda geometry, dictionary, config: LastValue(geometry),
 }
 
 

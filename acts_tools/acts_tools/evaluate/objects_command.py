@@ -14,7 +14,8 @@ from acts_sim.objects import OBJECTS, object_named
 from acts_sim.presses import PRESS_RATE_HZ, press_over_time
 from acts_tools.evaluate import options, report
 from acts_tools.evaluate.methods import METHODS
-from acts_tools.evaluate.recovery import Recording, evaluate
+from acts_tools.evaluate.progress import evaluate_all
+from acts_tools.evaluate.recovery import Recording
 
 _M = (42, 56, 64, 88, 128, 176, 256, 352, 512)
 _PER_FRAME = ("adaptive", "uniform", "random")
@@ -44,6 +45,8 @@ def _run(arguments: argparse.Namespace) -> int:
     pairs = [(method, scheme) for method in ("paper", "linear") for scheme in _PER_FRAME]
     pairs.append((arguments.ours, "tracking"))
     tasks = [options.task(arguments, scheme, m, method) for m in arguments.m for method, scheme in pairs]
+    results = report.Results(arguments.json, options.as_report(arguments))
+    report.require_writable(arguments.picture)
     dictionary = options.dictionary(arguments)
     items = [object_named(name) for name in arguments.objects]
     # Noise is added by the sampling.
@@ -52,21 +55,14 @@ def _run(arguments: argparse.Namespace) -> int:
     recordings = [
         Recording(press_over_time(model, item), PRESS_RATE_HZ, live) for _ in range(arguments.presses) for item in items
     ]
-    results = []
-    print(report.HEADER)
-    for task in tasks:
-        title = f"{task.sampling.scheme}, M = {task.sampling.m}, {task.method}: press"
-        scored = evaluate(report.with_progress(recordings, len(recordings), title), task, dictionary)
-        results.append(scored)
-        print(report.line(scored), flush=True)
+    evaluate_all(recordings, tasks, dictionary, results)
     curves = {
         f"{method}, {scheme}": [
-            r["support_accuracy"] for r in results if (r["method"], r["scheme"]) == (method, scheme)
+            r["support_accuracy"] for r in results.entries if (r["method"], r["scheme"]) == (method, scheme)
         ]
         for method, scheme in pairs
     }
     _print_curves(arguments.m, curves)
-    report.write_json(arguments.json, {**options.as_report(arguments), "results": results})
     if arguments.picture:
         _draw(arguments.picture, arguments.m, curves)
     return 0

@@ -6,7 +6,7 @@ What the scores mean is told in docs/recovery.md.
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,6 +17,7 @@ from acts_core.array import COUNT_MAX, ArrayGeometry
 from acts_core.sampling import SamplingConfig
 from acts_core.settings import setting, validate
 from acts_recon.dictionary import Dictionary
+from acts_recon.reconstructor import ReconstructorConfig
 from acts_tools.evaluate import calibration
 from acts_tools.evaluate.board_sampler import BoardSampler
 from acts_tools.evaluate.methods import Method, method_named
@@ -25,6 +26,8 @@ from acts_tools.evaluate.truth import ContactStart, contact_starts, interpolate
 
 SAMPLE_US = 17.877
 """Published time of one measurement: 55,936 a second."""
+
+_IMAGES_BETWEEN_SHOWS = 500
 
 FOLLOW_COUNTS = 15
 """Above it tracking follows a taxel: just above the noise of a reading (docs/recovery.md)."""
@@ -59,7 +62,7 @@ class Task:
         Its `threshold_counts` is the search's.
     method : str
         See `acts_tools.evaluate.methods.METHODS`.
-    rate_hz, touch_counts, sample_us, noise_counts, onset_s : see below
+    rate_hz, touch_counts, sample_us, noise_counts, onset_s, patch_step : see below
     """
 
     sampling: SamplingConfig
@@ -71,6 +74,7 @@ class Task:
         0.0, "standard deviation of noise that is added to every measurement", minimum=0, maximum=100
     )
     onset_s: float = setting(0.020, "how long a contact counts as new", minimum=0)
+    patch_step: int = setting(4, "taxels from patch to patch, in the methods that use patches", minimum=1, maximum=64)
 
     def __post_init__(self) -> None:
         validate(self)
@@ -142,16 +146,38 @@ class _Notices:
         self.missed += not noticed
 
 
-def evaluate(recordings: Iterable[Recording], task: Task, dictionary: Dictionary) -> dict[str, Any]:
-    """Score one task on recordings of one size.
+def method_of(task: Task, dictionary: Dictionary) -> Method:
+    """Make what recovers the images of a task.
+
+    Raises
+    ------
+    ArrayError
+        When patches do not fit the array.
+    """
+    geometry = ArrayGeometry(rows=task.sampling.rows, cols=task.sampling.cols)
+    config = ReconstructorConfig(touch_counts=task.touch_counts, patch_step=task.patch_step)
+    return method_named(task.method)(geometry, dictionary, config)
+
+
+def images(recordings: Iterable[Recording], task: Task) -> int:
+    """How many images `evaluate` recovers, give or take one a recording."""
+    return sum(
+        1 + max(0, int(((len(recording.frames) - 1) / recording.rate_hz - task.duration_s) / task.period_s))
+        for recording in recordings
+    )
+
+
+def evaluate(
+    recordings: Iterable[Recording], task: Task, dictionary: Dictionary, show: Callable[[int], None] = lambda _: None
+) -> dict[str, Any]:
+    """Score one task on recordings of one size; `show` is told now and then how many images there are.
 
     Returns
     -------
     dict
         An entry of the report's `results`: plain numbers, None where there is nothing to tell.
     """
-    geometry = ArrayGeometry(rows=task.sampling.rows, cols=task.sampling.cols)
-    method = method_named(task.method)(geometry, dictionary, task.touch_counts)
+    method = method_of(task, dictionary)
     # The first call may compile.
     nothing = np.zeros(task.sampling.m, dtype=np.uint16)
     method.step(np.arange(task.sampling.m, dtype=np.uint16), nothing, 0.0, task.duration_s)
@@ -162,11 +188,14 @@ def evaluate(recordings: Iterable[Recording], task: Task, dictionary: Dictionary
     untouched_invented: list[float] = []
     first_ms: list[float] = []
     further_ms: list[float] = []
-    missed = 0
+    missed = number = 0
     for recording in recordings:
         notices = _Notices(recording, task.touch_counts)
         method.reset()
         for frame in _play(recording, task, method):
+            number += 1
+            if number % _IMAGES_BETWEEN_SHOWS == 0:
+                show(number)
             notices.look(frame)
             if frame.in_contact:
                 new = frame.since_s < task.onset_s

@@ -13,7 +13,8 @@ from acts_core.errors import RecordingError
 from acts_core.frames_file import load_frames
 from acts_sim.objects import OBJECTS
 from acts_tools.evaluate import options, report
-from acts_tools.evaluate.recovery import Recording, evaluate
+from acts_tools.evaluate.progress import evaluate_all
+from acts_tools.evaluate.recovery import Recording
 from acts_tools.train import model_frames
 
 
@@ -44,14 +45,9 @@ def _run(arguments: argparse.Namespace) -> int:
     recordings = _recordings(arguments)
     tasks = options.tasks(arguments, recordings[0].frames.shape[1:])
     dictionary = options.dictionary(arguments)
-    results = []
-    print(report.HEADER)
-    for task in tasks:
-        title = f"{task.sampling.scheme}, M = {task.sampling.m}, {task.method}: recording"
-        results.append(evaluate(report.with_progress(recordings, len(recordings), title), task, dictionary))
-        print(report.line(results[-1]), flush=True)
     source = arguments.frames.name if arguments.frames else f"{arguments.presses} presses"
-    report.write_json(arguments.json, {"frames_file": source, **options.as_report(arguments), "results": results})
+    about = {"frames_file": source, **options.as_report(arguments)}
+    evaluate_all(recordings, tasks, dictionary, report.Results(arguments.json, about))
     return 0
 
 

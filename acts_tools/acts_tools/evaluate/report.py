@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import json
-import sys
-from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 from acts_core.errors import RecordingError
 
@@ -15,8 +13,6 @@ HEADER = (
     f"{'touch mean':>10} {'p95':>7} {'missed':>7} {'invented':>9} {'notice p50':>10} {'p99 ms':>7} {'us':>7} "
     f"{'onset err':>9} {'touch':>6} {'err/sigma':>9} {'<2sigma':>7}"
 )
-
-Item = TypeVar("Item")
 
 
 def line(result: dict[str, Any]) -> str:
@@ -41,6 +37,25 @@ def number(value: float | None, width: int, digits: int) -> str:
     return f"{'-':>{width}}" if value is None else f"{value:{width}.{digits}f}"
 
 
+def require_writable(path: Path | None) -> None:
+    """Tell before the work that its results cannot be written; nothing is told for None.
+
+    Raises
+    ------
+    RecordingError
+        When `path` cannot be written.
+    """
+    if path is None:
+        return
+    is_new = not path.exists()
+    try:
+        path.open("ab").close()
+        if is_new:
+            path.unlink()
+    except OSError as error:
+        raise RecordingError(f"{path}: cannot be written ({error.strerror}); its folder must exist") from error
+
+
 def write_json(path: Path | None, report: dict[str, Any]) -> None:
     """Write a report, unless `path` is None.
 
@@ -57,12 +72,29 @@ def write_json(path: Path | None, report: dict[str, Any]) -> None:
         raise RecordingError(f"{path}: cannot be written ({error.strerror}); its folder must exist") from error
 
 
-def with_progress(items: Iterable[Item], total: int, title: str) -> Iterator[Item]:
-    """Pass items on; on a terminal, stderr tells how many."""
-    if not sys.stderr.isatty():
-        yield from items
-        return
-    for done, item in enumerate(items):
-        print(f"\r\033[K{title}: {done} of {total}", end="", file=sys.stderr, flush=True)
-        yield item
-    print("\r\033[K", end="", file=sys.stderr, flush=True)
+class Results:
+    """The entries of a report. The JSON file has each as soon as it is there: an interrupted work keeps what is done.
+
+    Parameters
+    ----------
+    path : Path or None
+        The JSON file; None for none.
+    about : dict
+        What else the report says.
+
+    Raises
+    ------
+    RecordingError
+        When the file cannot be written.
+    """
+
+    def __init__(self, path: Path | None, about: dict[str, Any]) -> None:
+        require_writable(path)
+        self.entries: list[dict[str, Any]] = []
+        self._path = path
+        self._about = about
+
+    def add(self, entry: dict[str, Any]) -> None:
+        """Take another entry."""
+        self.entries.append(entry)
+        write_json(self._path, {**self._about, "results": self.entries})

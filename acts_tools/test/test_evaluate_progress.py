@@ -1,0 +1,127 @@
+"""How evaluations tell what is wrong before the work, how far they are, and what they leave when interrupted."""
+
+from __future__ import annotations
+
+import io
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from acts_core.sampling import SamplingConfig
+from acts_tools.cli import main
+from acts_tools.evaluate import progress
+from acts_tools.evaluate.dictionaries import cosine_dictionary
+from acts_tools.evaluate.recovery import Recording, Task, evaluate, images
+from acts_tools.evaluate.report import Results
+
+
+class Terminal(io.StringIO):
+    def isatty(self) -> bool:
+        return True
+
+
+@pytest.fixture
+def frames(tmp_path: Path) -> Path:
+    pressed = np.zeros((30, 6, 20), dtype=np.uint16)
+    pressed[5:, 2:4, 10:12] = 300
+    path = tmp_path / "frames.npz"
+    np.savez(path, frames=pressed, rate_hz=500.0)
+    return path
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["recovery", "--presses", "1", "--json"],
+        ["events", "--event", "tap_4x4", "--recordings", "1", "--json"],
+        ["objects", "--objects", "coin", "--m", "64", "--json"],
+        ["objects", "--objects", "coin", "--m", "64", "--picture"],
+        ["classification", "--arms", "1", "--json"],
+        ["classification", "--arms", "1", "--picture"],
+    ],
+)
+def test_what_cannot_be_written_is_told_before_the_work(
+    words: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for path in (tmp_path / "no" / "out", tmp_path):
+        assert main(["evaluate", *words, str(path)]) == 1
+        told = capsys.readouterr()
+        assert f"{path}: cannot be written" in told.err
+        assert told.out == ""
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_method_whose_patches_do_not_fit_is_told_before_the_others_work(
+    frames: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "out.json"
+    words = ["--m", "20", "--method", "last", "paper", "--json", str(out)]
+    assert main(["evaluate", "recovery", "--frames", str(frames), *words]) == 1
+    told = capsys.readouterr()
+    assert "patches of 8 x 8 taxels do not fit a side of 6" in told.err
+    assert told.out == ""
+    assert not out.exists()
+
+
+def test_an_interrupted_evaluation_keeps_what_is_done(
+    frames: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(recordings: Any, task: Task, *others: Any) -> dict[str, Any]:
+        if task.method == "zero":
+            raise KeyboardInterrupt
+        return evaluate(recordings, task, *others)
+
+    monkeypatch.setattr(progress, "evaluate", interrupted)
+    out = tmp_path / "out.json"
+    words = ["--m", "20", "--method", "last", "zero", "--json", str(out)]
+    assert main(["evaluate", "recovery", "--frames", str(frames), *words]) == 130
+    assert [entry["method"] for entry in json.loads(out.read_text())["results"]] == ["last"]
+
+
+def test_a_terminal_shows_the_share_done_and_is_clean_in_the_end() -> None:
+    stream = Terminal()
+
+    def work() -> None:
+        with progress.Progress("tracking", 200, stream) as shown:
+            shown.show(50)
+            shown.show(201)
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        work()
+    before, first, last, end = stream.getvalue().split("\r\033[K")[1:]
+    assert before == "tracking: 0%"
+    assert first.startswith("tracking: 25%, ")
+    assert first.endswith(" s left")
+    assert last == "tracking: 100%, 0 s left"
+    assert end == ""
+
+
+def test_nothing_is_shown_where_there_is_no_terminal() -> None:
+    stream = io.StringIO()
+    with progress.Progress("tracking", 2, stream) as shown:
+        shown.show(1)
+    assert stream.getvalue() == ""
+
+
+@pytest.mark.parametrize(("m", "rate_hz", "n"), [(55, 31.0, 40), (128, 1000.0, 90), (1024, 4000.0, 1), (7, 0.5, 3)])
+def test_the_number_of_images_is_known_beforehand(m: int, rate_hz: float, n: int) -> None:
+    recordings = [Recording(np.full((n, 32, 32), 300, dtype=np.uint16), rate_hz, np.ones((32, 32), dtype=bool))] * 2
+    task = Task(SamplingConfig(scheme="random", m=m), "zero", onset_s=0.0)
+    shown: list[int] = []
+    result = evaluate(recordings, task, cosine_dictionary(), shown.append)
+    assert abs(images(recordings, task) - result["frames"]) <= len(recordings)
+    assert shown == list(range(500, result["frames"] + 1, 500))
+
+
+def test_results_are_in_the_file_as_soon_as_they_are_there(tmp_path: Path) -> None:
+    path = tmp_path / "out.json"
+    path.write_text("older")
+    results = Results(path, {"seed": 3})
+    assert path.read_text() == "older"
+    results.add({"m": 1})
+    assert json.loads(path.read_text()) == {"seed": 3, "results": [{"m": 1}]}
+    Results(None, {}).add({"m": 1})
