@@ -94,8 +94,9 @@ class Ring {
     if (late_.time_ns <= early_.time_ns) {
       return 0.0;
     }
-    const double part =
-        static_cast<double>(time_ns - early_.time_ns) / static_cast<double>(late_.time_ns - early_.time_ns);
+    // Differences of doubles: of times that a damaged ring holds the integers' may overflow.
+    const double early = static_cast<double>(early_.time_ns);
+    const double part = (static_cast<double>(time_ns) - early) / (static_cast<double>(late_.time_ns) - early);
     return std::clamp(part, 0.0, 1.0);
   }
 

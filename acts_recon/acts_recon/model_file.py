@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import zipfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import ActsError
+from acts_core.npz_file import read_npz
 
 
 @dataclass(frozen=True)
@@ -50,20 +50,10 @@ class ModelFile:
     def read(self, path: Path) -> dict[str, NDArray]:
         """The fields of a file; raises `error` when it is missing, damaged, or of another kind or format."""
         needed = ["format", *self.fields]
-        try:
-            archive = np.load(path, allow_pickle=False)
-            if not isinstance(archive, np.lib.npyio.NpzFile):
-                raise self.error(f"{path}: a single array, not {self.kind}; {self.remedy}")
-            with archive:
-                missing = [name for name in needed if name not in archive]
-                if missing:
-                    raise self.error(f"{path}: lacks {', '.join(missing)}, so it is not {self.kind}; {self.remedy}")
-                content = {name: archive[name] for name in needed}
-        except OSError as error:
-            reason = error.strerror or str(error)
-            raise self.error(f"{path}: cannot be read ({reason}); {self.remedy}") from error
-        except (ValueError, EOFError, zipfile.BadZipFile, zipfile.LargeZipFile) as error:
-            raise self.error(f"{path}: not an npz file, or damaged ({error}); {self.remedy}") from error
+        content = read_npz(path, needed, error=self.error, hint=self.remedy)
+        missing = [name for name in needed if name not in content]
+        if missing:
+            raise self.error(f"{path}: lacks {', '.join(missing)}, so it is not {self.kind}; {self.remedy}")
         found = str(content.pop("format"))
         if found != self.format:
             raise self.error(f"{path}: format {found!r}; readable is {self.format!r}")

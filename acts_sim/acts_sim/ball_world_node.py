@@ -33,7 +33,10 @@ class BallWorldSettings(WorldConfig):
     """Parameters of the node: the world's, and what it is connected to."""
 
     field_ring: str = setting("/dev/shm/acts/field.ring", "shared file the pressure field is written to")
-    joint_ring: str = setting("/dev/shm/acts/joints.ring", "shared file the simulated robot writes its joints to")
+    joint_ring: str = setting(
+        "/dev/shm/acts/joints.ring",
+        "shared file the simulated robot writes its joints to; none: no robot, the plate lies still",
+    )
     frame_id: str = setting("", "frame of the skin; empty: the namespace of the node")
     truth_every: int = setting(
         4, "the ball's true position is published every so many milliseconds", minimum=1, maximum=1000
@@ -60,7 +63,7 @@ class BallWorld(Node):
         field_ring = Path(settings.field_ring)
         _make_folder(field_ring.parent)
         self._world = World(settings)
-        self._joints = JointFollower(Path(settings.joint_ring))
+        self._joints = JointFollower(None if settings.joint_ring == "none" else Path(settings.joint_ring))
         self._ring = TimedRingWriter(field_ring, settings.rows * settings.cols)
         self._loop = WorldLoop(self._world, self._joints, self._ring, self._publish)
         self._diagnostics = DiagnosticsReporter(self, settings.field_ring, self._report)
@@ -116,7 +119,7 @@ class BallWorld(Node):
         }
         if refused:
             return ERROR, f"{refused} joint states were NaN or beyond reason; the plate keeps its last pose", values
-        if source is not JointSource.FOLLOWED:
+        if source not in (JointSource.NONE, JointSource.FOLLOWED):
             why = f" ({self._joints.problem})" if self._joints.problem else ""
             return WARN, f"{source.value}{why}; the plate rests", values
         if loop.skipped > before.skipped:

@@ -29,6 +29,7 @@ _LARGEST_ACCELERATION_RAD_S2 = 200.0
 class JointSource(Enum):
     """Where the joints come from at the moment."""
 
+    NONE = "there is no robot"
     MISSING = "there is no joint ring"
     STALE = "the robot has stopped writing its joints"
     FOLLOWED = "following the robot"
@@ -39,8 +40,8 @@ class JointFollower:
 
     Parameters
     ----------
-    path : Path
-        The ring.
+    path : Path or None
+        The ring; None where there is no robot.
     stale_after_s : float
         A ring whose newest slot is older than this counts as stale [s].
 
@@ -52,9 +53,9 @@ class JointFollower:
         Why there is no ring, in words; empty where there is one.
     """
 
-    def __init__(self, path: Path, stale_after_s: float = 0.1) -> None:
+    def __init__(self, path: Path | None, stale_after_s: float = 0.1) -> None:
         self.path = path
-        self.source = JointSource.MISSING
+        self.source = JointSource.NONE if path is None else JointSource.MISSING
         self.problem = ""
         self._stale_after_ns = int(stale_after_s * 1e9)
         self._reader: TimedRingReader | None = None
@@ -79,11 +80,13 @@ class JointFollower:
         Returns
         -------
         JointMotion or None
-            None where there is no ring, or nothing in it yet. May hold NaN where the ring does.
+            None where there is no robot, no ring, or nothing in it yet. May hold NaN where the ring does.
         """
+        if self.path is None:
+            return None
         dt_s = 0.0 if self._asked_ns is None else max(time_ns - self._asked_ns, 0) / 1e9
         self._asked_ns = time_ns
-        found = self._read(time_ns)
+        found = self._read(self.path, time_ns)
         if found is None:
             self.source = JointSource.MISSING
             return None
@@ -98,7 +101,7 @@ class JointFollower:
             return JointMotion(now[:6], now[6:], self._acceleration)
         return JointMotion(slot[:6] + slot[6:] * (ahead_ns / 1e9), slot[6:], self._acceleration)
 
-    def _read(self, time_ns: int) -> tuple[int, NDArray[np.float64], NDArray[np.float64]] | None:
+    def _read(self, path: Path, time_ns: int) -> tuple[int, NDArray[np.float64], NDArray[np.float64]] | None:
         """Time and values of the newest slot, and the values at `time_ns`; None where there are none."""
         if self._reader is None:
             if self._retry_ns is not None and time_ns < self._retry_ns:
@@ -106,10 +109,10 @@ class JointFollower:
             self._retry_ns = time_ns + _RETRY_NS
         try:
             if self._reader is None:
-                self._reader = TimedRingReader(self.path, JOINT_RING_WIDTH)
+                self._reader = TimedRingReader(path, JOINT_RING_WIDTH)
             newest = self._reader.newest()
             if newest is None:
-                self.problem = f"{self.path}: nothing is written to the ring yet"
+                self.problem = f"{path}: nothing is written to the ring yet"
                 return None
             now = self._reader.sample(time_ns) if newest[0] > time_ns else newest[1]
         except ActsError as error:

@@ -203,3 +203,11 @@ def test_a_world_that_fails_ends_the_node(tmp_path: Path) -> None:
     assert finished.returncode == 1
     assert "error: the world has stopped: ZeroDivisionError('by mistake')" in finished.stderr
     assert not (tmp_path / "field.ring").exists()
+
+
+@pytest.mark.parametrize("observer", [103], indirect=True)
+def test_without_a_robot_nothing_is_amiss(observer: Observer, tmp_path: Path) -> None:
+    with world(103, tmp_path, "joint_ring:=none"):
+        values = observer.until_reported(b"\x00", "the ball is")
+        assert values["joints"] == "there is no robot"
+        observer.until(lambda: len(observer.truth) > 10, "no truth")

@@ -106,7 +106,7 @@ def test_a_checkpoint_of_another_training_is_refused(tmp_path: Path, capsys: pyt
     assert not path.exists()
     assert partial.exists()
     partial.write_bytes(b"nothing")
-    with pytest.raises(RecordingError, match=r"damaged.*delete .*d.npz.partial to begin anew"):
+    with pytest.raises(RecordingError, match=r"not an npz file.*delete .*d.npz.partial to begin anew"):
         checkpoint.load()
     checkpoint.remove()
     assert checkpoint.load() is None
