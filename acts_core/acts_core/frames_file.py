@@ -31,7 +31,7 @@ class FramesFile:
     rate_hz : float or None
         Frames per second; None when the file does not say.
     label : tuple of str
-        What each recording shows; empty when the file does not say.
+        What each recording shows; empty when the file does not say, or was not asked.
     """
 
     frames: NDArray[np.uint16]
@@ -48,8 +48,15 @@ class FramesFile:
         return self.frames[peaks]
 
 
-def load_frames(path: Path) -> FramesFile:
+def load_frames(path: Path, *, labels: bool = False) -> FramesFile:
     """Read a file of frames; recordings of no frames are left out.
+
+    Parameters
+    ----------
+    path : Path
+        An npz file.
+    labels : bool
+        Whether to read what each recording shows: text or numbers, as `label`.
 
     Raises
     ------
@@ -57,9 +64,8 @@ def load_frames(path: Path) -> FramesFile:
         When it cannot be read or its arrays do not fit together.
     """
     needed = "needed is an npz file with an array `frames` (n, rows, cols)"
-    content = read_npz(
-        path, ("frames", "live", "start", "length", "rate_hz", "label"), error=RecordingError, hint=needed
-    )
+    names = ["frames", "live", "start", "length", "rate_hz", *(["label"] if labels else [])]
+    content = read_npz(path, names, error=RecordingError, hint=needed)
     if "frames" not in content:
         raise RecordingError(f"{path}: no array `frames`; {needed}")
     frames = _frames(path, content["frames"])
@@ -67,11 +73,13 @@ def load_frames(path: Path) -> FramesFile:
     start, length = _recordings(path, content, len(frames))
     label: tuple[str, ...] = ()
     if "label" in content:
-        if content["label"].shape != start.shape or content["label"].dtype.kind != "U":
+        given = np.atleast_1d(content["label"])
+        if given.shape != start.shape or given.dtype.kind not in "Uiu":
             raise RecordingError(
-                f"{path}: label {content['label'].shape}: needed is a text for each of {start.size} recordings"
+                f"{path}: label {given.shape}, {given.dtype}: needed is a text or a whole number for each of "
+                f"{start.size} recordings"
             )
-        label = tuple(content["label"][length > 0].tolist())
+        label = tuple(given[length > 0].astype(str).tolist())
     start, length = start[length > 0], length[length > 0]
     if not start.size:
         raise RecordingError(f"{path}: no recording has a frame; `length` says how many each of them has")

@@ -18,12 +18,12 @@ FRAMES = np.zeros((6, 4, 5), dtype=np.uint16)
 FRAMES[[1, 4]] = 7
 
 
-def loaded(path: Path, **arrays: Any) -> FramesFile:
+def loaded(path: Path, *, labels: bool = True, **arrays: Any) -> FramesFile:
     np.savez(path / "f.npz", **{"frames": FRAMES, **arrays})
     # A warning of NumPy's would be a surprise that nobody turned into a message.
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        return load_frames(path / "f.npz")
+        return load_frames(path / "f.npz", labels=labels)
 
 
 def test_what_a_file_does_not_say(tmp_path: Path) -> None:
@@ -69,6 +69,13 @@ def test_recordings_may_overlap_and_their_numbers_be_floats(tmp_path: Path) -> N
     assert (file.start.tolist(), file.length.tolist()) == ([0, 2], [4, 4])
 
 
+def test_labels_are_words_or_numbers_and_read_only_when_asked_for(tmp_path: Path) -> None:
+    assert loaded(tmp_path, start=[0, 2], length=[2, 4], label=[7, 10]).label == ("7", "10")
+    assert loaded(tmp_path, label="cup").label == ("cup",)
+    for label in (["a", "b", "c"], np.array([{}])):
+        assert loaded(tmp_path, labels=False, label=label).label == ()
+
+
 def test_recordings_without_frames_are_left_out(tmp_path: Path) -> None:
     file = loaded(tmp_path, start=[0, 2, 6], length=[2, 4, 0], label=["a", "b", "c"])
     assert (file.start.tolist(), file.length.tolist(), file.label) == ([0, 2], [2, 4], ("a", "b"))
@@ -110,7 +117,9 @@ def test_recordings_without_frames_are_left_out(tmp_path: Path) -> None:
         ({"rate_hz": "31"}, "one positive number"),
         ({"rate_hz": [31, 31]}, "one positive number"),
         ({"rate_hz": np.zeros(0)}, "one positive number"),
-        ({"label": ["a", "b"]}, "a text for each of 1"),
+        ({"label": ["a", "b"]}, r"label \(2,\), <U1: needed is a text or a whole number for each of 1"),
+        ({"label": [0.5]}, "needed is a text or a whole number"),
+        ({"label": np.array([{}])}, "Object arrays cannot be loaded"),
     ],
 )
 def test_what_does_not_fit_is_refused(tmp_path: Path, arrays: dict[str, Any], words: str) -> None:

@@ -57,7 +57,7 @@ def run(arguments: argparse.Namespace) -> int:
         frames, labels = PressingArm(objects, seed=arguments.seed).held_frames(arguments.presses)
         source = f"{arguments.presses} presses of {len(objects)} objects into the ACTS contact model"
     else:
-        recorded = load_frames(arguments.frames)
+        recorded = load_frames(arguments.frames, labels=True)
         if not recorded.label:
             raise RecordingError(f"{arguments.frames}: has no label; needed is what each recording shows")
         unknown = sorted(set(arguments.objects or ()) - set(recorded.label))

@@ -114,6 +114,15 @@ def test_a_second_contact_counts_as_new_and_one_that_moves_on_does_not() -> None
     assert set(starts[1].taxels) == {r * 32 + c for r in (24, 25, 26) for c in (2, 3, 4)}
 
 
+def test_contacts_are_found_wherever_a_long_recording_is_cut_in_pieces() -> None:
+    frames = np.zeros((3 * 4096 + 1, 2, 2), dtype=np.uint16)
+    begins = [1, 4095, 4097, 8192, 8194, 3 * 4096]
+    for begin in begins:
+        frames[begin, 1, 1] = 400
+    starts = contact_starts(frames, np.ones((2, 2), dtype=bool), 50)
+    assert [start.end for start in starts] == begins
+
+
 def test_a_contact_that_nobody_sees_is_missed(dictionary: Dictionary) -> None:
     frames = np.concatenate([still(20, []), still(3, [(5, 5)]), still(40, [])])
     # The board measures one and the same taxel in each frame.

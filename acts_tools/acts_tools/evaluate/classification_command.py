@@ -69,7 +69,7 @@ def _run(arguments: argparse.Namespace) -> int:
     report.require_writable(arguments.json)
     report.require_writable(arguments.picture)
     if arguments.frames:
-        results = run_recorded(load_frames(arguments.frames), arguments.m or [55])
+        results = run_recorded(load_frames(arguments.frames, labels=True), arguments.m or [55])
         print(
             f"{results['library']} recordings in the library, {results['presses']} classified, "
             f"{results['classes']} objects"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numba
@@ -55,6 +56,7 @@ class ContactStart:
 
 
 _EIGHT = np.ones((3, 3), dtype=bool)
+_CHUNK = 4096
 
 
 def contact_starts(frames: NDArray[np.uint16], live: NDArray[np.bool_], threshold_counts: int) -> list[ContactStart]:
@@ -68,14 +70,10 @@ def contact_starts(frames: NDArray[np.uint16], live: NDArray[np.bool_], threshol
         A taxel above it is pressed.
     """
     starts = []
-    pressed = (frames > threshold_counts) & live
-    # Most frames press nothing that the one before did not: they need no further look.
-    any_new = np.concatenate(([False], (pressed[1:] & ~pressed[:-1]).any(axis=(1, 2))))
-    for number in range(1, len(frames)):
-        if not any_new[number]:
-            continue
-        labels, count = ndimage.label(pressed[number], structure=_EIGHT)
-        near_before = ndimage.binary_dilation(pressed[number - 1], structure=_EIGHT)
+    for number in _with_new_touch(frames, live, threshold_counts):
+        pressed, pressed_before = (frames[[number, number - 1]] > threshold_counts) & live
+        labels, count = ndimage.label(pressed, structure=_EIGHT)
+        near_before = ndimage.binary_dilation(pressed_before, structure=_EIGHT)
         for label in range(1, count + 1):
             blob = labels == label
             if (blob & near_before).any():
@@ -84,9 +82,18 @@ def contact_starts(frames: NDArray[np.uint16], live: NDArray[np.bool_], threshol
             # Rounded up: the threshold itself is no touch, and images hold whole counts.
             share = float(np.min((threshold_counts + 0.5 - before) / (now - before)))
             end = number
-            while end + 1 < len(frames) and pressed[end + 1][blob].any():
+            while end + 1 < len(frames) and (frames[end + 1][blob] > threshold_counts).any():
                 end += 1
             around = ndimage.binary_dilation(blob, structure=_EIGHT) & live
-            alone = not pressed[number - 1].any()
+            alone = not pressed_before.any()
             starts.append(ContactStart(number - 1 + share, float(end), alone, np.flatnonzero(around)))
     return starts
+
+
+def _with_new_touch(frames: NDArray[np.uint16], live: NDArray[np.bool_], threshold_counts: int) -> Iterator[int]:
+    """Numbers of the frames that press a taxel which the one before did not: most need no further look."""
+    # In pieces: the whole compared at once would double the memory of a long recording.
+    for begin in range(0, len(frames), _CHUNK):
+        pressed = (frames[begin : begin + _CHUNK + 1] > threshold_counts) & live
+        any_new = (pressed[1:] & ~pressed[:-1]).any(axis=(1, 2))
+        yield from (begin + 1 + np.flatnonzero(any_new)).tolist()
