@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numba
@@ -10,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX
+from acts_recon.uncertainty_kernels import force_of, taxel_variances
 
 MAX_BLOBS = 16
 """Contacts kept of a frame at most, the strongest."""
@@ -25,11 +25,12 @@ BLOB = np.dtype(
         ("xx_m2", "f8"),
         ("xy_m2", "f8"),
         ("yy_m2", "f8"),
-        # Variances of position [m^2], force [N^2] and number of taxels.
+        # Variances of position [m^2], force [N^2], number of taxels and square of the spread [m^4].
         ("x_var", "f8"),
         ("y_var", "f8"),
         ("force_var", "f8"),
         ("taxels_var", "f8"),
+        ("spread_square_var", "f8"),
         # Where its taxels stand in `members`.
         ("first", "i8"),
         ("last", "i8"),
@@ -75,7 +76,7 @@ def find_blobs(
     force_n : np.ndarray [shape=(1025,), dtype=float64]
         The table of `acts_core.force.force_table`.
     slope_n : np.ndarray [shape=(1024,), dtype=float64]
-        Its slope, see `acts_recon.blobs.slope_table` [N/count].
+        Its slope, see `acts_recon.uncertainty.slope_table` [N/count].
     pitch_m, pitch_y_m : float
     state : np.ndarray [shape=(rows * cols,), dtype=uint8]
         Which taxels are pressed; kept from frame to frame, zero at first.
@@ -145,7 +146,7 @@ def find_blobs(
                 members, border[:n_border], blob,
             )  # fmt: skip
         else:
-            blob.x_var = blob.y_var = blob.force_var = blob.taxels_var = 0.0
+            blob.x_var = blob.y_var = blob.force_var = blob.taxels_var = blob.spread_square_var = 0.0
         if place == MAX_BLOBS:
             weakest = 0
             for b in range(1, MAX_BLOBS):
@@ -154,13 +155,6 @@ def find_blobs(
             if blob.force_n > blobs[weakest].force_n:
                 blobs[weakest] = blobs[place]
     return kept, dropped
-
-
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
-def _force(value: float, force_n: NDArray[np.float64]) -> float:
-    value = min(value, float(COUNT_MAX))
-    whole = int(value)
-    return force_n[whole] + (value - whole) * (force_n[whole + 1] - force_n[whole])
 
 
 @numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
@@ -183,7 +177,7 @@ def _describe(
         row = members[i] // cols
         col = members[i] - row * cols
         value = min(np.float64(image[members[i]]), float(COUNT_MAX))
-        weight = _force(value, force_n)
+        weight = force_of(value, force_n)
         total += weight
         by_col += weight * col
         by_row += weight * row
@@ -197,7 +191,7 @@ def _describe(
         if image[members[i]] <= least:
             continue
         row = members[i] // cols
-        weight = _force(np.float64(image[members[i]]), force_n)
+        weight = force_of(np.float64(image[members[i]]), force_n)
         x = (members[i] - row * cols - mean_col) * pitch_m
         y = (mean_row - row) * pitch_y_m
         xx += weight * x * x
@@ -230,27 +224,20 @@ def _propagate(
     border: NDArray[np.int32],
     blob: Any,
 ) -> None:
-    """Variances; see `acts_recon.blobs.find_blobs` for the formulae."""
-    x_var = y_var = force_var = taxels_var = 0.0
+    """Variances; see `acts_recon.uncertainty` for the formulae."""
+    x_var = y_var = force_var = taxels_var = spread_square_var = 0.0
+    spread_square = blob.xx_m2 + blob.yy_m2
     n = blob.last - blob.first
     for i in range(n + border.shape[0]):
         t = members[blob.first + i] if i < n else border[i - n]
         pressed = i < n and image[t] > least
         if not sigma[t] > 0.0:
             continue
-        deviation = float(min(sigma[t], COUNT_MAX))
         # What is not a number is not pressed.
-        value = float(min(image[t], COUNT_MAX)) if image[t] > 0.0 else 0.0
-        wrong = 0.5 * math.erfc(abs(value - least) / (math.sqrt(2.0) * deviation))
-        weight = _force(value if pressed else least, force_n)
-        square = weight * weight * wrong
-        if pressed:
-            slope = slope_n[int(value)]
-            square += slope * slope * deviation * deviation
-        if deviation > noise_counts:
-            factor = together - (together - 1.0) * (noise_counts / deviation) ** 2
-            square *= factor
-            wrong *= factor
+        value = float(image[t]) if image[t] > 0.0 else 0.0
+        square, wrong = taxel_variances(
+            value, float(sigma[t]), pressed, least, noise_counts, together, force_n, slope_n
+        )
         row = t // cols
         x = ((t - row * cols) - (cols - 1) / 2) * pitch_m - blob.x_m
         y = ((rows - 1) / 2 - row) * pitch_y_m - blob.y_m
@@ -258,8 +245,10 @@ def _propagate(
         x_var += square * x * x
         y_var += square * y * y
         taxels_var += wrong
+        spread_square_var += square * (x * x + y * y - spread_square) ** 2
     square_n = max(blob.force_n, _TINY_N) ** 2
     blob.x_var = x_var / square_n
     blob.y_var = y_var / square_n
     blob.force_var = force_var
     blob.taxels_var = taxels_var
+    blob.spread_square_var = spread_square_var / square_n

@@ -57,6 +57,7 @@ FOUND = np.dtype(
         ("vy_sd_m_s", "f8"),
         ("force_sd_n", "f8"),
         ("area_sd_m2", "f8"),
+        ("spread_sd_m", "f8"),
     ]
 )
 """What `follow` says of each contact: the fields of `acts_recon.blobs.TrackedBlob`."""
@@ -397,3 +398,4 @@ def _report(
         entry.vy_sd_m_s = math.sqrt(max(me.y_vv, 0.0)) if sigma_known else 0.0
         entry.force_sd_n = math.sqrt(blob.force_var)
         entry.area_sd_m2 = taxel_area_m2 * math.sqrt(blob.taxels_var)
+        entry.spread_sd_m = math.sqrt(entry.spread_m**2 + math.sqrt(blob.spread_square_var)) - entry.spread_m

@@ -7,14 +7,13 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage, special
+from scipy import ndimage
 
 from acts_core.array import COUNT_MAX, ArrayGeometry
-from acts_core.force import ForceResponse, MeasuredForceResponse, force_table
+from acts_core.force import ForceResponse, MeasuredForceResponse
 from acts_core.settings import setting, validate
 from acts_recon.blob_kernels import MAX_BLOBS
-
-_TINY_COUNTS = 1e-9
+from acts_recon.uncertainty import ERR_TOGETHER, NOISE_COUNTS, Variances, variances
 
 
 @dataclass(frozen=True)
@@ -26,13 +25,13 @@ class BlobConfig:
         10, "a pressed taxel ceases to be at so many counts less; never below 0", minimum=0, maximum=COUNT_MAX
     )
     noise_counts: float = setting(
-        2.0,
+        NOISE_COUNTS,
         "standard deviation of a reading; what an image's is beyond it is that of a guess [counts]",
         minimum=0.0,
         maximum=100.0,
     )
     err_together: float = setting(
-        5.0, "guesses that err together: as many as this are one independent error", minimum=1.0, maximum=100.0
+        ERR_TOGETHER, "guesses that err together: as many as this are one independent error", minimum=1.0, maximum=100.0
     )
     bridge_s: float = setting(
         0.02, "a contact that comes back within this time keeps its number [s]", minimum=0.0, maximum=10.0
@@ -78,7 +77,7 @@ class TrackedBlob(NamedTuple):
         Root mean square distance of the force from the centre of pressure [m].
     angle_rad : float
         Direction of the longest extent, from x towards y, above -pi/2 to pi/2; 0 where it has none.
-    x_sd_m, y_sd_m, vx_sd_m_s, vy_sd_m_s, force_sd_n, area_sd_m2 : float
+    x_sd_m, y_sd_m, vx_sd_m_s, vy_sd_m_s, force_sd_n, area_sd_m2, spread_sd_m : float
         Standard deviations of what their names say.
     """
 
@@ -101,6 +100,7 @@ class TrackedBlob(NamedTuple):
     vy_sd_m_s: float
     force_sd_n: float
     area_sd_m2: float
+    spread_sd_m: float
 
 
 @dataclass(frozen=True)
@@ -119,8 +119,8 @@ class Blob:
         Sum of forces [N], largest value [counts].
     moments_m2 : tuple of float
         Central second moments of the force, xx, xy and yy [m^2].
-    x_var, y_var, force_var, taxels_var : float
-        Variances of position [m^2], force [N^2] and number of taxels.
+    x_var, y_var, force_var, taxels_var, spread_square_var : float
+        Variances of position [m^2], force [N^2], number of taxels and square of the spread [m^4].
     """
 
     taxels: NDArray[np.intp]
@@ -134,27 +134,7 @@ class Blob:
     y_var: float
     force_var: float
     taxels_var: float
-
-
-def slope_table(force_n: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Slope of a force table; where the table ends flat because the taxel is saturated, the last slope before.
-
-    Parameters
-    ----------
-    force_n : np.ndarray [shape=(1025,), dtype=float64]
-        See `acts_core.force.force_table`.
-
-    Returns
-    -------
-    np.ndarray [shape=(1024,), dtype=float64]
-        Newtons a count, between each count and the next.
-    """
-    slope = np.diff(force_n)
-    rising = np.flatnonzero(slope > 0)
-    if rising.size:
-        # The table may end within the last step that rises, which then is too flat.
-        slope[rising[-1] :] = slope[rising[-2:]].max()
-    return slope
+    spread_square_var: float
 
 
 def find_blobs(
@@ -172,14 +152,7 @@ def find_blobs(
     Taxels that only the hysteresis holds join a contact together, but do not count in its numbers, so that these
     depend on the image alone; but where a contact has no others.
 
-    Uncertainty, to first order: the error of a pressed taxel of `c` counts
-    and standard deviation `s` changes the force by ``f'(c) s``. With probability ``q = Phi(-abs(c - threshold) / s)``
-    it is on the wrong side of its threshold, and its whole force should not be there; likewise an untouched neighbour
-    should be there with the threshold's force. The variance of the force is the sum of ``e**2 = (f' s)**2 + q f**2``
-    over the taxels, that of the centre of pressure the sum of ``e**2 (x_taxel - x)**2 / F**2``, that of the number of
-    taxels the sum of ``q``. The noise of readings is independent indeed; guesses err with their neighbours (a contact
-    moved further than was thought). So what a taxel adds is multiplied by a factor that goes from 1 for
-    ``s <= noise_counts`` towards `err_together`: ``together - (together - 1) noise**2 / s**2``.
+    `acts_recon.uncertainty` says how uncertain these are.
 
     Parameters
     ----------
@@ -203,7 +176,6 @@ def find_blobs(
     threshold = np.where(before, config.release_counts, config.touch_counts).astype(np.float64)
     neighbours = np.ones((3, 3))
     groups, n_groups = ndimage.label(image > threshold, structure=neighbours)
-    slopes = slope_table(force_table(response))
     blobs = []
     for group in range(1, n_groups + 1):
         whole = groups == group
@@ -220,20 +192,11 @@ def find_blobs(
         moments = [
             float(force @ product) / total for product in ((x - x_m) ** 2, (x - x_m) * (y - y_m), (y - y_m) ** 2)
         ]
-        square = np.zeros(image.shape)
-        wrong = np.zeros(image.shape)
+        unsure = Variances()
         if sigma is not None:
-            distance = np.abs(np.clip(image, 0, COUNT_MAX) - least)
-            unsure = (inside | edge) & (sigma > 0)
-            with np.errstate(over="ignore"):  # a sigma of next to nothing: infinitely far, and rightly so
-                wrong[unsure] = special.ndtr(-distance[unsure] / sigma[unsure])
-            square[inside] = (slopes[counts.astype(np.intp)] * sigma[inside]) ** 2 + wrong[inside] * force**2
-            square[edge] = wrong[edge] * float(response.force_n(least)) ** 2
-            guessed = np.maximum(sigma / max(config.noise_counts, _TINY_COUNTS), 1.0)
-            factor = config.err_together - (config.err_together - 1.0) / guessed**2
-            square *= factor
-            wrong *= factor
-        all_x, all_y = geometry.x_m(np.arange(geometry.cols))[None, :], geometry.y_m(np.arange(geometry.rows))[:, None]
+            unsure = variances(
+                image, sigma, inside, edge, least, geometry, response, config.noise_counts, config.err_together
+            )
         blobs.append(
             Blob(
                 taxels=np.flatnonzero(whole),
@@ -243,10 +206,11 @@ def find_blobs(
                 force_n=total,
                 peak_counts=float(counts.max()),
                 moments_m2=(moments[0], moments[1], moments[2]),
-                x_var=float((square * (all_x - x_m) ** 2).sum()) / total**2,
-                y_var=float((square * (all_y - y_m) ** 2).sum()) / total**2,
-                force_var=float(square.sum()),
-                taxels_var=float(wrong.sum()),
+                x_var=unsure.x,
+                y_var=unsure.y,
+                force_var=unsure.force,
+                taxels_var=unsure.taxels,
+                spread_square_var=unsure.spread_square,
             )
         )
     strongest = sorted(blobs, key=lambda blob: -blob.force_n)[:MAX_BLOBS]

@@ -6,16 +6,19 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import ndimage
 
 from acts_core.array import ArrayGeometry
 from acts_core.force import ForceResponse, MeasuredForceResponse
+from acts_recon.uncertainty import ERR_TOGETHER, NOISE_COUNTS, Variances, root_deviation, variances
 
 
 @dataclass(frozen=True)
 class Contact:
     """A contact. Without one every number is 0; none is ever NaN.
 
-    Positions are in the skin's frame (see `ArrayGeometry`).
+    Positions are in the skin's frame (see `ArrayGeometry`). Standard deviations (``_sd_``) are 0 where the uncertainty
+    of the image is not known.
 
     Attributes
     ----------
@@ -33,6 +36,8 @@ class Contact:
         Number of pressed taxels.
     spread_m : float
         Root mean square distance of the force from the centre of pressure [m].
+    x_sd_m, y_sd_m, force_sd_n, area_sd_m2, spread_sd_m : float
+        Standard deviations of what their names say.
     """
 
     in_contact: bool = False
@@ -43,6 +48,11 @@ class Contact:
     area_m2: float = 0.0
     active_taxels: int = 0
     spread_m: float = 0.0
+    x_sd_m: float = 0.0
+    y_sd_m: float = 0.0
+    force_sd_n: float = 0.0
+    area_sd_m2: float = 0.0
+    spread_sd_m: float = 0.0
 
 
 NO_CONTACT = Contact()
@@ -54,6 +64,9 @@ def find_contact(
     response: ForceResponse | MeasuredForceResponse,
     *,
     touch_counts: float = 60.0,
+    sigma: NDArray[np.floating] | None = None,
+    noise_counts: float = NOISE_COUNTS,
+    err_together: float = ERR_TOGETHER,
 ) -> Contact:
     """Describe the contact in an image; the plain twin of `acts_recon.contact_kernels.find_contact`.
 
@@ -69,6 +82,10 @@ def find_contact(
     response : ForceResponse or MeasuredForceResponse
         From counts to newtons.
     touch_counts : float
+    sigma : np.ndarray [shape=(rows, cols), dtype=float], optional
+        Standard deviations of the taxels [counts]; without them those of the contact are 0.
+    noise_counts, err_together : float
+        See `acts_recon.uncertainty`.
     """
     pressed = image > touch_counts
     if not pressed.any():
@@ -80,6 +97,10 @@ def find_contact(
     total = float(weight.sum())
     x_m, y_m = float(weight @ x) / total, float(weight @ y) / total
     square = float(weight @ ((x - x_m) ** 2 + (y - y_m) ** 2)) / total
+    unsure = Variances()
+    if sigma is not None:
+        edge = ndimage.binary_dilation(pressed, structure=np.ones((3, 3))) & ~pressed
+        unsure = variances(image, sigma, pressed, edge, touch_counts, geometry, response, noise_counts, err_together)
     return Contact(
         in_contact=True,
         x_m=x_m,
@@ -89,4 +110,9 @@ def find_contact(
         area_m2=row.size * geometry.taxel_area_m2,
         active_taxels=int(row.size),
         spread_m=float(np.sqrt(square)),
+        x_sd_m=float(np.sqrt(unsure.x)),
+        y_sd_m=float(np.sqrt(unsure.y)),
+        force_sd_n=float(np.sqrt(unsure.force)),
+        area_sd_m2=float(np.sqrt(unsure.taxels)) * geometry.taxel_area_m2,
+        spread_sd_m=root_deviation(square, unsure.spread_square),
     )

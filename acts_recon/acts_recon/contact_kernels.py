@@ -6,38 +6,52 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-RESULTS = 7
-"""Numbers that `find_contact` writes: column, row, force [N], peak [counts], pressed taxels, variances of both."""
+from acts_recon.uncertainty_kernels import force_of, taxel_variances
+
+RESULTS = 11
+"""Numbers that `find_contact` writes."""
+
+_TINY_N = 1e-30
+# A taxel so many standard deviations below the threshold is not pressed.
+_FAR = 6.0
 
 
 @numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
 def find_contact(
     image: NDArray[np.float32],
+    sigma: NDArray[np.float32],
     cols: int,
     touch_counts: float,
+    noise_counts: float,
+    together: float,
     force_n: NDArray[np.float64],
+    slope_n: NDArray[np.float64],
+    pitch_m: float,
+    pitch_y_m: float,
     results: NDArray[np.float64],
 ) -> None:
-    """Describe the contact in units of taxels.
+    """Describe the contact.
 
     Parameters
     ----------
     image : np.ndarray [shape=(rows * cols,), dtype=float32]
         Counts, 0 to 1023.
+    sigma : np.ndarray [shape=(rows * cols,) or (0,), dtype=float32]
+        Standard deviations of the taxels [counts]; empty where not known, the variances are then 0.
     cols : int
     touch_counts : float
-    force_n : np.ndarray [shape=(1025,), dtype=float64]
-        The table of `acts_core.force.force_table`; values between two counts are interpolated.
+        A taxel above it is pressed.
+    noise_counts, together : float
+        Deviations beyond the first are of guesses; so many guesses err together.
+    force_n, slope_n : np.ndarray [shape=(1025,) and (1024,), dtype=float64]
+        The table of `acts_core.force.force_table`, between two counts interpolated, and its slope, see
+        `acts_recon.uncertainty.slope_table`.
+    pitch_m, pitch_y_m : float
     results : np.ndarray [shape=(RESULTS,), dtype=float64]
-        Written: mean column and row, force [N], peak [counts], pressed taxels, variances of column and row; all 0
-        without contact.
+        Written: x and y of the centre [m], force [N], peak [counts], pressed taxels, square of the spread [m^2]; then
+        variances of x and y [m^2], force [N^2], number of taxels and square of the spread [m^4]. All 0 without contact.
     """
-    total = 0.0
-    by_col = 0.0
-    by_row = 0.0
-    by_col_square = 0.0
-    by_row_square = 0.0
-    peak = 0.0
+    total = by_col = by_row = by_col_square = by_row_square = peak = 0.0
     pressed = 0
     for t in range(image.shape[0]):
         value = np.float64(image[t])
@@ -45,8 +59,7 @@ def find_contact(
             continue
         row = t // cols
         col = t - row * cols
-        whole = int(value)
-        weight = force_n[whole] + (value - whole) * (force_n[whole + 1] - force_n[whole])
+        weight = force_of(value, force_n)
         total += weight
         by_col += weight * col
         by_row += weight * row
@@ -58,12 +71,42 @@ def find_contact(
         results[i] = 0.0
     if pressed == 0:
         return
+    total = max(total, _TINY_N)
+    rows = image.shape[0] // cols
     mean_col = by_col / total
     mean_row = by_row / total
-    results[0] = mean_col
-    results[1] = mean_row
+    x_square = max(by_col_square / total - mean_col * mean_col, 0.0) * pitch_m * pitch_m
+    y_square = max(by_row_square / total - mean_row * mean_row, 0.0) * pitch_y_m * pitch_y_m
+    results[0] = (mean_col - (cols - 1) / 2) * pitch_m
+    results[1] = ((rows - 1) / 2 - mean_row) * pitch_y_m
     results[2] = total
     results[3] = peak
     results[4] = pressed
-    results[5] = max(by_col_square / total - mean_col * mean_col, 0.0)
-    results[6] = max(by_row_square / total - mean_row * mean_row, 0.0)
+    results[5] = x_square + y_square
+    if sigma.shape[0] == 0:
+        return
+    for t in range(image.shape[0]):
+        value = np.float64(image[t])
+        deviation = np.float64(sigma[t])
+        inside = value > touch_counts
+        if not deviation > 0.0 or (not inside and value + _FAR * deviation < touch_counts):
+            continue
+        row = t // cols
+        col = t - row * cols
+        if not inside:
+            beside = False
+            for r in range(max(row - 1, 0), min(row + 2, rows)):
+                for c in range(max(col - 1, 0), min(col + 2, cols)):
+                    beside = beside or image[r * cols + c] > touch_counts
+            if not beside:
+                continue
+        square, wrong = taxel_variances(
+            max(value, 0.0), deviation, inside, touch_counts, noise_counts, together, force_n, slope_n
+        )
+        x_away = ((col - mean_col) * pitch_m) ** 2
+        y_away = ((row - mean_row) * pitch_y_m) ** 2
+        results[6] += square * x_away / (total * total)
+        results[7] += square * y_away / (total * total)
+        results[8] += square
+        results[9] += wrong
+        results[10] += square * (x_away + y_away - results[5]) ** 2 / (total * total)

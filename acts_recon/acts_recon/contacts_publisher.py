@@ -113,6 +113,7 @@ def _fill(entry: TrackedContact, blob: TrackedBlob) -> None:
     entry.velocity_sigma.y = blob.vy_sd_m_s
     entry.force_sigma = blob.force_sd_n
     entry.area_sigma = blob.area_sd_m2
+    entry.spread_sigma = blob.spread_sd_m
 
 
 def _markers(samples: TactileSamples, blob: TrackedBlob) -> list[Marker]:

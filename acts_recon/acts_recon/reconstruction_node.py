@@ -170,6 +170,11 @@ class ReconstructionNode(Node):
         message.area = contact.area_m2
         message.active_taxels = contact.active_taxels
         message.spread = contact.spread_m
+        message.centre_of_pressure_sigma.x = contact.x_sd_m
+        message.centre_of_pressure_sigma.y = contact.y_sd_m
+        message.force_sigma = contact.force_sd_n
+        message.area_sigma = contact.area_sd_m2
+        message.spread_sigma = contact.spread_sd_m
         self._contact_publisher.publish(message)
         if self._send_cop and contact.in_contact:
             self._cop.header = samples.header

@@ -56,7 +56,7 @@ class FusedRecovery:
         self, estimator: FusionEstimator, response: ForceResponse | MeasuredForceResponse, touch_counts: float
     ) -> None:
         self._estimator = estimator
-        self._finder = ContactFinder(estimator.geometry, response, touch_counts)
+        self._finder = ContactFinder(estimator.geometry, response, touch_counts, estimator.config.noise_counts)
         self.geometry = estimator.geometry
         self.response = response
         self.image = estimator.image
@@ -68,7 +68,8 @@ class FusedRecovery:
 
     def step(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float) -> Contact:
         """See `Recovery.step`."""
-        return self._finder.find(self._estimator.step(indices, counts, end_s, duration_s).ravel())
+        image = self._estimator.step(indices, counts, end_s, duration_s)
+        return self._finder.find(image.ravel(), self._estimator.sigma.ravel())
 
     def confidence(self) -> NDArray[np.uint8] | None:
         """See `Recovery.confidence`."""

@@ -74,13 +74,13 @@ def test_a_contact_has_position_velocity_force_and_shape(tracker: BlobTracker) -
     assert blob.spread_m == pytest.approx(PITCH_M * np.sqrt(1.25))
     assert blob.angle_rad == 0
     assert blob.age_s == pytest.approx(0.001)
-    assert min(blob.x_sd_m, blob.vx_sd_m_s, blob.vy_sd_m_s, blob.force_sd_n) > 0
+    assert min(blob.x_sd_m, blob.vx_sd_m_s, blob.vy_sd_m_s, blob.force_sd_n, blob.spread_sd_m) > 0
     # All taxels lie on one row, so that noise cannot shift the centre across it, but for taxels that were not noticed.
     assert blob.y_sd_m < 1e-6
     (upright,) = tracker.step(np.ascontiguousarray(image.T), 0.002)
     assert upright.angle_rad == pytest.approx(np.pi / 2)
     deviations = (upright.x_sd_m, upright.y_sd_m, upright.vx_sd_m_s, upright.vy_sd_m_s)
-    assert (*deviations, upright.force_sd_n, upright.area_sd_m2) == (0.0,) * 6
+    assert (*deviations, upright.force_sd_n, upright.area_sd_m2, upright.spread_sd_m) == (0.0,) * 7
 
 
 @settings(max_examples=40, deadline=None)

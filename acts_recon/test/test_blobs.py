@@ -14,15 +14,16 @@ from recon_samples import bump
 from acts_core.array import ArrayGeometry
 from acts_core.force import ForceResponse, MeasuredForceResponse, force_table
 from acts_recon import blob_kernels
-from acts_recon.blobs import BlobConfig, find_blobs, slope_table
+from acts_recon.blobs import BlobConfig, find_blobs
 from acts_recon.contact import find_contact
+from acts_recon.uncertainty import root_deviation, slope_table
 
 GEOMETRY = ArrayGeometry(rows=12, cols=9, pitch_m=0.005, row_pitch_m=0.004)
 RESPONSE = ForceResponse()
 TABLE = force_table(RESPONSE)
 # What the kernel looks up, as the twin reads it: exactly the same response between two counts, too.
 BY_TABLE = MeasuredForceResponse(TABLE[:-1], np.arange(1024.0))
-FIELDS = ("x_m", "y_m", "force_n", "peak_counts", "x_var", "y_var", "force_var", "taxels_var")
+FIELDS = ("x_m", "y_m", "force_n", "peak_counts", "x_var", "y_var", "force_var", "taxels_var", "spread_square_var")
 
 
 def by_kernel(
@@ -174,7 +175,7 @@ def test_errors_are_as_large_as_the_standard_deviations_say(width: float, peak: 
     geometry = ArrayGeometry(rows=20, cols=20)
     config = BlobConfig(hysteresis_counts=0, noise_counts=noise)
     row, col = np.indices((20, 20))
-    squares: dict[str, list[float]] = {"x_m": [], "y_m": [], "force_n": [], "taxels": []}
+    squares: dict[str, list[float]] = {"x_m": [], "y_m": [], "force_n": [], "taxels": [], "spread": []}
     for _ in range(600):
         r, c = rng.uniform(8, 11, 2)
         image = peak * np.exp(-((row - r) ** 2 + (col - c) ** 2) / (2 * width**2))
@@ -184,10 +185,12 @@ def test_errors_are_as_large_as_the_standard_deviations_say(width: float, peak: 
         ((_, true),), _ = by_kernel(image, config, geometry)
         found, _ = by_kernel(noisy, config, geometry, sigma=sigma)
         blob = max((blob for _, blob in found), key=lambda blob: float(blob["force_n"]))
-        for name, values in squares.items():
+        spread, true_spread = (math.sqrt(one["xx_m2"] + one["yy_m2"]) for one in (blob, true))
+        squares["spread"].append(((spread - true_spread) / root_deviation(spread**2, blob["spread_square_var"])) ** 2)
+        for name, values in list(squares.items())[:4]:
             variance = blob["x_var" if name == "x_m" else "y_var" if name == "y_m" else name.split("_")[0] + "_var"]
             values.append(float((blob[name] - true[name]) ** 2 / max(variance, 1e-3 if name == "taxels" else 0)))
-    for name in ("x_m", "y_m", "force_n"):
+    for name in ("x_m", "y_m", "force_n", "spread"):
         assert 0.7 < np.sqrt(np.mean(squares[name])) < 1.3, (name, np.sqrt(np.mean(squares[name])))
     within = np.mean(np.array(squares["taxels"]) <= 4)
     assert within > 0.9, within

@@ -11,7 +11,9 @@ from recon_samples import bump
 from acts_core.array import ArrayGeometry
 from acts_core.force import ForceResponse, MeasuredForceResponse, force_table
 from acts_recon import contact_kernels
+from acts_recon.blobs import find_blobs
 from acts_recon.contact import NO_CONTACT, Contact, find_contact
+from acts_recon.uncertainty import root_deviation, slope_table
 
 GEOMETRY = ArrayGeometry(rows=12, cols=9, pitch_m=0.005)
 RESPONSE = ForceResponse()
@@ -20,29 +22,60 @@ TABLE = force_table(RESPONSE)
 BY_TABLE = MeasuredForceResponse(TABLE[:-1], np.arange(1024.0))
 
 
-def by_kernel(image: NDArray[np.float32], geometry: ArrayGeometry, touch_counts: float) -> list[float]:
+def by_kernel(
+    image: NDArray[np.float32],
+    geometry: ArrayGeometry,
+    touch_counts: float,
+    sigma: NDArray[np.float32] | None = None,
+    noise_counts: float = 2.0,
+) -> list[float]:
     results = np.zeros(contact_kernels.RESULTS)
     contact_kernels.find_contact(
         image.ravel(),
+        np.empty(0, np.float32) if sigma is None else sigma.ravel(),
         geometry.cols,
         touch_counts,
+        noise_counts,
+        3.0,
         TABLE,
+        slope_table(TABLE),
+        geometry.pitch_m,
+        geometry.pitch_y_m,
         results,
     )
     return results.tolist()
 
 
-def assert_kernel_equals_twin(image: NDArray[np.float32], touch_counts: float) -> None:
-    col, row, force_n, peak, pressed, col_square, row_square = by_kernel(image, GEOMETRY, touch_counts)
-    contact = find_contact(image, GEOMETRY, BY_TABLE, touch_counts=touch_counts)
+def assert_kernel_equals_twin(
+    image: NDArray[np.float32],
+    touch_counts: float,
+    sigma: NDArray[np.float32] | None = None,
+    noise_counts: float = 2.0,
+) -> None:
+    x_m, y_m, force_n, peak, pressed, spread_square, *variances = by_kernel(
+        image, GEOMETRY, touch_counts, sigma, noise_counts
+    )
+    contact = find_contact(
+        image,
+        GEOMETRY,
+        BY_TABLE,
+        touch_counts=touch_counts,
+        sigma=sigma,
+        noise_counts=noise_counts,
+        err_together=3.0,
+    )
     assert pressed == contact.active_taxels
     assert peak == contact.peak_counts
     assert force_n == pytest.approx(contact.force_n, rel=1e-6)
-    if contact.in_contact:
-        assert GEOMETRY.x_m(col) == pytest.approx(contact.x_m, abs=1e-7)
-        assert GEOMETRY.y_m(row) == pytest.approx(contact.y_m, abs=1e-7)
-        spread_m = math.hypot(math.sqrt(col_square) * GEOMETRY.pitch_m, math.sqrt(row_square) * GEOMETRY.pitch_y_m)
-        assert spread_m == pytest.approx(contact.spread_m, abs=1e-6)
+    assert x_m == pytest.approx(contact.x_m, abs=1e-7)
+    assert y_m == pytest.approx(contact.y_m, abs=1e-7)
+    assert math.sqrt(spread_square) == pytest.approx(contact.spread_m, abs=1e-6)
+    x_var, y_var, force_var, taxels_var, spread_square_var = variances
+    assert math.sqrt(x_var) == pytest.approx(contact.x_sd_m, rel=1e-4, abs=1e-8)
+    assert math.sqrt(y_var) == pytest.approx(contact.y_sd_m, rel=1e-4, abs=1e-8)
+    assert math.sqrt(force_var) == pytest.approx(contact.force_sd_n, rel=1e-4, abs=1e-8)
+    assert math.sqrt(taxels_var) * GEOMETRY.taxel_area_m2 == pytest.approx(contact.area_sd_m2, rel=1e-4, abs=1e-9)
+    assert root_deviation(spread_square, spread_square_var) == pytest.approx(contact.spread_sd_m, rel=1e-3, abs=1e-6)
 
 
 def test_nothing_pressed_is_all_zero() -> None:
@@ -81,11 +114,26 @@ def test_kernel_equals_twin_on_a_bump() -> None:
 @settings(max_examples=100, deadline=None)
 @given(
     st_numpy.arrays(np.float32, (12, 9), elements=st.floats(0, 1023, width=32)),
+    st.none() | st_numpy.arrays(np.float32, (12, 9), elements=st.floats(0, 300, width=32)),
     st.integers(0, 1023),
 )
-def test_kernel_equals_twin_and_all_is_finite(image: NDArray[np.float32], touch_counts: int) -> None:
-    assert np.isfinite(by_kernel(image, GEOMETRY, touch_counts)).all()
+def test_kernel_equals_twin_and_all_is_finite(
+    image: NDArray[np.float32], sigma: NDArray[np.float32] | None, touch_counts: int
+) -> None:
+    assert np.isfinite(by_kernel(image, GEOMETRY, touch_counts, sigma)).all()
     contact = find_contact(image, GEOMETRY, RESPONSE, touch_counts=touch_counts)
     numbers = (contact.x_m, contact.y_m, contact.force_n, contact.peak_counts, contact.area_m2, contact.spread_m)
     assert np.isfinite(numbers).all()
-    assert_kernel_equals_twin(image, touch_counts)
+    assert_kernel_equals_twin(image, touch_counts, sigma, noise_counts=20.0)
+
+
+def test_one_contact_is_as_uncertain_as_the_only_one_in_the_image() -> None:
+    image = bump(GEOMETRY, 5.3, 4.1).astype(np.float32)
+    sigma = np.full(image.shape, 5, dtype=np.float32)
+    contact = find_contact(image, GEOMETRY, RESPONSE, sigma=sigma)
+    (blob,) = find_blobs(image, GEOMETRY, RESPONSE, sigma=sigma)
+    deviations = contact.x_sd_m, contact.y_sd_m, contact.force_sd_n
+    assert deviations == pytest.approx([math.sqrt(variance) for variance in (blob.x_var, blob.y_var, blob.force_var)])
+    assert contact.area_sd_m2 == pytest.approx(math.sqrt(blob.taxels_var) * GEOMETRY.taxel_area_m2)
+    assert contact.spread_sd_m > 0
+    assert find_contact(image, GEOMETRY, RESPONSE).force_sd_n == 0

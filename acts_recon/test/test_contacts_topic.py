@@ -147,6 +147,8 @@ def test_standard_deviations_and_markers_are_those_of_the_contact(make_peers: Ca
     assert contact.velocity_sigma.x == expected.vx_sd_m_s > 0
     assert contact.force_sigma == pytest.approx(expected.force_sd_n)
     assert contact.area_sigma == pytest.approx(expected.area_sd_m2)
+    assert contact.spread_sigma == pytest.approx(expected.spread_sd_m)
+    assert expected.spread_sd_m > 0
     assert contact.spread == pytest.approx(expected.spread_m)
     assert contact.orientation == pytest.approx(expected.angle_rad)
 

@@ -157,6 +157,7 @@ def test_contact_cop_and_images_are_those_of_the_samples(
     assert contact.area == pytest.approx(expected.area_m2, rel=1e-6)
     assert contact.active_taxels == expected.active_taxels
     assert contact.spread == pytest.approx(expected.spread_m, rel=1e-6)
+    assert contact.centre_of_pressure_sigma.x == contact.force_sigma == contact.spread_sigma == 0
 
     bench.until(lambda: all(bench.received[topic] for topic in ("cop", "image_raw", "image")))
     (cop,) = bench.received["cop"]
@@ -203,8 +204,14 @@ def test_fusion_keeps_what_earlier_frames_showed_and_says_how_sure_it_is(make_be
         estimator.step(indices.astype(np.uint16), matrix[indices].astype(np.uint16), end_s, 983_235e-9)
         bench.send(k, indices, matrix[indices], **timed(k))
     contact = bench.contact(14)
-    expected = find_contact(estimator.image, geometry, ForceResponse(), touch_counts=60)
+    expected = find_contact(estimator.image, geometry, ForceResponse(), touch_counts=60, sigma=estimator.sigma)
     assert contact.in_contact
+    assert contact.centre_of_pressure_sigma.x == pytest.approx(expected.x_sd_m, rel=1e-2) != 0
+    assert contact.centre_of_pressure_sigma.y == pytest.approx(expected.y_sd_m, rel=1e-2) != 0
+    assert contact.centre_of_pressure_sigma.z == 0
+    assert contact.force_sigma == pytest.approx(expected.force_sd_n, rel=1e-2) != 0
+    assert contact.area_sigma == pytest.approx(expected.area_sd_m2, rel=1e-2) != 0
+    assert contact.spread_sigma == pytest.approx(expected.spread_sd_m, rel=1e-2) != 0
     assert contact.active_taxels == expected.active_taxels
     assert contact.centre_of_pressure.x == pytest.approx(expected.x_m, abs=1e-5)
     assert contact.force == pytest.approx(expected.force_n, rel=1e-3)

@@ -1,0 +1,63 @@
+"""What the uncertainty of a taxel adds to that of its contact, in numba; `acts_recon.uncertainty` has the formulae.
+
+Numba's caches of those who call it do not notice changes in this file: save them, too.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.array import COUNT_MAX
+
+
+@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+def force_of(value: float, force_n: NDArray[np.float64]) -> float:
+    """Force of a taxel of so many counts [N]; between two entries of the table it is interpolated."""
+    value = min(value, float(COUNT_MAX))
+    whole = int(value)
+    return force_n[whole] + (value - whole) * (force_n[whole + 1] - force_n[whole])
+
+
+@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+def taxel_variances(
+    value: float,
+    deviation: float,
+    pressed: bool,
+    least: float,
+    noise_counts: float,
+    together: float,
+    force_n: NDArray[np.float64],
+    slope_n: NDArray[np.float64],
+) -> tuple[float, float]:
+    """What a taxel adds to the variance of the force [N^2], and of the number of taxels.
+
+    Parameters
+    ----------
+    value, deviation : float
+        Counts, at least 0, and their standard deviation, above 0.
+    pressed : bool
+        Whether it counts in the contact.
+    least : float
+        Threshold that it is above, or not [counts].
+    noise_counts, together : float
+        Deviations beyond the first are of guesses; so many guesses err together.
+    force_n, slope_n : np.ndarray [shape=(1025,) and (1024,), dtype=float64]
+        The table of `acts_core.force.force_table` and its slope, see `acts_recon.uncertainty.slope_table`.
+    """
+    deviation = min(deviation, float(COUNT_MAX))
+    value = min(value, float(COUNT_MAX))
+    wrong = 0.5 * math.erfc(abs(value - least) / (math.sqrt(2.0) * deviation))
+    weight = force_of(value if pressed else least, force_n)
+    square = weight * weight * wrong
+    if pressed:
+        slope = slope_n[int(value)]
+        square += slope * slope * deviation * deviation
+    if deviation > noise_counts:
+        factor = together - (together - 1.0) * (noise_counts / deviation) ** 2
+        square *= factor
+        wrong *= factor
+    return square, wrong
