@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from acts_core.array import ArrayGeometry
 from acts_core.sampling import SamplingConfig
 from acts_recon.dictionary import Dictionary, load_dictionary
 from acts_recon.shipped import shipped_dictionary_path
@@ -173,6 +174,25 @@ def test_errors_are_counted_in_sigmas_touched_and_untouched_apart() -> None:
         "within_2": 0.75,
     }
     assert calibration.summary(np.zeros(calibration.SUMS)) is None
+
+
+def test_contacts_are_counted_in_standard_deviations() -> None:
+    geometry = ArrayGeometry()
+    known = calibration.Calibration(geometry, LIVE, 50.0)
+    truth, image = np.zeros((2, 32, 32), dtype=np.float32)
+    truth[10:14, 10:14] = 300
+    image[10:14, 11:15] = 300
+    result = calibration.summary(known.errors(image.ravel(), np.full(1024, 2, np.float32), truth.ravel()))
+    assert result is not None
+    assert list(result) == list(calibration.ROWS)
+    # Moved along the columns by a whole taxel, and else as it should be.
+    assert result["x"]["ratio"] > 10
+    assert result["x"]["within_2"] == 0
+    for name in ("y", "force", "area", "spread"):
+        assert result[name] == {"ratio": 0, "within_1": 1, "within_2": 1}
+    nothing = calibration.summary(known.errors(0 * image.ravel(), np.full(1024, 2, np.float32), truth.ravel()))
+    assert nothing is not None
+    assert nothing["x"] == {"ratio": None, "within_1": None, "within_2": None}
 
 
 def test_a_method_that_knows_no_sigma_has_no_calibration(dictionary: Dictionary) -> None:

@@ -2,15 +2,85 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numba
 import numpy as np
 from numpy.typing import NDArray
 
-TOUCHED, UNTOUCHED = range(2)
-SUMS = (2, 4)
-"""Shape of the sums: touched and untouched taxels; their number, squares of error over sigma, within 1 and 2 sigma."""
+from acts_core.array import ArrayGeometry
+from acts_core.force import ForceResponse
+from acts_recon.contact_finder import ContactFinder
+
+ROWS = ("touched", "untouched", "x", "y", "force", "area", "spread")
+"""Taxels that are touched and that are not; then numbers of the contact that all pressed taxels make."""
+
+SUMS = (len(ROWS), 4)
+"""Shape of the sums: how many there were, squares of error over sigma, how many within 1 and 2 sigma."""
+
+_TOUCHED, _UNTOUCHED = range(2)
+
+# Below it errors are those of the arithmetic [counts, m, N, m^2].
+_TINY = 1e-9
+
+
+class Calibration:
+    """Compares images with the truth, and what is computed of them.
+
+    Parameters
+    ----------
+    geometry : ArrayGeometry
+    live : np.ndarray [shape=(rows, cols), dtype=bool]
+        Only these taxels count.
+    touch_counts : float
+        A taxel above it is pressed.
+    """
+
+    def __init__(self, geometry: ArrayGeometry, live: NDArray[np.bool_], touch_counts: float) -> None:
+        self._live = live.ravel()
+        self._touch_counts = touch_counts
+        self._finder = ContactFinder(geometry, ForceResponse(), touch_counts)
+
+    def errors(
+        self, image: NDArray[np.float32], sigma: NDArray[np.float32], truth: NDArray[np.float32]
+    ) -> NDArray[np.float64]:
+        """Sums of one image, to be added up.
+
+        Parameters
+        ----------
+        image, sigma, truth : np.ndarray [shape=(taxels,), dtype=float32]
+            Estimate, its standard deviation and what really was there [counts].
+
+        Returns
+        -------
+        np.ndarray [shape=SUMS, dtype=float64]
+        """
+        sums = np.zeros(SUMS)
+        add_errors(image, sigma, truth, self._live, self._touch_counts, sums)
+        live_image, live_sigma, live_truth = (np.where(self._live, one, np.float32(0)) for one in (image, sigma, truth))
+        true, found = self._finder.find(live_truth), self._finder.find(live_image, live_sigma)
+        if true.in_contact and found.in_contact:
+            of_contact = (
+                (found.x_m - true.x_m, found.x_sd_m),
+                (found.y_m - true.y_m, found.y_sd_m),
+                (found.force_n - true.force_n, found.force_sd_n),
+                (found.area_m2 - true.area_m2, found.area_sd_m2),
+                (found.spread_m - true.spread_m, found.spread_sd_m),
+            )
+            for row, (error, deviation) in enumerate(of_contact, start=2):
+                _add(abs(error), deviation, sums[row])
+        return sums
+
+
+@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+def _add(error: float, deviation: float, sums: NDArray[np.float64]) -> None:
+    sums[0] += 1
+    # An error of next to 0 is 0 deviations, however small these are.
+    if error > _TINY:
+        sums[1] += (error / max(deviation, _TINY)) ** 2
+    sums[2] += error <= max(deviation, _TINY)
+    sums[3] += error <= max(2.0 * deviation, _TINY)
 
 
 @numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
@@ -39,23 +109,18 @@ def add_errors(
         if not live[t]:
             continue
         error = abs(np.float64(image[t]) - truth[t])
-        of = sums[TOUCHED if truth[t] > 0.5 * threshold else UNTOUCHED]
-        of[0] += 1
-        # An error of 0 is 0 sigmas, however small these are.
-        of[1] += (error / sigma[t]) ** 2 if error > 0.0 else 0.0
-        of[2] += error <= sigma[t]
-        of[3] += error <= 2.0 * sigma[t]
+        _add(error, np.float64(sigma[t]), sums[_TOUCHED if truth[t] > 0.5 * threshold else _UNTOUCHED])
 
 
 def summary(sums: NDArray[np.float64]) -> dict[str, Any] | None:
     """What the report says of the sums; None where nothing was added: the method gives no standard deviations."""
     if not sums[:, 0].any():
         return None
-    return {"touched": _of(sums[TOUCHED]), "untouched": _of(sums[UNTOUCHED])}
+    return {name: _of(row) for name, row in zip(ROWS, sums.tolist(), strict=True)}
 
 
-def _of(sums: NDArray[np.float64]) -> dict[str, float | None]:
-    taxels, squares, within_1, within_2 = sums.tolist()
-    if not taxels:
+def _of(sums: list[float]) -> dict[str, float | None]:
+    number, squares, within_1, within_2 = sums
+    if not number:
         return {"ratio": None, "within_1": None, "within_2": None}
-    return {"ratio": float(np.sqrt(squares / taxels)), "within_1": within_1 / taxels, "within_2": within_2 / taxels}
+    return {"ratio": math.sqrt(squares / number), "within_1": within_1 / number, "within_2": within_2 / number}

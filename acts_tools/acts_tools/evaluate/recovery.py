@@ -237,6 +237,8 @@ def _play(recording: Recording, task: Task, method: Method) -> Iterator[_Frame]:
     flat = frames.reshape(len(frames), -1)
     truth = np.zeros(flat.shape[1], dtype=np.float32)
     live = recording.live.ravel()
+    geometry = ArrayGeometry(rows=task.sampling.rows, cols=task.sampling.cols)
+    known = calibration.Calibration(geometry, live, float(task.touch_counts))
     scores = np.zeros(FRAME_SCORES)
     step = task.sample_us * 1e-6 * recording.rate_hz
     contact_since_s: float | None = None
@@ -252,7 +254,7 @@ def _play(recording: Recording, task: Task, method: Method) -> Iterator[_Frame]:
         in_contact = score_image(image.ravel(), truth, live, task.sampling.cols, touch, scores)
         errors = np.zeros(calibration.SUMS)
         if method.sigma is not None:
-            calibration.add_errors(image.ravel(), method.sigma.ravel(), truth, live, touch, errors)
+            errors = known.errors(image.ravel(), method.sigma.ravel(), truth)
         if not in_contact:
             contact_since_s = None
         elif contact_since_s is None:
