@@ -10,12 +10,12 @@ uncertainty. Six things make the difference (docs/recovery.md has the figures):
 - How hard is pressed goes with how deep: a small object pressed hard is no large one that has just touched.
 - A class explains the image by a mixture without negative parts of its own columns only: presses between the known.
 - What the last frames left unexplained counts on, fading.
-- Once the skin rests, nothing has to be guessed from few, old or shallow values: the paper's SRC on the whole image is
-  then the better judge of objects that are alike, and has its say.
+- Once the skin rests, nothing has to be guessed from few, old or shallow values: SRC on the whole image, among the
+  classes that the comparison ranks first (`acts_recon.image_src`), is then the better judge of objects that are alike,
+  and has its say.
 
 `classify_image` is the plain version, in double precision, of a single image; `ImageClassifier` runs
 `acts_recon.image_classification_kernels`, in single precision, and remembers.
-SRC on a whole image takes far longer than the comparison: `src_weight` 0 leaves it out.
 """
 
 from __future__ import annotations
@@ -33,7 +33,9 @@ from acts_core.force import ForceResponse, MeasuredForceResponse
 from acts_core.residuals import confidence_of
 from acts_core.settings import setting, validate
 from acts_recon import image_classification_kernels as kernels
-from acts_recon.classification import Classification, Classifier, ClassifierConfig, classify
+from acts_recon import image_src_kernels
+from acts_recon.classification import Classification
+from acts_recon.image_src import KNOWN_COUNTS, PROPOSED_CLASSES, PROPOSED_COLUMNS, explain_among, proposed_columns
 from acts_recon.object_library import ObjectLibrary
 from acts_recon.unrest import Unrest
 
@@ -45,12 +47,6 @@ REFINED_CLASSES = 5
 
 MIXED_COLUMNS = 6
 """Columns, of all depths, that a class mixes: those that alone explain most."""
-
-SRC_COLUMNS = 64
-"""Library columns that explain a resting image in SRC at most."""
-
-KNOWN_COUNTS = 200.0
-"""Standard deviation up to which a taxel is a sample for SRC, which knows no uncertainty."""
 
 _LEAST_WEIGHT = 0.01
 """Below it SRC is not asked: it would take time and change nothing."""
@@ -85,15 +81,21 @@ def less_deep(
 ) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.int64]]:
     """Every column of a library at all `LEVELS`.
 
+    Parameters
+    ----------
+    library : ObjectLibrary
+    response : ForceResponse or MeasuredForceResponse, optional
+        From counts to newtons and back.
+
     Returns
     -------
     patterns : np.ndarray [shape=(n_columns * n_levels, taxels), dtype=float32]
-        Each of norm 1.
+        Each of norm 1; 0 throughout where nothing is left of a faint press.
     norms_counts : np.ndarray [shape=(n_columns * n_levels,), dtype=float32]
-        Norm of each as it was pressed [counts].
+        Norm of each as it was pressed [counts]; 1 where nothing is left.
     classes : np.ndarray [shape=(n_columns * n_levels,), dtype=int64]
     """
-    response = response or ForceResponse()
+    response = ForceResponse() if response is None else response
     counts = (library.columns * library.norms_counts).T.astype(np.float64)
     forces_n = response.force_n(counts)
     # Level 0 is the frame as it was measured; above full scale there is no way from counts to force and back.
@@ -103,6 +105,7 @@ def less_deep(
         cut.append(np.where(less_n > 0, response.counts(less_n), 0.0))
     patterns = np.stack(cut, axis=1).reshape(-1, counts.shape[1])
     norms_counts = np.linalg.norm(patterns, axis=1)
+    norms_counts[norms_counts == 0] = 1.0
     return (
         (patterns / norms_counts[:, None]).astype(np.float32),
         norms_counts.astype(np.float32),
@@ -122,19 +125,6 @@ def against_force(force: float, config: ImageClassifierConfig) -> float:
     return (config.relative_error / config.force_error * math.log(force)) ** 2
 
 
-def src_config(config: ImageClassifierConfig) -> ClassifierConfig:
-    """How SRC is set up for resting images."""
-    return ClassifierConfig(touch_counts=config.touch_counts, max_columns=SRC_COLUMNS)
-
-
-def known_samples(
-    image: NDArray[np.floating], doubt: NDArray[np.floating]
-) -> tuple[NDArray[np.uint16], NDArray[np.uint16]]:
-    """Indices and counts of the taxels that are known well enough to be samples."""
-    indices = np.flatnonzero(doubt.ravel() <= KNOWN_COUNTS).astype(np.uint16)
-    return indices, np.clip(np.rint(image.ravel()[indices]), 0, COUNT_MAX).astype(np.uint16)
-
-
 def src_weight(rate_counts_per_s: float, config: ImageClassifierConfig) -> float:
     """Weight of SRC's residuals against those of the comparison of images, by the unrest of the skin."""
     return config.src_weight / (1 + (rate_counts_per_s / config.rest_counts_per_s) ** 2)
@@ -145,10 +135,11 @@ def classify_image(
     image: NDArray[np.floating],
     sigma: NDArray[np.floating],
     config: ImageClassifierConfig | None = None,
+    response: ForceResponse | MeasuredForceResponse | None = None,
 ) -> Classification:
     """Classify one image of a resting skin, plainly, without memory; see `ImageClassifier.step`."""
     config = config or ImageClassifierConfig()
-    patterns, norms_counts, classes = less_deep(library)
+    patterns, norms_counts, classes = less_deep(library, response)
     x = np.asarray(image, dtype=np.float64).ravel()
     x = np.where(x > config.touch_counts, x, 0.0)
     residuals = np.ones(library.n_classes)
@@ -175,29 +166,42 @@ def classify_image(
         if force > 0:
             left[number] = min(left[number], unexplained**2 + square * against_force(force, config))
     residuals = np.sqrt(np.maximum(left, 0) / square)
-    src = classify(library, *known_samples(x, spread), src_config(config))
-    weight = src_weight(0.0, config) if src.touched else 0.0
-    residuals = (residuals * src.residuals**weight) ** (1 / (1 + weight))
+    src = explain_among(library, proposed_columns(library, residuals, explained[:: len(LEVELS)]), x, spread)
+    if src is not None:
+        weight = src_weight(0.0, config)
+        residuals = (residuals * src**weight) ** (1 / (1 + weight))
     return Classification(True, int(np.argmin(residuals)), residuals, confidence_of(residuals))
 
 
 class ImageClassifier:
-    """Classifies image after image; everything is compiled before the first one.
+    """Classifies image after image without allocating; everything is compiled before the first one.
 
     Parameters
     ----------
     library : ObjectLibrary
         Best of frames whose counts above some 15 are kept: also faint parts tell objects apart.
     config : ImageClassifierConfig, optional
+    response : ForceResponse or MeasuredForceResponse, optional
+        From counts to newtons and back: how the library's objects look less deep.
     """
 
-    def __init__(self, library: ObjectLibrary, config: ImageClassifierConfig | None = None) -> None:
+    def __init__(
+        self,
+        library: ObjectLibrary,
+        config: ImageClassifierConfig | None = None,
+        response: ForceResponse | MeasuredForceResponse | None = None,
+    ) -> None:
         self.library = library
         self.config = config or ImageClassifierConfig()
-        self._model = kernels.Model(*less_deep(library), library.n_classes)
-        self._state = kernels.State(library.rows * library.cols, len(self._model.classes), library.n_classes)
+        taxels, n_classes = library.rows * library.cols, library.n_classes
+        model = kernels.Model(*less_deep(library, response), len(LEVELS), n_classes)
+        self._state = kernels.State(taxels, len(model.classes), n_classes)
+        self._model, self._buffers = model.arrays(), self._state.arrays()
         self._unrest = Unrest(library.rows, library.cols, self.config.touch_counts)
-        self._src = Classifier(library, src_config(self.config))
+        workspace = image_src_kernels.Workspace(taxels, n_classes, PROPOSED_CLASSES * PROPOSED_COLUMNS)
+        self._src_model, self._src_buffers = image_src_kernels.Model(library).arrays(), workspace.arrays()
+        self._src_residuals = workspace.residuals
+        self._explained = self._state.explained[:: len(LEVELS)]
         # Compile, or load from the cache, what the first image would otherwise wait seconds for.
         image = np.full((library.rows, library.cols), COUNT_MAX, dtype=np.float32)
         self.step(image, np.zeros_like(image), np.zeros_like(image), 0.001)
@@ -246,28 +250,38 @@ class ImageClassifier:
                     f"{name} {array.shape}, {array.dtype}: needed is a C-contiguous float32 array of "
                     f"{shape[0]} x {shape[1]}"
                 )
-        config, state = self.config, self._state
-        kept = math.exp(-period_s / config.memory_s) if config.memory_s > 0 else 0.0
-        doubt = np.hypot(sigma, self._unrest.step(image, age_s, period_s))
+        if not 0 <= period_s < math.inf:
+            raise ArrayError(f"period_s = {period_s}: needed is a finite time, not negative")
+        config, residuals = self.config, self._state.residuals
+        doubt = self._unrest.step(image, sigma, age_s, period_s).ravel()
         touched = kernels.class_residuals(
-            *self._model.arrays(),
+            *self._model,
             image.ravel(),
-            doubt.ravel(),
+            doubt,
             config.touch_counts,
             config.noise_counts,
             config.relative_error,
             config.relative_error / config.force_error,
-            kept,
+            math.exp(-period_s / config.memory_s) if config.memory_s > 0 else 0.0,
             REFINED_CLASSES,
             MIXED_COLUMNS,
-            *state.arrays(),
+            *self._buffers,
         )
         if not touched:
-            return Classification(False, 0, state.residuals, 0.0)
+            return Classification(False, 0, residuals, 0.0)
         weight = src_weight(self._unrest.rate_counts_per_s, config)
-        if weight >= _LEAST_WEIGHT:
-            # The weighted geometric mean: neither judge can outvote what the other excludes.
-            indices, counts = known_samples(image, doubt)
-            if indices.size and (src := self._src.step(indices, counts)).touched:
-                np.power(state.residuals * src.residuals**weight, 1 / (1 + weight), out=state.residuals)
-        return Classification(True, int(np.argmin(state.residuals)), state.residuals, confidence_of(state.residuals))
+        if weight >= _LEAST_WEIGHT and image_src_kernels.class_residuals(
+            *self._src_model,
+            image.ravel(),
+            doubt,
+            residuals,
+            self._explained,
+            config.touch_counts,
+            KNOWN_COUNTS,
+            PROPOSED_CLASSES,
+            PROPOSED_COLUMNS,
+            *self._src_buffers,
+        ):
+            kernels.weigh(residuals, self._src_residuals, weight)
+        best, confidence = kernels.decide(residuals)
+        return Classification(True, best, residuals, confidence)

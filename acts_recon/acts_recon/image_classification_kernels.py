@@ -72,8 +72,9 @@ def _mixture_explains(
 @numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
 def class_residuals(
     dense: NDArray[np.float32],
-    first: NDArray[np.int64],
+    column_first: NDArray[np.int64],
     taxel: NDArray[np.int32],
+    first: NDArray[np.int64],
     value: NDArray[np.float32],
     norms_counts: NDArray[np.float32],
     classes: NDArray[np.int64],
@@ -90,6 +91,8 @@ def class_residuals(
     mixing: int,
     weight: NDArray[np.float32],
     weighted: NDArray[np.float32],
+    near_weight: NDArray[np.float32],
+    near_weighted: NDArray[np.float32],
     dot: NDArray[np.float32],
     explained: NDArray[np.float32],
     best: NDArray[np.float32],
@@ -120,18 +123,27 @@ def class_residuals(
         best[number] = np.float32(0.0)
     if square <= 0:
         return False
-    for p in range(classes.shape[0]):
-        with_image = np.float32(0.0)
-        norm = np.float32(0.0)
-        for e in range(first[p], first[p + 1]):
-            with_image += value[e] * weighted[taxel[e]]
-            norm += value[e] * value[e] * weight[taxel[e]]
-        dot[p] = with_image
-        explained[p] = np.float32(0.0)
-        if with_image > 0 and norm > _TINY:
-            against = np.float32(force_weight * np.log(with_image / (norm * norms_counts[p]))) ** 2
-            explained[p] = max(with_image * with_image / norm - square * against, np.float32(0.0))
-        best[classes[p]] = max(best[classes[p]], explained[p])
+    n_columns = column_first.shape[0] - 1
+    levels = classes.shape[0] // n_columns
+    for column in range(n_columns):
+        # All levels of a column press the first so many of its taxels: gathered once, the sums run along memory.
+        begin = column_first[column]
+        for e in range(column_first[column + 1] - begin):
+            near_weight[e] = weight[taxel[begin + e]]
+            near_weighted[e] = weighted[taxel[begin + e]]
+        for p in range(column * levels, (column + 1) * levels):
+            with_image = np.float32(0.0)
+            norm = np.float32(0.0)
+            at = first[p]
+            for e in range(first[p + 1] - at):
+                with_image += value[at + e] * near_weighted[e]
+                norm += value[at + e] * value[at + e] * near_weight[e]
+            dot[p] = with_image
+            explained[p] = np.float32(0.0)
+            if with_image > 0 and norm > _TINY:
+                against = np.float32(force_weight * np.log(with_image / (norm * norms_counts[p]))) ** 2
+                explained[p] = max(with_image * with_image / norm - square * against, np.float32(0.0))
+            best[classes[p]] = max(best[classes[p]], explained[p])
     for number in range(n_classes):
         better = 0
         for other in range(n_classes):
@@ -162,15 +174,59 @@ def class_residuals(
     return True
 
 
+@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+def weigh(residuals: NDArray[np.float32], others: NDArray[np.float32], weight: float) -> None:
+    """Put the geometric mean of two judges' residuals, the other one's weighted, into `residuals`.
+
+    Of a geometric mean neither judge can outvote what the other excludes.
+    """
+    for number in range(residuals.shape[0]):
+        product = np.float64(residuals[number]) * np.float64(others[number]) ** weight
+        residuals[number] = np.float32(product ** (1.0 / (1.0 + weight)))
+
+
+@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+def decide(residuals: NDArray[np.float32]) -> tuple[int, float]:
+    """Class of the smallest residual, the first of equal ones, and `acts_core.residuals.confidence_of` all."""
+    best = 0
+    second = -1
+    for number in range(1, residuals.shape[0]):
+        if residuals[number] < residuals[best]:
+            second = best
+            best = number
+        elif second < 0 or residuals[number] < residuals[second]:
+            second = number
+    if second < 0 or residuals[second] <= 0:
+        return best, 0.0
+    return best, 1.0 - np.float64(residuals[best]) / np.float64(residuals[second])
+
+
+def by_class(classes: NDArray[np.int64], n_classes: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Sort what belongs to classes.
+
+    Returns
+    -------
+    first : np.ndarray [shape=(n_classes + 1,), dtype=int64]
+        Where each class begins in `members`, and its end.
+    members : np.ndarray [shape=(n,), dtype=int64]
+        Places in `classes`, class by class.
+    """
+    counts = np.bincount(classes, minlength=n_classes)
+    first = np.concatenate(([0], np.cumsum(counts))).astype(np.int64)
+    return first, np.argsort(classes, kind="stable").astype(np.int64)
+
+
 class Model:
     """A library's patterns as `class_residuals` reads them.
 
     Parameters
     ----------
-    patterns : np.ndarray [shape=(n_patterns, taxels), dtype=float32]
-    norms_counts : np.ndarray [shape=(n_patterns,), dtype=float32]
-    classes : np.ndarray [shape=(n_patterns,), dtype=int64]
-    n_classes : int
+    patterns : np.ndarray [shape=(n_columns * n_levels, taxels), dtype=float32]
+        All levels of a column follow one another. Of two taxels that one of them presses, the one pressed harder is
+        pressed at every level at which the other is.
+    norms_counts : np.ndarray [shape=(n_columns * n_levels,), dtype=float32]
+    classes : np.ndarray [shape=(n_columns * n_levels,), dtype=int64]
+    n_levels, n_classes : int
     """
 
     def __init__(
@@ -178,25 +234,36 @@ class Model:
         patterns: NDArray[np.float32],
         norms_counts: NDArray[np.float32],
         classes: NDArray[np.int64],
+        n_levels: int,
         n_classes: int,
     ) -> None:
-        pressed = patterns > 0
         self.dense = np.ascontiguousarray(patterns)
-        self.first = np.concatenate(([0], np.cumsum(pressed.sum(axis=1)))).astype(np.int64)
-        self.taxel = np.nonzero(pressed)[1].astype(np.int32)
-        self.value = np.ascontiguousarray(patterns[pressed])
+        column_first, first, taxel, value = [0], [0], [], []
+        for column in self.dense.reshape(-1, n_levels, self.dense.shape[1]):
+            # What is pressed at the deepest cut comes first.
+            order = np.argsort(-(column > 0).sum(axis=0), kind="stable")
+            for pattern in column[:, order]:
+                pressed = int(np.count_nonzero(pattern))
+                value.append(pattern[:pressed])
+                first.append(first[-1] + pressed)
+            most = int((column > 0).any(axis=0).sum())
+            taxel.append(order[:most])
+            column_first.append(column_first[-1] + most)
+        self.column_first = np.array(column_first, dtype=np.int64)
+        self.taxel = np.concatenate(taxel).astype(np.int32)
+        self.first = np.array(first, dtype=np.int64)
+        self.value = np.concatenate(value)
         self.norms_counts = norms_counts
         self.classes = classes
-        counts = np.bincount(classes, minlength=n_classes)
-        self.class_first = np.concatenate(([0], np.cumsum(counts))).astype(np.int64)
-        self.class_patterns = np.argsort(classes, kind="stable").astype(np.int64)
+        self.class_first, self.class_patterns = by_class(classes, n_classes)
 
     def arrays(self) -> tuple[NDArray, ...]:
         """The arrays in the order in which `class_residuals` takes them."""
         return (
             self.dense,
-            self.first,
+            self.column_first,
             self.taxel,
+            self.first,
             self.value,
             self.norms_counts,
             self.classes,
@@ -219,6 +286,8 @@ class State:
 
         self.weight = floats(n_taxels)
         self.weighted = floats(n_taxels)
+        self.near_weight = floats(n_taxels)
+        self.near_weighted = floats(n_taxels)
         self.dot = floats(n_patterns)
         self.explained = floats(n_patterns)
         self.best = floats(n_classes)
@@ -235,6 +304,8 @@ class State:
         return (
             self.weight,
             self.weighted,
+            self.near_weight,
+            self.near_weighted,
             self.dot,
             self.explained,
             self.best,

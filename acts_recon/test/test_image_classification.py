@@ -1,26 +1,24 @@
 """Classification of images: the plain version on images whose object is known, the kernel against the plain version."""
 
+import math
+import tracemalloc
 from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from numpy.typing import NDArray
 from recon_samples import bump
 
 from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError, SettingsError
 from acts_core.force import ForceResponse
-from acts_recon.classification import Classifier
-from acts_recon.image_classification import (
-    ImageClassifier,
-    ImageClassifierConfig,
-    classify_image,
-    known_samples,
-    less_deep,
-    src_config,
-)
+from acts_core.residuals import confidence_of
+from acts_recon.image_classification import LEVELS, ImageClassifier, ImageClassifierConfig, classify_image, less_deep
+from acts_recon.image_classification_kernels import decide
+from acts_recon.image_src import explain_among, proposed_columns
 from acts_recon.object_library import ObjectLibrary, build_object_library
-from acts_recon.unrest import Unrest
 
 Image = NDArray[np.float32]
 GEOMETRY = ArrayGeometry()
@@ -76,15 +74,17 @@ def test_what_is_uncertain_does_not_count(objects: ObjectLibrary) -> None:
     assert classify_image(objects, image, CERTAIN).residuals.min() > 0.3
 
 
-def test_kernel_equals_twin_on_random_images() -> None:
-    rng = np.random.default_rng(0)
+@pytest.mark.parametrize("unknown", [0.0, 0.3])
+@pytest.mark.parametrize("n_classes", [1, 3, 9, 20])
+def test_kernel_equals_twin_on_random_images(n_classes: int, unknown: float) -> None:
+    rng = np.random.default_rng(n_classes)
     frames = rng.integers(0, 1024, (60, 12, 11)) * (rng.random((60, 12, 11)) < 0.4)
-    library = build_object_library(frames, [f"object {i % 9}" for i in range(60)], touch_counts=15)
+    library = build_object_library(frames, [f"object {i % n_classes}" for i in range(60)], touch_counts=15)
     config = ImageClassifierConfig(memory_s=0.0)
     classifier = ImageClassifier(library, config)
-    for number in range(20):
+    for number in range(10):
         image = (frames[number] * rng.random() + 60 * rng.random((12, 11))).astype(np.float32)
-        sigma = (50 * rng.random((12, 11))).astype(np.float32)
+        sigma = (50 * rng.random((12, 11)) + 300 * (rng.random((12, 11)) < unknown)).astype(np.float32)
         expected = classify_image(library, image, sigma, config)
         classifier.reset()
         # Nothing was measured in this frame, so nothing is known to change.
@@ -92,6 +92,65 @@ def test_kernel_equals_twin_on_random_images() -> None:
         np.testing.assert_allclose(result.residuals, expected.residuals, atol=5e-3)
         assert result.best == expected.best or expected.confidence < 0.01
         assert result.confidence == pytest.approx(expected.confidence, abs=0.01)
+        assert result.confidence == pytest.approx(confidence_of(result.residuals), abs=1e-6)
+
+
+def test_the_response_of_the_skin_tells_how_objects_look_less_deep(objects: ObjectLibrary) -> None:
+    response = ForceResponse(full_scale_counts=1000.0, dead_n=0.02, half_n=1.0)
+    forces_n = response.force_n(objects.columns[:, 5] * objects.norms_counts[5])
+    light = response.counts(np.maximum(forces_n - 0.5 * forces_n.max(), 0)).reshape(32, 32).astype(np.float32)
+    config = ImageClassifierConfig(memory_s=0.0)
+    expected = classify_image(objects, light, CERTAIN, config, response)
+    result = ImageClassifier(objects, config, response).step(light, CERTAIN, np.full_like(light, 0.5), 0.001)
+    np.testing.assert_allclose(result.residuals, expected.residuals, atol=5e-3)
+    assert not np.allclose(result.residuals, classify_image(objects, light, CERTAIN, config).residuals, atol=5e-3)
+
+
+def test_faint_frames_of_which_nothing_is_left_less_deep_do_no_harm() -> None:
+    faint = [bump(GEOMETRY, 15, 10, width=2.0, peak=70), bump(GEOMETRY, 15, 20, width=2.0, peak=70)]
+    library = build_object_library(faint, ["left", "right"], touch_counts=15)
+    patterns, norms_counts, _ = less_deep(library)
+    assert np.isfinite(patterns).all()
+    assert (norms_counts > 0).all()
+    assert not patterns[len(LEVELS) - 1].any()
+    image = faint[1].astype(np.float32)
+    for result in (
+        classify_image(library, image, CERTAIN),
+        ImageClassifier(library).step(image, CERTAIN, np.full_like(image, 0.5), 0.001),
+    ):
+        assert library.names[result.best] == "right"
+        assert np.isfinite(result.residuals).all()
+
+
+def test_a_library_of_one_object_always_finds_it() -> None:
+    library = build_object_library([bump(GEOMETRY, 15, 16, width=4.0)], ["only"])
+    result = ImageClassifier(library).step(image_of(4.0), CERTAIN, np.full_like(CERTAIN, 0.5), 0.001)
+    assert (result.touched, result.best, result.confidence) == (True, 0, 0.0)
+    assert result.residuals[0] < 0.2
+
+
+def test_frames_are_classified_without_allocating(objects: ObjectLibrary) -> None:
+    classifier = ImageClassifier(objects)
+    image, old = image_of(3.0), np.full_like(CERTAIN, 0.5)
+    for _ in range(3):
+        classifier.step(image, CERTAIN, old, 0.001)
+    tracemalloc.start()
+    try:
+        for _ in range(50):
+            classifier.step(image, CERTAIN, old, 0.001)
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    # Views and numbers; a single copy of the image would be 4096 bytes.
+    assert peak < 3500
+
+
+@given(st.lists(st.floats(0, 2, width=32), min_size=1, max_size=40))
+def test_decision_and_confidence_are_those_of_the_residuals(values: list[float]) -> None:
+    residuals = np.array(values, dtype=np.float32)
+    best, confidence = decide(residuals)
+    assert best == np.argmin(residuals)
+    assert confidence == pytest.approx(confidence_of(residuals), abs=1e-6)
 
 
 def test_frames_before_count_on_and_fade(objects: ObjectLibrary) -> None:
@@ -113,24 +172,6 @@ def test_without_touch_there_is_no_object(objects: ObjectLibrary) -> None:
         assert np.array_equal(result.residuals, np.ones(3))
 
 
-def test_old_values_are_doubted_while_others_change() -> None:
-    unrest = Unrest(2, 2, touch_counts=15)
-    age_s = np.array([[0.0, 0.05], [0.05, np.inf]], dtype=np.float32)
-    quiet = unrest.step(np.zeros((2, 2), np.float32), age_s, 0.001)
-    assert not quiet.any()
-    image = np.array([[100, 0], [0, 0]], dtype=np.float32)
-    doubt = unrest.step(image, np.array([[0.0, 0.051], [0.051, np.inf]], np.float32), 0.001)
-    assert doubt[0, 0] == 0
-    # 100 counts in 1 ms, of which a frame takes over a part.
-    assert doubt[0, 1] == pytest.approx(0.4 * 100 / 0.001 * 0.051, rel=1e-3)
-    assert doubt[1, 1] > 10 * doubt[0, 1]
-    for _ in range(30):
-        doubt = unrest.step(image, age_s, 0.001)
-    assert doubt.max() < 1
-    unrest.reset()
-    assert unrest.rate_counts_per_s == 0
-
-
 def test_impossible_images_are_refused(objects: ObjectLibrary) -> None:
     classifier = ImageClassifier(objects)
     cases: tuple[tuple[NDArray[Any], NDArray[Any], str], ...] = (
@@ -141,6 +182,17 @@ def test_impossible_images_are_refused(objects: ObjectLibrary) -> None:
     for image, sigma, word in cases:
         with pytest.raises(ArrayError, match=word):
             classifier.step(image, sigma, CERTAIN, 0.001)
+    for field, word in ((0, np.nan), (0, np.inf), (1, np.nan), (1, -1.0), (2, np.nan), (2, -1.0)):
+        fields = [image_of(3.0), CERTAIN.copy(), CERTAIN.copy()]
+        fields[field][3, 4] = word
+        with pytest.raises(ArrayError, match="NaN, infinite counts, or negative sigma or age_s"):
+            classifier.step(fields[0], fields[1], fields[2], 0.001)
+    for period_s in (-0.001, math.nan, math.inf):
+        with pytest.raises(ArrayError, match="needed is a finite time"):
+            classifier.step(CERTAIN, CERTAIN, CERTAIN, period_s)
+    # None of them left a trace.
+    fresh = ImageClassifier(objects).step(image_of(3.0), CERTAIN, CERTAIN, 0.001)
+    np.testing.assert_array_equal(classifier.step(image_of(3.0), CERTAIN, CERTAIN, 0.001).residuals, fresh.residuals)
     with pytest.raises(SettingsError, match="memory_s = -1"):
         ImageClassifierConfig(memory_s=-1.0)
 
@@ -158,13 +210,8 @@ def test_src_has_its_say_once_the_skin_rests(objects: ObjectLibrary) -> None:
     for _ in range(40):
         resting = classifier.step(image, CERTAIN, old, 0.001).residuals
         alone = plain.step(image, CERTAIN, old, 0.001).residuals
-    src = Classifier(objects, src_config(config)).step(*known_samples(image, CERTAIN)).residuals
+    flat = image.ravel()
+    proposed = proposed_columns(objects, alone, np.ones(objects.n_columns))
+    src = explain_among(objects, proposed, np.where(flat > config.touch_counts, flat, 0), CERTAIN.ravel())
+    assert src is not None
     np.testing.assert_allclose(resting, (alone * src**2) ** (1 / 3), rtol=1e-3)
-
-
-def test_src_gets_only_what_is_known() -> None:
-    image = np.array([[10.4, 2000.0], [-3.0, 500.0]], dtype=np.float32)
-    indices, counts = known_samples(image, np.array([[0.0, 49.0], [1.0, np.inf]]))
-    assert indices.tolist() == [0, 1, 2]
-    assert counts.tolist() == [10, 1023, 0]
-    assert indices.dtype == counts.dtype == np.uint16
