@@ -9,6 +9,8 @@ from acts_core.errors import ArrayError
 from acts_recon.patches import patch_starts
 
 _CHUNK = 1024
+_PLACES = 65536
+"""Places looked at at a time."""
 
 
 def random_patches(
@@ -48,12 +50,19 @@ def random_patches(
         raise ArrayError(f"frames of shape {frames.shape}: needed are (n, rows, cols) with at least one frame")
     patch_starts(min(frames.shape[1:]), size, 1)  # raises where a patch does not fit
     n, rows, cols = frames.shape
-    kept = np.where(frames > touch_counts, frames, 0).astype(np.float32)
     frame = rng.integers(n, size=n_patches)[:, None, None]
-    row = rng.integers(rows - size + 1, size=n_patches)[:, None, None] + np.arange(size)[None, None, :]
-    col = rng.integers(cols - size + 1, size=n_patches)[:, None, None] + np.arange(size)[None, :, None]
-    patches = kept[frame, row, col].reshape(n_patches, size * size)
-    return patches[np.count_nonzero(patches, axis=1) >= min_active]
+    row = rng.integers(rows - size + 1, size=n_patches)[:, None, None]
+    col = rng.integers(cols - size + 1, size=n_patches)[:, None, None]
+    # Column first.
+    down, right = np.arange(size)[None, None, :], np.arange(size)[None, :, None]
+    kept = []
+    # In pieces: most places are untouched and left out, and all of them at once may be more than memory holds.
+    for begin in range(0, n_patches, _PLACES):
+        piece = slice(begin, begin + _PLACES)
+        patches = frames[frame[piece], row[piece] + down, col[piece] + right].reshape(-1, size * size)
+        patches = np.where(patches > touch_counts, patches, 0).astype(np.float32)
+        kept.append(patches[np.count_nonzero(patches, axis=1) >= min_active])
+    return np.concatenate(kept)
 
 
 def prune_coherent(patches: NDArray[np.float32], limit: float) -> NDArray[np.bool_]:

@@ -3,6 +3,7 @@ import pytest
 from numpy.typing import NDArray
 
 from acts_core.errors import ArrayError, SettingsError
+from acts_recon import training_patches
 from acts_recon.ksvd import KsvdConfig, KsvdProgress, KsvdState, learn_dictionary
 from acts_recon.ksvd_kernels import code_patches
 from acts_recon.training_patches import prune_coherent, random_patches
@@ -127,6 +128,15 @@ def test_patches_are_cut_column_first_and_pressed_enough() -> None:
         random_patches(frames[:, :5], 3, rng=rng)
     with pytest.raises(ArrayError, match="frames of shape"):
         random_patches(frames[0], 3, rng=rng)
+
+
+def test_patches_are_the_same_in_pieces_of_any_size(monkeypatch: pytest.MonkeyPatch) -> None:
+    frames = np.random.default_rng(0).integers(0, 1024, (5, 12, 10)).astype(np.uint16)
+    frames[frames < 700] = 0
+    whole = random_patches(frames, 50, min_active=20, rng=np.random.default_rng(1))
+    assert 0 < len(whole) < 50
+    monkeypatch.setattr(training_patches, "_PLACES", 7)
+    np.testing.assert_array_equal(random_patches(frames, 50, min_active=20, rng=np.random.default_rng(1)), whole)
 
 
 def test_no_two_kept_patches_look_alike() -> None:

@@ -15,6 +15,7 @@ from acts_recon.image_classification import ImageClassifierConfig
 from acts_recon.object_library import build_object_library, save_object_library
 from acts_sim.objects import OBJECTS, object_named
 from acts_sim.pressing_arm import PressingArm
+from acts_tools.output_file import require_writable
 
 
 def add_parser(subparsers: Any) -> None:
@@ -52,6 +53,7 @@ def run(arguments: argparse.Namespace) -> int:
     ActsError
         When the frames cannot be read, have no labels, or the file cannot be written.
     """
+    require_writable(arguments.output)
     if arguments.frames is None:
         objects = [object_named(name) for name in arguments.objects] if arguments.objects else list(OBJECTS.values())
         frames, labels = PressingArm(objects, seed=arguments.seed).held_frames(arguments.presses)

@@ -12,13 +12,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_core.errors import RecordingError, SettingsError
+from acts_core.errors import SettingsError
 from acts_core.settings import default_of
 from acts_recon.dictionary import Dictionary, save_dictionary
 from acts_recon.ksvd import KsvdConfig, KsvdProgress, learn_dictionary
 from acts_recon.training_patches import prune_coherent, random_patches
 from acts_sim.contact_model import FoamConfig
 from acts_sim.objects import OBJECTS, object_named
+from acts_tools.output_file import require_writable
 from acts_tools.training.checkpoint import Checkpoint
 from acts_tools.training.frames import Source, model_frames, recorded_frames
 from acts_tools.training.progress import ProgressBar
@@ -194,5 +195,4 @@ def _check(arguments: argparse.Namespace) -> None:
         raise SettingsError("--objects names objects of the contact model and does not go with --frames; leave one out")
     if arguments.frames is None and arguments.topic:
         raise SettingsError(f"--topic {arguments.topic}: a topic of the bags of --frames, which were not given")
-    if not arguments.output.parent.is_dir():
-        raise RecordingError(f"{arguments.output}: the folder {arguments.output.parent} does not exist; make it first")
+    require_writable(arguments.output)

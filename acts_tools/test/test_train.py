@@ -68,6 +68,8 @@ def test_wrong_arguments_are_refused(words: list[object], error: type[ActsError]
     assert not (tmp_path / "d.npz").exists()
 
 
-def test_a_folder_that_does_not_exist_is_told_before_the_work(tmp_path: Path) -> None:
-    with pytest.raises(RecordingError, match="does not exist; make it first"):
-        run("-o", tmp_path / "no" / "d.npz")
+def test_what_cannot_be_written_is_told_before_the_work(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for path in (tmp_path / "no" / "d.npz", tmp_path):
+        with pytest.raises(RecordingError, match=f"{path}: cannot be written"):
+            run("-o", path)
+    assert capsys.readouterr().out == ""

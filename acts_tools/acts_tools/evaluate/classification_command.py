@@ -14,6 +14,7 @@ from acts_tools.evaluate import options, report
 from acts_tools.evaluate.classification import M_OVER_TIME, MS, Trials, run_trials
 from acts_tools.evaluate.classification_recorded import run_recorded
 from acts_tools.evaluate.classification_report import draw, table
+from acts_tools.output_file import require_writable
 
 
 def add_parser(commands: Any) -> None:
@@ -66,8 +67,8 @@ def add_parser(commands: Any) -> None:
 
 
 def _run(arguments: argparse.Namespace) -> int:
-    report.require_writable(arguments.json)
-    report.require_writable(arguments.picture)
+    require_writable(arguments.json)
+    require_writable(arguments.picture)
     if arguments.frames:
         results = run_recorded(load_frames(arguments.frames, labels=True), arguments.m or [55])
         print(

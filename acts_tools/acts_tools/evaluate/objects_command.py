@@ -16,6 +16,7 @@ from acts_tools.evaluate import options, report
 from acts_tools.evaluate.methods import METHODS
 from acts_tools.evaluate.progress import evaluate_all
 from acts_tools.evaluate.recovery import Recording
+from acts_tools.output_file import require_writable
 
 _M = (42, 56, 64, 88, 128, 176, 256, 352, 512)
 _PER_FRAME = ("adaptive", "uniform", "random")
@@ -46,7 +47,7 @@ def _run(arguments: argparse.Namespace) -> int:
     pairs.append((arguments.ours, "tracking"))
     tasks = [options.task(arguments, scheme, m, method) for m in arguments.m for method, scheme in pairs]
     results = report.Results(arguments.json, options.as_report(arguments))
-    report.require_writable(arguments.picture)
+    require_writable(arguments.picture)
     dictionary = options.dictionary(arguments)
     items = [object_named(name) for name in arguments.objects]
     # Noise is added by the sampling.

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from acts_core.errors import RecordingError
+from acts_tools.output_file import require_writable
 
 HEADER = (
     f"{'scheme':9} {'M':>4} {'method':6} {'frames':>7} {'rel.err':>8} {'support':>8} {'CoP mean':>9} {'p95':>7} "
@@ -35,25 +36,6 @@ def line(result: dict[str, Any]) -> str:
 def number(value: float | None, width: int, digits: int) -> str:
     """A number of a table, a dash for None."""
     return f"{'-':>{width}}" if value is None else f"{value:{width}.{digits}f}"
-
-
-def require_writable(path: Path | None) -> None:
-    """Tell before the work that its results cannot be written; nothing is told for None.
-
-    Raises
-    ------
-    RecordingError
-        When `path` cannot be written.
-    """
-    if path is None:
-        return
-    is_new = not path.exists()
-    try:
-        path.open("ab").close()
-        if is_new:
-            path.unlink()
-    except OSError as error:
-        raise RecordingError(f"{path}: cannot be written ({error.strerror}); its folder must exist") from error
 
 
 def write_json(path: Path | None, report: dict[str, Any]) -> None:

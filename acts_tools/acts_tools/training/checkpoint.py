@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -58,6 +59,9 @@ class Checkpoint:
             },
         )
         try:
+            # On the disk before it takes the old one's place: else the power might take both.
+            with fresh.open("rb") as file:
+                os.fsync(file.fileno())
             fresh.replace(self.path)
         except OSError as error:
             raise RecordingError(f"{self.path}: cannot be written ({error.strerror})") from error

@@ -71,7 +71,7 @@ def recorded_frames(paths: Sequence[Path], topic: str = "") -> Source:
             )
         parts.append(frames)
         descriptions.append(f"{description} (sha256 {_digest(path)})")
-    return Source(np.concatenate(parts), ", ".join(descriptions))
+    return Source(parts[0] if len(parts) == 1 else np.concatenate(parts), ", ".join(descriptions))
 
 
 def model_frames(

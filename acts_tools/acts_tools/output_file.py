@@ -1,0 +1,30 @@
+"""Where results are to be written."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from acts_core.errors import RecordingError
+
+
+def require_writable(path: Path | None) -> None:
+    """Tell before the work that its results cannot be written; nothing is told for None.
+
+    A file that is there stays as it is.
+
+    Raises
+    ------
+    RecordingError
+        When `path` cannot be written.
+    """
+    if path is None:
+        return
+    is_new = not path.exists()
+    try:
+        path.open("ab").close()
+        if is_new:
+            path.unlink()
+    except OSError as error:
+        raise RecordingError(
+            f"{path}: cannot be written ({error.strerror}); needed is a file's name in a folder that exists"
+        ) from error
