@@ -63,7 +63,7 @@ def explain(path: str, number: int | None, reason: str, lister: Lister = list_po
         Lists the ports that are present.
     """
     if number in (errno.ENOENT, errno.ENODEV, errno.ENXIO, errno.EIO):
-        return f"port {_shown(path)} is not there; plug the board in or set the parameter port. {ports_present(lister)}"
+        return f"port {_shown(path)} is not there; plug the board in or name another port. {ports_present(lister)}"
     if number in (errno.EBUSY, errno.EAGAIN):
         held_by = holders(path)
         who = f"by {', '.join(held_by)}" if held_by else f"by another program (`lsof {path}` tells which)"

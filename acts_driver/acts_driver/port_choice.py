@@ -64,7 +64,7 @@ def resolve(port: str, lister: Lister = list_ports.comports) -> str:
         found = [one for one in present if one.serial_number == number]
     if not found:
         raise PortError(
-            f"port {port}: {wanted} plugged in; plug it in, wait until it has started, or set the parameter port. "
+            f"port {port}: {wanted} plugged in; plug it in, wait until it has started, or name another port. "
             f"{ports_present(lambda: present)}"
         )
     if len(found) > 1:
@@ -72,7 +72,7 @@ def resolve(port: str, lister: Lister = list_ports.comports) -> str:
             f"{SERIAL_PREFIX}{one.serial_number}" if port == AUTO and one.serial_number else one.device for one in found
         )
         raise PortError(
-            f"port {port}: {len(found)} boards fit: {', '.join(map(shown, found))}; set the parameter port to one of "
+            f"port {port}: {len(found)} boards fit: {', '.join(map(shown, found))}; name one of them as the port: "
             f"{choices}"
         )
     return str(found[0].device)

@@ -61,15 +61,15 @@ def test_several_boards_are_listed_and_none_is_taken() -> None:
     message = str(caught.value)
     for words in ("2 boards fit", "/dev/ttyACM0 (USB Serial, USB 16C0:0483, serial number 111)", "serial number 222"):
         assert words in message
-    assert "set the parameter port to one of serial:111, serial:222" in message
+    assert "name one of them as the port: serial:111, serial:222" in message
     assert "333" not in message
 
 
 def test_boards_without_distinct_numbers_are_told_apart_by_path() -> None:
     twins = listing(usb_port("/dev/ttyACM0", "7"), usb_port("/dev/ttyACM1", "7"))
-    with pytest.raises(PortError, match=r"one of /dev/ttyACM0, /dev/ttyACM1"):
+    with pytest.raises(PortError, match=r"as the port: /dev/ttyACM0, /dev/ttyACM1"):
         resolve("serial:7", twins)
-    with pytest.raises(PortError, match=r"one of /dev/ttyACM0, /dev/ttyACM1"):
+    with pytest.raises(PortError, match=r"as the port: /dev/ttyACM0, /dev/ttyACM1"):
         resolve("auto", listing(usb_port("/dev/ttyACM0", None), usb_port("/dev/ttyACM1", None)))
 
 
