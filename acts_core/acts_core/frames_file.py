@@ -42,8 +42,8 @@ class FramesFile:
     label: tuple[str, ...] = ()
 
     def peak_frames(self) -> NDArray[np.uint16]:
-        """The frame with the largest sum of each recording; np.ndarray [shape=(n_recordings, rows, cols)]."""
-        sums = self.frames.reshape(len(self.frames), -1).sum(axis=1, dtype=np.int64)
+        """Of each recording the frame with most counts on live taxels; np.ndarray [shape=(n, rows, cols)]."""
+        sums = np.einsum("nrc,rc->n", self.frames, self.live, dtype=np.int64, casting="unsafe")
         peaks = [s + int(np.argmax(sums[s : s + n])) for s, n in zip(self.start, self.length, strict=True)]
         return self.frames[peaks]
 

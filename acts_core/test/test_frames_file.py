@@ -37,6 +37,14 @@ def test_what_a_file_does_not_say(tmp_path: Path) -> None:
 def test_the_strongest_frame_of_each_recording(tmp_path: Path) -> None:
     file = loaded(tmp_path, start=[0, 3], length=[3, 3])
     assert file.peak_frames().tolist() == FRAMES[[1, 4]].tolist()
+    # A value where no taxel is does not count, and sums do not overflow.
+    frames = np.full((3, 64, 64), 1023, dtype=np.uint16)
+    frames[0, 1, 1] -= 1
+    frames[2, 1, 1] -= 2
+    frames[:, 0, 0] = [0, 0, 1000]
+    live = np.ones((64, 64), dtype=bool)
+    live[0, 0] = False
+    assert loaded(tmp_path, frames=frames, live=live).peak_frames().tolist() == frames[[1]].tolist()
 
 
 @pytest.mark.parametrize("kind", ["u1", "i1", "u2", ">u2", "i4", "u8", "f2", "f4", "f8"])

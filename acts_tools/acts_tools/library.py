@@ -7,8 +7,6 @@ import hashlib
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from acts_core.errors import RecordingError
 from acts_core.frames_file import load_frames
 from acts_recon.image_classification import ImageClassifierConfig
@@ -69,7 +67,7 @@ def run(arguments: argparse.Namespace) -> int:
                 f"{', '.join(sorted(set(recorded.label)))}"
             )
         chosen = [n for n, label in enumerate(recorded.label) if not arguments.objects or label in arguments.objects]
-        frames = np.stack([recorded.peak_frames()[n] for n in chosen])
+        frames = recorded.peak_frames()[chosen]
         labels = [recorded.label[n] for n in chosen]
         digest = hashlib.sha256(arguments.frames.read_bytes()).hexdigest()
         source = f"{len(labels)} recordings of {arguments.frames.name} (sha256 {digest})"

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from acts_core.errors import ActsError, RecordingError
+from acts_core.errors import ActsError, RecordingError, SettingsError
 from acts_recon.object_library import load_object_library
 from acts_sim.objects import object_named
 from acts_sim.pressing_arm import PressingArm
@@ -118,8 +118,9 @@ def test_what_cannot_be_is_refused(grasps: Path, tmp_path: Path) -> None:
         (
             lambda: evaluate("--frames", grasps, "--json", tmp_path / "no" / "c.json"),
             RecordingError,
-            "its folder must exist",
+            "in a folder that exists",
         ),
+        (lambda: evaluate("--frames", grasps, "--picture", tmp_path / "c.png"), SettingsError, "does not go with"),
     ]
     for call, error, word in cases:
         with pytest.raises(error, match=word):

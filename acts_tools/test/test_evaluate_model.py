@@ -36,5 +36,8 @@ def test_objects_give_curves_and_a_picture(tmp_path: Path, capsys: pytest.Captur
     table = capsys.readouterr().out.splitlines()[-9:]
     assert table[0] == "| support accuracy at M = | 256 | 512 |"
     assert table[-1].startswith("| last, tracking | ")
+    # Nothing is left beyond such an onset.
+    assert main(["evaluate", "objects", *words[:5], "--onset-s", "5", "--picture", str(picture)]) == 0
+    assert capsys.readouterr().out.splitlines()[-1] == "| acts, tracking | - |"
     assert main(["evaluate", "objects", "--objects", "no such thing"]) == 1
     assert main(["evaluate", "objects", *words, "--picture", str(tmp_path / "no" / "a.png")]) == 1

@@ -6,6 +6,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
+from acts_core.errors import SettingsError
 from acts_core.frames_file import load_frames
 from acts_core.settings import default_of
 from acts_sim.objects import OBJECTS, object_named
@@ -70,6 +71,8 @@ def _run(arguments: argparse.Namespace) -> int:
     require_writable(arguments.json)
     require_writable(arguments.picture)
     if arguments.frames:
+        if arguments.picture:
+            raise SettingsError(f"--picture {arguments.picture}: shows simulated presses and does not go with --frames")
         results = run_recorded(load_frames(arguments.frames, labels=True), arguments.m or [55])
         print(
             f"{results['library']} recordings in the library, {results['presses']} classified, "

@@ -69,14 +69,14 @@ def _run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _print_curves(ms: list[int], curves: dict[str, list[float]]) -> None:
+def _print_curves(ms: list[int], curves: dict[str, list[float | None]]) -> None:
     print("\n| support accuracy at M = | " + " | ".join(map(str, ms)) + " |")
     print("|---" * (len(ms) + 1) + "|")
     for name, values in curves.items():
-        print(f"| {name} | " + " | ".join(f"{value:.4f}" for value in values) + " |")
+        print(f"| {name} | " + " | ".join(report.number(value, 6, 4).strip() for value in values) + " |")
 
 
-def _draw(path: Path, ms: list[int], curves: dict[str, list[float]]) -> None:
+def _draw(path: Path, ms: list[int], curves: dict[str, list[float | None]]) -> None:
     # Imported here: it takes long, and only this needs it.
     import matplotlib
 
