@@ -173,9 +173,7 @@ def test_a_busy_port_names_its_holder(board: PtyBoard) -> None:
 
 
 def test_a_missing_port_lists_those_present() -> None:
-    with pytest.raises(
-        PortError, match=r"/dev/ttyNONE is not there.*another port\. (Ports present:|No serial ports)"
-    ):
+    with pytest.raises(PortError, match=r"/dev/ttyNONE is not there.*another port\. (Ports present:|No serial ports)"):
         open_port("/dev/ttyNONE", 115200)
 
 
