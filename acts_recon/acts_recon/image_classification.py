@@ -202,6 +202,7 @@ class ImageClassifier:
         self._src_model, self._src_buffers = image_src_kernels.Model(library).arrays(), workspace.arrays()
         self._src_residuals = workspace.residuals
         self._explained = self._state.explained[:: len(LEVELS)]
+        self._unheard_s = 0.0
         # Compile, or load from the cache, what the first image would otherwise wait seconds for.
         image = np.full((library.rows, library.cols), COUNT_MAX, dtype=np.float32)
         self.step(image, np.zeros_like(image), np.zeros_like(image), 0.001)
@@ -210,8 +211,22 @@ class ImageClassifier:
     def reset(self) -> None:
         """Forget all frames."""
         self._unrest.reset()
+        self._unheard_s = 0.0
         self._state.left.fill(0)
         self._state.energy.fill(0)
+
+    def take(
+        self,
+        image: NDArray[np.float32],
+        sigma: NDArray[np.float32],
+        age_s: NDArray[np.float32],
+        period_s: float,
+    ) -> None:
+        """Take the next image without classifying it: only what it says of how fast the skin changes counts.
+
+        Parameters and errors are those of `step`.
+        """
+        self._doubt(image, sigma, age_s, period_s)
 
     def step(
         self,
@@ -243,17 +258,10 @@ class ImageClassifier:
         ArrayError
             When the image does not fit the library.
         """
-        shape = (self.library.rows, self.library.cols)
-        for name, array in (("image", image), ("sigma", sigma), ("age_s", age_s)):
-            if array.shape != shape or array.dtype != np.float32 or not array.flags.c_contiguous:
-                raise ArrayError(
-                    f"{name} {array.shape}, {array.dtype}: needed is a C-contiguous float32 array of "
-                    f"{shape[0]} x {shape[1]}"
-                )
-        if not 0 <= period_s < math.inf:
-            raise ArrayError(f"period_s = {period_s}: needed is a finite time, not negative")
         config, residuals = self.config, self._state.residuals
-        doubt = self._unrest.step(image, sigma, age_s, period_s).ravel()
+        doubt = self._doubt(image, sigma, age_s, period_s)
+        # What earlier images said fades over the images that were only taken, too.
+        unheard_s, self._unheard_s = self._unheard_s, 0.0
         touched = kernels.class_residuals(
             *self._model,
             image.ravel(),
@@ -262,7 +270,7 @@ class ImageClassifier:
             config.noise_counts,
             config.relative_error,
             config.relative_error / config.force_error,
-            math.exp(-period_s / config.memory_s) if config.memory_s > 0 else 0.0,
+            math.exp(-unheard_s / config.memory_s) if config.memory_s > 0 else 0.0,
             REFINED_CLASSES,
             MIXED_COLUMNS,
             *self._buffers,
@@ -285,3 +293,20 @@ class ImageClassifier:
             kernels.weigh(residuals, self._src_residuals, weight)
         best, confidence = kernels.decide(residuals)
         return Classification(True, best, residuals, confidence)
+
+    def _doubt(
+        self, image: NDArray[np.float32], sigma: NDArray[np.float32], age_s: NDArray[np.float32], period_s: float
+    ) -> NDArray[np.float32]:
+        """How far each taxel may be off by now [counts], flat; checks the image."""
+        shape = (self.library.rows, self.library.cols)
+        for name, array in (("image", image), ("sigma", sigma), ("age_s", age_s)):
+            if array.shape != shape or array.dtype != np.float32 or not array.flags.c_contiguous:
+                raise ArrayError(
+                    f"{name} {array.shape}, {array.dtype}: needed is a C-contiguous float32 array of "
+                    f"{shape[0]} x {shape[1]}"
+                )
+        if not 0 <= period_s < math.inf:
+            raise ArrayError(f"period_s = {period_s}: needed is a finite time, not negative")
+        doubt = self._unrest.step(image, sigma, age_s, period_s).ravel()
+        self._unheard_s += period_s
+        return doubt

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from rclpy.node import Node
 
 from acts_msgs.msg import ObjectClass, TactileSamples
-from acts_recon.classification import Classifier
+from acts_recon.object_recognition import ObjectRecogniser
 from acts_recon.rate_limit import RateLimit
 from acts_ros import qos
 
@@ -21,13 +21,13 @@ class ObjectPublisher:
     Parameters
     ----------
     node : Node
-    classifier : Classifier
+    recogniser : ObjectRecogniser
     rate_hz : float
         Largest rate; 0: every frame.
     """
 
-    def __init__(self, node: Node, classifier: Classifier, rate_hz: float) -> None:
-        self._classifier = classifier
+    def __init__(self, node: Node, recogniser: ObjectRecogniser, rate_hz: float) -> None:
+        self._recogniser = recogniser
         self._limit = RateLimit(rate_hz)
         self._publisher = node.create_publisher(ObjectClass, "object", **qos.overridable(qos.STREAM))
         self._message = ObjectClass()
@@ -37,16 +37,30 @@ class ObjectPublisher:
         """To be called now and then: whether somebody listens."""
         self._send = self._publisher.get_subscription_count() > 0
 
-    def publish(self, samples: TactileSamples, indices: NDArray[np.uint16], counts: NDArray[np.uint16]) -> None:
-        """Classify a frame that has been found to fit the array, and publish what it shows."""
-        if not self._send or not self._limit.due(time.monotonic()):
+    def reset(self) -> None:
+        """The board began anew: what it showed before counts no more."""
+        self._recogniser.reset()
+
+    def publish(
+        self,
+        samples: TactileSamples,
+        indices: NDArray[np.uint16],
+        counts: NDArray[np.uint16],
+        end_s: float,
+        duration_s: float,
+    ) -> None:
+        """Classify a frame that has been recovered, and publish what it shows."""
+        if not self._send:
             return
-        result = self._classifier.step(indices, counts)
+        if not self._limit.due(time.monotonic()):
+            self._recogniser.take(indices, counts, end_s, duration_s)
+            return
+        result = self._recogniser.step(indices, counts, end_s, duration_s)
         message = self._message
         message.header = samples.header
         message.sequence = samples.sequence
         message.class_number = result.best if result.touched else ObjectClass.NO_OBJECT
-        message.name = self._classifier.library.names[result.best] if result.touched else ""
+        message.name = self._recogniser.library.names[result.best] if result.touched else ""
         message.confidence = result.confidence
         message.residuals = array("f", result.residuals.astype(np.float32).tobytes())
         self._publisher.publish(message)

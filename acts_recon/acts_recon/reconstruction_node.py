@@ -41,7 +41,8 @@ class ReconstructionNode(Node):
 
     Subscribes ``samples`` (acts_msgs/TactileSamples). Publishes for every frame ``contact`` (acts_msgs/Contact), while
     in contact ``cop`` (geometry_msgs/PointStamped), and where somebody listens ``image_raw`` (sensor_msgs/Image,
-    mono16, counts), ``confidence`` (mono8, with the method ``fusion``) and ``image`` (rgb8, for viewers).
+    mono16, counts), ``confidence`` (mono8, with the method ``fusion``), ``image`` (rgb8, for viewers), ``contacts``
+    and, with an object library, ``object`` (acts_msgs/ObjectClass).
     """
 
     def __init__(self, *, cli_args: Sequence[str] | None = None, **options: object) -> None:
@@ -64,10 +65,10 @@ class ReconstructionNode(Node):
         scale = self._settings.image_scale
         self._view = _empty_image(rows * scale, cols * scale, "rgb8", 3)
         self._view_limit = RateLimit(self._settings.image_rate_hz)
-        classifier = self._settings.classifier()
+        recogniser = self._settings.recogniser(self._recovery)
         self._objects: ObjectPublisher | None = None
-        if classifier is not None:
-            self._objects = ObjectPublisher(self, classifier, self._settings.object_rate_hz)
+        if recogniser is not None:
+            self._objects = ObjectPublisher(self, recogniser, self._settings.object_rate_hz)
         self._contacts = ContactsPublisher(
             self, self._recovery.geometry, self._recovery.response, self._settings.blob_config()
         )
@@ -111,25 +112,28 @@ class ReconstructionNode(Node):
         indices = _as_numpy(samples.indices)
         if self._began_anew(samples.sequence):
             self._recovery.reset()
+            if self._objects is not None:
+                self._objects.reset()
         counts = self._baseline.apply(indices, _as_numpy(samples.counts))
+        end_s, duration_s = _seconds(samples.header.stamp), _seconds(samples.duration)
         try:
-            contact = self._recovery.step(indices, counts, _seconds(samples.header.stamp), _seconds(samples.duration))
+            contact = self._recovery.step(indices, counts, end_s, duration_s)
         except ArrayError as error:
             self._reject("bad_frame", str(error))
             return
         self._frames += 1
         self._follow(samples.sequence)
         try:
-            self._publish(samples, indices, counts, contact)
+            self._publish(samples, contact)
+            if self._objects is not None:
+                self._objects.publish(samples, indices, counts, end_s, duration_s)
         except RuntimeError:
             # A signal may end the context while a frame is worked on; all of rclpy's own errors are RuntimeErrors.
             if self.context.ok():
                 raise
         self._durations_s.append(time.perf_counter() - began_s)
 
-    def _publish(
-        self, samples: TactileSamples, indices: NDArray[np.uint16], counts: NDArray[np.uint16], contact: Contact
-    ) -> None:
+    def _publish(self, samples: TactileSamples, contact: Contact) -> None:
         self._publish_contact(samples, contact)
         if self._send_raw:
             self._raw.header = samples.header
@@ -140,8 +144,6 @@ class ReconstructionNode(Node):
         if self._send_view:
             self._publish_view(samples)
         self._contacts.publish(samples, self._recovery.image, self._recovery.sigma)
-        if self._objects is not None:
-            self._objects.publish(samples, indices, counts)
 
     def _on_baseline(self, message: Baseline) -> None:
         settings = self._settings

@@ -13,7 +13,9 @@ from acts_recon.blobs import BlobConfig
 from acts_recon.classification import Classifier, ClassifierConfig
 from acts_recon.dictionary import load_dictionary
 from acts_recon.fusion import FusionConfig, FusionEstimator
+from acts_recon.image_classification import ImageClassifier, ImageClassifierConfig
 from acts_recon.object_library import load_object_library
+from acts_recon.object_recognition import FusedObjects, ObjectRecogniser, PerFrameObjects
 from acts_recon.reconstructor import Reconstructor, ReconstructorConfig
 from acts_recon.recovery import METHODS, FusedRecovery, PerFrameRecovery, Recovery
 from acts_recon.shipped import shipped_dictionary_path
@@ -112,10 +114,26 @@ class ReconstructionSettings:
         minimum=0.0,
         maximum=1000.0,
     )
-    object_library: str = setting("", "path of an object library, to publish the topic object; empty: off")
+    object_library: str = setting(
+        "", "path of an object library made by `acts library`, to publish the topic object; empty: off"
+    )
+    object_touch_counts: int = setting(
+        default_of(ImageClassifierConfig, "touch_counts"),
+        "topic object, fusion: counts above which a taxel is pressed, as when the library was made; per_frame takes "
+        "touch_counts",
+        minimum=0,
+        maximum=COUNT_MAX,
+    )
+    object_src_weight: float = setting(
+        default_of(ImageClassifierConfig, "src_weight"),
+        "topic object, fusion: weight of SRC on a resting image against the comparison of images; 0: none",
+        minimum=0.0,
+        maximum=100.0,
+    )
     object_columns: int = setting(
         default_of(ClassifierConfig, "max_columns"),
-        "library columns that explain a frame at most; 0: a quarter as many as samples; 2 as on the board",
+        "topic object, per_frame: library columns that explain a frame at most; 0: a quarter as many as samples; 2 as "
+        "on the board",
         minimum=0,
         maximum=1024,
     )
@@ -186,8 +204,13 @@ class ReconstructionSettings:
             noise_counts=self.noise_counts,
         )
 
-    def classifier(self) -> Classifier | None:
+    def recogniser(self, recovery: Recovery) -> ObjectRecogniser | None:
         """Load the object library and make everything ready for the first frame; None where there is to be none.
+
+        Parameters
+        ----------
+        recovery : Recovery
+            What `recovery` returned: it leaves behind what objects are recognised by.
 
         Raises
         ------
@@ -197,4 +220,17 @@ class ReconstructionSettings:
         if not self.object_library:
             return None
         library = load_object_library(Path(self.object_library), shape=(self.rows, self.cols))
-        return Classifier(library, ClassifierConfig(touch_counts=self.touch_counts, max_columns=self.object_columns))
+        if recovery.sigma is None or recovery.age_s is None:
+            config = ClassifierConfig(touch_counts=self.touch_counts, max_columns=self.object_columns)
+            return PerFrameObjects(Classifier(library, config))
+        return FusedObjects(
+            ImageClassifier(
+                library,
+                ImageClassifierConfig(touch_counts=self.object_touch_counts, src_weight=self.object_src_weight),
+                recovery.response,
+            ),
+            recovery.image,
+            recovery.sigma,
+            recovery.age_s,
+            None if self.layout == "square" else layout(self.layout, self.rows, self.cols),
+        )

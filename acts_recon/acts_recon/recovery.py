@@ -29,6 +29,8 @@ class Recovery(Protocol):
     """Image of the last frame [counts], (rows, cols); overwritten by the next."""
     sigma: NDArray[np.float32] | None
     """Standard deviation of the image [counts], likewise; None from a method that does not know."""
+    age_s: NDArray[np.float32] | None
+    """Time since each taxel was measured [s], inf: never; likewise."""
 
     def reset(self) -> None:
         """Forget all frames: the next one is not of the same board, or long after."""
@@ -61,6 +63,7 @@ class FusedRecovery:
         self.response = response
         self.image = estimator.image
         self.sigma: NDArray[np.float32] | None = estimator.sigma
+        self.age_s: NDArray[np.float32] | None = estimator.age_s
 
     def reset(self) -> None:
         """See `Recovery.reset`."""
@@ -90,6 +93,7 @@ class PerFrameRecovery:
         self.response = reconstructor.response
         self.image = reconstructor.image
         self.sigma: NDArray[np.float32] | None = None
+        self.age_s: NDArray[np.float32] | None = None
 
     def reset(self) -> None:
         """Nothing is kept."""

@@ -1,12 +1,14 @@
-"""A small dictionary, and recorded frames where they are present."""
+"""A small dictionary, the node in a ROS domain, and recorded frames where they are present."""
 
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from recon_bench import Bench
 
-from acts_recon.dictionary import Dictionary
+from acts_recon.dictionary import Dictionary, save_dictionary
 
 RECORDINGS = Path(__file__).resolve().parents[3] / "shared" / "data"
 
@@ -23,6 +25,28 @@ def dictionary() -> Dictionary:
         atoms.append(np.exp(-(((row - r) / sr) ** 2) - ((col - c) / sc) ** 2).T.ravel() + 1e-3 * rng.random(64))
     matrix = np.array(atoms).T
     return Dictionary((matrix / np.linalg.norm(matrix, axis=0)).astype(np.float32), 8, {"seed": 7}, "made for tests")
+
+
+@pytest.fixture(scope="session")
+def dictionary_path(dictionary: Dictionary, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A file that holds it."""
+    path = tmp_path_factory.mktemp("dictionaries") / "test.npz"
+    save_dictionary(dictionary, path)
+    return path
+
+
+@pytest.fixture
+def make_bench(dictionary_path: Path) -> Iterator[Callable[..., Bench]]:
+    """A function that starts the node in the ROS domain of a number with some parameters."""
+    benches: list[Bench] = []
+
+    def make(domain_id: int, **parameters: object) -> Bench:
+        benches.append(Bench(domain_id, dictionary_path, parameters))
+        return benches[-1]
+
+    yield make
+    for bench in benches:
+        bench.close()
 
 
 @pytest.fixture(scope="session")

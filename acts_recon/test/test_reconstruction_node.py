@@ -1,135 +1,28 @@
-"""The node over real DDS; ROS_DOMAIN_IDs 28, 40 to 45 and 110 to 112."""
+"""The node over real DDS; ROS_DOMAIN_IDs 28, 40 to 44 and 110 to 112."""
 
 import os
 import subprocess
 import sys
-import time
-from array import array
-from collections.abc import Callable, Iterator
-from pathlib import Path
-from typing import Any
+from collections.abc import Callable
 
 import numpy as np
 import pytest
-import rclpy
-from builtin_interfaces.msg import Duration, Time
-from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PointStamped
 from numpy.typing import NDArray
-from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
-from rclpy.node import Node
+from recon_bench import Bench, timed
 from recon_samples import bump, sample
 from sensor_msgs.msg import Image
-from std_msgs.msg import Header
 
 from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError, DictionaryError, ObjectLibraryError, SettingsError
 from acts_core.force import ForceResponse
 from acts_core.layouts import layout
-from acts_msgs.msg import Contact, ObjectClass, TactileSamples
-from acts_recon.classification import Classifier, ClassifierConfig
+from acts_msgs.msg import Contact
 from acts_recon.contact import find_contact
-from acts_recon.dictionary import Dictionary, save_dictionary
+from acts_recon.dictionary import Dictionary
 from acts_recon.fusion import FusionEstimator
-from acts_recon.object_library import build_object_library, save_object_library
-from acts_recon.reconstruction_node import ReconstructionNode
 from acts_recon.reconstructor import Reconstructor
 from acts_ros import qos
-
-DEADLINE_S = 30.0
-
-
-@pytest.fixture(scope="module")
-def dictionary_path(dictionary: Dictionary, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    path = tmp_path_factory.mktemp("dictionaries") / "test.npz"
-    save_dictionary(dictionary, path)
-    return path
-
-
-class Bench:
-    """The node in namespace /plate, and a node beside it that publishes samples and keeps what comes back."""
-
-    def __init__(self, domain_id: int, dictionary_path: Path, parameters: dict[str, object]) -> None:
-        self.context = Context()
-        rclpy.init(context=self.context, domain_id=domain_id)
-        words = [f"{name}:={value}" for name, value in {"dictionary": dictionary_path, **parameters}.items()]
-        arguments = ["--ros-args", *(part for word in words for part in ("-p", word))]
-        self.nodes: list[Node] = []
-        self.executor = SingleThreadedExecutor(context=self.context)
-        try:
-            self.node = ReconstructionNode(cli_args=arguments, context=self.context, namespace="/plate")
-            self.nodes.append(self.node)
-            self.peer = Node("peer", namespace="/plate", context=self.context)
-            self.nodes.append(self.peer)
-        except BaseException:
-            self.close()
-            raise
-        for node in self.nodes:
-            self.executor.add_node(node)
-        self.publisher = self.peer.create_publisher(TactileSamples, "samples", qos.STREAM)
-        self.received: dict[str, list[Any]] = {}
-        self.listen(Contact, "contact", qos.STREAM)
-        self.until(lambda: self.publisher.get_subscription_count() == 1)
-        self.until(lambda: self.node.count_subscribers("contact") == 1)
-
-    def listen(self, kind: type, topic: str, profile: Any) -> None:
-        messages = self.received.setdefault(topic, [])
-        subscription = self.peer.create_subscription(kind, topic, messages.append, profile)
-        self.until(lambda: subscription.get_publisher_count() > 0)
-
-    def until(self, condition: Callable[[], bool]) -> None:
-        deadline = time.monotonic() + DEADLINE_S
-        while not condition():
-            assert time.monotonic() < deadline, "timed out"
-            self.executor.spin_once(timeout_sec=0.05)
-
-    def send(self, sequence: int, indices: NDArray, counts: NDArray, **fields: Any) -> None:
-        message = TactileSamples(sequence=sequence, rows=32, cols=32, scheme=TactileSamples.SCHEME_ADAPTIVE)
-        message.header.frame_id = "plate"
-        message.header.stamp.sec = 100 + sequence % 1000
-        message.header.stamp.nanosec = 7
-        message.indices = array("H", indices.astype(np.uint16).tobytes())
-        message.counts = array("H", counts.astype(np.uint16).tobytes())
-        for name, value in fields.items():
-            setattr(message, name, value)
-        self.publisher.publish(message)
-
-    def contact(self, sequence: int) -> Contact:
-        """Wait for the contact of one frame."""
-        self.until(lambda: any(message.sequence == sequence for message in self.received["contact"]))
-        return next(message for message in self.received["contact"] if message.sequence == sequence)
-
-    def diagnostics(self, condition: Callable[[Any, dict[str, str]], bool]) -> None:
-        """Wait for a status of the node for which the condition holds."""
-        if "/diagnostics" not in self.received:
-            self.listen(DiagnosticArray, "/diagnostics", 10)
-
-        def holds() -> bool:
-            statuses = [status for message in self.received["/diagnostics"] for status in message.status]
-            mine = [status for status in statuses if status.name == "plate/reconstruction"]
-            return any(condition(status, {value.key: value.value for value in status.values}) for status in mine)
-
-        self.until(holds)
-
-    def close(self) -> None:
-        self.executor.shutdown()
-        for node in self.nodes:
-            node.destroy_node()
-        rclpy.try_shutdown(context=self.context)
-
-
-@pytest.fixture
-def make_bench(dictionary_path: Path) -> Iterator[Callable[..., Bench]]:
-    benches: list[Bench] = []
-
-    def make(domain_id: int, **parameters: object) -> Bench:
-        benches.append(Bench(domain_id, dictionary_path, parameters))
-        return benches[-1]
-
-    yield make
-    for bench in benches:
-        bench.close()
 
 
 def test_contact_cop_and_images_are_those_of_the_samples(
@@ -178,12 +71,6 @@ def test_contact_cop_and_images_are_those_of_the_samples(
     assert bench.contact(4) == Contact(header=bench.contact(4).header, sequence=4)
     bench.until(lambda: len(bench.received["image_raw"]) == 2)
     assert len(bench.received["cop"]) == 1
-
-
-def timed(time_ms: int) -> dict[str, Any]:
-    """Stamp and duration of a frame of 55 samples."""
-    header = Header(frame_id="plate", stamp=Time(sec=100 + time_ms // 1000, nanosec=time_ms % 1000 * 1_000_000))
-    return {"header": header, "duration": Duration(nanosec=983_235)}
 
 
 def test_fusion_keeps_what_earlier_frames_showed_and_says_how_sure_it_is(make_bench: Callable[..., Bench]) -> None:
@@ -246,30 +133,6 @@ def test_a_dropout_and_a_restart_of_the_board_begin_anew(
     assert bench.contact(2).active_taxels == bench.contact(1).active_taxels
     bench.send(sequence, corner, pressed[corner], **timed(time_ms))
     assert not bench.contact(sequence).in_contact
-
-
-def test_the_object_is_the_one_of_the_library(make_bench: Callable[..., Bench], tmp_path: Path) -> None:
-    places = {"high": (6.0, 16.0), "low": (25.0, 16.0)}
-    library = build_object_library([bump(ArrayGeometry(), *place) for place in places.values()], list(places))
-    save_object_library(library, tmp_path / "objects.npz")
-    bench = make_bench(45, object_library=tmp_path / "objects.npz", object_columns=2)
-    bench.listen(ObjectClass, "object", qos.STREAM)
-    bench.until(lambda: bench.node._objects is not None and bench.node._objects._send)
-
-    indices, counts = sample(bump(ArrayGeometry(), 25.5, 16.0, width=2.0), 55)
-    expected = Classifier(library, ClassifierConfig(max_columns=2)).step(indices, counts)
-    bench.send(7, indices, counts)
-    bench.send(8, indices, np.zeros(55))
-    bench.until(lambda: len(bench.received["object"]) == 2)
-    pressed, untouched = bench.received["object"]
-    assert pressed.header.frame_id == "plate"
-    assert (pressed.header.stamp.sec, pressed.sequence) == (107, 7)
-    assert (pressed.class_number, pressed.name) == (library.names.index("low"), "low")
-    assert pressed.residuals.tolist() == pytest.approx(expected.residuals.tolist())
-    assert pressed.confidence == pytest.approx(expected.confidence)
-    assert untouched == ObjectClass(
-        header=untouched.header, sequence=8, class_number=ObjectClass.NO_OBJECT, residuals=[1.0, 1.0]
-    )
 
 
 def test_images_and_contacts_are_those_of_the_layout(make_bench: Callable[..., Bench], dictionary: Dictionary) -> None:

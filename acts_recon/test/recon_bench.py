@@ -1,0 +1,101 @@
+"""The node reconstruction in a ROS domain, and a node beside it that samples and listens."""
+
+import time
+from array import array
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import rclpy
+from builtin_interfaces.msg import Duration, Time
+from diagnostic_msgs.msg import DiagnosticArray
+from numpy.typing import NDArray
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from std_msgs.msg import Header
+
+from acts_msgs.msg import Contact, TactileSamples
+from acts_recon.reconstruction_node import ReconstructionNode
+from acts_ros import qos
+
+DEADLINE_S = 30.0
+
+
+def timed(time_ms: int) -> dict[str, Any]:
+    """Stamp and duration of a frame of 55 samples."""
+    header = Header(frame_id="plate", stamp=Time(sec=100 + time_ms // 1000, nanosec=time_ms % 1000 * 1_000_000))
+    return {"header": header, "duration": Duration(nanosec=983_235)}
+
+
+class Bench:
+    """The node in namespace /plate, and a node beside it that publishes samples and keeps what comes back."""
+
+    def __init__(self, domain_id: int, dictionary_path: Path, parameters: dict[str, object]) -> None:
+        self.context = Context()
+        rclpy.init(context=self.context, domain_id=domain_id)
+        words = [f"{name}:={value}" for name, value in {"dictionary": dictionary_path, **parameters}.items()]
+        arguments = ["--ros-args", *(part for word in words for part in ("-p", word))]
+        self.nodes: list[Node] = []
+        self.executor = SingleThreadedExecutor(context=self.context)
+        try:
+            self.node = ReconstructionNode(cli_args=arguments, context=self.context, namespace="/plate")
+            self.nodes.append(self.node)
+            self.peer = Node("peer", namespace="/plate", context=self.context)
+            self.nodes.append(self.peer)
+        except BaseException:
+            self.close()
+            raise
+        for node in self.nodes:
+            self.executor.add_node(node)
+        self.publisher = self.peer.create_publisher(TactileSamples, "samples", qos.STREAM)
+        self.received: dict[str, list[Any]] = {}
+        self.listen(Contact, "contact", qos.STREAM)
+        self.until(lambda: self.publisher.get_subscription_count() == 1)
+        self.until(lambda: self.node.count_subscribers("contact") == 1)
+
+    def listen(self, kind: type, topic: str, profile: Any) -> None:
+        messages = self.received.setdefault(topic, [])
+        subscription = self.peer.create_subscription(kind, topic, messages.append, profile)
+        self.until(lambda: subscription.get_publisher_count() > 0)
+
+    def until(self, condition: Callable[[], bool]) -> None:
+        deadline = time.monotonic() + DEADLINE_S
+        while not condition():
+            assert time.monotonic() < deadline, "timed out"
+            self.executor.spin_once(timeout_sec=0.05)
+
+    def send(self, sequence: int, indices: NDArray, counts: NDArray, **fields: Any) -> None:
+        message = TactileSamples(sequence=sequence, rows=32, cols=32, scheme=TactileSamples.SCHEME_ADAPTIVE)
+        message.header.frame_id = "plate"
+        message.header.stamp.sec = 100 + sequence % 1000
+        message.header.stamp.nanosec = 7
+        message.indices = array("H", indices.astype(np.uint16).tobytes())
+        message.counts = array("H", counts.astype(np.uint16).tobytes())
+        for name, value in fields.items():
+            setattr(message, name, value)
+        self.publisher.publish(message)
+
+    def contact(self, sequence: int) -> Contact:
+        """Wait for the contact of one frame."""
+        self.until(lambda: any(message.sequence == sequence for message in self.received["contact"]))
+        return next(message for message in self.received["contact"] if message.sequence == sequence)
+
+    def diagnostics(self, condition: Callable[[Any, dict[str, str]], bool]) -> None:
+        """Wait for a status of the node for which the condition holds."""
+        if "/diagnostics" not in self.received:
+            self.listen(DiagnosticArray, "/diagnostics", 10)
+
+        def holds() -> bool:
+            statuses = [status for message in self.received["/diagnostics"] for status in message.status]
+            mine = [status for status in statuses if status.name == "plate/reconstruction"]
+            return any(condition(status, {value.key: value.value for value in status.values}) for status in mine)
+
+        self.until(holds)
+
+    def close(self) -> None:
+        self.executor.shutdown()
+        for node in self.nodes:
+            node.destroy_node()
+        rclpy.try_shutdown(context=self.context)
