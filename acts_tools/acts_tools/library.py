@@ -22,8 +22,8 @@ def add_parser(subparsers: Any) -> None:
         "library",
         help="write a library of known objects for the classification",
         description="Write the file that the node reconstruction reads to tell objects apart (its parameter "
-        "object_library). Of every labelled recording of an npz file it takes the strongest frame; without --frames it "
-        "presses simulated objects.",
+        "object_library). Of every labelled recording of an npz file it takes the strongest frame, if touched; "
+        "without --frames it presses simulated objects.",
     )
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help="library file to write")
     parser.add_argument(
@@ -67,7 +67,11 @@ def run(arguments: argparse.Namespace) -> int:
                 f"{', '.join(sorted(set(recorded.label)))}"
             )
         chosen = [n for n, label in enumerate(recorded.label) if not arguments.objects or label in arguments.objects]
-        frames = recorded.peak_frames()[chosen]
+        peaks = recorded.peak_frames() * recorded.live
+        chosen = [n for n in chosen if peaks[n].max() > arguments.touch_counts]
+        if not chosen:
+            raise RecordingError(f"{arguments.frames}: no recording has more than {arguments.touch_counts} counts")
+        frames = peaks[chosen]
         labels = [recorded.label[n] for n in chosen]
         digest = hashlib.sha256(arguments.frames.read_bytes()).hexdigest()
         source = f"{len(labels)} recordings of {arguments.frames.name} (sha256 {digest})"

@@ -104,11 +104,27 @@ def test_libraries_from_recordings_and_from_presses(grasps: Path, tmp_path: Path
     assert load_object_library(path).sha256 == loaded.sha256
 
 
+def test_recordings_without_a_touch_and_what_no_taxel_reads_stay_out_of_a_library(tmp_path: Path) -> None:
+    frames = np.zeros((6, 8, 8), dtype=np.uint16)
+    frames[1, 2, 2] = frames[5, 6, 6] = 300
+    frames[:, 0, 0] = 900
+    live = np.ones((8, 8), dtype=bool)
+    live[0, 0] = False
+    made: dict[str, object] = {"frames": frames, "live": live, "start": [0, 2, 4], "length": [2, 2, 2]}
+    np.savez(tmp_path / "f.npz", label=[1, 2, 3], **made)
+    assert make_library("-o", tmp_path / "o.npz", "--frames", tmp_path / "f.npz") == 0
+    loaded = load_object_library(tmp_path / "o.npz")
+    assert loaded.names == ("1", "3")
+    assert np.flatnonzero(loaded.columns.sum(axis=1)).tolist() == [2 * 8 + 2, 6 * 8 + 6]
+    with pytest.raises(RecordingError, match="no recording has more than 400 counts"):
+        make_library("-o", tmp_path / "o.npz", "--frames", tmp_path / "f.npz", "--touch-counts", 400)
+
+
 def test_what_cannot_be_is_refused(grasps: Path, tmp_path: Path) -> None:
     plain = tmp_path / "plain.npz"
     np.savez(plain, frames=np.zeros((2, 4, 4), np.uint16), rate_hz=31.0)
     cases: list[tuple[Callable[[], int], type[ActsError], str]] = [
-        (lambda: evaluate("--frames", plain), RecordingError, "a `label` for every recording"),
+        (lambda: evaluate("--frames", plain), RecordingError, "no `label` in the file"),
         (lambda: make_library("-o", tmp_path / "o.npz", "--frames", plain), RecordingError, "has no label"),
         (
             lambda: make_library("-o", tmp_path / "o.npz", "--frames", grasps, "--objects", "cat"),

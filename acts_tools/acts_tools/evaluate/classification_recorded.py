@@ -45,7 +45,10 @@ def run_recorded(recorded: FramesFile, ms: Sequence[int]) -> dict[str, Any]:
         When there is no label or rate, or an object has fewer than two recordings.
     """
     if recorded.rate_hz is None or not recorded.label:
-        raise RecordingError("needed are `rate_hz` and a `label` for every recording (start, length)")
+        missing = "no `rate_hz`" if recorded.rate_hz is None else "no `label`"
+        raise RecordingError(
+            f"{missing} in the file: needed are a rate and a label for every recording (start, length)"
+        )
     flat = recorded.frames * recorded.live
     peaks = [
         int(s + np.argmax(flat[s : s + n].sum(axis=(1, 2), dtype=np.int64)))

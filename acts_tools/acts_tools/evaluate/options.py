@@ -98,4 +98,5 @@ def tasks(arguments: argparse.Namespace, shape: tuple[int, ...] = (32, 32)) -> l
 
 def as_report(arguments: argparse.Namespace) -> dict[str, object]:
     """What a report says of the arguments."""
-    return {name: getattr(arguments, name) for name in describe(Task)}
+    used = {name: getattr(arguments, name) for name in (*describe(Task), "search_counts", "seed")}
+    return {**used, "dictionary": arguments.dictionary or "shipped"}
