@@ -214,11 +214,12 @@ def _take(
                 compared += _F(1)
             share = since / (since + _F(tuning.slope_memory_s))
             state.slope[i] += share * ((count - state.value[i]) / since - state.slope[i])
-        else:
+        elif not since < horizon:
             state.slope[i] = _F(0)
-        error = _excess(innovation, since if since < horizon else _F(NOTICED_S), noise_variance)
-        begins = error > state.unrest[i] and not since < horizon
-        state.unrest[i] += (_F(1) if begins else _F(UNREST_SHARE)) * (error - state.unrest[i])
+        if since > _F(0):
+            error = _excess(innovation, since if since < horizon else _F(NOTICED_S), noise_variance)
+            begins = error > state.unrest[i] and not since < horizon
+            state.unrest[i] += (_F(1) if begins else _F(UNREST_SHARE)) * (error - state.unrest[i])
         state.value[i] = count
         state.age[i] = lag
         state.fresh[i] = True
@@ -230,7 +231,7 @@ def _take(
 @numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
 def _excess(innovation: np.float32, since: np.float32, noise_variance: np.float32) -> np.float32:
     """Squared error per squared second of a prediction that noise does not account for."""
-    time = max(since, _F(0)) + _F(SHORTEST_S)
+    time = since + _F(SHORTEST_S)
     return max(innovation * innovation - _F(2) * noise_variance, _F(0)) / (time * time)
 
 

@@ -131,12 +131,13 @@ class PlainFusion:
         time = np.where(known, since, 1.0)
         share = time / (time + tuning.slope_memory_s)
         slope = self.slope[at] + share * ((y - self.value[at]) / time - self.slope[at])
-        self.slope[at] = np.where(known, slope, 0)
+        self.slope[at] = np.where(known, slope, np.where(since < tuning.horizon_s, self.slope[at], 0))
         stale = since >= tuning.horizon_s
         over = np.where(stale, NOTICED_S, np.maximum(since, 0)) + SHORTEST_S
         excess = np.maximum(innovation**2 - 2 * noise_variance, 0) / over**2
         begins = stale & (excess > self.unrest[at])
-        self.unrest[at] += np.where(begins, 1, UNREST_SHARE) * (excess - self.unrest[at])
+        share = np.where(begins, 1, np.where(since > 0, UNREST_SHARE, 0))
+        self.unrest[at] += share * (excess - self.unrest[at])
         self.value[at], self.age[at], self.fresh[at] = y, lag, True
         return innovation
 

@@ -152,6 +152,44 @@ def test_kernels_equal_the_plain_twin_on_a_sliding_contact() -> None:
     )
 
 
+@pytest.mark.parametrize("shape", [(1, 1), (1, 9), (40, 1), (5, 64), (64, 64)])
+def test_kernels_equal_the_plain_twin_on_arrays_of_any_shape(shape: tuple[int, int]) -> None:
+    """A bump that slides over a corner and saturates, in frames of one taxel, of some and of all."""
+    geometry = ArrayGeometry(*shape)
+    rng = np.random.default_rng(5)
+    r, c = np.indices(shape)
+    frames = []
+    for k in range(30):
+        field = 2000 * np.exp(-((r - 0.3 * k) ** 2 + (c - 0.2 * k) ** 2) / 18) + rng.normal(0, 2, shape)
+        m = (1, geometry.size, 1 + geometry.size // 3)[k % 3]
+        indices = rng.permutation(geometry.size)[:m].astype(np.uint16)
+        counts = np.clip(field, 0, 1023).astype(np.uint16).ravel()[indices]
+        frames.append(((indices, counts), 0.002 * k, 0.001))
+    compare(FusionEstimator(geometry), frames)
+
+
+def test_a_frame_that_comes_twice_changes_nothing() -> None:
+    skin, (once, twice) = Skin(sliding(200.0), noise=2.0), (FusionEstimator(ArrayGeometry()) for _ in range(2))
+    for k in range(1, 90):
+        indices, counts = skin.frame(0.001 * k)
+        image = once.step(indices, counts, 0.001 * k, DURATION_S)
+        for _ in range(1 + k % 2):
+            again = twice.step(indices, counts, 0.001 * k, DURATION_S)
+        assert np.array_equal(again, image)
+        assert np.array_equal(twice.age_s, once.age_s)
+
+
+def test_times_of_days_are_as_good_as_those_of_seconds() -> None:
+    """Ages are kept as differences: a clock that counts since 1970 loses no more than its own resolution."""
+    skin = Skin(sliding(100.0), noise=2.0)
+    fresh, late = FusionEstimator(ArrayGeometry()), FusionEstimator(ArrayGeometry())
+    for k in range(1, 60):
+        indices, counts = skin.frame(0.001 * k)
+        image = fresh.step(indices, counts, 0.001 * k, DURATION_S)
+        assert late.step(indices, counts, 1.7e9 + 0.001 * k, DURATION_S) == pytest.approx(image, abs=3)
+        assert late.age_s == pytest.approx(fresh.age_s, abs=2e-6)
+
+
 def compare(estimator: FusionEstimator, frames: list[tuple[Frame, float, float]]) -> None:
     geometry, config = estimator.geometry, estimator.config
     twin = PlainFusion(geometry.rows, geometry.cols, config.tuning)
