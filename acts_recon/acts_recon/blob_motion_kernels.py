@@ -9,71 +9,31 @@ import math
 from typing import Any
 
 import numba
-import numpy as np
 from numpy.typing import NDArray
 
-from acts_recon.blob_kernels import MAX_BLOBS
-
-MAX_TRACKS = 2 * MAX_BLOBS
-"""Contacts remembered at most: active, away and merged."""
-
-FREE, ACTIVE, AWAY, MERGED = 0, 1, 2, 3
-NONE = -1
-
-TRACK = np.dtype(
-    [
-        ("number", "i8"),
-        ("state", "i8"),
-        ("host", "i8"),
-        ("blob", "i8"),
-        # Filter of position and velocity, and its covariances, axis by axis [m, s].
-        ("x", "f8"),
-        ("y", "f8"),
-        ("vx", "f8"),
-        ("vy", "f8"),
-        ("x_pp", "f8"),
-        ("x_pv", "f8"),
-        ("x_vv", "f8"),
-        ("y_pp", "f8"),
-        ("y_pv", "f8"),
-        ("y_vv", "f8"),
-        # Force of its contact, and the contact's second moments when it had not taken in others.
-        ("force_n", "f8"),
-        ("xx_m2", "f8"),
-        ("xy_m2", "f8"),
-        ("yy_m2", "f8"),
-        ("began_s", "f8"),
-        ("seen_s", "f8"),
-        # Merged: since when; place and velocity relative to the host's own part; part of the whole contact's force.
-        ("merged_s", "f8"),
-        ("dx", "f8"),
-        ("dy", "f8"),
-        ("dvx", "f8"),
-        ("dvy", "f8"),
-        ("share", "f8"),
-    ]
-)
+from acts_recon.blob_merge_kernels import count_merged, leave
+from acts_recon.blob_tracks import ACTIVE, AWAY, FREE, MAX_TRACKS, MERGED, NONE
 
 # Contacts change their velocity by this much in a second (1-sigma), and begin with this one.
-_ACCELERATION_M_S2 = 20.0
-_FIRST_SPEED_M_S = 0.7
+ACCELERATION_M_S2 = 20.0
+FIRST_SPEED_M_S = 0.7
 # After a pause of the frames this long a contact is looked for where it was, not where it was going.
-_PAUSE_S = 0.1
+PAUSE_S = 0.1
 # Error of the centre of pressure by sampling the skin in taxels: a taxel's side over sqrt(12) for one taxel, less for
 # more; and what is assumed where the uncertainty of the image is not known.
-_SAMPLING_TAXELS = 0.29
-_UNKNOWN_TAXELS = 0.2
+SAMPLING_TAXELS = 0.29
+UNKNOWN_TAXELS = 0.2
 # Filter of the offset between two merged contacts.
-_OFFSET_GAIN = 0.3
-_OFFSET_RATE_GAIN = 0.03
-_OFFSET_RATE_DECAY_S = 0.3
+OFFSET_GAIN = 0.3
+OFFSET_RATE_GAIN = 0.03
+OFFSET_RATE_DECAY_S = 0.3
 
 
 @numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
 def predict(time_s: float, dt_s: float, bridge_s: float, memory_s: float, tracks: NDArray[Any]) -> None:
     """Move every track on to the time of the frame, and forget those away or merged for too long."""
-    variance = (_ACCELERATION_M_S2 * dt_s) ** 2
-    decay = math.exp(-dt_s / _OFFSET_RATE_DECAY_S)
+    variance = (ACCELERATION_M_S2 * dt_s) ** 2
+    decay = math.exp(-dt_s / OFFSET_RATE_DECAY_S)
     for t in range(MAX_TRACKS):
         track = tracks[t]
         track.blob = NONE
@@ -91,7 +51,7 @@ def predict(time_s: float, dt_s: float, bridge_s: float, memory_s: float, tracks
                 leave(t, tracks)
                 track.state = FREE
         if track.state == ACTIVE or track.state == AWAY:
-            if dt_s > _PAUSE_S:
+            if dt_s > PAUSE_S:
                 track.vx = track.vy = 0.0
             track.x += track.vx * dt_s
             track.y += track.vy * dt_s
@@ -101,36 +61,6 @@ def predict(time_s: float, dt_s: float, bridge_s: float, memory_s: float, tracks
             track.y_pp += dt_s * (2.0 * track.y_pv + dt_s * track.y_vv) + 0.25 * variance * dt_s**2
             track.y_pv += dt_s * track.y_vv + 0.5 * variance * dt_s
             track.y_vv += variance
-
-
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
-def own_part(t: int, tracks: NDArray[Any]) -> tuple[float, float]:
-    """Where a track itself is, without those merged with it."""
-    x, y = tracks[t].x, tracks[t].y
-    for other in range(MAX_TRACKS):
-        if tracks[other].state == MERGED and tracks[other].host == t:
-            x -= tracks[other].share * tracks[other].dx
-            y -= tracks[other].share * tracks[other].dy
-    return x, y
-
-
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
-def count_merged(t: int, tracks: NDArray[Any]) -> int:
-    """How many tracks are merged with this one."""
-    count = 0
-    for other in range(MAX_TRACKS):
-        if tracks[other].state == MERGED and tracks[other].host == t:
-            count += 1
-    return count
-
-
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
-def leave(t: int, tracks: NDArray[Any]) -> None:
-    """Share the force anew among those that stay with the host of `t`."""
-    rest = max(1.0 - tracks[t].share, 1e-3)
-    for other in range(MAX_TRACKS):
-        if other != t and tracks[other].state == MERGED and tracks[other].host == tracks[t].host:
-            tracks[other].share = min(tracks[other].share / rest, 1.0)
 
 
 @numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
@@ -146,8 +76,8 @@ def update(
 ) -> None:
     """Take the contact that was found into the track that it belongs to."""
     track = tracks[t]
-    floor = _SAMPLING_TAXELS / blob.taxels
-    square = floor * floor + (0.0 if sigma_known else _UNKNOWN_TAXELS**2)
+    floor = SAMPLING_TAXELS / blob.taxels
+    square = floor * floor + (0.0 if sigma_known else UNKNOWN_TAXELS**2)
     x_var = blob.x_var + square * pitch_m**2
     y_var = blob.y_var + square * pitch_y_m**2
     jump = track.x == math.inf
@@ -160,7 +90,7 @@ def update(
         track.x, track.y = blob.x_m, blob.y_m
         track.x_pp, track.y_pp = x_var, y_var
         track.x_pv = track.y_pv = 0.0
-        track.x_vv = track.y_vv = _FIRST_SPEED_M_S**2
+        track.x_vv = track.y_vv = FIRST_SPEED_M_S**2
     else:
         total = track.x_pp + x_var
         gain, rate_gain = track.x_pp / total, track.x_pv / total
@@ -212,7 +142,7 @@ def _follow_offset(dt_s: float, blob: Any, pitch_m: float, t: int, tracks: NDArr
         x, y = -x, -y
     x -= guest.dx
     y -= guest.dy
-    guest.dx += _OFFSET_GAIN * x
-    guest.dy += _OFFSET_GAIN * y
-    guest.dvx += _OFFSET_RATE_GAIN * x / dt_s
-    guest.dvy += _OFFSET_RATE_GAIN * y / dt_s
+    guest.dx += OFFSET_GAIN * x
+    guest.dy += OFFSET_GAIN * y
+    guest.dvx += OFFSET_RATE_GAIN * x / dt_s
+    guest.dvy += OFFSET_RATE_GAIN * y / dt_s

@@ -20,19 +20,9 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_recon.blob_motion_kernels import (
-    ACTIVE,
-    AWAY,
-    FREE,
-    MAX_TRACKS,
-    MERGED,
-    NONE,
-    count_merged,
-    leave,
-    own_part,
-    predict,
-    update,
-)
+from acts_recon.blob_merge_kernels import count_merged, covering, leave, merge, own_part, part
+from acts_recon.blob_motion_kernels import predict, update
+from acts_recon.blob_tracks import ACTIVE, AWAY, FREE, MAX_TRACKS, MERGED, NONE
 
 NUMBERS = 2**32
 
@@ -64,10 +54,10 @@ FOUND = np.dtype(
 
 # A pair without overlap is no further apart than this plus three standard deviations of the prediction, and no further
 # than it gets at this speed.
-_GATE_TAXELS = 1.5
-_FASTEST_M_S = 2.5
+GATE_TAXELS = 1.5
+FASTEST_M_S = 2.5
 # What parts from a contact is a merged one only if it has this part of the force expected of that.
-_LEAST_SHARE = 0.25
+LEAST_SHARE = 0.25
 
 
 @numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
@@ -135,14 +125,14 @@ def follow(
     _weigh(time_s, bridge_s, n, blobs, pitch, tracks, overlap, cost)
     _assign(n, tracks, cost, track_of)
     _prefer_the_stronger(n, blobs, tracks, overlap, track_of)
-    _part(tracks)
+    part(tracks)
     for t in range(MAX_TRACKS):
         if tracks[t].state == ACTIVE and tracks[t].blob == NONE:
-            host = _covering(n, t, overlap, track_of)
+            host = covering(n, t, overlap, track_of)
             if host == NONE:
                 tracks[t].state = AWAY
             else:
-                _merge(time_s, t, host, blobs, tracks)
+                merge(time_s, t, host, blobs, tracks)
     for b in range(n):
         if track_of[b] == NONE:
             track_of[b] = _begin(time_s, b, blobs, tracks, next_number)
@@ -186,8 +176,8 @@ def _weigh(
         x, y = track.x, track.y
         if parts:
             x, y = own_part(t, tracks)
-        reach = _FASTEST_M_S * min(time_s - track.seen_s, bridge_s)
-        gate = _GATE_TAXELS * pitch + min(3.0 * math.sqrt(max(track.x_pp, track.y_pp)), reach)
+        reach = FASTEST_M_S * min(time_s - track.seen_s, bridge_s)
+        gate = GATE_TAXELS * pitch + min(3.0 * math.sqrt(max(track.x_pp, track.y_pp)), reach)
         for b in range(n):
             distance = math.hypot(blobs[b].x_m - x, blobs[b].y_m - y)
             if overlap[b, t] > 0:
@@ -201,7 +191,7 @@ def _weigh(
             if guest.state != MERGED or guest.host != t:
                 continue
             for b in range(n):
-                if overlap[b, t] > 0 and blobs[b].force_n > _LEAST_SHARE * guest.share * track.force_n:
+                if overlap[b, t] > 0 and blobs[b].force_n > LEAST_SHARE * guest.share * track.force_n:
                     cost[b, other] = math.hypot(blobs[b].x_m - x - guest.dx, blobs[b].y_m - y - guest.dy)
 
 
@@ -254,79 +244,6 @@ def _prefer_the_stronger(
                     track_of[track.blob] = NONE
                     track.blob = b
                     track_of[b] = t
-
-
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
-def _part(tracks: NDArray[Any]) -> None:
-    """Make active what was merged and has a contact of its own again."""
-    for t in range(MAX_TRACKS):
-        track = tracks[t]
-        if track.state != MERGED or track.blob == NONE:
-            continue
-        host = tracks[track.host]
-        host_vx = host.vx - track.share * track.dvx
-        host_vy = host.vy - track.share * track.dvy
-        track.vx = host_vx + track.dvx
-        track.vy = host_vy + track.dvy
-        # The position follows from the contact, see `_update`.
-        track.x = track.y = math.inf
-        # Where the host is, without this one.
-        host_x, host_y = host.x - track.share * track.dx, host.y - track.share * track.dy
-        leave(t, tracks)
-        host.vx, host.vy = host_vx, host_vy
-        host.x, host.y = host_x, host_y
-        track.state = ACTIVE
-        track.host = NONE
-
-
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
-def _covering(n: int, t: int, overlap: NDArray[np.int32], track_of: NDArray[np.int64]) -> int:
-    """The track whose contact covers most of what was `t`'s."""
-    host = NONE
-    most = 0
-    for b in range(n):
-        if track_of[b] != NONE and overlap[b, t] > most:
-            most = overlap[b, t]
-            host = track_of[b]
-    return host
-
-
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
-def _merge(time_s: float, t: int, h: int, blobs: NDArray[Any], tracks: NDArray[Any]) -> None:
-    track, host = tracks[t], tracks[h]
-    if host.x == math.inf:
-        # It has just parted from this very track, which is now gone into it.
-        host.x, host.y = blobs[host.blob].x_m, blobs[host.blob].y_m
-    x, y = own_part(t, tracks)
-    host_x, host_y = own_part(h, tracks)
-    share = track.force_n / max(track.force_n + host.force_n, 1e-30)
-    own = 1.0
-    for other in range(MAX_TRACKS):
-        guest = tracks[other]
-        if guest.state != MERGED:
-            continue
-        if guest.host == t:
-            own -= guest.share
-            guest.host = h
-            guest.share *= share
-            guest.dx += x - host_x
-            guest.dy += y - host_y
-            guest.dvx = guest.dvy = 0.0
-        elif guest.host == h:
-            guest.share *= 1.0 - share
-            guest.dvx = guest.dvy = 0.0
-    track.state = MERGED
-    track.host = h
-    track.merged_s = time_s
-    track.share = share * max(own, 0.0)
-    track.dx, track.dy = x - host_x, y - host_y
-    track.dvx, track.dvy = track.vx - host.vx, track.vy - host.vy
-    host.vx += share * track.dvx
-    host.vy += share * track.dvy
-    if count_merged(h, tracks) > 1:
-        # Of more than two nobody says where they are in the contact: they stay as they were when they joined.
-        track.dvx = track.dvy = 0.0
-    host.x = host.y = math.inf
 
 
 @numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]

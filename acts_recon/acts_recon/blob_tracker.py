@@ -10,7 +10,7 @@ from acts_core.errors import ArrayError
 from acts_core.force import ForceResponse, MeasuredForceResponse, force_table
 from acts_recon import blob_kernels, blob_track_kernels
 from acts_recon.blob_kernels import MAX_BLOBS
-from acts_recon.blob_motion_kernels import FREE, MAX_TRACKS, TRACK
+from acts_recon.blob_tracks import FREE, MAX_TRACKS, TRACK
 from acts_recon.blobs import BlobConfig, TrackedBlob
 from acts_recon.uncertainty import slope_table
 
