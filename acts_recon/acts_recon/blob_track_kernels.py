@@ -58,6 +58,7 @@ GATE_TAXELS = 1.5
 FASTEST_M_S = 2.5
 # What parts from a contact is a merged one only if it has this part of the force expected of that.
 LEAST_SHARE = 0.25
+_ROUNDING = 1e-9
 
 
 @numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
@@ -279,6 +280,16 @@ def _begin(time_s: float, b: int, blobs: NDArray[Any], tracks: NDArray[Any], nex
 
 
 @numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+def direction(xx_m2: float, xy_m2: float, yy_m2: float, taxel_area_m2: float) -> float:
+    """Direction of the longest extent, above -pi/2 to pi/2 [rad]; 0 where what differs is the arithmetic's rounding."""
+    rounding = _ROUNDING * (xx_m2 + yy_m2 + taxel_area_m2)
+    if math.hypot(2.0 * xy_m2, xx_m2 - yy_m2) <= rounding:
+        return 0.0
+    # -pi/2 is the same direction as pi/2, and a negative zero would make it that.
+    return 0.5 * math.atan2(2.0 * xy_m2 if abs(xy_m2) > rounding else 0.0, xx_m2 - yy_m2)
+
+
+@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
 def _report(
     time_s: float,
     n: int,
@@ -308,8 +319,7 @@ def _report(
         entry.area_m2 = blob.taxels * taxel_area_m2
         entry.active_taxels = blob.taxels
         entry.spread_m = math.sqrt(blob.xx_m2 + blob.yy_m2)
-        # Adding 0 makes a negative zero positive: -pi/2 is the same direction as pi/2.
-        entry.angle_rad = 0.5 * math.atan2(2.0 * blob.xy_m2 + 0.0, blob.xx_m2 - blob.yy_m2)
+        entry.angle_rad = direction(blob.xx_m2, blob.xy_m2, blob.yy_m2, taxel_area_m2)
         entry.x_sd_m, entry.y_sd_m = math.sqrt(blob.x_var), math.sqrt(blob.y_var)
         entry.vx_sd_m_s = math.sqrt(max(me.x_vv, 0.0)) if sigma_known else 0.0
         entry.vy_sd_m_s = math.sqrt(max(me.y_vv, 0.0)) if sigma_known else 0.0

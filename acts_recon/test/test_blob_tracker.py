@@ -83,6 +83,18 @@ def test_a_contact_has_position_velocity_force_and_shape(tracker: BlobTracker) -
     assert (*deviations, upright.force_sd_n, upright.area_sd_m2, upright.spread_sd_m) == (0.0,) * 7
 
 
+@settings(max_examples=60, deadline=None)
+@given(st.integers(0, 31), st.integers(0, 31), st.lists(st.floats(61, 1023, width=32), min_size=1, max_size=8))
+def test_rounding_gives_no_direction(shared_tracker: BlobTracker, row: int, col: int, counts: list[np.float32]) -> None:
+    """A single taxel has none, taxels in a column have that of y, never its opposite."""
+    image = np.zeros((32, 32), dtype=np.float32)
+    image[row : row + len(counts), col] = counts[: 32 - row]
+    shared_tracker.reset()
+    (blob,) = shared_tracker.step(image, 0.0)
+    assert blob.angle_rad == (0 if blob.active_taxels == 1 else pytest.approx(np.pi / 2))
+    assert blob.active_taxels > 1 or blob.spread_m == pytest.approx(0, abs=1e-9)
+
+
 @settings(max_examples=40, deadline=None)
 @given(
     st.floats(0, 2),
