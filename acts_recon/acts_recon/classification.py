@@ -156,4 +156,5 @@ class Classifier:
         )
         if not touched:
             return Classification(False, 0, self._residuals, 0.0)
-        return Classification(True, int(np.argmin(self._residuals)), self._residuals, confidence_of(self._residuals))
+        best, confidence = kernels.decide(self._residuals)
+        return Classification(True, best, self._residuals, confidence)

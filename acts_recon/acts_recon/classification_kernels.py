@@ -1,4 +1,7 @@
-"""SRC in numba: the same as `acts_recon.classification.classify`, in single precision and without allocation."""
+"""SRC in numba: the same as `acts_recon.classification.classify`, in single precision and without allocation.
+
+And what all classifiers share: sorting by class, and deciding.
+"""
 
 from __future__ import annotations
 
@@ -49,6 +52,11 @@ def class_residuals(
     norm = np.sqrt(square)
     for i in range(s):
         number = classes[chosen[i]]
+        done = False
+        for j in range(i):
+            done = done or classes[chosen[j]] == number
+        if done:
+            continue
         for p in range(m):
             residual[p] = y[p]
         for j in range(s):
@@ -60,6 +68,37 @@ def class_residuals(
             left += residual[p] * residual[p]
         residuals[number] = np.sqrt(left) / norm
     return True
+
+
+@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+def decide(residuals: NDArray[np.float32]) -> tuple[int, float]:
+    """Class of the smallest residual, the first of equal ones, and `acts_core.residuals.confidence_of` all."""
+    best = 0
+    second = -1
+    for number in range(1, residuals.shape[0]):
+        if residuals[number] < residuals[best]:
+            second = best
+            best = number
+        elif second < 0 or residuals[number] < residuals[second]:
+            second = number
+    if second < 0 or residuals[second] <= 0:
+        return best, 0.0
+    return best, 1.0 - np.float64(residuals[best]) / np.float64(residuals[second])
+
+
+def by_class(classes: NDArray[np.int64], n_classes: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Sort what belongs to classes.
+
+    Returns
+    -------
+    first : np.ndarray [shape=(n_classes + 1,), dtype=int64]
+        Where each class begins in `members`, and its end.
+    members : np.ndarray [shape=(n,), dtype=int64]
+        Places in `classes`, class by class.
+    """
+    counts = np.bincount(classes, minlength=n_classes)
+    first = np.concatenate(([0], np.cumsum(counts))).astype(np.int64)
+    return first, np.argsort(classes, kind="stable").astype(np.int64)
 
 
 class Workspace:

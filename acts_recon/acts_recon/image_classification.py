@@ -35,6 +35,7 @@ from acts_core.settings import setting, validate
 from acts_recon import image_classification_kernels as kernels
 from acts_recon import image_src_kernels
 from acts_recon.classification import Classification
+from acts_recon.classification_kernels import decide
 from acts_recon.image_src import KNOWN_COUNTS, PROPOSED_CLASSES, PROPOSED_COLUMNS, explain_among, proposed_columns
 from acts_recon.object_library import ObjectLibrary
 from acts_recon.unrest import Unrest
@@ -205,7 +206,8 @@ class ImageClassifier:
         self._unheard_s = 0.0
         # Compile, or load from the cache, what the first image would otherwise wait seconds for.
         image = np.full((library.rows, library.cols), COUNT_MAX, dtype=np.float32)
-        self.step(image, np.zeros_like(image), np.zeros_like(image), 0.001)
+        # Nothing was measured, so the skin rests, and everything has its say.
+        self.step(image, np.zeros_like(image), np.full_like(image, np.inf), 0.001)
         self.reset()
 
     def reset(self) -> None:
@@ -291,7 +293,7 @@ class ImageClassifier:
             *self._src_buffers,
         ):
             kernels.weigh(residuals, self._src_residuals, weight)
-        best, confidence = kernels.decide(residuals)
+        best, confidence = decide(residuals)
         return Classification(True, best, residuals, confidence)
 
     def _doubt(

@@ -6,6 +6,8 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_recon.classification_kernels import by_class
+
 _OPTIONS = {"cache": True, "nogil": True, "fastmath": {"nnan", "ninf", "nsz", "contract", "reassoc", "arcp"}}
 _ROUNDS = 40
 """Rounds of coordinate descent for a mixture; it stops earlier once nothing changes."""
@@ -183,37 +185,6 @@ def weigh(residuals: NDArray[np.float32], others: NDArray[np.float32], weight: f
     for number in range(residuals.shape[0]):
         product = np.float64(residuals[number]) * np.float64(others[number]) ** weight
         residuals[number] = np.float32(product ** (1.0 / (1.0 + weight)))
-
-
-@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
-def decide(residuals: NDArray[np.float32]) -> tuple[int, float]:
-    """Class of the smallest residual, the first of equal ones, and `acts_core.residuals.confidence_of` all."""
-    best = 0
-    second = -1
-    for number in range(1, residuals.shape[0]):
-        if residuals[number] < residuals[best]:
-            second = best
-            best = number
-        elif second < 0 or residuals[number] < residuals[second]:
-            second = number
-    if second < 0 or residuals[second] <= 0:
-        return best, 0.0
-    return best, 1.0 - np.float64(residuals[best]) / np.float64(residuals[second])
-
-
-def by_class(classes: NDArray[np.int64], n_classes: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Sort what belongs to classes.
-
-    Returns
-    -------
-    first : np.ndarray [shape=(n_classes + 1,), dtype=int64]
-        Where each class begins in `members`, and its end.
-    members : np.ndarray [shape=(n,), dtype=int64]
-        Places in `classes`, class by class.
-    """
-    counts = np.bincount(classes, minlength=n_classes)
-    first = np.concatenate(([0], np.cumsum(counts))).astype(np.int64)
-    return first, np.argsort(classes, kind="stable").astype(np.int64)
 
 
 class Model:

@@ -6,8 +6,8 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_recon.classification_kernels import by_class
 from acts_recon.fastomp import REGULARISATION
-from acts_recon.image_classification_kernels import by_class
 from acts_recon.object_library import ObjectLibrary
 
 _OPTIONS = {"cache": True, "nogil": True, "fastmath": {"nnan", "ninf", "nsz", "contract", "reassoc", "arcp"}}

@@ -37,7 +37,7 @@ class ObjectLibrary:
     rows, cols : int
         Size of the array.
     columns : np.ndarray [shape=(rows * cols, n_columns), dtype=float32]
-        A frame a column, taxels row-major; every column has norm 1.
+        A frame a column, taxels row-major, no value negative; every column has norm 1.
     norms_counts : np.ndarray [shape=(n_columns,), dtype=float32]
         Norm that each column had before it was scaled [counts]: how hard was pressed.
     classes : np.ndarray [shape=(n_columns,), dtype=int64]
@@ -73,6 +73,8 @@ class ObjectLibrary:
             )
         if not np.isfinite(columns).all():
             raise ObjectLibraryError("the columns hold NaN or infinity; make the library anew from whole frames")
+        if columns.min() < 0:
+            raise ObjectLibraryError("the columns hold negative values; make the library of counts, 0 to 1023")
         norms = np.linalg.norm(columns.astype(np.float64), axis=0)
         if np.abs(norms - 1).max() > _NORM_TOLERANCE:
             worst = int(np.argmax(np.abs(norms - 1)))

@@ -9,11 +9,12 @@ from numpy.typing import NDArray
 
 from acts_core.layouts import Layout
 from acts_recon.classification import Classification, Classifier
+from acts_recon.fusion import FusionConfig
 from acts_recon.image_classification import ImageClassifier
 from acts_recon.object_library import ObjectLibrary
 
-FORGET_AFTER_S = 0.5
-"""After a gap this long nothing of earlier frames counts on."""
+FORGET_AFTER_S = FusionConfig().reset_after_s
+"""After a gap this long nothing of earlier frames counts on, here as in the fusion."""
 
 
 class ObjectRecogniser(Protocol):

@@ -219,7 +219,7 @@ class ReconstructionSettings:
         """
         if not self.object_library:
             return None
-        library = load_object_library(Path(self.object_library), shape=(self.rows, self.cols))
+        library = load_object_library(Path(self.object_library).expanduser(), shape=(self.rows, self.cols))
         if recovery.sigma is None or recovery.age_s is None:
             config = ClassifierConfig(touch_counts=self.touch_counts, max_columns=self.object_columns)
             return PerFrameObjects(Classifier(library, config))

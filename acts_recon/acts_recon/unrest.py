@@ -104,13 +104,14 @@ class Unrest:
         Raises
         ------
         ArrayError
-            When there is a NaN, an infinite count, or a negative deviation or age. Everything is left as it was.
+            When there is a NaN, an infinite count or deviation, or a negative deviation or age. Everything is left as
+            it was.
         """
         flat = image.ravel(), sigma.ravel(), age_s.ravel()
         if not kernels.possible(*flat):
             raise ArrayError(
-                "image with NaN, infinite counts, or negative sigma or age_s: needed are the fields of one estimate "
-                "(acts_recon.fusion)"
+                "image with NaN, infinite counts or sigma, or negative sigma or age_s: needed are the fields of one "
+                "estimate (acts_recon.fusion)"
             )
         self.rate_counts_per_s = kernels.follow(
             *flat,

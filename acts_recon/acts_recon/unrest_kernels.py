@@ -12,10 +12,10 @@ _OPTIONS = {"cache": True, "nogil": True}
 
 @numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
 def possible(image: NDArray[np.float32], sigma: NDArray[np.float32], age_s: NDArray[np.float32]) -> bool:
-    """Whether all counts are finite, and all deviations and ages 0 or more; flat arrays."""
+    """Whether all counts and deviations are finite, and all deviations and ages 0 or more; flat arrays."""
     wrong = 0
     for t in range(image.shape[0]):
-        if not (np.isfinite(image[t]) and sigma[t] >= 0 and age_s[t] >= 0):
+        if not (np.isfinite(image[t]) and 0 <= sigma[t] < np.inf and age_s[t] >= 0):
             wrong += 1
     return wrong == 0
 

@@ -15,8 +15,8 @@ from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError, SettingsError
 from acts_core.force import ForceResponse
 from acts_core.residuals import confidence_of
+from acts_recon.classification_kernels import decide
 from acts_recon.image_classification import LEVELS, ImageClassifier, ImageClassifierConfig, classify_image, less_deep
-from acts_recon.image_classification_kernels import decide
 from acts_recon.image_src import explain_among, proposed_columns
 from acts_recon.object_library import ObjectLibrary, build_object_library
 
@@ -182,10 +182,10 @@ def test_impossible_images_are_refused(objects: ObjectLibrary) -> None:
     for image, sigma, word in cases:
         with pytest.raises(ArrayError, match=word):
             classifier.step(image, sigma, CERTAIN, 0.001)
-    for field, word in ((0, np.nan), (0, np.inf), (1, np.nan), (1, -1.0), (2, np.nan), (2, -1.0)):
+    for field, word in ((0, np.nan), (0, np.inf), (1, np.nan), (1, np.inf), (1, -1.0), (2, np.nan), (2, -1.0)):
         fields = [image_of(3.0), CERTAIN.copy(), CERTAIN.copy()]
         fields[field][3, 4] = word
-        with pytest.raises(ArrayError, match="NaN, infinite counts, or negative sigma or age_s"):
+        with pytest.raises(ArrayError, match="NaN, infinite counts or sigma, or negative sigma or age_s"):
             classifier.step(fields[0], fields[1], fields[2], 0.001)
     for period_s in (-0.001, math.nan, math.inf):
         with pytest.raises(ArrayError, match="needed is a finite time"):

@@ -83,6 +83,7 @@ def test_what_was_saved_is_loaded(library: ObjectLibrary, tmp_path: Path) -> Non
         ({"rows": "two"}, "wrong type"),
         ({"columns": np.ones((4, 3), dtype=np.float32)}, "column 0 has norm 2"),
         ({"columns": np.full((4, 3), np.inf, dtype=np.float32)}, "NaN or infinity"),
+        ({"columns": np.full((4, 3), -0.5, dtype=np.float32)}, "negative values"),
         ({"columns": np.ones((4, 3), dtype=np.int32)}, "float matrix"),
         ({"columns": np.ones((4, 0), dtype=np.float32)}, "at least one column"),
         ({"classes": np.array([0, 1])}, "each of the 3 columns"),

@@ -68,11 +68,13 @@ def run(arguments: argparse.Namespace) -> int:
             )
         chosen = [n for n, label in enumerate(recorded.label) if not arguments.objects or label in arguments.objects]
         peaks = recorded.peak_frames() * recorded.live
-        chosen = [n for n in chosen if peaks[n].max() > arguments.touch_counts]
-        if not chosen:
+        touched = [n for n in chosen if peaks[n].max() > arguments.touch_counts]
+        if not touched:
             raise RecordingError(f"{arguments.frames}: no recording has more than {arguments.touch_counts} counts")
-        frames = peaks[chosen]
-        labels = [recorded.label[n] for n in chosen]
+        if len(touched) < len(chosen):
+            print(f"left out: {len(chosen) - len(touched)} recordings without a touch")
+        frames = peaks[touched]
+        labels = [recorded.label[n] for n in touched]
         digest = hashlib.sha256(arguments.frames.read_bytes()).hexdigest()
         source = f"{len(labels)} recordings of {arguments.frames.name} (sha256 {digest})"
     library = build_object_library(

@@ -14,7 +14,7 @@ from acts_sim.pressing_arm import PressingConfig
 from acts_tools.evaluate import options, report
 from acts_tools.evaluate.classification import M_OVER_TIME, MS, Trials, run_trials
 from acts_tools.evaluate.classification_recorded import run_recorded
-from acts_tools.evaluate.classification_report import draw, table
+from acts_tools.evaluate.classification_report import draw, table, times
 from acts_tools.output_file import require_writable
 
 
@@ -92,6 +92,8 @@ def _run(arguments: argparse.Namespace) -> int:
         print(table(results["over_m"], "m", "accuracy, held, at M ="))
         print()
         print(table(results["over_time"], "time_ms", f"accuracy at M = {M_OVER_TIME}, ms since contact"))
+        print()
+        print(times(results["frame_us"]))
         if arguments.picture:
             draw(arguments.picture, results, M_OVER_TIME)
     report.write_json(arguments.json, results)

@@ -27,6 +27,12 @@ def table(results: dict[str, list[dict[str, Any]]], question: str, heading: str)
     return "\n".join(lines)
 
 
+def times(frame_us: dict[str, dict[str, float] | None]) -> str:
+    """One line: how long each method took for a frame."""
+    taken = (f"{method} {us['median']:.0f}, {us['p99']:.0f}" for method, us in frame_us.items() if us)
+    return f"processor time to classify a frame, median and p99 [us]: {'; '.join(taken)}"
+
+
 def draw(path: Path, results: dict[str, Any], m_over_time: int) -> None:
     """Draw accuracy over M and over time since contact, with their intervals, into a PNG file.
 
