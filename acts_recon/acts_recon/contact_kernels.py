@@ -53,12 +53,16 @@ def find_contact(
     """
     total = by_col = by_row = by_col_square = by_row_square = peak = 0.0
     pressed = 0
+    rows = image.shape[0] // cols
+    top, bottom, left, right = rows, -1, cols, -1
     for t in range(image.shape[0]):
         value = np.float64(image[t])
         if not value > touch_counts:
             continue
         row = t // cols
         col = t - row * cols
+        top, bottom = min(top, row), max(bottom, row)
+        left, right = min(left, col), max(right, col)
         weight = force_of(value, force_n)
         total += weight
         by_col += weight * col
@@ -72,7 +76,6 @@ def find_contact(
     if pressed == 0:
         return
     total = max(total, _TINY_N)
-    rows = image.shape[0] // cols
     mean_col = by_col / total
     mean_row = by_row / total
     x_square = max(by_col_square / total - mean_col * mean_col, 0.0) * pitch_m * pitch_m
@@ -85,28 +88,36 @@ def find_contact(
     results[5] = x_square + y_square
     if sigma.shape[0] == 0:
         return
-    for t in range(image.shape[0]):
-        value = np.float64(image[t])
-        deviation = np.float64(sigma[t])
-        inside = value > touch_counts
-        if not deviation > 0.0 or (not inside and value + _FAR * deviation < touch_counts):
-            continue
-        row = t // cols
-        col = t - row * cols
-        if not inside:
-            beside = False
-            for r in range(max(row - 1, 0), min(row + 2, rows)):
-                for c in range(max(col - 1, 0), min(col + 2, cols)):
-                    beside = beside or image[r * cols + c] > touch_counts
-            if not beside:
+    for row in range(max(top - 1, 0), min(bottom + 2, rows)):
+        for col in range(max(left - 1, 0), min(right + 2, cols)):
+            t = row * cols + col
+            value = np.float64(image[t])
+            deviation = np.float64(sigma[t])
+            inside = value > touch_counts
+            if not deviation > 0.0 or (not inside and value + _FAR * deviation < touch_counts):
                 continue
-        square, wrong = taxel_variances(
-            max(value, 0.0), deviation, inside, touch_counts, noise_counts, together, force_n, slope_n
-        )
-        x_away = ((col - mean_col) * pitch_m) ** 2
-        y_away = ((row - mean_row) * pitch_y_m) ** 2
-        results[6] += square * x_away / (total * total)
-        results[7] += square * y_away / (total * total)
-        results[8] += square
-        results[9] += wrong
-        results[10] += square * (x_away + y_away - results[5]) ** 2 / (total * total)
+            if not (inside or _beside(image, rows, cols, row, col, touch_counts)):
+                continue
+            square, wrong = taxel_variances(
+                max(value, 0.0), deviation, inside, touch_counts, noise_counts, together, force_n, slope_n
+            )
+            x_away = ((col - mean_col) * pitch_m) ** 2
+            y_away = ((row - mean_row) * pitch_y_m) ** 2
+            results[6] += square * x_away
+            results[7] += square * y_away
+            results[8] += square
+            results[9] += wrong
+            results[10] += square * (x_away + y_away - results[5]) ** 2
+    results[6] /= total * total
+    results[7] /= total * total
+    results[10] /= total * total
+
+
+@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+def _beside(image: NDArray[np.float32], rows: int, cols: int, row: int, col: int, touch_counts: float) -> bool:
+    """Whether a taxel around this one is pressed."""
+    for r in range(max(row - 1, 0), min(row + 2, rows)):
+        for c in range(max(col - 1, 0), min(col + 2, cols)):
+            if image[r * cols + c] > touch_counts:
+                return True
+    return False

@@ -14,6 +14,7 @@ thought). So what a taxel adds is multiplied by a factor that goes from 1 for ``
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -98,7 +99,7 @@ def variances(
 
 def root_deviation(square: float, variance: float) -> float:
     """Standard deviation of a root whose square has this variance; also where the square is next to 0."""
-    return float(np.sqrt(square + np.sqrt(variance)) - np.sqrt(square))
+    return math.sqrt(square + math.sqrt(variance)) - math.sqrt(square)
 
 
 def slope_table(force_n: NDArray[np.float64]) -> NDArray[np.float64]:
