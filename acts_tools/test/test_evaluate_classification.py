@@ -51,7 +51,9 @@ def grasps(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def test_ours_is_above_the_papers_method_on_the_same_presses() -> None:
     trials = Trials(arms=1, presses=3, columns=3, objects=tuple(object_named(name) for name in SIX))
-    results = run_trials(trials, (42,), (2, 5, 20))
+    shares: list[float] = []
+    results = run_trials(trials, (42,), (2, 5, 20), shares.append)
+    assert shares == [number / len(SIX) for number in range(len(SIX))]
     paper, acts = ([cell["accuracy"] for cell in results["over_time"][method]] for method in ("paper", "acts"))
     assert all(ours > theirs for ours, theirs in zip(acts[:2], paper[:2], strict=True))
     assert acts[2] >= paper[2]

@@ -8,7 +8,7 @@ sampler with frames that begin at the same times, and know the objects from the 
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
@@ -237,8 +237,13 @@ def accuracy(right: int, n: int) -> dict[str, Any]:
     return {"accuracy": share, "low": low, "high": high, "presses": n}
 
 
-def run_trials(trials: Trials, ms: Sequence[int] = MS, times_ms: Sequence[float] = TIMES_MS) -> dict[str, Any]:
-    """Press, sample, classify.
+def run_trials(
+    trials: Trials,
+    ms: Sequence[int] = MS,
+    times_ms: Sequence[float] = TIMES_MS,
+    show: Callable[[float], None] = lambda _: None,
+) -> dict[str, Any]:
+    """Press, sample, classify; `show` is told the share of the presses that is done.
 
     Returns
     -------
@@ -263,6 +268,7 @@ def run_trials(trials: Trials, ms: Sequence[int] = MS, times_ms: Sequence[float]
         contenders = {m: pair(m) for m in ms}
         timed = pair(M_OVER_TIME)
         for item in range(len(arm.objects)):
+            show((number + item / len(arm.objects)) / trials.arms)
             wanted = coarse.names.index(arm.objects[item].name)
             for _ in range(trials.presses):
                 frames = arm.recording(item, _BEFORE_S, after_s)

@@ -15,6 +15,7 @@ from acts_tools.evaluate import options, report
 from acts_tools.evaluate.classification import M_OVER_TIME, MS, Trials, run_trials
 from acts_tools.evaluate.classification_recorded import run_recorded
 from acts_tools.evaluate.classification_report import draw, table, times
+from acts_tools.evaluate.progress import Progress
 from acts_tools.output_file import require_writable
 
 
@@ -73,7 +74,9 @@ def _run(arguments: argparse.Namespace) -> int:
     if arguments.frames:
         if arguments.picture:
             raise SettingsError(f"--picture {arguments.picture}: shows simulated presses and does not go with --frames")
-        results = run_recorded(load_frames(arguments.frames, labels=True), arguments.m or [55])
+        recorded = load_frames(arguments.frames, labels=True)
+        with Progress("recordings", 1) as progress:
+            results = run_recorded(recorded, arguments.m or [55], progress.show)
         print(
             f"{results['library']} recordings in the library, {results['presses']} classified, "
             f"{results['classes']} objects"
@@ -88,7 +91,8 @@ def _run(arguments: argparse.Namespace) -> int:
             pressing=PressingConfig(miss_taxels=arguments.miss_taxels, miss_deg=arguments.miss_deg),
             objects=tuple(object_named(name) for name in arguments.objects),
         )
-        results = run_trials(trials, arguments.m or MS)
+        with Progress("presses", 1) as progress:
+            results = run_trials(trials, arguments.m or MS, show=progress.show)
         print(table(results["over_m"], "m", "accuracy, held, at M ="))
         print()
         print(table(results["over_time"], "time_ms", f"accuracy at M = {M_OVER_TIME}, ms since contact"))

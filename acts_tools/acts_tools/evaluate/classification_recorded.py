@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -28,11 +28,13 @@ _RUN_UP_S = 1.0
 """Played before the frame that is classified."""
 
 
-def run_recorded(recorded: FramesFile, ms: Sequence[int]) -> dict[str, Any]:
+def run_recorded(
+    recorded: FramesFile, ms: Sequence[int], show: Callable[[float], None] = lambda _: None
+) -> dict[str, Any]:
     """Classify the strongest frame of every recording by the strongest frames of other recordings.
 
     The first half of each object's recordings, as they follow one another in the file, is the library; the rest is
-    classified. Recordings without a touch in their strongest frame are left out.
+    classified. Recordings without a touch in their strongest frame are left out. `show` is told the share that is done.
 
     Returns
     -------
@@ -63,6 +65,7 @@ def run_recorded(recorded: FramesFile, ms: Sequence[int]) -> dict[str, Any]:
     over_m: dict[str, list[dict[str, Any]]] = {PAPER: [], ACTS: [], NEAREST: []}
     cosines = np.stack([flat[peaks[number]].ravel() for number in asked]) @ fine.columns
     nearest = fine.classes[np.argmax(cosines, axis=1)]
+    done = 0
     for m in ms:
         contenders: dict[str, Contender] = {
             PAPER: PerFrameSrc(coarse, m),
@@ -71,6 +74,8 @@ def run_recorded(recorded: FramesFile, ms: Sequence[int]) -> dict[str, Any]:
         for method, contender in contenders.items():
             right = 0
             for number, wanted in zip(asked, truth, strict=True):
+                show(done / (len(ms) * len(contenders) * len(asked)))
+                done += 1
                 start, length = recorded.start[number], recorded.length[number]
                 frames = np.ascontiguousarray(flat[start : start + length])
                 peak_s = (peaks[number] - start) / recorded.rate_hz

@@ -33,7 +33,7 @@ class Progress:
         self._shown = self._stream.isatty()
         self._begin_s = time.monotonic()
 
-    def show(self, done: int) -> None:
+    def show(self, done: float) -> None:
         """Show that so many steps are done."""
         if not self._shown:
             return
