@@ -213,6 +213,15 @@ def test_peaks_are_single_frames_held_still(tmp_path: Path) -> None:
     assert result["relative_error"] == 0
 
 
+def test_single_frames_are_each_sampled_at_other_random_places(dictionary: Dictionary) -> None:
+    frame = still(1, [(r, c) for r in range(8, 20) for c in range(8, 20)])
+    task = Task(SamplingConfig(scheme="random", m=64, seed=2**64 - 1), "zero", onset_s=0.0)
+    first, again = (evaluate([Recording(frame, 1.0, LIVE)] * 8, task, dictionary) for _ in range(2))
+    assert first["frames"] == 8
+    assert first["cop_error_taxels"]["median"] < first["cop_error_taxels"]["p95"]
+    assert again["cop_error_taxels"] == first["cop_error_taxels"]
+
+
 def test_the_model_is_pressed_where_there_is_no_file(capsys: pytest.CaptureFixture[str]) -> None:
     words = ["--presses", "4", "--scheme", "adaptive", "--m", "128", "--method", "paper", "--onset-s", "0"]
     assert main(["evaluate", "recovery", *words]) == 0

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -189,10 +189,10 @@ def evaluate(
     first_ms: list[float] = []
     further_ms: list[float] = []
     missed = number = 0
-    for recording in recordings:
+    for which, recording in enumerate(recordings):
         notices = _Notices(recording, task.touch_counts)
         method.reset()
-        for frame in _play(recording, task, method):
+        for frame in _play(recording, _for_recording(task, which, recording), method):
             number += 1
             if number % _IMAGES_BETWEEN_SHOWS == 0:
                 show(number)
@@ -228,6 +228,14 @@ def evaluate(
             "invented_rate": float(np.mean(untouched_invented)) if untouched_invented else None,
         },
     }
+
+
+def _for_recording(task: Task, which: int, recording: Recording) -> Task:
+    """The task with a seed of its own for each single frame: else one and the same random draw would see them all."""
+    if len(recording.frames) > 1:
+        return task
+    sampling = replace(task.sampling, seed=(task.sampling.seed + which) % 2**64)
+    return replace(task, sampling=sampling)
 
 
 def _play(recording: Recording, task: Task, method: Method) -> Iterator[_Frame]:
