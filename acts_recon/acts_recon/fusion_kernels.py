@@ -46,6 +46,7 @@ SPREAD_PRIOR = 0.5
 _OPTIONS = {"cache": True, "nogil": True, "fastmath": {"nsz", "contract", "reassoc", "arcp"}}
 _F = np.float32
 _TOP = np.float32(COUNT_MAX)
+_TINY = np.float32(1e-20)
 
 
 @numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
@@ -87,7 +88,9 @@ def _observe_motion(
     for a in range(evidence.shape[0]):
         for b in range(evidence.shape[1]):
             for q in range(6):
-                evidence[a, b, q] *= fade
+                faded = evidence[a, b, q] * fade
+                # What fades for ever ends in numbers so small that they are slow.
+                evidence[a, b, q] = faded if abs(faded) > _TINY else _F(0)
     horizon = _F(tuning.horizon_s)
     for k in range(m):
         i = int(np.int64(indices[k]))

@@ -328,6 +328,16 @@ def test_frames_may_be_lost_and_a_jump_of_the_clock_begins_anew() -> None:
         assert np.isinf(estimator.age_s).sum() == 1023
 
 
+def test_motion_that_is_long_past_leaves_no_subnormal_numbers() -> None:
+    skin, estimator = Skin(sliding(200.0), noise=2.0), FusionEstimator(ArrayGeometry())
+    for k in range(1, 60):
+        estimator.step(*skin.frame(0.001 * k), 0.001 * k, DURATION_S)
+    assert estimator._state.evidence.any()
+    for k in range(60, 700):
+        estimator.step(u16(0), u16(0), 0.001 * k, 0.0)
+    assert not estimator._state.evidence.any()
+
+
 def test_a_still_contact_is_exact_after_one_round() -> None:
     frame = bump(ArrayGeometry(), 10.3, 20.8, width=3.0)
     sampler = Sampler(SamplingConfig("tracking", threshold_counts=15))
