@@ -106,6 +106,18 @@ def test_fused_the_object_is_the_one_of_the_image(
 
 
 @pytest.mark.parametrize("method", ["fusion", "per_frame"])
+def test_the_topic_keeps_its_rate(make_bench: Callable[..., Bench], library_path: Path, method: str) -> None:
+    bench = make_bench(127, method=method, object_library=library_path, object_rate_hz=0.1)
+    listen(bench)
+    everything, pressed = np.arange(1024), bump(GEOMETRY, *PLACES["low"]).ravel()
+    for k in range(20):
+        bench.send(k, everything, pressed, **timed(20 * k))
+    bench.contact(19)
+    bench.until(lambda: bool(bench.received["object"]))
+    assert [(message.sequence, message.name) for message in bench.received["object"]] == [(0, "low")]
+
+
+@pytest.mark.parametrize("method", ["fusion", "per_frame"])
 def test_a_library_of_another_array_is_refused_at_start(
     make_bench: Callable[..., Bench], library_path: Path, method: str
 ) -> None:
