@@ -261,7 +261,7 @@ def _play(recording: Recording, task: Task, method: Method) -> Iterator[_Frame]:
         touch = float(task.touch_counts)
         in_contact = score_image(image.ravel(), truth, live, task.sampling.cols, touch, scores)
         errors = np.zeros(calibration.SUMS)
-        if method.sigma is not None:
+        if in_contact and method.sigma is not None:
             errors = known.errors(image.ravel(), method.sigma.ravel(), truth)
         if not in_contact:
             contact_since_s = None
