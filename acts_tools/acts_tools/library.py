@@ -29,7 +29,9 @@ def add_parser(subparsers: Any) -> None:
     parser.add_argument(
         "--frames", type=Path, metavar="NPZ", help="`frames`, `start`, `length` and a `label` for each recording"
     )
-    parser.add_argument("--objects", nargs="+", metavar="NAME", help="only these objects or labels (default: all)")
+    parser.add_argument(
+        "--objects", nargs="+", action="extend", metavar="NAME", help="only these objects or labels (default: all)"
+    )
     parser.add_argument(
         "--presses", type=_at_least_one, default=5, metavar="N", help="of each simulated object (default: %(default)s)"
     )

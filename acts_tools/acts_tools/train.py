@@ -46,13 +46,16 @@ def add_parser(subparsers: Any) -> None:
     parser.add_argument(
         "--frames",
         nargs="+",
+        action="extend",
         type=Path,
         metavar="PATH",
         help="learn from recordings, not the contact model: npz files with `frames` (n, rows, cols), or bags with full "
         "frames (images in mono16, or samples of the scheme raster)",
     )
     parser.add_argument("--topic", default="", help="of the bags (default: the only one that has full frames)")
-    parser.add_argument("--objects", nargs="+", metavar="NAME", help="objects of the contact model (default: all)")
+    parser.add_argument(
+        "--objects", nargs="+", action="extend", metavar="NAME", help="objects of the contact model (default: all)"
+    )
     parser.add_argument("--presses", type=int, default=3000, help="frames of the contact model (default: %(default)s)")
     parser.add_argument("--seed", type=int, default=0, help="of everything random (default: %(default)s)")
     parser.add_argument("--patches", type=int, default=15000, help="most patches to learn from (default: %(default)s)")

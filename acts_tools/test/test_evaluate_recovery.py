@@ -74,6 +74,13 @@ def test_every_scheme_m_and_method_has_its_line(tmp_path: Path, capsys: pytest.C
     assert out.err == ""
 
 
+def test_options_that_are_given_again_add_to_one_another(tmp_path: Path) -> None:
+    words = ["--m", "42", "--method", "zero", "--m", "64", "--method", "last"]
+    results = command(tmp_path, still(30, PRESSED), *words)
+    expected = [("tracking", 42, "zero"), ("tracking", 42, "last"), ("tracking", 64, "zero"), ("tracking", 64, "last")]
+    assert [(r["scheme"], r["m"], r["method"]) for r in results] == expected
+
+
 def test_a_recording_without_contact_has_no_scores(tmp_path: Path) -> None:
     (result,) = command(tmp_path, still(30, []))
     assert result["frames"] == 0

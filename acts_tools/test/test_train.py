@@ -21,7 +21,7 @@ SMALL = ("--presses", 60, "--patches", 400, "--atoms", 50, "--sparsity", 4, "--i
 
 def test_training_from_the_contact_model(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "d.npz"
-    assert run("-o", path, *SMALL, "--seed", 3, "--objects", "coin", "x") == 0
+    assert run("-o", path, *SMALL, "--seed", 3, "--objects", "coin", "--objects", "x") == 0
     output = capsys.readouterr().out
     assert "iteration 2 of 2" in output
     dictionary = load_dictionary(path, patch_size=8)

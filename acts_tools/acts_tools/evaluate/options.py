@@ -16,12 +16,15 @@ from acts_tools.evaluate.recovery import FOLLOW_COUNTS, Task
 METHOD = "acts"
 """Recovers unless another method is asked for."""
 
+_SCHEME, _M = "tracking", 55
+
 
 def add_arguments(parser: argparse.ArgumentParser, **defaults: float) -> None:
     """Add how a frame is sampled, recovered and scored; `defaults` are those of settings of `Task`, where others."""
-    parser.add_argument("--scheme", nargs="+", default=["tracking"], choices=tuple(SCHEMES), help="default: tracking")
-    parser.add_argument("--m", nargs="+", type=int, default=[55], help="taxels per frame (default: 55)")
-    parser.add_argument("--method", nargs="+", default=[METHOD], choices=tuple(METHODS), help=f"default: {METHOD}")
+    # Given again, each adds to what it named before; defaults are put in by `tasks`, or they would be added to.
+    parser.add_argument("--scheme", nargs="+", action="extend", choices=tuple(SCHEMES), help=f"default: {_SCHEME}")
+    parser.add_argument("--m", nargs="+", action="extend", type=int, help=f"taxels per frame (default: {_M})")
+    parser.add_argument("--method", nargs="+", action="extend", choices=tuple(METHODS), help=f"default: {METHOD}")
     add_common_arguments(parser, **defaults)
 
 
@@ -90,9 +93,9 @@ def tasks(arguments: argparse.Namespace, shape: tuple[int, ...] = (32, 32)) -> l
     """Every scheme with every M and every method."""
     return [
         task(arguments, scheme, m, method, shape)
-        for scheme in arguments.scheme
-        for m in arguments.m
-        for method in arguments.method
+        for scheme in arguments.scheme or [_SCHEME]
+        for m in arguments.m or [_M]
+        for method in arguments.method or [METHOD]
     ]
 
 
