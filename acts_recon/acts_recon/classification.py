@@ -21,8 +21,8 @@ from acts_core.errors import ArrayError
 from acts_core.residuals import confidence_of
 from acts_core.settings import setting, validate
 from acts_recon import classification_kernels as kernels
-from acts_recon import fastomp_kernels
 from acts_recon.fastomp import SPARSITY_RATIO, fast_omp, sparsity
+from acts_recon.fastomp_model import Grouped, Problems, in_blocks
 from acts_recon.object_library import ObjectLibrary
 
 BOARD_COLUMNS = 2
@@ -100,12 +100,13 @@ class Classifier:
         self.config = config or ClassifierConfig()
         taxels = library.rows * library.cols
         self._model = (
-            fastomp_kernels.in_blocks(library.columns),
+            in_blocks(library.columns),
+            *Grouped(library.columns[:, :0]).arrays(),
             np.ascontiguousarray(library.columns.T),
             library.classes,
         )
         columns = self.config.columns_for(taxels, library)
-        self._workspace = kernels.Workspace(taxels, columns).arrays()
+        self._workspace = Problems(1, taxels, columns).arrays()
         self._residuals = np.ones(library.n_classes, dtype=np.float32)
         # Compile, or load from the cache, what the first frame would otherwise wait seconds for.
         first = np.zeros(1, dtype=np.uint16)

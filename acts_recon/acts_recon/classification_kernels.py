@@ -9,8 +9,8 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_recon.fastomp_kernels import pursue
-from acts_recon.fastomp_vectors import padded
+from acts_recon.fastomp_kernels import pursue, solve
+from acts_recon.fastomp_model import ALLOWED, CHOSEN, MEASURED, N_CHOSEN, ORDER, PRESSED, RESIDUAL_ROWS, Y_ROWS
 
 _OPTIONS = {"cache": True, "nogil": True, "fastmath": {"nnan", "ninf", "nsz", "contract", "reassoc", "arcp"}}
 
@@ -18,37 +18,57 @@ _OPTIONS = {"cache": True, "nogil": True, "fastmath": {"nnan", "ninf", "nsz", "c
 @numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
 def class_residuals(
     blocks: NDArray[np.float32],
+    groups: NDArray[np.float32],
+    numbers: NDArray[np.int32],
+    bounds: NDArray[np.float32],
     columns: NDArray[np.float32],
     classes: NDArray[np.int64],
     indices: NDArray[np.uint16],
     counts: NDArray[np.uint16],
     touch_counts: int,
     n_columns: int,
-    taxels: NDArray[np.int64],
-    y: NDArray[np.float32],
-    residual: NDArray[np.float32],
-    Q: NDArray[np.float32],
-    R: NDArray[np.float32],
-    chosen: NDArray[np.int64],
-    coefficients: NDArray[np.float32],
+    taxels: NDArray[np.uint32],
+    table: NDArray[np.int32],
+    rows: NDArray[np.float32],
+    systems: NDArray[np.float32],
+    lanes: NDArray[np.float32],
     residuals: NDArray[np.float32],
 ) -> bool:
     """Compute what every class leaves of one frame into `residuals`; returns whether anything was pressed.
 
-    `blocks` is the library as `acts_recon.fastomp_kernels.in_blocks` lays it out, `columns` the same with a column a
-    row, then come the frame, whose indices must be in range, the settings, and the buffers of `Workspace`.
+    The library is given as the dictionary is to `acts_recon.fastomp_kernels.pursue`, without groups, then come the
+    classes of its columns, the frame, whose indices must be in range, the settings, and the buffers of
+    `acts_recon.fastomp_model.Problems` for a single problem.
     """
     m = indices.shape[0]
+    y, residual = rows[Y_ROWS, 0], rows[RESIDUAL_ROWS, 0]
     square = np.float32(0.0)
+    pressed = 0
     for i in range(m):
-        taxels[i] = indices[i]
-        y[i] = np.float32(counts[i]) if counts[i] > touch_counts else np.float32(0.0)
-        square += y[i] * y[i]
+        if counts[i] > touch_counts:
+            taxels[0, pressed] = indices[i]
+            y[pressed] = counts[i]
+            square += y[pressed] * y[pressed]
+            pressed += 1
     for number in range(residuals.shape[0]):
         residuals[number] = 1.0
-    if square == 0:
+    if pressed == 0:
         return False
-    s = pursue(blocks, columns, taxels, y, m, n_columns, residual, Q, R, chosen, coefficients)
+    place = pressed
+    for i in range(m):
+        if counts[i] <= touch_counts:
+            taxels[0, place] = indices[i]
+            y[place] = 0.0
+            place += 1
+    table[MEASURED, 0] = m
+    table[PRESSED, 0] = pressed
+    table[ALLOWED, 0] = n_columns
+    table[ORDER, 0] = 0
+    pursue(blocks, groups, numbers, bounds, 0, columns, 1, taxels, table, rows, systems, lanes)
+    s = table[N_CHOSEN, 0]
+    solve(0, s, systems)
+    coefficients = systems[0, :, systems.shape[1]]
+    chosen = table[CHOSEN:, 0]
     norm = np.sqrt(square)
     for i in range(s):
         number = classes[chosen[i]]
@@ -62,7 +82,7 @@ def class_residuals(
         for j in range(s):
             if classes[chosen[j]] == number:
                 for p in range(m):
-                    residual[p] -= coefficients[j] * columns[chosen[j], taxels[p]]
+                    residual[p] -= coefficients[j] * columns[chosen[j], taxels[0, p]]
         left = np.float32(0.0)
         for p in range(m):
             left += residual[p] * residual[p]
@@ -99,31 +119,3 @@ def by_class(classes: NDArray[np.int64], n_classes: int) -> tuple[NDArray[np.int
     counts = np.bincount(classes, minlength=n_classes)
     first = np.concatenate(([0], np.cumsum(counts))).astype(np.int64)
     return first, np.argsort(classes, kind="stable").astype(np.int64)
-
-
-class Workspace:
-    """The buffers that `class_residuals` works in, allocated once.
-
-    Parameters
-    ----------
-    n_taxels : int
-        Size of the array.
-    n_columns : int
-        Columns chosen at most.
-    """
-
-    def __init__(self, n_taxels: int, n_columns: int) -> None:
-        def floats(*shape: int) -> NDArray[np.float32]:
-            return np.zeros(shape, dtype=np.float32)
-
-        self.taxels = np.zeros(n_taxels, dtype=np.int64)
-        self.y = floats(padded(n_taxels))
-        self.residual = floats(padded(n_taxels))
-        self.Q = floats(n_columns, padded(n_taxels))
-        self.R = floats(n_columns, n_columns)
-        self.chosen = np.zeros(n_columns, dtype=np.int64)
-        self.coefficients = floats(n_columns)
-
-    def arrays(self) -> tuple[NDArray, ...]:
-        """The buffers in the order in which `class_residuals` takes them."""
-        return (self.taxels, self.y, self.residual, self.Q, self.R, self.chosen, self.coefficients)

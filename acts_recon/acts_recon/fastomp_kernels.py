@@ -1,91 +1,191 @@
 """FastOMP in numba: the same as `acts_recon.fastomp`, in single precision and without allocation.
 
-Nearly all of the time goes into the correlation of the residual with every atom. The dictionary is therefore kept with
-a pixel's values for a block of atoms side by side (`in_blocks`), for `acts_recon.fastomp_vectors`.
+Most of the time goes into finding the atom that correlates most with a residual (`acts_recon.fastomp_choice`). All
+patches of a frame choose their first atom together, then their second one, and so on: a block of the dictionary is
+fetched once for all of them, and while the processor waits for one patch's numbers it computes another's.
 """
 
 from __future__ import annotations
-
-import math
 
 import numba
 import numpy as np
 from numpy.typing import NDArray
 
 from acts_recon.fastomp import REGULARISATION
-from acts_recon.fastomp_vectors import BLOCK, LANES, best_column, dot, padded, subtract
+from acts_recon.fastomp_choice import best_by_bounds, best_columns
+from acts_recon.fastomp_model import (
+    ALLOWED,
+    BEST,
+    CHOSEN,
+    FEW,
+    MANY,
+    MEASURED,
+    N_CHOSEN,
+    ORDER,
+    PRESSED,
+    Q_ROWS,
+    RESIDUAL_ROWS,
+    Y_ROWS,
+)
+from acts_recon.fastomp_vectors import add_square, clear, dot, padded, subtract
 
 OK = 0
 INDEX_OUT_OF_RANGE = 1
 INDEX_TWICE = 2
 COUNT_OUT_OF_RANGE = 3
 
-_CACHE_LINE_BYTES = 64
 _REGULARISATION = np.float32(REGULARISATION)
 _OPTIONS = {"cache": True, "nogil": True, "fastmath": {"nnan", "ninf", "nsz", "contract", "reassoc", "arcp"}}
+_padded = numba.njit(inline="always")(padded)
 
 
 @numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
 def pursue(
     blocks: NDArray[np.float32],
+    groups: NDArray[np.float32],
+    numbers: NDArray[np.int32],
+    bounds: NDArray[np.float32],
+    few_pixels: int,
     atoms: NDArray[np.float32],
-    pixels: NDArray[np.int64],
-    y: NDArray[np.float32],
-    m: int,
-    n_atoms: int,
-    residual: NDArray[np.float32],
-    Q: NDArray[np.float32],
-    R: NDArray[np.float32],
-    chosen: NDArray[np.int64],
-    coefficients: NDArray[np.float32],
-) -> int:
-    """`acts_recon.fastomp.fast_omp` on the measured `pixels` of a patch; returns the number of chosen atoms.
+    n_problems: int,
+    pixels: NDArray[np.uint32],
+    table: NDArray[np.int32],
+    rows: NDArray[np.float32],
+    systems: NDArray[np.float32],
+    lanes: NDArray[np.float32],
+) -> None:
+    """`acts_recon.fastomp.fast_omp` on several problems with the same dictionary, in step.
 
-    `y`, `residual` and the rows of `Q` must be as long as `padded` of the most pixels. `pixels` and `y` are reordered.
+    The dictionary: as `acts_recon.fastomp_model.in_blocks` lays it out; as `Grouped`, which is used for problems of at
+    most `few_pixels` pixels; and with an atom a row. Then the buffers of `acts_recon.fastomp_model.Problems`, filled in
+    for the first `n_problems` of ``table[ORDER]``, whose contents are overwritten.
     """
-    # Pixels that read 0 add nothing to the first correlations: they go to the end, and the first round leaves them out.
-    relevant = 0
-    for p in range(m):
-        if y[p] != 0:
-            y[p], y[relevant] = y[relevant], y[p]
-            pixels[p], pixels[relevant] = pixels[relevant], pixels[p]
-            relevant += 1
-    n = (m + LANES - 1) // LANES * LANES
-    for p in range(n):
-        residual[p] = y[p] if p < m else np.float32(0.0)
-    s = 0
-    for i in range(n_atoms):
-        atom = best_column(blocks, pixels, residual, relevant if i == 0 else m)
-        if atom < 0:
-            break
-        chosen[i] = atom
+    order, few, many, best = table[ORDER], table[FEW], table[MANY], table[BEST]
+    active = n_problems
+    i = 0
+    while active > 0:
+        # Pixels that read 0 come last and add nothing to the first correlations, which leave them out.
+        counts = table[PRESSED if i == 0 else MEASURED]
+        residuals = rows[Y_ROWS if i == 0 else RESIDUAL_ROWS]
+        n_few = n_many = 0
+        for k in range(active):
+            problem = order[k]
+            few[n_few] = problem
+            many[n_many] = problem
+            if counts[problem] <= few_pixels:
+                n_few += 1
+            else:
+                n_many += 1
+        best_by_bounds(groups, numbers, bounds, pixels, residuals, counts, few, n_few, lanes, best)
+        best_columns(blocks, pixels, residuals, counts, many, n_many, lanes, best)
+        # Values are fetched in one loop and computed with in the next: a vector has to wait for elements just written.
+        active = _take_atoms(i, active, atoms, pixels, table, rows, systems)
+        active = _use_atoms(i, active, table, rows, systems)
+        i += 1
+
+
+# A call with arrays costs as much as a patch of few pixels: the loops over problems are in the functions below.
+
+
+@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+def _take_atoms(
+    i: int,
+    active: int,
+    atoms: NDArray[np.float32],
+    pixels: NDArray[np.uint32],
+    table: NDArray[np.int32],
+    rows: NDArray[np.float32],
+    systems: NDArray[np.float32],
+) -> int:
+    """Fetch the measured pixels of the atoms that were chosen; keep and count the problems that have to go on."""
+    n = rows.shape[1]
+    last = systems.shape[1]
+    going_on = 0
+    for k in range(active):
+        problem = table[ORDER, k]
+        best = table[BEST, problem]
+        table[N_CHOSEN, problem] = i
+        if best < 0:
+            continue
+        table[N_CHOSEN, problem] = i + 1
+        table[CHOSEN + i, problem] = best
+        atom = np.uint32(best)
+        m = table[MEASURED, problem]
+        if i == 0:
+            # Nothing to orthogonalise. Most patches of a fully pressed skin have few pixels and need no other atom.
+            square = np.float32(0.0)
+            projection = np.float32(0.0)
+            for p in range(m):
+                value = atoms[atom, pixels[problem, p]]
+                square += value * value
+                projection += value * rows[Y_ROWS, problem, p]
+            systems[problem, 0, 0] = square + _REGULARISATION
+            systems[problem, 0, last] = projection
+            if table[ALLOWED, problem] == 1:
+                continue
+        clear(rows, (Q_ROWS + i) * n + problem, _padded(m))
         for p in range(m):
-            Q[i, p] = atoms[atom, pixels[p]]
-        for p in range(m, n):
-            Q[i, p] = 0.0
-        for j in range(i):
-            R[j, i] = dot(Q, j, Q, i, n)
-            subtract(Q, i, R[j, i] / R[j, j], Q, j, n)
-        R[i, i] = dot(Q, i, Q, i, n) + _REGULARISATION
-        subtract(residual, 0, dot(Q, i, residual, 0, n) / R[i, i], Q, i, n)
-        s += 1
+            rows[Q_ROWS + i, problem, p] = atoms[atom, pixels[problem, p]]
+        table[ORDER, going_on] = problem
+        going_on += 1
+    return going_on
+
+
+@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+def _use_atoms(
+    i: int, active: int, table: NDArray[np.int32], rows: NDArray[np.float32], systems: NDArray[np.float32]
+) -> int:
+    """Make the `i`-th atoms orthogonal to those before and take what they explain off the residuals.
+
+    Keeps and counts the problems that are allowed another atom.
+    """
+    n = rows.shape[1]
+    last = systems.shape[1]
+    going_on = 0
+    for k in range(active):
+        problem = table[ORDER, k]
+        length = _padded(table[MEASURED, problem])
+        y, residual, new = Y_ROWS * n + problem, RESIDUAL_ROWS * n + problem, (Q_ROWS + i) * n + problem
+        if i > 0:
+            for j in range(i):
+                old = (Q_ROWS + j) * n + problem
+                systems[problem, j, i] = dot(rows, old, rows, new, length)
+                subtract(rows, new, new, systems[problem, j, i] / systems[problem, j, j], old, length)
+            systems[problem, i, i] = dot(rows, new, rows, new, length) + _REGULARISATION
+            systems[problem, i, last] = dot(rows, new, rows, y, length)
+        if i + 1 < table[ALLOWED, problem]:
+            before = residual if i > 0 else y
+            share = dot(rows, new, rows, before, length) / systems[problem, i, i]
+            subtract(rows, residual, before, share, new, length)
+            table[ORDER, going_on] = problem
+            going_on += 1
+    return going_on
+
+
+@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+def solve(problem: int, s: int, systems: NDArray[np.float32]) -> None:
+    """From projections onto `s` orthogonalised atoms to the coefficients of the atoms, both in the last column."""
+    last = systems.shape[1]
     for i in range(s - 1, -1, -1):
-        value = dot(Q, i, y, 0, n)
+        value = systems[problem, i, last]
         for j in range(i + 1, s):
-            value -= R[i, j] * coefficients[j]
-        coefficients[i] = value / R[i, i]
-    return s
+            value -= systems[problem, i, j] * systems[problem, j, last]
+        systems[problem, i, last] = value / systems[problem, i, i]
 
 
 @numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
 def recover_image(
     blocks: NDArray[np.float32],
+    groups: NDArray[np.float32],
+    numbers: NDArray[np.int32],
+    bounds: NDArray[np.float32],
+    few_pixels: int,
     atoms: NDArray[np.float32],
-    taxels: NDArray[np.int32],
-    overlap: NDArray[np.float32],
-    entry_start: NDArray[np.int32],
-    entry_patch: NDArray[np.int32],
-    entry_pixel: NDArray[np.int32],
+    corners: NDArray[np.uint32],
+    holders: NDArray[np.uint32],
+    share: NDArray[np.float32],
+    side: int,
+    stride: int,
     indices: NDArray[np.uint16],
     counts: NDArray[np.uint16],
     touch_counts: int,
@@ -93,22 +193,18 @@ def recover_image(
     ratio: float,
     keep_measured: bool,
     seen: NDArray[np.bool_],
-    measured_pixels: NDArray[np.int64],
-    measured_values: NDArray[np.float32],
-    n_measured: NDArray[np.int32],
-    pressed: NDArray[np.bool_],
-    residual: NDArray[np.float32],
-    Q: NDArray[np.float32],
-    R: NDArray[np.float32],
-    chosen: NDArray[np.int64],
-    coefficients: NDArray[np.float32],
+    pixels: NDArray[np.uint32],
+    table: NDArray[np.int32],
+    rows: NDArray[np.float32],
+    systems: NDArray[np.float32],
+    lanes: NDArray[np.float32],
     image: NDArray[np.float32],
 ) -> int:
     """Check one frame and recover its image into `image`.
 
-    `blocks` is the dictionary as `in_blocks` lays it out, `atoms` the same with an atom a row, then come the arrays of
-    `PatchLayout`, the frame, the settings, and the buffers of `Workspace`. `image` is flat.
-    Values are clipped to 0 to `count_max`. Returns a code; unless it is `OK` the image is left as it was.
+    First what `acts_recon.fastomp_model.PatchModel` is made of, then the frame, the settings, and the buffers of
+    `acts_recon.fastomp_model.Workspace`. `image` is flat. Values are clipped to 0 to `count_max`.
+    Returns a code; unless it is `OK` the image is left as it was.
     """
     size = image.shape[0]
     m = indices.shape[0]
@@ -130,112 +226,60 @@ def recover_image(
     if code != OK:
         return code
 
-    n_patches, n_pixels = taxels.shape
+    n_patches = corners.shape[0]
+    measured, pressed, order, y = table[MEASURED], table[PRESSED], table[ORDER], rows[Y_ROWS]
     for patch in range(n_patches):
-        n_measured[patch] = 0
-        pressed[patch] = False
-    for i in range(m):
-        value = np.float32(counts[i]) if counts[i] > touch_counts else np.float32(0.0)
-        for entry in range(entry_start[indices[i]], entry_start[indices[i] + 1]):
-            patch = entry_patch[entry]
-            n = n_measured[patch]
-            measured_pixels[patch, n] = entry_pixel[entry]
-            measured_values[patch, n] = value
-            n_measured[patch] = n + 1
-            if value > 0:
-                pressed[patch] = True
+        measured[patch] = 0
+    _hand_out(True, touch_counts, indices, counts, holders, measured, pixels, y)
+    n_pressed = 0
+    for patch in range(n_patches):
+        pressed[patch] = measured[patch]
+        order[n_pressed] = patch
+        n_pressed += pressed[patch] > 0
+    _hand_out(False, touch_counts, indices, counts, holders, measured, pixels, y)
+    for patch in range(n_patches):
+        table[ALLOWED, patch] = max(1, int(ratio * measured[patch] + 0.5))
+    pursue(blocks, groups, numbers, bounds, few_pixels, atoms, n_pressed, pixels, table, rows, systems, lanes)
 
     for t in range(size):
         image[t] = 0.0
     for patch in range(n_patches):
-        if not pressed[patch]:
+        if pressed[patch] == 0:
             continue
-        n = n_measured[patch]
-        pixels = measured_pixels[patch]
-        y = measured_values[patch]
-        n_atoms = max(1, int(ratio * n + 0.5))
-        s = pursue(blocks, atoms, pixels, y, n, n_atoms, residual, Q, R, chosen, coefficients)
-        for p in range(n_pixels):
-            residual[p] = 0.0
+        s = table[N_CHOSEN, patch]
+        solve(patch, s, systems)
         for j in range(s):
-            coefficient = coefficients[j]
-            for p in range(n_pixels):
-                residual[p] += coefficient * atoms[chosen[j], p]
-        for p in range(n_pixels):
-            image[taxels[patch, p]] += residual[p]
+            coefficient = systems[patch, j, systems.shape[1]]
+            add_square(image, corners[patch], stride, coefficient, atoms, table[CHOSEN + j, patch], side)
     top = np.float32(count_max)
     for t in range(size):
-        image[t] = min(max(image[t] / overlap[t], np.float32(0.0)), top)
+        image[t] = min(max(image[t] * share[t], np.float32(0.0)), top)
     if keep_measured:
         for i in range(m):
             image[indices[i]] = np.float32(counts[i]) if counts[i] > touch_counts else np.float32(0.0)
     return OK
 
 
-def in_blocks(atoms: NDArray[np.floating]) -> NDArray[np.float32]:
-    """Lay a dictionary out for `recover_image`.
-
-    Parameters
-    ----------
-    atoms : np.ndarray [shape=(n_pixels, n_atoms), dtype=float]
-
-    Returns
-    -------
-    np.ndarray [shape=(n_blocks, n_pixels, BLOCK), dtype=float32]
-        Filled up with atoms of zeros, which are never chosen.
-    """
-    n_pixels, n_atoms = atoms.shape
-    n_blocks = -(-n_atoms // BLOCK)
-    padded = np.zeros((n_pixels, n_blocks * BLOCK), dtype=np.float32)
-    padded[:, :n_atoms] = atoms
-    blocks = _aligned(n_blocks, n_pixels, BLOCK)
-    blocks[:] = padded.reshape(n_pixels, n_blocks, BLOCK).transpose(1, 0, 2)
-    return blocks
-
-
-def _aligned(*shape: int) -> NDArray[np.float32]:
-    """Zeros that begin where a line of the cache does: vectors that straddle two lines take half as long again."""
-    buffer = np.zeros(4 * math.prod(shape) + _CACHE_LINE_BYTES, dtype=np.uint8)
-    skip = -buffer.ctypes.data % _CACHE_LINE_BYTES
-    return buffer[skip : skip + 4 * math.prod(shape)].view(np.float32).reshape(shape)
-
-
-class Workspace:
-    """The buffers that `recover_image` works in, allocated once.
-
-    Parameters
-    ----------
-    n_taxels, n_patches, n_pixels : int
-        Sizes of the array, of the layout and of a patch.
-    """
-
-    def __init__(self, n_taxels: int, n_patches: int, n_pixels: int) -> None:
-        def floats(*shape: int) -> NDArray[np.float32]:
-            return np.zeros(shape, dtype=np.float32)
-
-        self.seen = np.zeros(n_taxels, dtype=np.bool_)
-        self.measured_pixels = np.zeros((n_patches, n_pixels), dtype=np.int64)
-        width = padded(n_pixels)
-        self.measured_values = floats(n_patches, width)
-        self.n_measured = np.zeros(n_patches, dtype=np.int32)
-        self.pressed = np.zeros(n_patches, dtype=np.bool_)
-        self.residual = floats(width)
-        self.Q = floats(n_pixels, width)
-        self.R = floats(n_pixels, n_pixels)
-        self.chosen = np.zeros(n_pixels, dtype=np.int64)
-        self.coefficients = floats(n_pixels)
-
-    def arrays(self) -> tuple[NDArray, ...]:
-        """The buffers in the order in which `recover_image` takes them."""
-        return (
-            self.seen,
-            self.measured_pixels,
-            self.measured_values,
-            self.n_measured,
-            self.pressed,
-            self.residual,
-            self.Q,
-            self.R,
-            self.chosen,
-            self.coefficients,
-        )
+@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+def _hand_out(
+    pressed: bool,
+    touch_counts: int,
+    indices: NDArray[np.uint16],
+    counts: NDArray[np.uint16],
+    holders: NDArray[np.uint32],
+    measured: NDArray[np.int32],
+    pixels: NDArray[np.uint32],
+    y: NDArray[np.float32],
+) -> None:
+    """Give the samples of the pressed taxels, or those of the others, to the patches that hold them."""
+    for i in range(indices.shape[0]):
+        if (counts[i] > touch_counts) != pressed:
+            continue
+        value = np.float32(counts[i]) if pressed else np.float32(0.0)
+        taxel = indices[i]
+        for holder in range(holders[taxel, 0]):
+            patch = holders[taxel, 1 + 2 * holder]
+            place = measured[patch]
+            pixels[patch, place] = holders[taxel, 2 + 2 * holder]
+            y[patch, place] = value
+            measured[patch] = place + 1

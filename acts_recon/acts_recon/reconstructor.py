@@ -17,6 +17,7 @@ from acts_recon.contact import Contact
 from acts_recon.contact_finder import ContactFinder
 from acts_recon.dictionary import Dictionary
 from acts_recon.fastomp import SPARSITY_RATIO
+from acts_recon.fastomp_model import PatchModel, Workspace
 from acts_recon.frame_check import place_table, require_samples, why_refused
 from acts_recon.patches import patch_layout
 
@@ -73,17 +74,8 @@ class Reconstructor:
             self._places = place_table(layout, geometry)
             self._matrix_size = (layout.matrix_rows, layout.matrix_cols)
         patches = patch_layout(geometry.rows, geometry.cols, size=dictionary.patch_size, step=self.config.patch_step)
-        n_pixels = dictionary.patch_size**2
-        self._model = (
-            kernels.in_blocks(dictionary.atoms),
-            np.ascontiguousarray(dictionary.atoms.T),
-            patches.taxels,
-            patches.overlap,
-            patches.entry_start,
-            patches.entry_patch,
-            patches.entry_pixel,
-        )
-        self._workspace = kernels.Workspace(geometry.size, patches.n_patches, n_pixels).arrays()
+        self._model = PatchModel(patches, dictionary.atoms).arguments()
+        self._workspace = Workspace(patches, self.config.sparsity_ratio).arrays()
         self._flat = np.zeros(geometry.size, dtype=np.float32)
         self.image: NDArray[np.float32] = self._flat.reshape(geometry.rows, geometry.cols)
         """The image of the last frame [counts, 0 to 1023]; np.ndarray [shape=(rows, cols), dtype=float32].

@@ -9,6 +9,7 @@ from acts_core.array import ArrayGeometry
 from acts_recon import fastomp_kernels as kernels
 from acts_recon.dictionary import Dictionary
 from acts_recon.fastomp import fast_omp, recover_image, sparsity
+from acts_recon.fastomp_model import PatchModel, Workspace
 from acts_recon.patches import PatchLayout, patch_layout
 
 Frame = NDArray[np.uint16]
@@ -52,24 +53,24 @@ def test_nothing_to_explain_needs_no_atoms() -> None:
 
 
 def recover_by_kernel(
-    layout: PatchLayout, atoms: NDArray[np.float32], indices: Frame, counts: Frame, *, keep: bool = False
+    layout: PatchLayout,
+    atoms: NDArray[np.float32],
+    indices: Frame,
+    counts: Frame,
+    *,
+    keep: bool = False,
+    ratio: float = 0.25,
 ) -> NDArray[np.float32]:
     image = np.zeros(layout.rows * layout.cols, dtype=np.float32)
     code = kernels.recover_image(
-        kernels.in_blocks(atoms),
-        np.ascontiguousarray(atoms.T),
-        layout.taxels,
-        layout.overlap,
-        layout.entry_start,
-        layout.entry_patch,
-        layout.entry_pixel,
+        *PatchModel(layout, atoms).arguments(),
         indices,
         counts,
         60,
         1023,
-        0.25,
+        ratio,
         keep,
-        *kernels.Workspace(image.size, layout.n_patches, layout.size**2).arrays(),
+        *Workspace(layout, ratio).arrays(),
         image,
     )
     assert code == kernels.OK
@@ -92,6 +93,19 @@ def test_kernel_equals_twin_on_random_data(rows: int, cols: int, step: int) -> N
         m = int(rng.integers(1, rows * cols // 2))
         indices = rng.permutation(rows * cols)[:m].astype(np.uint16)
         assert_kernel_equals_twin(layout, atoms, indices, rng.integers(0, 1024, m).astype(np.uint16))
+
+
+@pytest.mark.parametrize("ratio", [0.05, 1.0])
+def test_as_many_atoms_as_are_asked_for(ratio: float) -> None:
+    rng = np.random.default_rng(5)
+    atoms = rng.standard_normal((16, 40)).astype(np.float32)
+    layout = patch_layout(12, 12, size=4, step=2)
+    indices = rng.permutation(144)[:50].astype(np.uint16)
+    counts = rng.integers(0, 1024, 50).astype(np.uint16)
+    values = np.where(counts > 60, counts, 0).astype(np.float64)
+    expected = np.clip(recover_image(layout, atoms, indices, values, ratio=ratio), 0, 1023)
+    image = recover_by_kernel(layout, atoms, indices, counts, ratio=ratio)
+    np.testing.assert_allclose(image, expected, rtol=2e-3, atol=0.5)
 
 
 @pytest.mark.parametrize("m", [55, 256])

@@ -11,10 +11,14 @@ from recon_samples import bump, sample
 
 from acts_core.array import ArrayGeometry
 from acts_core.force import ForceResponse
+from acts_recon import fastomp_kernels
 from acts_recon.blob_tracker import BlobTracker
 from acts_recon.contact_finder import ContactFinder
+from acts_recon.dictionary import Dictionary
+from acts_recon.fastomp_model import PatchModel, Workspace
 from acts_recon.fusion import FusionEstimator
 from acts_recon.fusion_state import State
+from acts_recon.patches import patch_layout
 
 GEOMETRY = ArrayGeometry()
 FRAMES = 20
@@ -67,3 +71,15 @@ def test_finding_and_following_contacts_allocates_nothing(allocations: Count) ->
     assert allocations(lambda k: finder.find(image.ravel(), sigma.ravel())) == 5
     found, followed = 9, 9
     assert allocations(lambda k: tracker.step(image, 1e-3 * k, sigma)) == found + followed
+
+
+@pytest.mark.parametrize("m", [55, 700])
+def test_recovering_a_frame_alone_allocates_nothing(dictionary: Dictionary, allocations: Count, m: int) -> None:
+    layout = patch_layout(GEOMETRY.rows, GEOMETRY.cols)
+    image = np.zeros(GEOMETRY.size, dtype=np.float32)
+    model, buffers = PatchModel(layout, dictionary.atoms).arguments(), Workspace(layout).arrays()
+    frame = sample(bump(GEOMETRY, 12, 14), m)
+    given = sum(isinstance(value, np.ndarray) for value in (*model, *frame, *buffers, image))
+    recover = fastomp_kernels.recover_image
+    assert allocations(lambda k: recover(*model, *frame, 60, 1023, 0.25, True, *buffers, image)) == given
+    assert image.max() > 0

@@ -63,6 +63,15 @@ def test_problems_are_the_patches_that_were_touched() -> None:
     assert chosen.size == 1
 
 
+def test_order_recursive_pursuit_takes_what_lowers_the_residual_most() -> None:
+    # The first column explains the first row, the third one all of the rest.
+    A = np.array([[1.0, 0.8, 0.0], [0.0, 0.6, 0.0], [0.0, 0.0, 1.0]])
+    assert recovery.order_recursive(A, np.array([4.0, 0.0, 1.0]), 1) == pytest.approx(1 / 17**0.5)
+    assert recovery.order_recursive(A, np.array([4.0, 0.0, 1.0]), 2) == pytest.approx(0, abs=1e-12)
+    # 0.6 of the second column is new: normalised again it explains all that is left.
+    assert recovery.order_recursive(A, np.array([4.0, 1.0, 0.9]), 2) == pytest.approx(0.9 / (17 + 0.81) ** 0.5)
+
+
 def test_the_peak_is_one_of_this_world() -> None:
     begin_s = time.monotonic()
     peak = multiply_adds.peak_per_s(trials=3, times=50)
