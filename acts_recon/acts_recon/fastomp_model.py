@@ -82,16 +82,18 @@ class PatchModel:
     layout : PatchLayout
     atoms : np.ndarray [shape=(size * size, n_atoms), dtype=float]
         Dictionary, pixels numbered as by `PatchLayout`.
+    few_pixels : int
+        Patches with at most so many measured pixels leave out atoms by their bounds; 0: none does.
     """
 
-    def __init__(self, layout: PatchLayout, atoms: NDArray[np.floating]) -> None:
+    def __init__(self, layout: PatchLayout, atoms: NDArray[np.floating], few_pixels: int = FEW_PIXELS) -> None:
         # This numbering is its own inverse.
         column_first = np.arange(layout.size**2).reshape(layout.size, layout.size).T.ravel()
         by_rows = atoms[column_first]
         self._arguments: tuple[NDArray | int, ...] = (
             in_blocks(by_rows),
             *Grouped(by_rows).arrays(),
-            FEW_PIXELS,
+            few_pixels,
             _aligned(by_rows.T),
             layout.taxels[:, 0].astype(np.uint32),
             _holders(layout, column_first),
