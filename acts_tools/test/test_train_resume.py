@@ -6,7 +6,6 @@ import io
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import numpy as np
@@ -23,15 +22,34 @@ TIMEOUT_S = 60.0
 WORDS = ("--presses", "60", "--patches", "400", "--atoms", "50", "--sparsity", "4", "--objects", "coin", "x")
 
 
+HOLDING = """
+import sys
+from acts_tools.cli import main
+from acts_tools.training.checkpoint import Checkpoint
+
+save = Checkpoint.save
+
+def save_and_hold(self, state):
+    save(self, state)
+    print("saved", flush=True)
+    sys.stdin.readline()
+
+Checkpoint.save = save_and_hold
+sys.exit(main(sys.argv[1:]))
+"""
+"""The acts command, but that a training waits for a line after every checkpoint: however slow the machine, a signal
+comes while it is under way."""
+
+
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory: pytest.TempPathFactory) -> tuple[list[str], str]:
-    """A training of some hundred short iterations: its command without the output, and the hash of its result."""
+    """A training of short iterations: its command without the output, and the hash of its result."""
     folder = tmp_path_factory.mktemp("whole")
     row, col = np.indices((12, 10))
     bumps = [900 * np.exp(-((row - r) ** 2 + (col - c) ** 2) / 9) for r in range(12) for c in range(10)]
     np.savez(folder / "frames.npz", frames=np.array(bumps).astype(np.uint16))
     words = ["train", "--frames", str(folder / "frames.npz"), "--patches", "200", "--atoms", "30", "--sparsity", "3"]
-    words += ["--iterations", "300", "-o"]
+    words += ["--iterations", "20", "-o"]
     assert main([*words, str(folder / "d.npz")]) == 0
     return words, load_dictionary(folder / "d.npz").sha256
 
@@ -43,15 +61,21 @@ def test_an_interrupted_training_ends_as_if_it_had_not_been(
     words, sha256 = whole
     path, partial = tmp_path / "d.npz", tmp_path / "d.npz.partial"
     process = subprocess.Popen(
-        [sys.executable, "-m", "acts_tools", *words, str(path)],
+        [sys.executable, "-c", HOLDING, *words, str(path)],
+        stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
     )
     try:
-        deadline_s = time.monotonic() + TIMEOUT_S
-        while not partial.exists() and time.monotonic() < deadline_s and process.poll() is None:
-            time.sleep(0.002)
+        assert process.stdin is not None
+        assert process.stdout is not None
+        for go_on in (True, True, False):
+            while (line := process.stdout.readline()) != "saved\n":
+                assert line, "the training ended before it was interrupted"
+            if go_on:
+                process.stdin.write("\n")
+                process.stdin.flush()
         process.send_signal(number)
         output, _ = process.communicate(timeout=TIMEOUT_S)
     finally:
