@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 
 from acts_core.errors import SettingsError
 from acts_sim.contact_model import ContactModel, FoamConfig, Press
-from acts_sim.objects import object_named
+from acts_sim.event_contacts import GOLF_BALL, SLIDING
+from acts_sim.objects import ContactObject
 
 EVENT_RATE_HZ = 4000.0
 """Frames per second of every event."""
@@ -24,7 +25,6 @@ BOUNCE_S = 0.0087
 """How long a bouncing ball touches the skin, in the paper's shortest recordings."""
 
 _SIDE = 32
-_SLIDING = ("fingertip", "marble", "golf_ball", "coin", "circle")
 
 Frames = NDArray[np.uint16]
 Make = Callable[[np.random.Generator], Frames]
@@ -79,11 +79,10 @@ def event_recordings(name: str, recordings: int, seed: int) -> list[Frames]:
 def _bounce(rng: np.random.Generator) -> Frames:
     """A golf ball hits a random place three times for 8.7 ms, pressed in and out along a half sine."""
     model = _model(rng)
-    ball = object_named("golf_ball")
     x_m, y_m = rng.uniform(-0.055, 0.055, 2)
     depth_m = rng.uniform(0.001, 0.003)
     contact = np.sin(np.pi * np.arange(_n(BOUNCE_S) + 1) / _n(BOUNCE_S))
-    once = np.stack([_frame(model, ball.name, Press(x_m, y_m, depth_m=depth_m * share)) for share in contact])
+    once = np.stack([_frame(model, GOLF_BALL, Press(x_m, y_m, depth_m=depth_m * share)) for share in contact])
     return np.concatenate([part for _ in range(3) for part in (_untouched(rng), once)] + [_untouched(rng)])
 
 
@@ -92,7 +91,7 @@ def _slide(speed_m_s: float) -> Make:
 
     def make(rng: np.random.Generator) -> Frames:
         model = _model(rng)
-        item = object_named(_SLIDING[int(rng.integers(len(_SLIDING)))])
+        item = SLIDING[int(rng.integers(len(SLIDING)))]
         depth_m = item.depth_m[0] + rng.uniform(0.4, 1.0) * (item.depth_m[1] - item.depth_m[0])
         course = rng.uniform(0, 2 * np.pi)
         length_m = min(0.1, 0.4 * speed_m_s)
@@ -105,7 +104,7 @@ def _slide(speed_m_s: float) -> Make:
         path = [
             _frame(
                 model,
-                item.name,
+                item,
                 Press(a * c - aside_m * s, a * s + aside_m * c, angle_rad=course, depth_m=depth_m * share),
             )
             for a, share in zip(along_m.tolist(), shares.tolist(), strict=True)
@@ -170,8 +169,8 @@ def _model(rng: np.random.Generator) -> ContactModel:
     return ContactModel(config=FoamConfig(noise_counts=0.0, subsamples=2), seed=int(rng.integers(2**31)))
 
 
-def _frame(model: ContactModel, name: str, press: Press) -> Frames:
-    return model.counts(model.forces_n(object_named(name), press))
+def _frame(model: ContactModel, item: ContactObject, press: Press) -> Frames:
+    return model.counts(model.forces_n(item, press))
 
 
 def _n(duration_s: float) -> int:

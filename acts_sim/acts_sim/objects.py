@@ -1,8 +1,10 @@
 """Objects to press into the skin: a register of small functions, each the underside of one object.
 
 An object is described by its gap: how far each point of its underside lies above its lowest point, in the object's own
-frame (origin at its middle, z up). The shapes are our own, modelled on the paper's list (8 printed shapes, "2
-cylinders" to "X"; things of daily use, Fig. S13). To add one, write a function of x and y and register it::
+frame (origin at its middle, z up). The 30 objects are those of the paper's list, in its order (8 printed shapes, "2
+cylinders" to "X"; 22 daily objects, "computer mouse" to "tweezers", Fig. S13). The paper names them and shows a
+picture; shapes and sizes are ours, those of usual things of that name. To add one, write a function of x and y and
+register it::
 
     @register("coin", "daily", depth_m=(0.0003, 0.0015))
     def _coin(x: Field, y: Field) -> Field:
@@ -15,15 +17,22 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from acts_core.errors import SettingsError
-
-Field = NDArray[np.float64]
-"""One number for every point of a grid."""
-
-_EDGE_SLOPE = 4.0
-"""Rise over run of the rounded edge of a printed or cut shape."""
+from acts_sim.outlines import (
+    Field,
+    bar,
+    box,
+    convex_polygon,
+    disc,
+    ellipsoid,
+    lying_cylinder,
+    prism,
+    ring,
+    rounded_box,
+    union,
+    without,
+)
 
 
 @dataclass(frozen=True)
@@ -34,7 +43,7 @@ class ContactObject:
     ----------
     name : str
     group : str
-        "printed" or "daily".
+        "printed" or "daily"; "event" of those that only fast events use (event_contacts.py).
     depth_m : tuple of float
         Least and greatest depth that it is usually pressed in [m].
     gap_m : callable
@@ -85,55 +94,6 @@ def object_named(name: str) -> ContactObject:
         raise SettingsError(f"object {name!r} does not exist; known are {', '.join(OBJECTS)}") from None
 
 
-# Signed distances from the edge of flat outlines [m], negative inside.
-
-
-def disc(x: Field, y: Field, radius: float) -> Field:
-    """Disc around the origin."""
-    return np.hypot(x, y) - radius
-
-
-def box(x: Field, y: Field, width: float, height: float) -> Field:
-    """Rectangle around the origin."""
-    dx, dy = np.abs(x) - width / 2, np.abs(y) - height / 2
-    return np.hypot(np.maximum(dx, 0), np.maximum(dy, 0)) + np.minimum(np.maximum(dx, dy), 0)
-
-
-def ring(x: Field, y: Field, radius: float, width: float) -> Field:
-    """Ring around the origin; `radius` to the middle of its band."""
-    return np.abs(np.hypot(x, y) - radius) - width / 2
-
-
-def convex_polygon(x: Field, y: Field, corners: int, radius: float) -> Field:
-    """Regular polygon around the origin; `radius` to its corners, the first of them at the top."""
-    angles = np.pi / 2 + np.pi / corners + 2 * np.pi * np.arange(corners) / corners
-    apothem = radius * np.cos(np.pi / corners)
-    sides = np.stack([x * np.cos(a) + y * np.sin(a) for a in angles])
-    return np.max(sides, axis=0) - apothem
-
-
-def bar(x: Field, y: Field, length: float, width: float, angle: float = 0.0) -> Field:
-    """Bar around the origin, turned by `angle` [rad]."""
-    c, s = np.cos(angle), np.sin(angle)
-    return box(c * x + s * y, -s * x + c * y, length, width)
-
-
-def union(*distances: Field) -> Field:
-    """Everything that is in one of several outlines."""
-    return np.minimum.reduce(distances)
-
-
-def prism(distance: Field) -> Field:
-    """Gap of a flat underside with that outline and a steep, rounded edge."""
-    return np.maximum(distance, 0.0) * _EDGE_SLOPE
-
-
-def ellipsoid(x: Field, y: Field, radius_x: float, radius_y: float, radius_z: float) -> Field:
-    """Gap of an ellipsoid resting on its lowest point."""
-    square = (x / radius_x) ** 2 + (y / radius_y) ** 2
-    return radius_z * np.where(square < 1, 1 - np.sqrt(np.maximum(1 - square, 0.0)), 1 + (square - 1))
-
-
 # The 8 printed shapes.
 
 
@@ -177,17 +137,96 @@ def _x(x: Field, y: Field) -> Field:
     return prism(union(bar(x, y, 0.065, 0.010, np.pi / 4), bar(x, y, 0.065, 0.010, -np.pi / 4)))
 
 
-# Things of daily use.
+# The 22 daily objects.
 
 
-@register("marble", "daily", depth_m=(0.0008, 0.0040))
-def _marble(x: Field, y: Field) -> Field:
-    return ellipsoid(x, y, 0.008, 0.008, 0.008)
+@register("computer_mouse", "daily", depth_m=(0.0008, 0.0035))
+def _computer_mouse(x: Field, y: Field) -> Field:
+    """Its back, 110 x 62 mm, and the wheel."""
+    wheel = ellipsoid(x - 0.028, y, 0.012, 0.004, 0.010) + 0.0006
+    return np.minimum(ellipsoid(x, y, 0.055, 0.031, 0.018), wheel)
 
 
-@register("golf_ball", "daily", depth_m=(0.0008, 0.0040))
-def _golf_ball(x: Field, y: Field) -> Field:
-    return ellipsoid(x, y, 0.0213, 0.0213, 0.0213)
+@register("art_scissors", "daily")
+def _art_scissors(x: Field, y: Field) -> Field:
+    """Lying flat, a little open."""
+    blades = [bar(x - 0.010, y - 0.010 * slope, 0.082, 0.006, np.arctan(slope)) for slope in (0.22, -0.22)]
+    handles = [ring(x + 0.042, y - side * 0.015, 0.0105, 0.005) for side in (1, -1)]
+    return prism(union(*blades, *handles))
+
+
+@register("pliers", "daily")
+def _pliers(x: Field, y: Field) -> Field:
+    """Lying flat: jaws, joint, handles."""
+    jaws = [bar(x - 0.030, y - side * 0.0055, 0.044, 0.006, -side * 0.06) for side in (1, -1)]
+    handles = [bar(x + 0.032, y - side * 0.0125, 0.058, 0.010, -side * 0.22) for side in (1, -1)]
+    return np.minimum(prism(union(disc(x, y, 0.012), *jaws)), prism(union(*handles)) + 0.0003)
+
+
+@register("wristwatch", "daily")
+def _wristwatch(x: Field, y: Field) -> Field:
+    """Its face: a bezel around the glass, the crown, and the strap falling off on both sides."""
+    case = np.minimum(prism(ring(x, y, 0.0185, 0.003)), prism(disc(x, y, 0.020)) + 0.0005)
+    crown = prism(box(x, y - 0.0215, 0.005, 0.005)) + 0.0008
+    strap = prism(box(x, y, 0.090, 0.019)) + 0.0005 + 0.04 * np.maximum(np.abs(x) - 0.020, 0.0)
+    return np.minimum.reduce([case, crown, strap])
+
+
+@register("fidget_spinner", "daily", depth_m=(0.0006, 0.0028))
+def _fidget_spinner(x: Field, y: Field) -> Field:
+    """Three lobes around a cap that stands proud; a bearing in each lobe."""
+    turns = np.pi / 2 + 2 * np.pi * np.arange(3) / 3
+    centres = [(0.027 * np.cos(turn), 0.027 * np.sin(turn)) for turn in turns]
+    lobes = [disc(x - a, y - b, 0.0145) for a, b in centres]
+    holes = [disc(x - a, y - b, 0.005) for a, b in centres]
+    body = without(union(disc(x, y, 0.016), *lobes), *holes)
+    return np.minimum(prism(disc(x, y, 0.0095)), prism(body) + 0.0008)
+
+
+@register("rubber_ball", "daily", depth_m=(0.0008, 0.0040))
+def _rubber_ball(x: Field, y: Field) -> Field:
+    return ellipsoid(x, y, 0.0135, 0.0135, 0.0135)
+
+
+@register("hex_bar", "daily")
+def _hex_bar(x: Field, y: Field) -> Field:
+    """Lying on one of its flats; 14 mm across flats."""
+    flank = np.maximum(np.abs(y) - 0.0070 / np.sqrt(3), 0.0) * np.sqrt(3)
+    return np.maximum(flank, prism(np.abs(x) - 0.045))
+
+
+@register("aaa_battery", "daily", depth_m=(0.0006, 0.0025))
+def _aaa_battery(x: Field, y: Field) -> Field:
+    """Lying on its side."""
+    return lying_cylinder(x, y, 0.0445, 0.00525)
+
+
+@register("wrench", "daily")
+def _wrench(x: Field, y: Field) -> Field:
+    """Lying flat: an open end and a ring."""
+    jaw = without(disc(x - 0.036, y, 0.014), bar(x - 0.046, y - 0.003, 0.022, 0.012, 0.26))
+    return prism(union(jaw, box(x + 0.002, y, 0.052, 0.010), ring(x + 0.037, y, 0.0085, 0.006)))
+
+
+@register("bolt_and_nut", "daily", depth_m=(0.0008, 0.0028))
+def _bolt_and_nut(x: Field, y: Field) -> Field:
+    """M16, upright: the nut, 24 mm across flats, and the bolt's end out of it."""
+    return np.minimum(prism(disc(x, y, 0.0075)), prism(convex_polygon(x, y, 6, 0.0139)) + 0.0010)
+
+
+@register("spoon", "daily", depth_m=(0.0006, 0.0030))
+def _spoon(x: Field, y: Field) -> Field:
+    """The back of its bowl."""
+    return ellipsoid(x, y, 0.030, 0.020, 0.009)
+
+
+@register("soft_brain", "daily", depth_m=(0.0010, 0.0040))
+def _soft_brain(x: Field, y: Field) -> Field:
+    """A toy to squeeze, of two folded halves; it flattens where it is pressed."""
+    cleft = 0.0030 * np.exp(-((y / 0.0022) ** 2))
+    folds = 0.0007 * (1 + np.sin(np.abs(y) / 0.0026 + 1.6 * np.sin(x / 0.0050)) * np.cos(x / 0.0042))
+    # Its lowest point is beside the middle.
+    return ellipsoid(x, y, 0.036, 0.030, 0.012) + cleft + folds - 0.00076
 
 
 @register("tennis_ball", "daily", depth_m=(0.0008, 0.0040))
@@ -195,106 +234,61 @@ def _tennis_ball(x: Field, y: Field) -> Field:
     return ellipsoid(x, y, 0.0335, 0.0335, 0.0335)
 
 
-@register("egg", "daily", depth_m=(0.0008, 0.0040))
-def _egg(x: Field, y: Field) -> Field:
-    return ellipsoid(x, y, 0.029, 0.022, 0.022)
+@register("glass_mug", "daily")
+def _glass_mug(x: Field, y: Field) -> Field:
+    """Its rim."""
+    return prism(ring(x, y, 0.037, 0.004))
 
 
-@register("spoon", "daily", depth_m=(0.0006, 0.0030))
-def _spoon(x: Field, y: Field) -> Field:
-    return ellipsoid(x, y, 0.030, 0.020, 0.009)
+@register("multitool", "daily")
+def _multitool(x: Field, y: Field) -> Field:
+    """Folded: two handles beside each other, each with a slot for its blades."""
+    slots = [box(x - side * 0.006, y - side * 0.0075, 0.066, 0.005) for side in (1, -1)]
+    return prism(without(rounded_box(x, y, 0.098, 0.030, 0.006), *slots))
 
 
-@register("fingertip", "daily", depth_m=(0.0006, 0.0030))
-def _fingertip(x: Field, y: Field) -> Field:
-    return ellipsoid(x, y, 0.014, 0.009, 0.007)
+@register("cologne", "daily")
+def _cologne(x: Field, y: Field) -> Field:
+    """The base of a flat bottle; its middle is hollow."""
+    base = rounded_box(x, y, 0.062, 0.034, 0.010)
+    return np.minimum(prism(without(base, base + 0.006)), prism(base) + 0.0025)
 
 
-@register("pinch", "daily", depth_m=(0.0006, 0.0030))
-def _pinch(x: Field, y: Field) -> Field:
-    return np.minimum(
-        ellipsoid(x - 0.015, y, 0.009, 0.013, 0.007), ellipsoid(x + 0.015, y - 0.006, 0.009, 0.012, 0.007)
-    )
+@register("glue_bottle", "daily", depth_m=(0.0006, 0.0030))
+def _glue_bottle(x: Field, y: Field) -> Field:
+    """Lying on its side, its shoulder towards +x."""
+    return lying_cylinder(x, y, 0.085, 0.020) + np.maximum(x - 0.010, 0.0) ** 2 / 0.12
 
 
-@register("pen", "daily", depth_m=(0.0006, 0.0025))
-def _pen(x: Field, y: Field) -> Field:
-    return np.maximum(ellipsoid(x, y, 1.0, 0.005, 0.005), prism(box(x, y, 0.110, 0.05)))
+@register("nine_volt_battery", "daily", depth_m=(0.0012, 0.0040))
+def _nine_volt_battery(x: Field, y: Field) -> Field:
+    """Its snaps, a stud and a socket half an inch apart, on a face of 26.5 x 17.5 mm."""
+    snaps = union(disc(x - 0.00635, y, 0.00285), ring(x + 0.00635, y, 0.0034, 0.0016))
+    return np.minimum(prism(snaps), prism(box(x, y, 0.0265, 0.0175)) + 0.0025)
 
 
-@register("bottle_side", "daily", depth_m=(0.0006, 0.0030))
-def _bottle_side(x: Field, y: Field) -> Field:
-    return np.maximum(ellipsoid(x, y, 1.0, 0.033, 0.033), prism(box(x, y, 0.080, 0.2)))
+@register("eraser", "daily")
+def _eraser(x: Field, y: Field) -> Field:
+    """A block, worn at one end."""
+    return prism(rounded_box(x, y, 0.055, 0.022, 0.003)) + np.maximum(x - 0.012, 0.0) ** 2 / 0.15
 
 
-@register("ruler_edge", "daily")
-def _ruler_edge(x: Field, y: Field) -> Field:
-    return prism(box(x, y, 0.100, 0.003))
+@register("power_adapter", "daily")
+def _power_adapter(x: Field, y: Field) -> Field:
+    """The face opposite the prongs, with its USB socket."""
+    return prism(without(rounded_box(x, y, 0.046, 0.030, 0.006), box(x, y, 0.0135, 0.0065)))
 
 
-@register("wooden_block", "daily")
-def _wooden_block(x: Field, y: Field) -> Field:
-    return prism(box(x, y, 0.055, 0.024))
+@register("screwdriver", "daily", depth_m=(0.0006, 0.0028))
+def _screwdriver(x: Field, y: Field) -> Field:
+    """Lying on the bulge of its handle and on its tip; the shaft between them is higher."""
+    handle = np.maximum(ellipsoid(x + 0.028, y, 0.060, 0.010, 0.010), prism(np.abs(x + 0.028) - 0.026))
+    shaft = lying_cylinder(x - 0.026, y, 0.064, 0.003) + 0.07 * np.maximum(0.058 - x, 0.0)
+    return np.minimum(handle, shaft)
 
 
-@register("hex_nut", "daily")
-def _hex_nut(x: Field, y: Field) -> Field:
-    return prism(np.maximum(convex_polygon(x, y, 6, 0.019), -disc(x, y, 0.009)))
-
-
-@register("coin", "daily", depth_m=(0.0003, 0.0015))
-def _coin(x: Field, y: Field) -> Field:
-    return prism(disc(x, y, 0.012))
-
-
-@register("cup_rim", "daily")
-def _cup_rim(x: Field, y: Field) -> Field:
-    return prism(ring(x, y, 0.036, 0.004))
-
-
-@register("tape_roll", "daily")
-def _tape_roll(x: Field, y: Field) -> Field:
-    return prism(ring(x, y, 0.026, 0.013))
-
-
-@register("key", "daily", depth_m=(0.0003, 0.0015))
-def _key(x: Field, y: Field) -> Field:
-    bow = np.maximum(disc(x + 0.022, y, 0.012), -disc(x + 0.026, y, 0.004))
-    return prism(union(bow, box(x - 0.010, y, 0.042, 0.006), box(x - 0.026, y + 0.005, 0.005, 0.006)))
-
-
-@register("fork", "daily", depth_m=(0.0004, 0.0020))
-def _fork(x: Field, y: Field) -> Field:
-    tines = [box(x - 0.010, y - offset, 0.040, 0.0025) for offset in (-0.0105, -0.0035, 0.0035, 0.0105)]
-    return prism(union(*tines, box(x + 0.016, y, 0.016, 0.024)))
-
-
-@register("comb", "daily", depth_m=(0.0004, 0.0020))
-def _comb(x: Field, y: Field) -> Field:
-    return prism(union(*(disc(x - offset, y, 0.0025) for offset in np.linspace(-0.04, 0.04, 9))))
-
-
-@register("wrench", "daily")
-def _wrench(x: Field, y: Field) -> Field:
-    jaw = np.maximum(disc(x - 0.034, y, 0.014), -box(x - 0.044, y, 0.020, 0.012))
-    return prism(union(jaw, box(x + 0.008, y, 0.065, 0.010)))
-
-
-@register("sponge", "daily", depth_m=(0.0010, 0.0035))
-def _sponge(x: Field, y: Field) -> Field:
-    waves = 0.0012 * (2 + np.sin(x / 0.006 + 1.0) * np.cos(y / 0.008) + np.sin(0.7 * x / 0.006 - y / 0.005))
-    return np.maximum(waves - waves.min(), prism(box(x, y, 0.070, 0.045)))
-
-
-@register("stone", "daily", depth_m=(0.0008, 0.0035))
-def _stone(x: Field, y: Field) -> Field:
-    body = ellipsoid(x, y, 0.028, 0.020, 0.012)
-    bumps = 0.0015 * np.sin(x / 0.005) * np.sin(y / 0.0065 + 0.8)
-    gap = body + bumps
-    return gap - gap.min()
-
-
-@register("toy_brick", "daily")
-def _toy_brick(x: Field, y: Field) -> Field:
-    studs = [disc(x - a, y - b, 0.0024) for a in (-0.012, -0.004, 0.004, 0.012) for b in (-0.004, 0.004)]
-    return np.minimum(prism(union(*studs)), prism(box(x, y, 0.032, 0.016)) + 0.0017)
+@register("tweezers", "daily")
+def _tweezers(x: Field, y: Field) -> Field:
+    """Lying on the edges of both arms."""
+    arms = [bar(x, y - side * 0.0045, 0.100, 0.003, side * 0.085) for side in (1, -1)]
+    return prism(union(*arms, box(x + 0.046, y, 0.014, 0.006)))

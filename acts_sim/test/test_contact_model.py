@@ -7,9 +7,11 @@ from numpy.typing import NDArray
 from acts_core.array import ArrayGeometry
 from acts_core.errors import SettingsError
 from acts_sim.contact_model import ContactModel, FoamConfig, Press
-from acts_sim.objects import OBJECTS, ContactObject, box, object_named, prism, register
+from acts_sim.objects import OBJECTS, ContactObject, object_named, register
+from acts_sim.outlines import box, disc, prism
 
 GEOMETRY = ArrayGeometry()
+DISC = ContactObject("disc", "test", (0.0003, 0.0015), lambda x, y: prism(disc(x, y, 0.012)))
 
 
 def centre_m(forces: NDArray[np.float64]) -> tuple[float, float]:
@@ -17,8 +19,10 @@ def centre_m(forces: NDArray[np.float64]) -> tuple[float, float]:
     return float((forces * x).sum() / forces.sum()), float((forces * y).sum() / forces.sum())
 
 
-def test_the_register_holds_the_papers_printed_shapes_and_daily_things() -> None:
+def test_the_register_holds_the_papers_list_in_its_order() -> None:
     printed = [item.name for item in OBJECTS.values() if item.group == "printed"]
+    daily = [item.name for item in OBJECTS.values() if item.group == "daily"]
+    assert list(OBJECTS) == [*printed, *daily]
     assert printed == [
         "two_cylinders",
         "three_lines",
@@ -29,7 +33,30 @@ def test_the_register_holds_the_papers_printed_shapes_and_daily_things() -> None
         "square",
         "x",
     ]
-    assert sum(item.group == "daily" for item in OBJECTS.values()) >= 20
+    assert daily == [
+        "computer_mouse",
+        "art_scissors",
+        "pliers",
+        "wristwatch",
+        "fidget_spinner",
+        "rubber_ball",
+        "hex_bar",
+        "aaa_battery",
+        "wrench",
+        "bolt_and_nut",
+        "spoon",
+        "soft_brain",
+        "tennis_ball",
+        "glass_mug",
+        "multitool",
+        "cologne",
+        "glue_bottle",
+        "nine_volt_battery",
+        "eraser",
+        "power_adapter",
+        "screwdriver",
+        "tweezers",
+    ]
 
 
 @pytest.mark.parametrize("item", OBJECTS.values(), ids=list(OBJECTS))
@@ -65,13 +92,13 @@ def test_the_total_force_is_stiffness_times_area_times_depth() -> None:
 
 def test_turning_counter_clockwise_and_scaling() -> None:
     model = ContactModel()
-    ruler = object_named("ruler_edge")
-    flat = model.forces_n(ruler, Press())
+    hex_bar = object_named("hex_bar")
+    flat = model.forces_n(hex_bar, Press())
     assert np.ptp(np.nonzero(flat > 0.02)[1]) > 2 * np.ptp(np.nonzero(flat > 0.02)[0])
-    row, col = np.nonzero(model.forces_n(ruler, Press(angle_rad=math.pi / 4)) > 0.02)
+    row, col = np.nonzero(model.forces_n(hex_bar, Press(angle_rad=math.pi / 4)) > 0.02)
     # Counter-clockwise: the right end is further up, and up is towards row 0.
     assert np.corrcoef(row, col)[0, 1] < -0.9
-    assert model.forces_n(ruler, Press(scale=0.5)).sum() < 0.5 * flat.sum()
+    assert model.forces_n(hex_bar, Press(scale=0.5)).sum() < 0.5 * flat.sum()
 
 
 def test_a_tilted_object_presses_harder_on_one_side() -> None:
@@ -83,8 +110,7 @@ def test_a_tilted_object_presses_harder_on_one_side() -> None:
 def test_foam_spreads_the_force_without_losing_any() -> None:
     narrow = ContactModel(config=FoamConfig(spread_m=0.0003))
     wide = ContactModel(config=FoamConfig(spread_m=0.006))
-    coin = object_named("coin")
-    sharp, soft = narrow.forces_n(coin, Press()), wide.forces_n(coin, Press())
+    sharp, soft = narrow.forces_n(DISC, Press()), wide.forces_n(DISC, Press())
     assert soft.sum() == pytest.approx(sharp.sum(), rel=1e-3)
     assert soft.max() < 0.9 * sharp.max()
     assert np.count_nonzero(soft > 1e-3) > 1.5 * np.count_nonzero(sharp > 1e-3)
@@ -92,8 +118,8 @@ def test_foam_spreads_the_force_without_losing_any() -> None:
 
 def test_an_object_beside_the_pad_and_one_above_it_leave_no_force() -> None:
     model = ContactModel()
-    assert not (model.forces_n(object_named("coin"), Press(x_m=0.2)) > 1e-9).any()
-    assert not model.forces_n(object_named("coin"), Press(depth_m=0.0)).any()
+    assert not (model.forces_n(DISC, Press(x_m=0.2)) > 1e-9).any()
+    assert not model.forces_n(DISC, Press(depth_m=0.0)).any()
 
 
 def test_counts_are_seeded_noisy_and_in_range() -> None:
@@ -116,7 +142,7 @@ def test_noise_has_the_stated_size() -> None:
 
 def test_random_presses_reach_all_of_the_pad() -> None:
     model = ContactModel(seed=3)
-    presses = [model.random_press(object_named("coin")) for _ in range(300)]
+    presses = [model.random_press(DISC) for _ in range(300)]
     for values in ([press.x_m for press in presses], [press.y_m for press in presses]):
         assert min(values) < -0.06
         assert max(values) > 0.06
@@ -126,12 +152,12 @@ def test_random_presses_reach_all_of_the_pad() -> None:
 
 def test_an_array_of_another_size() -> None:
     model = ContactModel(ArrayGeometry(rows=33, cols=15, pitch_m=0.006))
-    frame = model.random_frame(object_named("golf_ball"))
+    frame = model.random_frame(object_named("tennis_ball"))
     assert frame.shape == (33, 15)
 
 
 def test_unknown_and_repeated_names_are_refused() -> None:
     with pytest.raises(SettingsError, match="'cube' does not exist; known are two_cylinders"):
         object_named("cube")
-    with pytest.raises(SettingsError, match="'coin' is registered twice"):
-        register("coin", "daily")(lambda x, y: x)
+    with pytest.raises(SettingsError, match="'spoon' is registered twice"):
+        register("spoon", "daily")(lambda x, y: x)

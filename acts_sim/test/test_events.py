@@ -7,8 +7,8 @@ from scipy import ndimage
 
 from acts_core.errors import SettingsError
 from acts_sim.contact_model import ContactModel, FoamConfig
+from acts_sim.event_contacts import GOLF_BALL
 from acts_sim.events import EVENT_RATE_HZ, EVENTS, event_recordings
-from acts_sim.objects import OBJECTS
 from acts_sim.presses import PRESS_RATE_HZ, press_over_time
 
 
@@ -70,7 +70,7 @@ def test_an_unknown_event_is_refused() -> None:
 
 def test_a_press_goes_down_and_up_again() -> None:
     model = ContactModel(config=FoamConfig(noise_counts=0.0), seed=8)
-    frames = press_over_time(model, OBJECTS["golf_ball"])
+    frames = press_over_time(model, GOLF_BALL)
     total = frames.sum(axis=(1, 2), dtype=int)
     assert len(frames) == 0.3 * PRESS_RATE_HZ + 1
     assert total[0] == total[-1] == 0

@@ -5,11 +5,11 @@ from acts_core.errors import SettingsError
 from acts_sim.objects import object_named
 from acts_sim.pressing_arm import PressingArm, PressingConfig
 
-CIRCLE, COIN = object_named("circle"), object_named("coin")
+CIRCLE, BALL = object_named("circle"), object_named("rubber_ball")
 
 
 def test_presses_meet_the_same_spot_nearly() -> None:
-    arm = PressingArm([CIRCLE, COIN], PressingConfig(spot_taxels=3.0, miss_taxels=0.2), seed=4)
+    arm = PressingArm([CIRCLE, BALL], PressingConfig(spot_taxels=3.0, miss_taxels=0.2), seed=4)
     pitch_m = arm.model.geometry.pitch_m
     for number, item in enumerate(arm.objects):
         presses = [arm.press(number) for _ in range(200)]
@@ -30,10 +30,10 @@ def test_a_recording_rises_to_its_depth_and_holds() -> None:
 
 
 def test_the_same_seed_gives_the_same_frames() -> None:
-    one, same, other = (PressingArm([COIN], seed=seed).held_frames(2) for seed in (1, 1, 2))
+    one, same, other = (PressingArm([BALL], seed=seed).held_frames(2) for seed in (1, 1, 2))
     assert np.array_equal(one[0], same[0])
     assert not np.array_equal(one[0], other[0])
-    assert one[1] == ["coin", "coin"]
+    assert one[1] == ["rubber_ball", "rubber_ball"]
     assert not np.array_equal(one[0][0], one[0][1])
 
 

@@ -16,7 +16,7 @@ from acts_tools import library
 from acts_tools.evaluate import command
 from acts_tools.evaluate.classification import Trials, accuracy, run_trials
 
-SIX = ("circle", "square", "hex_nut", "tape_roll", "golf_ball", "tennis_ball")
+SIX = ("circle", "square", "bolt_and_nut", "glass_mug", "rubber_ball", "tennis_ball")
 
 
 def evaluate(*words: object) -> int:
@@ -76,7 +76,7 @@ def test_intervals_are_wilsons() -> None:
 
 def test_tables_report_and_picture(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     report, picture = tmp_path / "c.json", tmp_path / "c.png"
-    words = ("--arms", 1, "--presses", 1, "--columns", 2, "--m", 64, "--objects", "circle", "comb")
+    words = ("--arms", 1, "--presses", 1, "--columns", 2, "--m", 64, "--objects", "circle", "tweezers")
     assert evaluate(*words, "--json", report, "--picture", picture) == 0
     output = capsys.readouterr().out
     assert "| accuracy, held, at M = | paper | acts |" in output
@@ -102,10 +102,10 @@ def test_libraries_from_recordings_and_from_presses(grasps: Path, tmp_path: Path
     loaded = load_object_library(path, shape=(32, 32))
     assert (loaded.names, loaded.n_columns) == (("circle", "square"), 8)
     assert "grasps.npz (sha256 " in loaded.provenance
-    assert make_library("-o", path, "--objects", "comb", "x", "--presses", 2, "--seed", 5) == 0
+    assert make_library("-o", path, "--objects", "tweezers", "x", "--presses", 2, "--seed", 5) == 0
     loaded = load_object_library(path)
-    assert (loaded.names, loaded.n_columns) == (("comb", "x"), 4)
-    assert make_library("-o", path, "--objects", "comb", "x", "--presses", 2, "--seed", 5) == 0
+    assert (loaded.names, loaded.n_columns) == (("tweezers", "x"), 4)
+    assert make_library("-o", path, "--objects", "tweezers", "x", "--presses", 2, "--seed", 5) == 0
     assert load_object_library(path).sha256 == loaded.sha256
 
 
@@ -137,7 +137,7 @@ def test_what_cannot_be_is_refused(grasps: Path, tmp_path: Path) -> None:
         (
             lambda: make_library("-o", tmp_path / "o.npz", "--frames", grasps, "--objects", "cat"),
             RecordingError,
-            "no recording shows cat; labels are circle",
+            "no recording shows cat; labels are bolt_and_nut, circle",
         ),
         (
             lambda: evaluate("--frames", grasps, "--json", tmp_path / "no" / "c.json"),

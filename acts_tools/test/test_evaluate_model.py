@@ -27,7 +27,7 @@ def test_events_are_scored_by_kind(tmp_path: Path) -> None:
 
 def test_objects_give_curves_and_a_picture(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out, picture = tmp_path / "objects.json", tmp_path / "curves.png"
-    words = ["--objects", "x", "marble", "--m", "256", "512", "--ours", "last", "--json", str(out)]
+    words = ["--objects", "x", "rubber_ball", "--m", "256", "512", "--ours", "last", "--json", str(out)]
     assert main(["evaluate", "objects", *words, "--picture", str(picture)]) == 0
     results = json.loads(out.read_text())["results"]
     assert len(results) == 14

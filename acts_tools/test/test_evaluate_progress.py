@@ -37,8 +37,8 @@ def frames(tmp_path: Path) -> Path:
     [
         ["recovery", "--presses", "1", "--json"],
         ["events", "--event", "tap_4x4", "--recordings", "1", "--json"],
-        ["objects", "--objects", "coin", "--m", "64", "--json"],
-        ["objects", "--objects", "coin", "--m", "64", "--picture"],
+        ["objects", "--objects", "eraser", "--m", "64", "--json"],
+        ["objects", "--objects", "eraser", "--m", "64", "--picture"],
         ["classification", "--arms", "1", "--json"],
         ["classification", "--arms", "1", "--picture"],
     ],

@@ -21,18 +21,18 @@ SMALL = ("--presses", 60, "--patches", 400, "--atoms", 50, "--sparsity", 4, "--i
 
 def test_training_from_the_contact_model(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "d.npz"
-    assert run("-o", path, *SMALL, "--seed", 3, "--objects", "coin", "--objects", "x") == 0
+    assert run("-o", path, *SMALL, "--seed", 3, "--objects", "eraser", "--objects", "x") == 0
     output = capsys.readouterr().out
     assert "iteration 2 of 2" in output
     dictionary = load_dictionary(path, patch_size=8)
     assert dictionary.atoms.shape == (64, 50)
     assert dictionary.settings["seed"] == 3
-    assert dictionary.settings["objects"] == ["coin", "x"]
+    assert dictionary.settings["objects"] == ["eraser", "x"]
     assert dictionary.settings["iterations"] == 2
     assert "60 presses of 2 objects" in dictionary.provenance
     assert dictionary.sha256 in output
     again = tmp_path / "again.npz"
-    run("-o", again, *SMALL, "--seed", 3, "--objects", "coin", "x")
+    run("-o", again, *SMALL, "--seed", 3, "--objects", "eraser", "x")
     assert load_dictionary(again).sha256 == dictionary.sha256
 
 
@@ -56,7 +56,7 @@ def test_training_from_frames(tmp_path: Path) -> None:
         (["--min-active", 65], SettingsError, "--min-active 65: allowed is 1 to 64"),
         (["--coherence", "nan"], SettingsError, "--coherence nan"),
         (["--objects", "cube"], SettingsError, "'cube' does not exist"),
-        (["--objects", "coin", "--frames", "x.npz"], SettingsError, "leave one out"),
+        (["--objects", "eraser", "--frames", "x.npz"], SettingsError, "leave one out"),
         (["--frames", "/no/such.npz"], RecordingError, "/no/such.npz: cannot be read"),
         (["--patch-size", 33, "--min-active", 5], SettingsError, "--patch-size 33"),
         ([*SMALL, "--atoms", 5000], ArrayError, "patches for 5000 atoms"),

@@ -19,7 +19,7 @@ from acts_tools.training.checkpoint import Checkpoint
 from acts_tools.training.progress import ProgressBar
 
 TIMEOUT_S = 60.0
-WORDS = ("--presses", "60", "--patches", "400", "--atoms", "50", "--sparsity", "4", "--objects", "coin", "x")
+WORDS = ("--presses", "60", "--patches", "400", "--atoms", "50", "--sparsity", "4", "--objects", "eraser", "x")
 
 
 HOLDING = """

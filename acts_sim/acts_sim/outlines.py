@@ -1,0 +1,80 @@
+"""Outlines and undersides that objects are made of: functions of a grid's points in an object's own frame [m]."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Field = NDArray[np.float64]
+"""One number for every point of a grid."""
+
+_EDGE_SLOPE = 4.0
+"""Rise over run of the rounded edge of a printed or cut shape."""
+
+
+# Signed distances from the edge of flat outlines [m], negative inside.
+
+
+def disc(x: Field, y: Field, radius: float) -> Field:
+    """Disc around the origin."""
+    return np.hypot(x, y) - radius
+
+
+def box(x: Field, y: Field, width: float, height: float) -> Field:
+    """Rectangle around the origin."""
+    dx, dy = np.abs(x) - width / 2, np.abs(y) - height / 2
+    return np.hypot(np.maximum(dx, 0), np.maximum(dy, 0)) + np.minimum(np.maximum(dx, dy), 0)
+
+
+def rounded_box(x: Field, y: Field, width: float, height: float, corner: float) -> Field:
+    """Rectangle around the origin; `corner` is the radius of its corners."""
+    return box(x, y, width - 2 * corner, height - 2 * corner) - corner
+
+
+def ring(x: Field, y: Field, radius: float, width: float) -> Field:
+    """Ring around the origin; `radius` to the middle of its band."""
+    return np.abs(np.hypot(x, y) - radius) - width / 2
+
+
+def convex_polygon(x: Field, y: Field, corners: int, radius: float) -> Field:
+    """Regular polygon around the origin; `radius` to its corners, the first of them at the top."""
+    angles = np.pi / 2 + np.pi / corners + 2 * np.pi * np.arange(corners) / corners
+    apothem = radius * np.cos(np.pi / corners)
+    sides = np.stack([x * np.cos(a) + y * np.sin(a) for a in angles])
+    return np.max(sides, axis=0) - apothem
+
+
+def bar(x: Field, y: Field, length: float, width: float, angle: float = 0.0) -> Field:
+    """Bar around the origin, turned by `angle` [rad]."""
+    c, s = np.cos(angle), np.sin(angle)
+    return box(c * x + s * y, -s * x + c * y, length, width)
+
+
+def without(distance: Field, *holes: Field) -> Field:
+    """What of an outline is in none of the others."""
+    return np.maximum.reduce([distance, *(-hole for hole in holes)])
+
+
+def union(*distances: Field) -> Field:
+    """Everything that is in one of several outlines."""
+    return np.minimum.reduce(distances)
+
+
+# Gaps [m].
+
+
+def prism(distance: Field) -> Field:
+    """Gap of a flat underside with that outline and a steep, rounded edge."""
+    return np.maximum(distance, 0.0) * _EDGE_SLOPE
+
+
+def ellipsoid(x: Field, y: Field, radius_x: float, radius_y: float, radius_z: float) -> Field:
+    """Gap of an ellipsoid resting on its lowest point."""
+    square = (x / radius_x) ** 2 + (y / radius_y) ** 2
+    return radius_z * np.where(square < 1, 1 - np.sqrt(np.maximum(1 - square, 0.0)), 1 + (square - 1))
+
+
+def lying_cylinder(x: Field, y: Field, length: float, radius: float) -> Field:
+    """Gap of a cylinder that lies along x."""
+    round_side = radius - np.sqrt(np.maximum(radius**2 - y**2, 0.0)) + np.maximum(np.abs(y) - radius, 0.0) * _EDGE_SLOPE
+    return np.maximum(round_side, prism(np.abs(x) - length / 2))
