@@ -227,7 +227,7 @@ void Process::take_faults(std::int64_t monotonic_ns) {
     }
   }
   while (const std::optional<Fault> fault = plan_.take(monotonic_ns - epoch_.monotonic_ns)) {
-    begin(*fault, monotonic_ns);
+    begin(*fault);
   }
   // A stream that nobody reads has no packet to be cut in.
   while (!terminal_.open()) {
@@ -239,12 +239,11 @@ void Process::take_faults(std::int64_t monotonic_ns) {
   }
 }
 
-void Process::begin(const Fault& fault, std::int64_t monotonic_ns) {
+void Process::begin(const Fault& fault) {
   switch (fault.kind) {
     case FaultKind::kFreeze:
       frozen_ = fault;
-      frozen_until_ns_ = monotonic_ns + fault.value_ns();
-      report(fault, false);
+      frozen_until_ns_ = report(fault, false) + fault.value_ns();
       break;
     case FaultKind::kJump:
       time_.jump(fault.value_ns());
@@ -266,7 +265,6 @@ void Process::cut_stream(const Fault& fault, std::int64_t monotonic_ns) {
       terminal_.unplug();
     }
     unplugged_ = fault;
-    plug_in_at_ns_ = monotonic_ns + fault.value_ns();
     serve_terminal();
   }
   link_.clear();
@@ -276,8 +274,10 @@ void Process::cut_stream(const Fault& fault, std::int64_t monotonic_ns) {
       firmware_->start_stream();
     }
   }
-  report(fault, false);
-  if (!loses_port) {
+  const std::int64_t began_ns = report(fault, false);
+  if (loses_port) {
+    plug_in_at_ns_ = began_ns + fault.value_ns();
+  } else {
     report(fault, true);
   }
 }
@@ -295,13 +295,16 @@ void Process::end_faults(std::int64_t monotonic_ns) {
   }
 }
 
-void Process::report(const Fault& fault, bool is_over) const {
+// Says that a fault has begun or is over, and returns the time it gives, from which the fault's own time counts.
+std::int64_t Process::report(const Fault& fault, bool is_over) const {
+  const std::int64_t monotonic_ns = now_ns(CLOCK_MONOTONIC);
   if (!options_.print_status) {
-    return;
+    return monotonic_ns;
   }
   std::cout << "{\"fault\": " << json_text(fault.text) << ", \"over\": " << (is_over ? "true" : "false")
-            << ", \"monotonic_ns\": " << now_ns(CLOCK_MONOTONIC) << ", \"epoch_monotonic_ns\": " << time_.to_host_ns(0)
+            << ", \"monotonic_ns\": " << monotonic_ns << ", \"epoch_monotonic_ns\": " << time_.to_host_ns(0)
             << ", \"port\": " << json_text(terminal_.port()) << "}" << std::endl;
+  return monotonic_ns;
 }
 
 std::int64_t Process::status_period_ns() const {

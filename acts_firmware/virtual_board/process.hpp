@@ -43,10 +43,10 @@ class Process {
   void recover_frame();
 
   void take_faults(std::int64_t monotonic_ns);
-  void begin(const Fault& fault, std::int64_t monotonic_ns);
+  void begin(const Fault& fault);
   void cut_stream(const Fault& fault, std::int64_t monotonic_ns);
   void end_faults(std::int64_t monotonic_ns);
-  void report(const Fault& fault, bool is_over) const;
+  std::int64_t report(const Fault& fault, bool is_over) const;
 
   std::int64_t status_period_ns() const;
   void print_start() const;
