@@ -6,14 +6,13 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_recon.uncertainty import FAR
 from acts_recon.uncertainty_kernels import force_of, taxel_variances
 
 RESULTS = 11
 """Numbers that `find_contact` writes."""
 
 _TINY_N = 1e-30
-# A taxel so many standard deviations below the threshold is not pressed.
-_FAR = 6.0
 
 
 @numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
@@ -94,7 +93,7 @@ def find_contact(
             value = np.float64(image[t])
             deviation = np.float64(sigma[t])
             inside = value > touch_counts
-            if not deviation > 0.0 or (not inside and value + _FAR * deviation < touch_counts):
+            if not deviation > 0.0 or (not inside and value + FAR * deviation < touch_counts):
                 continue
             if not (inside or _beside(image, rows, cols, row, col, touch_counts)):
                 continue

@@ -30,6 +30,9 @@ NOISE_COUNTS = 2.0
 ERR_TOGETHER = 5.0
 """Guesses that err together: as many as this are one independent error."""
 
+FAR = 6.0
+"""An untouched taxel so many standard deviations below the threshold is untouched without doubt."""
+
 _TINY_COUNTS = 1e-9
 
 
@@ -70,9 +73,12 @@ def variances(
         See above.
     """
     counts = np.clip(image, 0, COUNT_MAX).astype(np.float64)
-    force = np.where(inside, response.force_n(counts), float(response.force_n(least)))
-    slopes = slope_table(force_table(response))[counts.astype(np.intp)]
-    unsure = (inside | edge) & (sigma > 0)
+    sigma = sigma.astype(np.float64)
+    table = force_table(response)
+    # What reads 0 is pressed by 0 N, but what is above a threshold of 0 by more than the force that reads nothing.
+    force = np.where(inside, response.force_n(counts), float(response.force_n(least)) if least > 0 else table[0])
+    slopes = slope_table(table)[counts.astype(np.intp)]
+    unsure = (inside | (edge & ~(counts + FAR * sigma < least))) & (sigma > 0)
     wrong = np.zeros(image.shape)
     with np.errstate(over="ignore"):  # a sigma of next to nothing: infinitely far, and rightly so
         wrong[unsure] = special.ndtr(-np.abs(counts[unsure] - least) / sigma[unsure])

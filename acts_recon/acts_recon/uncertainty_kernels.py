@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX
+from acts_recon.uncertainty import FAR
 
 
 @numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
@@ -50,6 +51,8 @@ def taxel_variances(
     """
     deviation = min(deviation, float(COUNT_MAX))
     value = min(value, float(COUNT_MAX))
+    if not pressed and value + FAR * deviation < least:
+        return 0.0, 0.0
     wrong = 0.5 * math.erfc(abs(value - least) / (math.sqrt(2.0) * deviation))
     weight = force_of(value if pressed else least, force_n)
     square = weight * weight * wrong

@@ -127,6 +127,16 @@ def test_kernel_equals_twin_and_all_is_finite(
     assert_kernel_equals_twin(image, touch_counts, sigma, noise_counts=20.0)
 
 
+@pytest.mark.parametrize("touch_counts", [0, 37])
+def test_kernel_equals_twin_where_a_taxel_may_be_missed(touch_counts: int) -> None:
+    image = np.full((12, 9), touch_counts + 1, dtype=np.float32)
+    image[0, 0] = 0
+    for deviation in (0.5, 6, 6.1667, 7, 30):
+        sigma = np.zeros_like(image)
+        sigma[0, 0] = deviation
+        assert_kernel_equals_twin(image, touch_counts, sigma, noise_counts=20.0)
+
+
 def test_one_contact_is_as_uncertain_as_the_only_one_in_the_image() -> None:
     image = bump(GEOMETRY, 5.3, 4.1).astype(np.float32)
     sigma = np.full(image.shape, 5, dtype=np.float32)
