@@ -54,7 +54,7 @@ def objects() -> ObjectLibrary:
 def with_samples(
     messages: Sequence[BoardImage | BoardObject], frames: Sequence[SampleFrame]
 ) -> Iterator[tuple[BoardImage | BoardObject, SampleFrame]]:
-    """Messages with the frames that they were made of, whose clocks agree; the board drops what nobody reads in time."""
+    """Messages with the frames they were made of, whose clocks agree; the board drops what nobody reads in time."""
     by_sequence = {frame.sequence: frame for frame in frames}
     for message in messages:
         frame = by_sequence.get(message.sequence)
