@@ -72,7 +72,7 @@ def find_contact(
 
     A taxel is pressed when its value is above `touch_counts`. Positions are weighted by force, not by counts as in the
     published analysis: counts saturate, which pulls their mean towards the lightly pressed side of an object that is
-    not pressed evenly (on our contact model by 0.7 mm, against 0.1 mm with force).
+    not pressed evenly (docs/reconstruction.md has figures).
 
     Parameters
     ----------

@@ -26,7 +26,7 @@ FEW_PIXELS = 16
 
 
 def in_blocks(atoms: NDArray[np.floating]) -> NDArray[np.float32]:
-    """Lay a dictionary out for `acts_recon.fastomp_vectors.best_columns`.
+    """Lay a dictionary out for `acts_recon.fastomp_choice.best_columns`.
 
     Parameters
     ----------

@@ -3,6 +3,7 @@
 import time
 from array import array
 from collections.abc import Callable
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
@@ -39,14 +40,13 @@ class Bench:
         arguments = ["--ros-args", *(part for word in words for part in ("-p", word))]
         self.nodes: list[Node] = []
         self.executor = SingleThreadedExecutor(context=self.context)
-        try:
+        with ExitStack() as on_failure:
+            on_failure.callback(self.close)
             self.node = ReconstructionNode(cli_args=arguments, context=self.context, namespace="/plate")
             self.nodes.append(self.node)
             self.peer = Node("peer", namespace="/plate", context=self.context)
             self.nodes.append(self.peer)
-        except BaseException:
-            self.close()
-            raise
+            on_failure.pop_all()
         for node in self.nodes:
             self.executor.add_node(node)
         self.publisher = self.peer.create_publisher(TactileSamples, "samples", qos.STREAM)
