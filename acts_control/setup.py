@@ -20,10 +20,10 @@ setup(
     license="Apache-2.0",
     entry_points={
         "console_scripts": [
-            "ball_balancing = acts_control.ball_balancing:main",
-            "ball_control = acts_control.ball_control_node:main",
-            "ball_state = acts_control.ball_state_node:main",
-            "ball_trajectory = acts_control.ball_trajectory_node:main",
+            "ball_balancing = acts_control.programs:ball_balancing",
+            "ball_control = acts_control.programs:ball_control",
+            "ball_state = acts_control.programs:ball_state",
+            "ball_trajectory = acts_control.programs:ball_trajectory",
         ],
     },
 )

@@ -19,5 +19,5 @@ setup(
     maintainer_email="acts-maintainers@example.org",
     description="Serial driver of the ACTS tactile array: board bytes in, TactileSamples out.",
     license="Apache-2.0",
-    entry_points={"console_scripts": [f"driver = {PACKAGE}.driver_node:main"]},
+    entry_points={"console_scripts": [f"driver = {PACKAGE}.programs:driver"]},
 )

@@ -18,5 +18,5 @@ setup(
     maintainer_email="acts-maintainers@example.org",
     description="Sparse recovery of full tactile images, and the contact in them.",
     license="Apache-2.0",
-    entry_points={"console_scripts": ["reconstruction = acts_recon.reconstruction_node:main"]},
+    entry_points={"console_scripts": ["reconstruction = acts_recon.programs:reconstruction"]},
 )

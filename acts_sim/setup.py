@@ -20,8 +20,8 @@ setup(
     license="Apache-2.0",
     entry_points={
         "console_scripts": [
-            "ball_world = acts_sim.ball_world_node:main",
-            "ur_controller = acts_sim.ur.main:main",
+            "ball_world = acts_sim.programs:ball_world",
+            "ur_controller = acts_sim.programs:ur_controller",
         ],
     },
 )

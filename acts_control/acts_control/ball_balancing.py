@@ -17,11 +17,12 @@ from rclpy.utilities import remove_ros_args
 from acts_control.ball_control_node import BallControlNode
 from acts_control.ball_state_node import BallStateNode
 from acts_control.ball_trajectory_node import BallTrajectoryNode
+from acts_core.stop_signals import StopSignals
 from acts_ros.executor import run
 
 
-def main(args: Sequence[str] | None = None) -> int:
-    """Run the three nodes."""
+def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
+    """Run the three nodes; the exit code."""
     parser = argparse.ArgumentParser(prog="ball_balancing", description="State, trajectory and control in one process.")
     parser.add_argument("--robot-ip", help="parameter robot_ip of ball_control")
     parser.add_argument("--trajectory", help="parameter trajectory of ball_trajectory")
@@ -34,12 +35,9 @@ def main(args: Sequence[str] | None = None) -> int:
             partial(BallControlNode, parameter_overrides=_given("robot_ip", options.robot_ip)),
         ],
         words,
+        signals,
     )
 
 
 def _given(name: str, value: str | None) -> list[Parameter]:
     return [] if value is None else [Parameter(name, value=value)]
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -19,13 +18,13 @@ from acts_control.names import (
     STATUS_TOPIC,
     TILT_TOPIC,
     frame_of,
-    publish,
     set_stamp,
     to_ns,
 )
 from acts_control.pid import Ball, JerkFinder, Reference
 from acts_control.robot import Robot, UrRobot
 from acts_core.settings import setting
+from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import BalanceStatus, BallReference, BallState
 from acts_ros.diagnostics import ERROR, OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
@@ -75,11 +74,15 @@ class BallControlNode(Node):
         self.create_service(Trigger, "~/stop", self._on_stop)
         self.create_timer(1.0 / settings.status_rate_hz, self._publish_status)
         self._diagnostics = DiagnosticsReporter(self, settings.robot_ip, self._report)
+
+    def begin(self) -> None:
+        """Start the control loop, and with `autostart` the robot."""
         self._loop.launch()
 
     def close(self) -> None:
-        """Stop the robot in order."""
+        """Stop the robot in order, and say so."""
         self._loop.close()
+        self._publish_status()
 
     def _on_state(self, message: BallState) -> None:
         position, velocity = message.position, message.velocity
@@ -97,7 +100,7 @@ class BallControlNode(Node):
         # From the loop's thread.
         set_stamp(self._tilt.header.stamp, now_ns)
         self._tilt.vector.x, self._tilt.vector.y = tilt_rad
-        publish(self, self._tilt_publisher, self._tilt)
+        self._tilt_publisher.publish(self._tilt)
 
     def _on_start(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         response.success = self._loop.start()
@@ -124,7 +127,7 @@ class BallControlNode(Node):
         message.touch_age = min(status.touch_age_s, _LONG_AGO_S)
         message.steps = status.steps
         message.late_steps = status.late_steps
-        publish(self, self._status_publisher, message)
+        self._status_publisher.publish(message)
 
     def _tell(self, status: LoopStatus) -> None:
         text = f"{status.phase.name.lower()}: {status.reason}"
@@ -146,10 +149,6 @@ class BallControlNode(Node):
         return _LEVELS.get(status.phase, OK), f"{status.phase.name.lower()}: {status.reason}", values
 
 
-def main() -> int:
-    """Run the node."""
-    return run([BallControlNode])
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+def main(signals: StopSignals | None = None) -> int:
+    """Run the node; the exit code."""
+    return run([BallControlNode], signals=signals)

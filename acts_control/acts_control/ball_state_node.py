@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,9 +9,10 @@ from geometry_msgs.msg import Vector3Stamped
 from rclpy.node import Node
 
 from acts_control.estimator import BallEstimator, ContactMeasurement, EstimatorConfig
-from acts_control.names import CONTACT_TOPIC, STATE_TOPIC, STATISTICS_TOPIC, TILT_TOPIC, publish, set_stamp, to_ns
+from acts_control.names import CONTACT_TOPIC, STATE_TOPIC, STATISTICS_TOPIC, TILT_TOPIC, set_stamp, to_ns
 from acts_control.stream_statistics import StreamCounter
 from acts_core.settings import setting
+from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import BallState, Contact, StreamStatistics
 from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
@@ -77,7 +77,7 @@ class BallStateNode(Node):
         message.velocity.x, message.velocity.y = state.vx_m_s, state.vy_m_s
         message.position_sigma = state.sigma_m
         message.contacts_received = state.received
-        publish(self, self._state_publisher, message)
+        self._state_publisher.publish(message)
 
     def _publish_statistics(self) -> None:
         now_ns = self._clock.now().nanoseconds
@@ -91,7 +91,7 @@ class BallStateNode(Node):
         )
         set_stamp(message.header.stamp, now_ns)
         self._interval_start_ns = now_ns
-        publish(self, self._statistics_publisher, message)
+        self._statistics_publisher.publish(message)
 
     def _report(self) -> Report:
         state, counter = self._estimator.state, self._counter
@@ -115,10 +115,6 @@ class BallStateNode(Node):
         return OK, "ball" if state.valid else "no ball", values
 
 
-def main() -> int:
-    """Run the node."""
-    return run([BallStateNode])
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+def main(signals: StopSignals | None = None) -> int:
+    """Run the node; the exit code."""
+    return run([BallStateNode], signals=signals)

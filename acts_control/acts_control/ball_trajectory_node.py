@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import sys
 from dataclasses import dataclass
 from typing import Any
 
 from rclpy.node import Node
 
-from acts_control.names import REFERENCE_TOPIC, STATUS_TOPIC, frame_of, publish, set_stamp
+from acts_control.names import REFERENCE_TOPIC, STATUS_TOPIC, frame_of, set_stamp
 from acts_control.trajectory import Trajectory, TrajectoryConfig
 from acts_core.settings import setting
+from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import BalanceStatus, BallReference
 from acts_ros.executor import run
 from acts_ros.parameters import declare, node_options
@@ -69,16 +69,12 @@ class BallTrajectoryNode(Node):
         message.position.x, message.position.y = reference.x_m, reference.y_m
         message.velocity.x, message.velocity.y = reference.vx_m_s, reference.vy_m_s
         message.acceleration.x, message.acceleration.y = reference.ax_m_s2, reference.ay_m_s2
-        publish(self, self._publisher, message)
+        self._publisher.publish(message)
         if timed.finished and not self._finished:
             self._finished = True
             self.get_logger().info("trajectory finished; the ball is held where it ended")
 
 
-def main() -> int:
-    """Run the node."""
-    return run([BallTrajectoryNode])
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+def main(signals: StopSignals | None = None) -> int:
+    """Run the node; the exit code."""
+    return run([BallTrajectoryNode], signals=signals)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 from rclpy.node import Node
-from rclpy.publisher import Publisher
 
 STATE_TOPIC = "ball/state"
 REFERENCE_TOPIC = "ball/reference"
@@ -30,12 +29,3 @@ def set_stamp(stamp: Any, time_ns: int) -> None:
 def frame_of(node: Node, frame_id: str) -> str:
     """The skin's frame: as set, or else the node's namespace."""
     return frame_id or node.get_namespace().strip("/").replace("/", "_") or "skin"
-
-
-def publish(node: Node, publisher: Publisher, message: Any) -> None:
-    """Publish, unless the context has gone: a signal ends it while callbacks and the stopping arm still run."""
-    try:
-        publisher.publish(message)
-    except RuntimeError:  # RCLError
-        if node.context.ok():
-            raise

@@ -235,4 +235,5 @@ class RollingBall:
 def node_command(module: str, *arguments: str, **parameters: object) -> list[str]:
     """Command line of a node of this package in the namespace /plate; `parameters` are for every node in it."""
     words = [word for name, value in parameters.items() for word in ("-p", f"{name}:={value}")]
-    return [sys.executable, "-m", f"acts_control.{module}", *arguments, "--ros-args", "-r", "__ns:=/plate", *words]
+    program = [sys.executable, "-m", "acts_ros.program", f"acts_control.{module}"]
+    return [*program, *arguments, "--ros-args", "-r", "__ns:=/plate", *words]

@@ -3,7 +3,6 @@
 ROS_DOMAIN_IDs 60 to 63.
 """
 
-import sys
 from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
@@ -205,7 +204,7 @@ def test_settings_files_reach_all_three_nodes_of_the_composed_process(tmp_path: 
     with Process(*command, domain=63) as process:
         wait_for(lambda: process.process.poll() is not None, "the end of the process")
         assert "parameters of /plate/ball_state: gate_sigmas = 0.5" in process.text()
-    with Process(sys.executable, "-m", "acts_control.ball_balancing", "--nonsense", domain=63) as process:
+    with Process(*node_command("ball_balancing", "--nonsense"), domain=63) as process:
         wait_for(lambda: process.process.poll() is not None, "the end of the process")
         assert "unrecognized arguments: --nonsense" in process.text()
 

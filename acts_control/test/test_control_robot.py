@@ -1,11 +1,13 @@
 """The whole of acts_control against a simulated UR5e over the unmodified ur_rtde, with faults.
 
 The client side runs in a process of its own: ur_rtde may take its process down when a controller vanishes.
-ROS_DOMAIN_IDs 64 to 69, robot addresses 127.0.2.1 to 127.0.2.6.
+ROS_DOMAIN_IDs 64 to 69, robot addresses 127.0.2.1 to 127.0.2.9.
 """
 
 import math
 import signal
+import subprocess
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -72,6 +74,26 @@ def test_a_ball_is_held_and_led_and_a_signal_stops_the_robot_in_order(tmp_path: 
             assert "Traceback" not in process.text()
             assert tilt(robot) < 1e-3
             assert robot.state()["runtime"] == "STOPPED"
+
+
+def test_signals_while_motion_ends_change_nothing(tmp_path: Path) -> None:
+    with SimulatedRobot("127.0.2.9") as robot, Bench(64) as bench, RollingBall(bench):
+        bench.start()
+        with balancing_process(tmp_path, robot, 64) as process:
+            bench.await_phase(BALANCING)
+            wait_for(lambda: tilt(robot) > 0.005, "a tilt of the robot")
+            signals = [signal.SIGINT, signal.SIGTERM]
+            while process.process.poll() is None:
+                # Again every few milliseconds, all the way out.
+                process.process.send_signal(signals[0])
+                signals.reverse()
+                with suppress(subprocess.TimeoutExpired):
+                    process.process.wait(0.01)
+            assert process.process.returncode == 0, process.text()
+            assert "Traceback" not in process.text()
+            assert tilt(robot) < 1e-3
+            assert robot.state()["runtime"] == "STOPPED"
+            assert bench.await_phase(STOPPED).reason == "shutting down"
 
 
 def test_stop_and_start_by_service(tmp_path: Path) -> None:

@@ -34,12 +34,7 @@ class BoardInterface:
         message = board_message(status)
         message.header.frame_id = self._frame_id
         message.header.stamp = self._node.get_clock().now().to_msg()
-        try:
-            self._publisher.publish(message)
-        except RuntimeError:
-            # A signal may have ended the context.
-            if self._node.context.ok():
-                raise
+        self._publisher.publish(message)
 
     def _on_query(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         session = self.session

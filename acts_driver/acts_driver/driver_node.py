@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import sys
 import time
 
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
 
 from acts_core.errors import ActsError
 from acts_core.frames import SampleFrame
+from acts_core.stop_signals import StopSignals
 from acts_driver.autostart import Autostart
 from acts_driver.baseline_services import BaselineServices
 from acts_driver.board_interface import BoardInterface
@@ -126,15 +126,10 @@ class DriverNode(LifecycleNode):
         self._baseline.observe(frames)
         if not self.active:
             return
-        try:
-            for frame, stamp_ns in frames:
-                self._publisher.publish(self._message.fill(frame, stamp_ns))
-            for result, stamp_ns in results:
-                self._topics.publish(result, stamp_ns)
-        except RuntimeError:
-            # A signal may end the context between two frames; all of rclpy's own errors are RuntimeErrors.
-            if self.context.ok():
-                raise
+        for frame, stamp_ns in frames:
+            self._publisher.publish(self._message.fill(frame, stamp_ns))
+        for result, stamp_ns in results:
+            self._topics.publish(result, stamp_ns)
 
     def _on_changed_parameters(self, settings: DriverSettings) -> str:
         """Tell the board; why it cannot be, or nothing."""
@@ -154,9 +149,6 @@ class DriverNode(LifecycleNode):
         return (ERROR, self._problem, values) if self._problem else (OK, "unconfigured", values)
 
     def _log(self, level: str, message: str) -> None:
-        # On the way out the port may go before the node does, and there is nobody left to tell.
-        if not self.context.ok():
-            return
         # A line each: rclpy refuses a line that changes its severity.
         if level == "error":
             self.get_logger().error(message)
@@ -166,6 +158,6 @@ class DriverNode(LifecycleNode):
             self.get_logger().info(message)
 
 
-def main() -> None:
-    """Run the driver until it is told to stop."""
-    sys.exit(run([DriverNode]))
+def main(signals: StopSignals | None = None) -> int:
+    """Run the node; the exit code."""
+    return run([DriverNode], signals=signals)

@@ -117,9 +117,17 @@ class Rig:
 
 def start_process(domain_id: int, *arguments: str) -> subprocess.Popen[str]:
     """The executable `driver` as a process, in namespace /plate."""
-    code = "from acts_driver.driver_node import main; main()"
     return subprocess.Popen(
-        [sys.executable, "-c", code, "--ros-args", "-r", "__ns:=/plate", *arguments],
+        [
+            sys.executable,
+            "-m",
+            "acts_ros.program",
+            "acts_driver.driver_node",
+            "--ros-args",
+            "-r",
+            "__ns:=/plate",
+            *arguments,
+        ],
         env={**os.environ, "ROS_DOMAIN_ID": str(domain_id), "ROS_PYTHON_CHECK_FIELDS": "1"},
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,

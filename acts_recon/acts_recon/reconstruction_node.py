@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import gc
-import sys
 import time
 from array import array
 from collections import Counter, deque
@@ -18,6 +16,7 @@ from rclpy.node import Node
 from sensor_msgs.msg import Image
 
 from acts_core.errors import ArrayError
+from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import Baseline, TactileSamples
 from acts_msgs.msg import Contact as ContactMessage
 from acts_recon.baseline import BaselineSubtraction
@@ -123,14 +122,9 @@ class ReconstructionNode(Node):
             return
         self._frames += 1
         self._follow(samples.sequence)
-        try:
-            self._publish(samples, contact)
-            if self._objects is not None:
-                self._objects.publish(samples, indices, counts, end_s, duration_s)
-        except RuntimeError:
-            # A signal may end the context while a frame is worked on; all of rclpy's own errors are RuntimeErrors.
-            if self.context.ok():
-                raise
+        self._publish(samples, contact)
+        if self._objects is not None:
+            self._objects.publish(samples, indices, counts, end_s, duration_s)
         self._durations_s.append(time.perf_counter() - began_s)
 
     def _publish(self, samples: TactileSamples, contact: Contact) -> None:
@@ -256,14 +250,6 @@ def _empty_image(height: int, width: int, encoding: str, bytes_per_pixel: int) -
     return Image(height=height, width=width, encoding=encoding, is_bigendian=0, step=width * bytes_per_pixel)
 
 
-def _make() -> Node:
-    node = ReconstructionNode()
-    # Imports and the compiler leave some 100,000 objects behind; a full collection of them stops the stream for 30 ms.
-    gc.collect()
-    gc.freeze()
-    return node
-
-
-def main() -> None:
-    """Entry point of the executable ``reconstruction``."""
-    sys.exit(run([_make]))
+def main(signals: StopSignals | None = None) -> int:
+    """Run the node; the exit code."""
+    return run([ReconstructionNode], signals=signals)

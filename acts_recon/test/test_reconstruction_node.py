@@ -251,7 +251,7 @@ def test_wrong_parameters_are_refused_at_start(
 
 
 def test_the_program_ends_with_one_line_and_exit_code_1() -> None:
-    command = [sys.executable, "-c", "from acts_recon.reconstruction_node import main; main()"]
+    command = [sys.executable, "-m", "acts_ros.program", "acts_recon.reconstruction_node"]
     environment = {**os.environ, "ROS_DOMAIN_ID": "44"}
     result = subprocess.run(
         [*command, "--ros-args", "-p", "dictionary:=/no/such.npz", "-p", "method:=per_frame"],

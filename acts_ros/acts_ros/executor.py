@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import gc
 import sys
 from collections.abc import Callable, Sequence
 
 import rclpy
-from rclpy.executors import Executor, ExternalShutdownException, SingleThreadedExecutor
+from rclpy.executors import Executor, SingleThreadedExecutor
 from rclpy.node import Node
+from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
 
 from acts_core.errors import ActsError
+from acts_core.stop_signals import StopSignals
 
 try:  # ROS 2 Kilted and newer; half the latency and a third of the CPU of the other at 1 kHz
     from rclpy.experimental import EventsExecutor
@@ -19,74 +22,93 @@ except ImportError:  # Humble and Jazzy
 
 _SPIN_S = 3600.0
 
+# A thread that wakes for a frame waits at most this long for another one that is busy in Python [s].
+_SWITCH_INTERVAL_S = 2e-4
+
 
 def make_executor() -> Executor:
     """The fastest executor of this ROS distribution that keeps the order of callbacks (never the multi-threaded)."""
     return SingleThreadedExecutor() if EventsExecutor is None else EventsExecutor()
 
 
-def spin(executor: Executor) -> None:
-    """Run callbacks until SIGINT, SIGTERM or shutdown.
-
-    Not ``executor.spin()``: the events executor of the Kilted wheels never calls back from it.
-    """
-    try:
-        while rclpy.ok():
-            executor.spin_until_future_complete(Future(), timeout_sec=_SPIN_S)
-    except _STOPPED:
-        return
-    except RuntimeError:
-        # A signal shuts the context down at once. Whatever was under way then fails with one of rclpy's errors, or one
-        # of pybind11's that does not even say of what; all of them are RuntimeErrors.
-        if rclpy.ok():
-            raise
-
-
-_STOPPED = (KeyboardInterrupt, ExternalShutdownException)
-
-
-def run(factories: Sequence[Callable[[], Node]], args: Sequence[str] | None = None) -> int:
+def run(
+    factories: Sequence[Callable[[], Node]], args: Sequence[str] | None = None, signals: StopSignals | None = None
+) -> int:
     """The `main` of every ACTS node: start, spin, shut down, and tell an `ActsError` in one line.
+
+    The first SIGINT, SIGTERM or SIGHUP ends it; further ones change nothing. The context lives until every node has
+    been destroyed, so that whatever runs meanwhile may publish, log and end motion as at any time.
 
     Parameters
     ----------
     factories : sequence of callables
-        Each makes one node; all of them run in this process on one executor. A node that has to end things in order
-        defines ``close()``, which is called before it is destroyed.
+        Each makes one node; all of them run in this process on one executor. A node that sets something in motion
+        defines ``begin()``, which is called when all nodes are there; one that has to end things in order defines
+        ``close()``, which is called before it is destroyed.
     args : sequence of str or None
         Command line; None for ``sys.argv``.
+    signals : StopSignals or None
+        Where the process has taken its signals before; None: they are taken now.
 
     Returns
     -------
     int
         Exit code: 0 after an orderly stop, 1 when a node could not start or failed with an `ActsError`.
     """
-    rclpy.init(args=list(args) if args is not None else None)
+    signals = StopSignals() if signals is None else signals
+    rclpy.init(
+        args=list(args) if args is not None else None,
+        # Theirs end the context at once, and whatever is under way then fails.
+        signal_handler_options=SignalHandlerOptions.NO,
+    )
     executor = make_executor()
     nodes: list[Node] = []
     try:
-        for factory in factories:
-            node = factory()
-            nodes.append(node)
-            executor.add_node(node)
-        spin(executor)
+        with signals.interrupting():
+            for factory in factories:
+                node = factory()
+                nodes.append(node)
+                executor.add_node(node)
+        _settle()
+        for node in nodes:
+            _call(node, "begin")
+        _spin(executor, signals)
     except ActsError as error:
         print(f"error: {error}", file=sys.stderr, flush=True)
         return 1
-    except _STOPPED:
-        return 0
-    except RuntimeError:
-        # While a node was made: see `spin`.
-        if rclpy.ok():
-            raise
+    except KeyboardInterrupt:
         return 0
     finally:
         for node in reversed(nodes):
-            close = getattr(node, "close", None)
-            if close is not None:
-                close()
+            _call(node, "close")
             node.destroy_node()
         executor.shutdown()
         # Explicit: otherwise shared-memory files of the middleware stay behind.
         rclpy.try_shutdown()
+        signals.ended()
     return 0
+
+
+def _spin(executor: Executor, signals: StopSignals) -> None:
+    """Run callbacks until a signal comes.
+
+    Not ``executor.spin()``: the events executor of the Kilted wheels never calls back from it.
+    """
+    stopped: Future[None] = Future()
+    signals.on_stop(lambda: stopped.set_result(None))
+    while not stopped.done():
+        executor.spin_until_future_complete(stopped, timeout_sec=_SPIN_S)
+
+
+def _settle() -> None:
+    """What a process does before it works a thousand times a second."""
+    # Imports and the compiler leave some 100,000 objects behind; a full collection of them stops the stream for 30 ms.
+    gc.collect()
+    gc.freeze()
+    sys.setswitchinterval(_SWITCH_INTERVAL_S)
+
+
+def _call(node: Node, name: str) -> None:
+    method = getattr(node, name, None)
+    if method is not None:
+        method()

@@ -6,18 +6,17 @@ subscribes to that.
 
 from __future__ import annotations
 
-import sys
 import time
 from dataclasses import dataclass
 from pathlib import Path
 
 from geometry_msgs.msg import PointStamped
-from rclpy._rclpy_pybind11 import RCLError
 from rclpy.node import Node
 from rclpy.time import Time
 
 from acts_core.errors import ActsError
 from acts_core.settings import setting, validate
+from acts_core.stop_signals import StopSignals
 from acts_ros import qos
 from acts_ros.diagnostics import ERROR, OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
@@ -87,12 +86,7 @@ class BallWorld(Node):
         message.header.stamp = Time(nanoseconds=stamp_ns).to_msg()
         message.point.x = state.ball.x_m
         message.point.y = state.ball.y_m
-        try:
-            self._truth.publish(message)
-        except RCLError:
-            # A signal shuts the context down before `close` is called; until then the world goes on unseen.
-            if self.context.ok():
-                raise
+        self._truth.publish(message)
 
     def _report(self) -> Report:
         if self._loop.failure is not None:
@@ -138,10 +132,6 @@ def _make_folder(folder: Path) -> None:
         ) from error
 
 
-def main() -> None:
-    """Run the node."""
-    sys.exit(run([BallWorld]))
-
-
-if __name__ == "__main__":
-    main()
+def main(signals: StopSignals | None = None) -> int:
+    """Run the node; the exit code."""
+    return run([BallWorld], signals=signals)

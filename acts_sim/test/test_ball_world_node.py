@@ -72,7 +72,7 @@ class Observer:
 @contextmanager
 def world(domain_id: int, folder: Path, *parameters: str) -> Iterator[subprocess.Popen[str]]:
     arguments = [f"field_ring:={folder / 'run' / 'field.ring'}", f"joint_ring:={folder / 'joints.ring'}", *parameters]
-    command = [sys.executable, "-m", "acts_sim.ball_world_node", "--ros-args", "-r", "__ns:=/plate"]
+    command = [sys.executable, "-m", "acts_ros.program", "acts_sim.ball_world_node", "--ros-args", "-r", "__ns:=/plate"]
     for argument in arguments:
         command += ["-p", argument]
     environment = {**os.environ, "ROS_DOMAIN_ID": str(domain_id), "ROS_PYTHON_CHECK_FIELDS": "1"}
@@ -191,7 +191,7 @@ def step(self, joints, dt_s):
 
 World.step = step
 sys.argv[1:] = ["--ros-args", "-p", f"field_ring:={sys.argv[1]}/field.ring"]
-ball_world_node.main()
+sys.exit(ball_world_node.main())
 """
 
 

@@ -18,7 +18,7 @@ from ur_process import HOOK_PORT, Simulator, wait_for
 
 from acts_core.ur5e import LEVEL_Q_RAD
 from acts_sim.timed_ring import TimedRingReader
-from acts_sim.ur.main import JOINT_RING_WIDTH, main, parse
+from acts_sim.ur.main import JOINT_RING_WIDTH, parse
 from acts_sim.ur.rtde import PacketType, encode
 
 HOST = "127.0.1.20"
@@ -186,9 +186,17 @@ def test_the_real_client_still_connects_after_all_that(simulator: Simulator) -> 
     assert simulator.client("connecting") == {"move": True}
 
 
-def test_busy_port_is_named(simulator: Simulator, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["--host", HOST]) == 1
-    errors = capsys.readouterr().err
+def refusal(*arguments: str) -> str:
+    """What the program says when it cannot start."""
+    finished = subprocess.run(
+        [sys.executable, "-m", "acts_sim.ur.main", *arguments], capture_output=True, text=True, timeout=60.0
+    )
+    assert finished.returncode == 1
+    return finished.stderr
+
+
+def test_busy_port_is_named(simulator: Simulator) -> None:
+    errors = refusal("--host", HOST)
     assert HOST in errors
     assert str(RTDE_PORT) in errors
 
@@ -203,9 +211,8 @@ def test_busy_port_is_named(simulator: Simulator, capsys: pytest.CaptureFixture[
         (["--host", "127.0.1.21", "--joint-ring", "/proc/nowhere/ring"], "/proc/nowhere"),
     ],
 )
-def test_bad_arguments_are_refused(arguments: list[str], named: str, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(arguments) == 1
-    assert named in capsys.readouterr().err
+def test_bad_arguments_are_refused(arguments: list[str], named: str) -> None:
+    assert named in refusal(*arguments)
 
 
 def test_arguments_of_ros_are_left_out() -> None:

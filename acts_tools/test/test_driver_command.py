@@ -22,10 +22,19 @@ DEADLINE_S = 60.0
 def driver(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """A driver of a virtual board, in namespace /hand."""
     monkeypatch.setenv("ROS_DOMAIN_ID", "119")
-    code = "from acts_driver.driver_node import main; main()"
     with virtual_board(tmp_path, "--board-id", "77") as board:
         process = subprocess.Popen(
-            [sys.executable, "-c", code, "--ros-args", "-r", "__ns:=/hand", "-p", f"port:={board.link}"],
+            [
+                sys.executable,
+                "-m",
+                "acts_ros.program",
+                "acts_driver.driver_node",
+                "--ros-args",
+                "-r",
+                "__ns:=/hand",
+                "-p",
+                f"port:={board.link}",
+            ],
             env=dict(os.environ),
         )
         try:

@@ -5,17 +5,16 @@ from __future__ import annotations
 import argparse
 import contextlib
 import gc
-import signal
 import sys
 import time
 from collections.abc import Sequence
 from pathlib import Path
-from types import FrameType
 
 import numpy as np
 
 from acts_core.errors import ActsError
 from acts_core.settings import default_of, describe, from_mapping
+from acts_core.stop_signals import StopSignals
 from acts_sim.timed_ring import TimedRingWriter
 from acts_sim.ur import dashboard, hooks
 from acts_sim.ur.config import ControllerConfig
@@ -82,8 +81,8 @@ def _floats(text: str) -> tuple[float, ...]:
     return tuple(float(word) for word in text.replace(",", " ").split())
 
 
-def run(options: argparse.Namespace) -> None:
-    """Serve until SIGTERM or SIGINT.
+def run(options: argparse.Namespace, signals: StopSignals) -> None:
+    """Serve until a signal asks to stop.
 
     Raises
     ------
@@ -122,11 +121,7 @@ def run(options: argparse.Namespace) -> None:
 
         server = stack.enter_context(contextlib.closing(Server(options.host, ports, cycle, log)))
 
-        def stop(number: int, frame: FrameType | None) -> None:
-            server.stop()
-
-        signal.signal(signal.SIGTERM, stop)
-        signal.signal(signal.SIGINT, stop)
+        signals.on_stop(server.stop)
         if options.joint_ring is not None:
             ring = stack.enter_context(_open_ring(options.joint_ring))
         # What exists by now lives as long as the process; there is no use in going through it again and again.
@@ -143,14 +138,17 @@ def _open_ring(path: Path) -> TimedRingWriter:
         raise ActsError(f"{path}: the joint ring cannot be written ({error.strerror}); give another file") from error
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
+def main(signals: StopSignals | None = None) -> int:
     """Run the simulated controller; 0 after a signal, 1 when it could not start."""
-    options = parse(sys.argv[1:] if arguments is None else arguments)
+    options = parse(sys.argv[1:])
+    signals = StopSignals() if signals is None else signals
     try:
-        run(options)
+        run(options, signals)
     except ActsError as error:
         print(f"ur_controller: {error}", file=sys.stderr, flush=True)
         return 1
+    finally:
+        signals.ended()
     return 0
 
 

@@ -141,7 +141,7 @@ class Server:
             raise
 
     def stop(self) -> None:
-        """Let `run` return; may be called from a signal handler."""
+        """Let `run` return; from any thread; it does so after the present cycle."""
         self._stopping = True
 
     def close(self) -> None:

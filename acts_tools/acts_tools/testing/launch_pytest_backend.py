@@ -136,6 +136,8 @@ def make_test(fixture: Any) -> Callable[[Callable[..., None]], Callable[..., Non
                 body(**{**kwargs, name: run})
             finally:
                 run.close()
+                # Shown by pytest where the test has failed.
+                print(run.output)
 
         marked: Callable[..., None] = pytest.mark.launch(fixture=fixture)(test)
         return marked

@@ -246,11 +246,10 @@ def _running(launch_file: LaunchFile) -> Iterator[ProcessLaunch]:
         run = ProcessLaunch(launch_file, Path(folder))
         try:
             yield run
-        except BaseException:
-            print(run.output)
-            raise
         finally:
             run.close()
+            # Shown by pytest where the test has failed: an assertion of a fixture's user is not seen here.
+            print(run.output)
 
 
 def launch_fixture(function: Callable[..., LaunchFile]) -> Any:

@@ -1,0 +1,8 @@
+"""The executables of this package, see setup.py. Nothing else is imported here: signals come first."""
+
+from acts_ros.program import Program
+
+ball_balancing = Program("acts_control.ball_balancing")
+ball_control = Program("acts_control.ball_control_node")
+ball_state = Program("acts_control.ball_state_node")
+ball_trajectory = Program("acts_control.ball_trajectory_node")

@@ -1,0 +1,101 @@
+"""SIGINT, SIGTERM and SIGHUP as one request to stop, which further signals do not disturb.
+
+A program that ends motion must not be interrupted while it does so. Python's own answer to SIGINT, an exception in the
+main thread wherever that is, interrupts it; a second signal does so again. Here a signal is an exception only while
+nothing is under way yet (`interrupting`), and later a callback from a thread of its own, once.
+"""
+
+from __future__ import annotations
+
+import faulthandler
+import os
+import signal
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from types import FrameType
+
+STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+
+LAST_RESORT_S = 12.0
+"""A program that has not ended so long after the first signal writes where it hangs and exits with code 1 [s]."""
+
+
+class StopSignals:
+    """Takes the stop signals of this process, from its making on. For the main thread.
+
+    A SIGHUP that nohup lets be ignored stays so.
+
+    Parameters
+    ----------
+    last_resort_s : float
+        See `LAST_RESORT_S`.
+    """
+
+    def __init__(self, last_resort_s: float = LAST_RESORT_S) -> None:
+        self._last_resort_s = last_resort_s
+        self._lock = threading.Lock()
+        self._is_set = False
+        self._interrupts = False
+        self._interrupted = False
+        self._on_stop: Callable[[], None] | None = None
+        # The interpreter writes to it from its handler in C, whatever the main thread is busy with.
+        read_end, self._write_end = os.pipe2(os.O_CLOEXEC)
+        os.set_blocking(self._write_end, False)
+        signal.set_wakeup_fd(self._write_end, warn_on_full_buffer=False)
+        for number in STOP_SIGNALS:
+            if number is signal.SIGHUP and signal.getsignal(number) is signal.SIG_IGN:
+                continue
+            signal.signal(number, self._handle)
+            # Libraries whose system calls would fail with EINTR are not to notice.
+            signal.siginterrupt(number, False)
+        threading.Thread(target=self._watch, args=(read_end,), name="acts_signals", daemon=True).start()
+
+    @property
+    def is_set(self) -> bool:
+        """Whether a signal has come."""
+        return self._is_set
+
+    def on_stop(self, callback: Callable[[], None]) -> None:
+        """Call this once when a signal comes, from another thread; at once where one has come already."""
+        with self._lock:
+            self._on_stop = callback
+            if not self._is_set:
+                return
+        callback()
+
+    @contextmanager
+    def interrupting(self) -> Iterator[None]:
+        """While entered, the first signal raises KeyboardInterrupt in the main thread.
+
+        For the start of a program: there is nothing to end in order yet, and what takes long is to be broken off.
+        """
+        self._interrupts = True
+        try:
+            if self._is_set:
+                raise KeyboardInterrupt
+            yield
+        finally:
+            self._interrupts = False
+
+    def ended(self) -> None:
+        """Tell that the program has ended in order: the last resort is not needed any more."""
+        faulthandler.cancel_dump_traceback_later()
+
+    def _handle(self, _number: int, _frame: FrameType | None) -> None:
+        if self._interrupts and not self._interrupted:
+            self._interrupted = True
+            raise KeyboardInterrupt
+
+    def _watch(self, read_end: int) -> None:
+        while True:
+            number = os.read(read_end, 1)
+            if number and number[0] in STOP_SIGNALS:
+                break
+        # By a thread in C, which also works where the interpreter hangs.
+        faulthandler.dump_traceback_later(self._last_resort_s, exit=True)
+        with self._lock:
+            self._is_set = True
+            callback = self._on_stop
+        if callback is not None:
+            callback()

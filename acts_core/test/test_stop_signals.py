@@ -1,0 +1,86 @@
+"""Signals in processes of their own: one request to stop, undisturbed by more, with a last resort."""
+
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import pytest
+
+HEAD = """
+import sys, threading, time
+from acts_core.stop_signals import StopSignals
+signals = StopSignals(last_resort_s=float(sys.argv[1]))
+asked = threading.Event()
+"""
+
+# Waits where Python runs no handler until it returns: in a lock without timeout, in the main thread.
+ENDS = """
+signals.on_stop(asked.set)
+print("running", flush=True)
+asked.wait()
+print("ending", flush=True)
+sys.stdin.readline()
+signals.ended()
+print("ended", flush=True)
+"""
+
+STARTS = """
+try:
+    with signals.interrupting():
+        print("running", flush=True)
+        while True:
+            pass
+except KeyboardInterrupt:
+    print("ending", flush=True)
+sys.stdin.readline()
+signals.on_stop(asked.set)
+print("ended" if asked.is_set() and signals.is_set else "forgotten", flush=True)
+signals.ended()
+"""
+
+
+@contextmanager
+def program(code: str, last_resort_s: float) -> Iterator[subprocess.Popen[str]]:
+    with subprocess.Popen(
+        [sys.executable, "-c", HEAD + code, str(last_resort_s)],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as process:
+        try:
+            yield process
+        finally:
+            process.kill()
+
+
+def line(process: subprocess.Popen[str]) -> str:
+    assert process.stdout is not None
+    return process.stdout.readline().strip()
+
+
+@pytest.mark.parametrize("code", [ENDS, STARTS], ids=["running", "starting"])
+@pytest.mark.parametrize("first", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_further_signals_do_not_disturb_the_way_out(code: str, first: signal.Signals) -> None:
+    with program(code, 60.0) as process:
+        assert line(process) == "running"
+        process.send_signal(first)
+        assert line(process) == "ending"
+        for again in (signal.SIGINT, signal.SIGTERM, signal.SIGINT):
+            process.send_signal(again)
+        output, errors = process.communicate("go on\n", timeout=60)
+    assert (output, errors) == ("ended\n", "")
+    assert process.returncode == 0
+
+
+def test_what_does_not_end_is_ended_and_tells_where_it_hangs() -> None:
+    with program(ENDS, 0.2) as process:
+        assert line(process) == "running"
+        process.send_signal(signal.SIGINT)
+        assert process.wait(60) == 1
+        assert process.stderr is not None
+        errors = process.stderr.read()
+    assert "Timeout" in errors
+    assert "most recent call first" in errors

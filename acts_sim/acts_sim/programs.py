@@ -1,0 +1,6 @@
+"""The executables of this package, see setup.py. Nothing else is imported here: signals come first."""
+
+from acts_ros.program import Program
+
+ball_world = Program("acts_sim.ball_world_node")
+ur_controller = Program("acts_sim.ur.main")
