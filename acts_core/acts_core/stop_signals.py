@@ -79,7 +79,10 @@ class StopSignals:
             self._interrupts = False
 
     def ended(self) -> None:
-        """Tell that the program has ended in order: the last resort is not needed any more."""
+        """Tell that the program has ended in order, and its process is about to: signals are ignored from now on."""
+        # The interpreter, when it goes, gives signals back to the system, which would kill; ignored ones it leaves.
+        for number in STOP_SIGNALS:
+            signal.signal(number, signal.SIG_IGN)
         faulthandler.cancel_dump_traceback_later()
 
     def _handle(self, _number: int, _frame: FrameType | None) -> None:
