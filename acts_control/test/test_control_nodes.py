@@ -200,7 +200,11 @@ def test_bad_parameters_are_an_error_at_start(module: str, parameters: dict[str,
 def test_settings_files_reach_all_three_nodes_of_the_composed_process(tmp_path: Path) -> None:
     path = tmp_path / "params.yaml"
     path.write_text("/**/ball_state:\n  ros__parameters:\n    gate_sigmas: 0.5\n")
-    command = [*node_command("ball_balancing", "--trajectory", "hold,N,"), "--params-file", str(path)]
+    command = [
+        *node_command("ball_balancing", "--set", "ball_trajectory.trajectory=hold,N,"),
+        "--params-file",
+        str(path),
+    ]
     with Process(*command, domain=63) as process:
         wait_for(lambda: process.process.poll() is not None, "the end of the process")
         assert "parameters of /plate/ball_state: gate_sigmas = 0.5" in process.text()

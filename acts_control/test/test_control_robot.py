@@ -41,7 +41,13 @@ SETTINGS = """
 def balancing_process(tmp_path: Path, robot: SimulatedRobot, domain: int, trajectory: str = "hold") -> Process:
     path = tmp_path / "params.yaml"
     path.write_text(SETTINGS)
-    command = node_command("ball_balancing", "--robot-ip", robot.host, "--trajectory", trajectory)
+    command = node_command(
+        "ball_balancing",
+        "--set",
+        f"ball_control.robot_ip={robot.host}",
+        "--set",
+        f"ball_trajectory.trajectory={trajectory}",
+    )
     return Process(*command, "--params-file", str(path), domain=domain)
 
 

@@ -141,6 +141,24 @@ def checked(name: str, value: Any, default: SettingValue, info: SettingInfo) -> 
     return converted
 
 
+def from_text(settings_class: type, name: str, text: str) -> SettingValue:
+    """The value of one setting as a person writes it on a command line: words as they stand, all else as in YAML.
+
+    Raises
+    ------
+    SettingsError
+        Where type or range do not fit.
+    """
+    default = default_of(settings_class, name)
+    value: Any = text
+    if not isinstance(default, str):
+        try:
+            value = yaml.safe_load(text)
+        except yaml.YAMLError:
+            value = text
+    return checked(name, value, default, describe(settings_class)[name])
+
+
 def _converted(value: Any, default: SettingValue) -> SettingValue:
     if isinstance(default, bool):
         if isinstance(value, bool):

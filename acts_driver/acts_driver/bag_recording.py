@@ -9,9 +9,9 @@ from rclpy.serialization import deserialize_message
 
 from acts_core.errors import RecordingError
 from acts_core.frames import SampleFrame
-from acts_driver.messages import frame_of
 from acts_msgs.msg import TactileSamples
 from acts_ros.bags import require_rosbags
+from acts_ros.sample_messages import frame_of
 
 _TYPE = "acts_msgs/msg/TactileSamples"
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
 
@@ -16,7 +17,6 @@ from acts_driver.board_parameters import BOARD_PARAMETERS
 from acts_driver.board_results import BoardResult
 from acts_driver.board_topics import BoardTopics
 from acts_driver.intake import Intake
-from acts_driver.messages import SamplesMessage
 from acts_driver.settings import DriverSettings
 from acts_driver.source import Source
 from acts_msgs.msg import TactileSamples
@@ -24,6 +24,9 @@ from acts_ros.diagnostics import ERROR, OK, DiagnosticsReporter, Report
 from acts_ros.executor import run
 from acts_ros.parameters import declare, node_options
 from acts_ros.qos import STREAM, overridable
+from acts_ros.sample_messages import SamplesMessage
+
+FrameConsumer = Callable[[SampleFrame, int, str], None]
 
 SUCCESS = TransitionCallbackReturn.SUCCESS
 FAILURE = TransitionCallbackReturn.FAILURE
@@ -41,6 +44,9 @@ class DriverNode(LifecycleNode):
         Whether it publishes.
     intake : Intake or None
         What it reads with; None while it is unconfigured.
+    consumers : list of callable
+        Each takes a frame that is published, its stamp [ns] and the frame of the skin, on the reader's thread: nodes of
+        the same process, to which no message has to be sent. To be filled before the node is spun.
     """
 
     def __init__(self, **node_arguments: object) -> None:
@@ -51,9 +57,12 @@ class DriverNode(LifecycleNode):
         self._what = self._settings.replay if self._settings.is_replay else self._settings.port
         self.active = False
         self.intake: Intake | None = None
+        self.consumers: list[FrameConsumer] = []
         self._source: Source | None = None
         self._problem = ""
-        frame_id = self._settings.frame_id or self.get_namespace().strip("/").replace("/", "_") or "skin"
+        self._frame_id = frame_id = (
+            self._settings.frame_id or self.get_namespace().strip("/").replace("/", "_") or "skin"
+        )
         self._message = SamplesMessage(frame_id)
         self._baseline = BaselineServices(self, self._settings, self._settings.rows, self._settings.cols, frame_id)
         self._board = BoardInterface(self, frame_id)
@@ -126,8 +135,12 @@ class DriverNode(LifecycleNode):
         self._baseline.observe(frames)
         if not self.active:
             return
+        is_heard = self._publisher.get_subscription_count() > 0
         for frame, stamp_ns in frames:
-            self._publisher.publish(self._message.fill(frame, stamp_ns))
+            for consume in self.consumers:
+                consume(frame, stamp_ns, self._frame_id)
+            if is_heard:
+                self._publisher.publish(self._message.fill(frame, stamp_ns))
         for result, stamp_ns in results:
             self._topics.publish(result, stamp_ns)
 

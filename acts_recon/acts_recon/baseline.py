@@ -65,7 +65,8 @@ class BaselineSubtraction:
             raise ArrayError(f"baseline {baseline.shape} and valid {valid.shape}: needed are {size} values of each")
         if not np.isfinite(baseline[valid]).all():
             raise ArrayError("a baseline has values that are not finite")
-        self._baseline[:] = np.where(valid, baseline, 0.0)
+        # Put in place as a whole: a frame may be worked on by another thread.
+        self._baseline = np.where(valid, baseline, np.float32(0.0)).astype(np.float32)
         self.is_set = True
 
     def apply(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16]) -> NDArray[np.uint16]:

@@ -8,11 +8,12 @@ import numpy as np
 from builtin_interfaces.msg import Duration
 from numpy.typing import NDArray
 from rclpy.node import Node
+from std_msgs.msg import Header
 from visualization_msgs.msg import Marker, MarkerArray
 
 from acts_core.array import ArrayGeometry
 from acts_core.force import ForceResponse, MeasuredForceResponse
-from acts_msgs.msg import Contacts, TactileSamples, TrackedContact
+from acts_msgs.msg import Contacts, TrackedContact
 from acts_recon.blob_kernels import MAX_BLOBS
 from acts_recon.blob_tracker import BlobTracker
 from acts_recon.blobs import BlobConfig, TrackedBlob
@@ -63,13 +64,16 @@ class ContactsPublisher:
         self._send_view = self._view_publisher.get_subscription_count() > 0
 
     def publish(
-        self, samples: TactileSamples, image: NDArray[np.float32], sigma: NDArray[np.float32] | None = None
+        self, header: Header, sequence: int, image: NDArray[np.float32], sigma: NDArray[np.float32] | None = None
     ) -> None:
-        """Find the contacts in the image made of these samples, and publish them.
+        """Find the contacts in the image of a frame, and publish them.
 
         Parameters
         ----------
-        samples : TactileSamples
+        header : Header
+            Of the frame.
+        sequence : int
+            The frame's number.
         image : np.ndarray [shape=(rows, cols), dtype=float32]
             Counts.
         sigma : np.ndarray [shape=(rows, cols), dtype=float32], optional
@@ -77,19 +81,19 @@ class ContactsPublisher:
         """
         if not (self._send or self._send_view):
             return
-        stamp = samples.header.stamp
+        stamp = header.stamp
         found = self._tracker.step(image, stamp.sec + 1e-9 * stamp.nanosec, sigma)
         if self._send:
             message = self._message
-            message.header = samples.header
-            message.sequence = samples.sequence
+            message.header = header
+            message.sequence = sequence
             message.dropped = self._tracker.dropped
             for blob, entry in zip(found, self._entries, strict=False):
                 _fill(entry, blob)
             message.contacts = self._entries[: len(found)]
             self._publisher.publish(message)
         if self._send_view and self._view_limit.due(time.monotonic()):
-            markers = [marker for blob in found for marker in _markers(samples, blob)]
+            markers = [marker for blob in found for marker in _markers(header, blob)]
             self._view_publisher.publish(MarkerArray(markers=markers))
 
 
@@ -116,7 +120,7 @@ def _fill(entry: TrackedContact, blob: TrackedBlob) -> None:
     entry.spread_sigma = blob.spread_sd_m
 
 
-def _markers(samples: TactileSamples, blob: TrackedBlob) -> list[Marker]:
+def _markers(header: Header, blob: TrackedBlob) -> list[Marker]:
     """A disc and a number; both vanish by themselves when they are not sent again."""
     markers = []
     diameter_m = 2.0 * float(np.sqrt(blob.area_m2 / np.pi))
@@ -124,7 +128,7 @@ def _markers(samples: TactileSamples, blob: TrackedBlob) -> list[Marker]:
     hue = 2 * np.pi * ((blob.number * 0.618) % 1.0)
     red, green, blue = (float(0.5 + 0.5 * np.cos(hue + shift)) for shift in (0.0, 2.1, 4.2))
     for namespace, kind in (("contacts", Marker.CYLINDER), ("numbers", Marker.TEXT_VIEW_FACING)):
-        marker = Marker(header=samples.header, ns=namespace, id=blob.number % _MAX_ID, type=kind, action=Marker.ADD)
+        marker = Marker(header=header, ns=namespace, id=blob.number % _MAX_ID, type=kind, action=Marker.ADD)
         marker.lifetime = Duration(nanosec=round(1e9 * _MARKER_LIFETIME_S))
         marker.pose.position.x, marker.pose.position.y = blob.x_m, blob.y_m
         marker.pose.orientation.w = 1.0

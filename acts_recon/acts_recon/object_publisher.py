@@ -8,8 +8,9 @@ from array import array
 import numpy as np
 from numpy.typing import NDArray
 from rclpy.node import Node
+from std_msgs.msg import Header
 
-from acts_msgs.msg import ObjectClass, TactileSamples
+from acts_msgs.msg import ObjectClass
 from acts_recon.object_recognition import ObjectRecogniser
 from acts_recon.rate_limit import RateLimit
 from acts_ros import qos
@@ -43,7 +44,8 @@ class ObjectPublisher:
 
     def publish(
         self,
-        samples: TactileSamples,
+        header: Header,
+        sequence: int,
         indices: NDArray[np.uint16],
         counts: NDArray[np.uint16],
         end_s: float,
@@ -57,8 +59,8 @@ class ObjectPublisher:
             return
         result = self._recogniser.step(indices, counts, end_s, duration_s)
         message = self._message
-        message.header = samples.header
-        message.sequence = samples.sequence
+        message.header = header
+        message.sequence = sequence
         message.class_number = result.best if result.touched else ObjectClass.NO_OBJECT
         message.name = self._recogniser.library.names[result.best] if result.touched else ""
         message.confidence = result.confidence

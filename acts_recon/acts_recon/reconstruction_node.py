@@ -9,13 +9,13 @@ from collections.abc import Sequence
 from statistics import median
 
 import numpy as np
-from builtin_interfaces.msg import Duration, Time
 from geometry_msgs.msg import PointStamped
-from numpy.typing import NDArray
 from rclpy.node import Node
 from sensor_msgs.msg import Image
+from std_msgs.msg import Header
 
 from acts_core.errors import ArrayError
+from acts_core.frames import SampleFrame
 from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import Baseline, TactileSamples
 from acts_msgs.msg import Contact as ContactMessage
@@ -30,21 +30,29 @@ from acts_ros import qos
 from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
 from acts_ros.parameters import declare, node_options
+from acts_ros.sample_messages import frame_of, stamp_ns_of
 
 _SUBSCRIBERS_PERIOD_S = 0.2
 _SEQUENCE_MODULUS = 2**32
+_NS_PER_S = 1_000_000_000
 
 
 class ReconstructionNode(Node):
     """Translates between topics and a `Recovery`.
 
-    Subscribes ``samples`` (acts_msgs/TactileSamples). Publishes for every frame ``contact`` (acts_msgs/Contact), while
+    Subscribes ``samples`` (acts_msgs/TactileSamples), or takes frames by `take` from a driver in the same process.
+    Publishes for every frame ``contact`` (acts_msgs/Contact), while
     in contact ``cop`` (geometry_msgs/PointStamped), and where somebody listens ``image_raw`` (sensor_msgs/Image,
     mono16, counts), ``confidence`` (mono8, with the method ``fusion``), ``image`` (rgb8, for viewers), ``contacts``
     and, with an object library, ``object`` (acts_msgs/ObjectClass).
+
+    Parameters
+    ----------
+    subscribes : bool
+        Whether frames come as messages; otherwise somebody calls `take`.
     """
 
-    def __init__(self, *, cli_args: Sequence[str] | None = None, **options: object) -> None:
+    def __init__(self, *, subscribes: bool = True, cli_args: Sequence[str] | None = None, **options: object) -> None:
         super().__init__("reconstruction", cli_args=cli_args, **node_options(), **options)
         self._settings = declare(self, ReconstructionSettings)
         self.get_logger().info("compiling (the first time on a machine takes some seconds)")
@@ -56,6 +64,7 @@ class ReconstructionNode(Node):
         self._confidence_publisher = self.create_publisher(Image, "confidence", **qos.overridable(qos.STREAM))
         self._view_publisher = self.create_publisher(Image, "image", **qos.overridable(qos.VIEW))
         # Filled anew for every frame: making messages costs more than sending them.
+        self._header = Header()
         self._contact = ContactMessage()
         self._cop = PointStamped()
         rows, cols = self._recovery.image.shape
@@ -84,7 +93,8 @@ class ReconstructionNode(Node):
         self._diagnostics = DiagnosticsReporter(self, self.resolve_topic_name("samples"), self._report)
         if self._settings.subtract_baseline:
             self.create_subscription(Baseline, "baseline", self._on_baseline, **qos.overridable(qos.LATCHED))
-        self.create_subscription(TactileSamples, "samples", self._on_samples, **qos.overridable(qos.STREAM))
+        if subscribes:
+            self.create_subscription(TactileSamples, "samples", self._on_samples, **qos.overridable(qos.STREAM))
         self.get_logger().info(
             f"ready: array of {self._settings.rows} x {self._settings.cols}, image of {rows} x {cols}"
         )
@@ -99,45 +109,60 @@ class ReconstructionNode(Node):
             self._objects.look_for_subscribers()
 
     def _on_samples(self, samples: TactileSamples) -> None:
+        self.take(frame_of(samples), stamp_ns_of(samples), samples.header.frame_id)
+
+    def take(self, frame: SampleFrame, stamp_ns: int, frame_id: str) -> None:
+        """Recover a frame and publish what is in it; always from the same thread.
+
+        Parameters
+        ----------
+        frame : SampleFrame
+        stamp_ns : int
+            ROS time at the end of its last measurement [ns].
+        frame_id : str
+            Frame of the skin.
+        """
         began_s = time.perf_counter()
         settings = self._settings
-        if samples.rows != settings.rows or samples.cols != settings.cols:
+        if frame.rows != settings.rows or frame.cols != settings.cols:
             self._reject(
                 "wrong_array_size",
-                f"array of {samples.rows} x {samples.cols}: the parameters rows and cols say "
+                f"array of {frame.rows} x {frame.cols}: the parameters rows and cols say "
                 f"{settings.rows} x {settings.cols}",
             )
             return
-        indices = _as_numpy(samples.indices)
-        if self._began_anew(samples.sequence):
+        if self._began_anew(frame.sequence):
             self._recovery.reset()
             if self._objects is not None:
                 self._objects.reset()
-        counts = self._baseline.apply(indices, _as_numpy(samples.counts))
-        end_s, duration_s = _seconds(samples.header.stamp), _seconds(samples.duration)
+        counts = self._baseline.apply(frame.indices, frame.counts)
+        end_s, duration_s = stamp_ns * 1e-9, frame.duration_us * 1e-6
         try:
-            contact = self._recovery.step(indices, counts, end_s, duration_s)
+            contact = self._recovery.step(frame.indices, counts, end_s, duration_s)
         except ArrayError as error:
             self._reject("bad_frame", str(error))
             return
         self._frames += 1
-        self._follow(samples.sequence)
-        self._publish(samples, contact)
+        self._follow(frame.sequence)
+        header = self._header
+        header.frame_id = frame_id
+        header.stamp.sec, header.stamp.nanosec = divmod(stamp_ns, _NS_PER_S)
+        self._publish_contact(frame.sequence, contact)
+        self._publish_images()
+        self._contacts.publish(header, frame.sequence, self._recovery.image, self._recovery.sigma)
         if self._objects is not None:
-            self._objects.publish(samples, indices, counts, end_s, duration_s)
+            self._objects.publish(header, frame.sequence, frame.indices, counts, end_s, duration_s)
         self._durations_s.append(time.perf_counter() - began_s)
 
-    def _publish(self, samples: TactileSamples, contact: Contact) -> None:
-        self._publish_contact(samples, contact)
+    def _publish_images(self) -> None:
         if self._send_raw:
-            self._raw.header = samples.header
+            self._raw.header = self._header
             self._raw.data = array("B", mono16(self._recovery.image))
             self._raw_publisher.publish(self._raw)
         if self._send_confidence:
-            self._publish_confidence(samples)
+            self._publish_confidence()
         if self._send_view:
-            self._publish_view(samples)
-        self._contacts.publish(samples, self._recovery.image, self._recovery.sigma)
+            self._publish_view()
 
     def _on_baseline(self, message: Baseline) -> None:
         settings = self._settings
@@ -154,10 +179,10 @@ class ReconstructionNode(Node):
             self._rejected["bad_baseline"] += 1
             self.get_logger().warning(f"baseline not used: {error}")
 
-    def _publish_contact(self, samples: TactileSamples, contact: Contact) -> None:
+    def _publish_contact(self, sequence: int, contact: Contact) -> None:
         message = self._contact
-        message.header = samples.header
-        message.sequence = samples.sequence
+        message.header = self._header
+        message.sequence = sequence
         message.in_contact = contact.in_contact
         message.centre_of_pressure.x = contact.x_m
         message.centre_of_pressure.y = contact.y_m
@@ -173,22 +198,22 @@ class ReconstructionNode(Node):
         message.spread_sigma = contact.spread_sd_m
         self._contact_publisher.publish(message)
         if self._send_cop and contact.in_contact:
-            self._cop.header = samples.header
+            self._cop.header = self._header
             self._cop.point = message.centre_of_pressure
             self._cop_publisher.publish(self._cop)
 
-    def _publish_confidence(self, samples: TactileSamples) -> None:
+    def _publish_confidence(self) -> None:
         confidence = self._recovery.confidence()
         if confidence is None:
             return
-        self._sureness.header = samples.header
+        self._sureness.header = self._header
         self._sureness.data = array("B", confidence.tobytes())
         self._confidence_publisher.publish(self._sureness)
 
-    def _publish_view(self, samples: TactileSamples) -> None:
+    def _publish_view(self) -> None:
         if not self._view_limit.due(time.monotonic()):
             return
-        self._view.header = samples.header
+        self._view.header = self._header
         pixels = rgb8(
             self._recovery.image,
             scale=self._settings.image_scale,
@@ -228,22 +253,13 @@ class ReconstructionNode(Node):
             "rejected.bad_frame": self._rejected["bad_frame"],
             "rejected.bad_baseline": self._rejected["bad_baseline"],
             "baseline": "subtracted" if self._baseline.is_set else "none",
-            "frame_us.median": 1e6 * median(self._durations_s) if self._durations_s else 0.0,
+            "frame_us.median": 1e6 * median(list(self._durations_s)) if self._durations_s else 0.0,
         }
         if new_rejected:
             return WARN, f"{new_rejected} messages dropped that do not fit, see the log", values
         if not new_frames:
             return WARN, "no samples", values
         return OK, f"{rate_hz:.0f} frames/s", values
-
-
-def _seconds(moment: Time | Duration) -> float:
-    return float(moment.sec) + 1e-9 * moment.nanosec
-
-
-def _as_numpy(field: array) -> NDArray[np.uint16]:
-    # numpy refuses to view an empty buffer
-    return np.frombuffer(field, dtype=np.uint16) if len(field) else np.empty(0, dtype=np.uint16)
 
 
 def _empty_image(height: int, width: int, encoding: str, bytes_per_pixel: int) -> Image:

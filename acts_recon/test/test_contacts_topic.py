@@ -132,13 +132,13 @@ def test_standard_deviations_and_markers_are_those_of_the_contact(make_peers: Ca
     image = bump(GEOMETRY, 20.0, 12.0).astype(np.float32)
     sigma = np.full((32, 32), 5, dtype=np.float32)
     # Nobody listens: nothing is found, and no number is used up.
-    contacts.publish(samples_of(image, 0), image, sigma)
+    contacts.publish(samples_of(image, 0).header, 0, image, sigma)
     peers.listen(Contacts, "contacts", qos.STREAM)
     peers.listen(MarkerArray, "contacts_view", qos.VIEW)
     peers.until(lambda: contacts.look_for_subscribers() or (contacts._send and contacts._send_view))
 
     (expected,) = BlobTracker(GEOMETRY, response).step(image, 0.0, sigma)
-    contacts.publish(samples_of(image, 1), image, sigma)
+    contacts.publish(samples_of(image, 1).header, 1, image, sigma)
     peers.until(lambda: all(peers.received.values()))
     ((contact,),) = (message.contacts for message in peers.received["contacts"])
     assert contact.number == 1

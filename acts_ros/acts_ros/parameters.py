@@ -75,14 +75,15 @@ def declare(
         default = default_of(settings_class, name)
         value = getattr(settings, name)
         node.declare_parameter(
-            name, _ros_value(value), _descriptor(default, info, name not in changeable), ignore_override=True
+            name, ros_value(value), _descriptor(default, info, name not in changeable), ignore_override=True
         )
     if changeable:
         node.add_on_set_parameters_callback(_Changes(settings, on_change))
     return settings
 
 
-def _ros_value(value: Any) -> Any:
+def ros_value(value: Any) -> Any:
+    """A value of a setting as the value of a ROS parameter."""
     return list(value) if isinstance(value, tuple) else value
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from importlib import import_module
 
+from acts_core.errors import ActsError
 from acts_core.stop_signals import StopSignals
 
 
@@ -27,6 +28,9 @@ class Program:
             with signals.interrupting():
                 module = import_module(self._module)
             return int(module.main(signals))
+        except ActsError as error:
+            print(f"error: {error}", file=sys.stderr, flush=True)
+            return 1
         except KeyboardInterrupt:
             # Asked to end before anything had begun.
             return 0

@@ -1,4 +1,4 @@
-"""Frames as messages."""
+"""Frames of samples as messages, and back."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from acts_msgs.msg import TactileSamples
 
 _NS_PER_S = 1_000_000_000
 _US_PER_S = 1_000_000
+_SCHEMES = {int(scheme): scheme for scheme in Scheme}
 
 
 class SamplesMessage:
@@ -51,20 +52,19 @@ class SamplesMessage:
         return message
 
 
-def frame_of(message: TactileSamples) -> SampleFrame:
-    """The frame of a message; its stamp becomes `board_us`.
-
-    Raises
-    ------
-    ValueError
-        When the message names a scheme that does not exist.
-    """
+def stamp_ns_of(message: TactileSamples) -> int:
+    """ROS time at the end of the frame's last measurement [ns]."""
     stamp = message.header.stamp
+    return int(stamp.sec * _NS_PER_S + stamp.nanosec)
+
+
+def frame_of(message: TactileSamples) -> SampleFrame:
+    """The frame of a message; its stamp becomes `board_us`, a scheme that does not exist UNKNOWN."""
     return SampleFrame(
         sequence=int(message.sequence),
-        board_us=(stamp.sec * _NS_PER_S + stamp.nanosec) // 1000,
+        board_us=stamp_ns_of(message) // 1000,
         duration_us=message.duration.sec * _US_PER_S + message.duration.nanosec // 1000,
-        scheme=Scheme(message.scheme),
+        scheme=_SCHEMES.get(int(message.scheme), Scheme.UNKNOWN),
         rows=int(message.rows),
         cols=int(message.cols),
         overruns=0,

@@ -1,0 +1,68 @@
+"""Several nodes in one process: parameters for each of them from the process's own command line.
+
+A ROS parameter on the command line of a process (``-p name:=value``) goes to all of its nodes, and those that do not
+have it refuse it. So a process of several nodes takes ``--set NODE.PARAMETER=VALUE``.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Mapping, Sequence
+
+from rclpy.parameter import Parameter
+from rclpy.utilities import remove_ros_args
+
+from acts_core.errors import SettingsError
+from acts_core.settings import describe, from_text, unknown_key_message
+from acts_ros.parameters import ros_value
+
+
+def parameters_from(words: Sequence[str], description: str, nodes: Mapping[str, type]) -> dict[str, list[Parameter]]:
+    """The parameters that a command line gives to the nodes of a process.
+
+    Parameters
+    ----------
+    words : sequence of str
+        The command line, the program's name first; what ROS takes of it is left out.
+    description : str
+        One sentence for ``--help``.
+    nodes : mapping of str to type
+        Name of each node, and the settings class its parameters are declared from.
+
+    Returns
+    -------
+    dict of str to list of Parameter
+        For each node, to be passed as ``parameter_overrides``; they go before params files.
+
+    Raises
+    ------
+    SettingsError
+        For an unknown node or parameter, with the nearest known name, or a value of the wrong type.
+    """
+    parser = argparse.ArgumentParser(
+        description=description,
+        epilog="Nodes: " + ", ".join(nodes) + ". Their parameters are in docs/reference.md. ROS arguments follow "
+        "--ros-args; a parameter given there (-p) goes to all nodes.",
+    )
+    parser.add_argument(
+        "--set",
+        metavar="NODE.PARAMETER=VALUE",
+        action="append",
+        default=[],
+        help="parameter of one node; may be given again",
+    )
+    options = parser.parse_args(remove_ros_args(list(words))[1:])
+    given: dict[str, dict[str, Parameter]] = {node: {} for node in nodes}
+    for text in options.set:
+        name, equals, value = text.partition("=")
+        node, dot, parameter = name.partition(".")
+        if not (equals and dot):
+            raise SettingsError(f"--set {text}: needed is NODE.PARAMETER=VALUE, with NODE one of {', '.join(nodes)}")
+        if node not in nodes:
+            raise SettingsError(unknown_key_message(node, list(nodes), "nodes of this process"))
+        settings_class = nodes[node]
+        if parameter not in describe(settings_class):
+            raise SettingsError(unknown_key_message(parameter, list(describe(settings_class)), f"parameters of {node}"))
+        # Given again, the last one holds.
+        given[node][parameter] = Parameter(parameter, value=ros_value(from_text(settings_class, parameter, value)))
+    return {node: list(parameters.values()) for node, parameters in given.items()}

@@ -1,0 +1,63 @@
+"""Parameters of the nodes of one process, from its command line."""
+
+from dataclasses import dataclass
+
+import pytest
+
+from acts_core.errors import SettingsError
+from acts_core.settings import setting
+from acts_ros.composition import parameters_from
+
+
+@dataclass(frozen=True)
+class LeftSettings:
+    word: str = setting("one", "a word")
+    number: float = setting(1.0, "a number", minimum=0.0, maximum=9.0)
+    is_on: bool = setting(False, "a switch")
+
+
+@dataclass(frozen=True)
+class RightSettings:
+    count: int = setting(1, "a whole number", minimum=0, maximum=9)
+    angles: tuple[float, ...] = setting((0.0,), "a list")
+
+
+NODES = {"left": LeftSettings, "right": RightSettings}
+
+
+def given(*words: str) -> dict[str, dict[str, object]]:
+    parameters = parameters_from(["program", *words], "A test.", NODES)
+    return {node: {one.name: one.value for one in values} for node, values in parameters.items()}
+
+
+def test_each_node_gets_its_own_in_the_types_of_its_settings() -> None:
+    words = ["left.word=true", "left.number=3", "left.is_on=true", "right.count=4", "right.angles=[1, 2.5]"]
+    assert given(*(part for word in words for part in ("--set", word)), "--ros-args", "-r", "__ns:=/x") == {
+        "left": {"word": "true", "number": 3.0, "is_on": True},
+        "right": {"count": 4, "angles": [1.0, 2.5]},
+    }
+
+
+def test_nothing_given_and_given_twice() -> None:
+    assert given() == {"left": {}, "right": {}}
+    # A value may hold the signs that separate.
+    assert given("--set", "left.word=a.b=c", "--set", "left.word=d.e=f g")["left"] == {"word": "d.e=f g"}
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("left.wrod=x", "did you mean 'word'"),
+        ("letf.word=x", "did you mean 'left'"),
+        ("left.number=much", "number = 'much': allowed is a value of type number"),
+        ("left.number=10", "allowed is 0 to 9"),
+        ("left.number=nan", "allowed is"),
+        ("left.number=[", "allowed is"),
+        ("right.count=1.5", "allowed is"),
+        ("left.word", "needed is NODE.PARAMETER=VALUE"),
+        ("word=x", "needed is NODE.PARAMETER=VALUE"),
+    ],
+)
+def test_what_does_not_fit_is_refused(text: str, words: str) -> None:
+    with pytest.raises(SettingsError, match=words.replace("[", r"\[")):
+        given("--set", text)

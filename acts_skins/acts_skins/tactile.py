@@ -1,0 +1,39 @@
+"""`tactile`: driver and reconstruction of one skin in one process, frames handed over in memory.
+
+A frame is worked on where it was read, on the reader's thread: from the port to the contact it meets no other thread,
+no executor and no middleware. The message `samples` is sent only while somebody listens.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+
+from acts_core.stop_signals import StopSignals
+from acts_driver.driver_node import DriverNode
+from acts_driver.settings import DriverSettings
+from acts_recon.reconstruction_node import ReconstructionNode
+from acts_recon.reconstruction_settings import ReconstructionSettings
+from acts_ros.composition import parameters_from
+from acts_ros.executor import run
+
+_DESCRIPTION = "Driver and reconstruction of one skin in one process."
+
+
+def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
+    """Run both nodes; the exit code."""
+    words = list(sys.argv if args is None else args)
+    given = parameters_from(words, _DESCRIPTION, {"driver": DriverSettings, "reconstruction": ReconstructionSettings})
+    reconstructions: list[ReconstructionNode] = []
+
+    def make_reconstruction() -> ReconstructionNode:
+        reconstructions.append(ReconstructionNode(subscribes=False, parameter_overrides=given["reconstruction"]))
+        return reconstructions[0]
+
+    def make_driver() -> DriverNode:
+        driver = DriverNode(parameter_overrides=given["driver"])
+        driver.consumers.append(reconstructions[0].take)
+        return driver
+
+    # The driver last: it is destroyed first, and its frames end before the node that takes them.
+    return run([make_reconstruction, make_driver], words, signals)
