@@ -163,7 +163,7 @@ def test_standard_deviations_and_markers_are_those_of_the_contact(make_peers: Ca
     # More than fit: said, and as many as fit are sent.
     many = np.zeros((32, 32), dtype=np.float32)
     many[::4, ::4] = 200
-    contacts.publish(samples_of(many, 2), many)
+    contacts.publish(samples_of(many, 2).header, 2, many)
     peers.until(lambda: len(peers.received["contacts"]) == 2)
     assert len(peers.received["contacts"][1].contacts) == MAX_BLOBS
     assert peers.received["contacts"][1].dropped == 64 - MAX_BLOBS

@@ -99,7 +99,8 @@ def test_signals_on_the_way_out_change_nothing() -> None:
             process.send_signal(number)
         output, errors = process.communicate("go on\n", timeout=60)
     assert output == "closed\n"
-    assert errors.count("\n") == 1 and "told" in errors
+    assert errors.count("\n") == 1
+    assert "told" in errors
     assert process.returncode == 0
 
 
