@@ -1,10 +1,14 @@
-"""`ball_balancing`: state, trajectory and control in one process."""
+"""`ball_balancing`: state, trajectory and control in one process.
+
+Nothing is sent between the three: the control loop asks the other two when its step is due, in its own thread.
+"""
 
 from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
-from functools import partial
+
+from rclpy.node import Node
 
 from acts_control.ball_control_node import BallControlNode, BallControlSettings
 from acts_control.ball_state_node import BallStateNode, BallStateSettings
@@ -14,16 +18,31 @@ from acts_ros.composition import parameters_from
 from acts_ros.executor import run
 
 _NODES = {
-    "ball_state": (BallStateNode, BallStateSettings),
-    "ball_trajectory": (BallTrajectoryNode, BallTrajectorySettings),
-    "ball_control": (BallControlNode, BallControlSettings),
+    "ball_state": BallStateSettings,
+    "ball_trajectory": BallTrajectorySettings,
+    "ball_control": BallControlSettings,
 }
 
 
 def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
     """Run the three nodes; the exit code."""
     words = list(sys.argv if args is None else args)
-    settings = {name: settings_class for name, (_, settings_class) in _NODES.items()}
-    given = parameters_from(words, "State, trajectory and control of ball balancing in one process.", settings)
-    factories = [partial(node_class, parameter_overrides=given[name]) for name, (node_class, _) in _NODES.items()]
-    return run(factories, words, signals)
+    given = parameters_from(words, "State, trajectory and control of ball balancing in one process.", _NODES)
+    states: list[BallStateNode] = []
+    trajectories: list[BallTrajectoryNode] = []
+
+    def make_state() -> Node:
+        states.append(BallStateNode(is_driven=True, parameter_overrides=given["ball_state"]))
+        return states[0]
+
+    def make_trajectory() -> Node:
+        trajectories.append(BallTrajectoryNode(is_driven=True, parameter_overrides=given["ball_trajectory"]))
+        return trajectories[0]
+
+    def make_control() -> Node:
+        control = BallControlNode(subscribes=False, parameter_overrides=given["ball_control"])
+        control.follow(states[0], trajectories[0])
+        return control
+
+    # Control last: it is closed first, while what it asks is still there.
+    return run([make_state, make_trajectory, make_control], words, signals)

@@ -10,6 +10,8 @@ from geometry_msgs.msg import Vector3Stamped
 from rclpy.node import Node
 from std_srvs.srv import Trigger
 
+from acts_control.ball_state_node import BallStateNode
+from acts_control.ball_trajectory_node import BallTrajectoryNode
 from acts_control.controller import BallReport, Phase, ReferenceReport
 from acts_control.loop import ControlLoop, LoopConfig, LoopStatus
 from acts_control.names import (
@@ -52,9 +54,17 @@ class BallControlNode(Node):
     ----------
     make_robot : callable
         Makes the arm from the settings; by default a UR5e.
+    subscribes : bool
+        Whether estimate and reference come as messages; otherwise `follow` says who gives them.
     """
 
-    def __init__(self, make_robot: Callable[[BallControlSettings], Robot] = UrRobot, **node_arguments: Any) -> None:
+    def __init__(
+        self,
+        make_robot: Callable[[BallControlSettings], Robot] = UrRobot,
+        *,
+        subscribes: bool = True,
+        **node_arguments: Any,
+    ) -> None:
         super().__init__("ball_control", **node_options(), **node_arguments)
         settings = declare(self, BallControlSettings)
         self._jerk = JerkFinder()
@@ -68,12 +78,26 @@ class BallControlNode(Node):
         self._tilt_publisher = self.create_publisher(Vector3Stamped, TILT_TOPIC, STREAM)
         clock = self.get_clock()
         self._loop = ControlLoop(settings, make_robot(settings), lambda: clock.now().nanoseconds, self._on_step)
-        self.create_subscription(BallState, STATE_TOPIC, self._on_state, STATE)
-        self.create_subscription(BallReference, REFERENCE_TOPIC, self._on_reference, STATE)
+        self._state_node: BallStateNode | None = None
+        if subscribes:
+            self.create_subscription(BallState, STATE_TOPIC, self._on_state, STATE)
+            self.create_subscription(BallReference, REFERENCE_TOPIC, self._on_reference, STATE)
         self.create_service(Trigger, "~/start", self._on_start)
         self.create_service(Trigger, "~/stop", self._on_stop)
         self.create_timer(1.0 / settings.status_rate_hz, self._publish_status)
         self._diagnostics = DiagnosticsReporter(self, settings.robot_ip, self._report)
+
+    def follow(self, state: BallStateNode, trajectory: BallTrajectoryNode) -> None:
+        """Ask these two nodes of the same process at the begin of every control step; they wait for no timer then."""
+        self._state_node = state
+        trajectory.phase = lambda: self._loop.status.phase
+
+        def look(now_ns: int, phase: Phase) -> None:
+            self._loop.ball = state.update()
+            reference = trajectory.advance(now_ns, phase)
+            self._loop.reference = ReferenceReport(now_ns, self._jerk.step(now_ns, reference))
+
+        self._loop.look = look
 
     def begin(self) -> None:
         """Start the control loop, and with `autostart` the robot."""
@@ -98,6 +122,10 @@ class BallControlNode(Node):
 
     def _on_step(self, now_ns: int, tilt_rad: tuple[float, float]) -> None:
         # From the loop's thread.
+        if self._state_node is not None:
+            self._state_node.set_tilt(now_ns, tilt_rad)
+        if not self._tilt_publisher.get_subscription_count():
+            return
         set_stamp(self._tilt.header.stamp, now_ns)
         self._tilt.vector.x, self._tilt.vector.y = tilt_rad
         self._tilt_publisher.publish(self._tilt)

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import threading
+import time
 from dataclasses import dataclass
 from typing import Any
 
 from geometry_msgs.msg import Vector3Stamped
-from rclpy.node import Node
 
+from acts_control.controller import BallReport
 from acts_control.estimator import BallEstimator, ContactMeasurement, EstimatorConfig
 from acts_control.names import CONTACT_TOPIC, STATE_TOPIC, STATISTICS_TOPIC, TILT_TOPIC, set_stamp, to_ns
+from acts_control.pid import Ball
 from acts_control.stream_statistics import StreamCounter
 from acts_core.settings import setting
 from acts_core.stop_signals import StopSignals
@@ -17,9 +20,15 @@ from acts_msgs.msg import BallState, Contact, StreamStatistics
 from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
 from acts_ros.parameters import declare, node_options
-from acts_ros.qos import STATE, STREAM, overridable
+from acts_ros.polled import PollingNode
+from acts_ros.qos import STATE, STREAM
 
 _STATISTICS_PERIOD_S = 1.0
+
+# At 1 kHz: how long a reader may be held up before contacts are lost [ms].
+_CONTACTS = 128
+# While the control loop does not ask, since it is connecting or stopped, the node itself takes contacts so often [s].
+_UNDRIVEN_S = 0.03
 
 
 @dataclass(frozen=True)
@@ -31,12 +40,24 @@ class BallStateSettings(EstimatorConfig):
     )
 
 
-class BallStateNode(Node):
-    """Runs the estimator on every contact and publishes every n-th state, as the paper's "system state node"."""
+class BallStateNode(PollingNode):
+    """Runs the estimator on every contact and publishes every n-th state, as the paper's "system state node".
 
-    def __init__(self, **node_arguments: Any) -> None:
+    Contacts wake nobody: all that have arrived are worked on when `update` is due.
+
+    Parameters
+    ----------
+    is_driven : bool
+        Whether a controller of the same process calls `update` and `set_tilt`. The node does so itself while nobody
+        does; without a controller it does so at the rate it publishes with, and subscribes the tilt.
+    """
+
+    def __init__(self, *, is_driven: bool = False, **node_arguments: Any) -> None:
         super().__init__("ball_state", **node_options(), **node_arguments)
         settings = declare(self, BallStateSettings)
+        self._lock = threading.Lock()
+        self._is_driven = is_driven
+        self._updated_s = 0.0
         self._estimator = BallEstimator(settings)
         self._counter = StreamCounter()
         self._period_ns = round(1e9 / settings.publish_rate_hz)
@@ -47,18 +68,46 @@ class BallStateNode(Node):
         self._reported = 0
         self._state_publisher = self.create_publisher(BallState, STATE_TOPIC, STATE)
         self._statistics_publisher = self.create_publisher(StreamStatistics, STATISTICS_TOPIC, STATE)
-        self.create_subscription(Vector3Stamped, TILT_TOPIC, self._on_tilt, STREAM)
-        self._contacts = self.create_subscription(Contact, CONTACT_TOPIC, self._on_contact, **overridable(STREAM))
+        self._contacts = self.create_polled_subscription(Contact, CONTACT_TOPIC, STREAM, depth=_CONTACTS)
+        if is_driven:
+            self.create_timer(_UNDRIVEN_S, self._update_undriven)
+        else:
+            self.create_subscription(Vector3Stamped, TILT_TOPIC, self._on_tilt, STREAM)
+            self.create_timer(1.0 / settings.publish_rate_hz, self.update)
         self.create_timer(_STATISTICS_PERIOD_S, self._publish_statistics)
         self._diagnostics = DiagnosticsReporter(self, "ball", self._report)
 
-    def _on_tilt(self, message: Vector3Stamped) -> None:
-        self._estimator.set_tilt(to_ns(message.header.stamp), message.vector.x, message.vector.y)
+    def update(self) -> BallReport | None:
+        """Take in the contacts that have arrived; the newest estimate, None before the first contact. From any thread.
 
-    def _on_contact(self, message: Contact) -> None:
+        Of a queue that ran over, the newest are there: too slow a reader loses contacts, but touch does not grow old.
+        """
+        with self._lock:
+            self._updated_s = time.monotonic()
+            is_heard = self._state_publisher.get_subscription_count() > 0
+            for message, received_ns in self._contacts.take_all():
+                self._take(message, received_ns, is_heard)
+            state = self._estimator.state
+            if not state.received:
+                return None
+            return BallReport(state.stamp_ns, state.valid, Ball(state.x_m, state.y_m, state.vx_m_s, state.vy_m_s))
+
+    def set_tilt(self, stamp_ns: int, tilt_rad: tuple[float, float]) -> None:
+        """Tell the measured tilt of the plate, about x and y. From any thread."""
+        with self._lock:
+            self._estimator.set_tilt(stamp_ns, *tilt_rad)
+
+    def _update_undriven(self) -> None:
+        if time.monotonic() - self._updated_s > _UNDRIVEN_S:
+            self.update()
+
+    def _on_tilt(self, message: Vector3Stamped) -> None:
+        self.set_tilt(to_ns(message.header.stamp), (message.vector.x, message.vector.y))
+
+    def _take(self, message: Contact, received_ns: int, is_heard: bool) -> None:
         # A thousand times a second: nothing here that is not needed.
         stamp_ns = to_ns(message.header.stamp)
-        self._counter.step(message.sequence, (self._clock.now().nanoseconds - stamp_ns) * 1e-9)
+        self._counter.step(message.sequence, (received_ns - stamp_ns) * 1e-9)
         centre = message.centre_of_pressure
         self._estimator.step(ContactMeasurement(stamp_ns, message.in_contact, centre.x, centre.y, message.force))
         state_ns = self._estimator.state.stamp_ns
@@ -66,7 +115,8 @@ class BallStateNode(Node):
             # Kept on a grid, so that the rate is right on average whatever the contacts' own rate.
             late = state_ns - self._due_ns
             self._due_ns += self._period_ns if 0 <= late < self._period_ns else late + self._period_ns
-            self._publish_state(message.header.frame_id)
+            if is_heard:
+                self._publish_state(message.header.frame_id)
 
     def _publish_state(self, frame_id: str) -> None:
         state, message = self._estimator.state, self._message
@@ -81,14 +131,15 @@ class BallStateNode(Node):
 
     def _publish_statistics(self) -> None:
         now_ns = self._clock.now().nanoseconds
-        message = StreamStatistics(
-            topic=self._contacts.topic_name,
-            receiver=self.get_fully_qualified_name(),
-            interval=(now_ns - self._interval_start_ns) * 1e-9,
-            received=self._counter.received,
-            lost=self._counter.lost,
-            latencies=self._counter.take_latencies(),
-        )
+        with self._lock:
+            message = StreamStatistics(
+                topic=self._contacts.topic_name,
+                receiver=self.get_fully_qualified_name(),
+                interval=(now_ns - self._interval_start_ns) * 1e-9,
+                received=self._counter.received,
+                lost=self._counter.lost,
+                latencies=self._counter.take_latencies(),
+            )
         set_stamp(message.header.stamp, now_ns)
         self._interval_start_ns = now_ns
         self._statistics_publisher.publish(message)

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import threading
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 from rclpy.node import Node
 
+from acts_control.controller import Phase
 from acts_control.names import REFERENCE_TOPIC, STATUS_TOPIC, frame_of, set_stamp
-from acts_control.trajectory import Trajectory, TrajectoryConfig
+from acts_control.pid import Reference
+from acts_control.trajectory import TimedReference, Trajectory, TrajectoryConfig
 from acts_core.settings import setting
 from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import BalanceStatus, BallReference
@@ -19,7 +23,10 @@ from acts_ros.qos import STATE
 # A status older than this says nothing any more.
 _STATUS_STALE_NS = 500_000_000
 
-_FROM_THE_START = (BalanceStatus.STATE_CONNECTING, BalanceStatus.STATE_HOMING, BalanceStatus.STATE_STOPPED)
+_FROM_THE_START = (Phase.CONNECTING, Phase.HOMING, Phase.STOPPED)
+
+# How often the reference is published while the control loop does not ask, since it is connecting or stopped [s].
+_UNDRIVEN_S = 0.03
 
 
 @dataclass(frozen=True)
@@ -31,37 +38,80 @@ class BallTrajectorySettings(TrajectoryConfig):
 
 
 class BallTrajectoryNode(Node):
-    """Publishes the reference; its clock runs while the controller balances and starts anew after a stop."""
+    """Publishes the reference; its clock runs while the controller balances and starts anew after a stop.
 
-    def __init__(self, **node_arguments: Any) -> None:
+    Parameters
+    ----------
+    is_driven : bool
+        Whether a controller of the same process calls `advance`; the node does so itself while nobody does. Otherwise
+        it does so at the rate it publishes with.
+
+    Attributes
+    ----------
+    phase : callable
+        What the controller does, as far as is known; by default as the topic of the status says.
+    """
+
+    def __init__(self, *, is_driven: bool = False, **node_arguments: Any) -> None:
         super().__init__("ball_trajectory", **node_options(), **node_arguments)
         settings = declare(self, BallTrajectorySettings)
         self._trajectory = Trajectory(settings)
+        self.phase: Callable[[], Phase] = self._told_phase
+        self._lock = threading.Lock()
+        self._is_driven = is_driven
         self._elapsed_s = 0.0
-        self._status = BalanceStatus.STATE_CONNECTING
-        self._status_ns = self._last_ns = self.get_clock().now().nanoseconds
+        self._told = Phase.CONNECTING
+        self._told_ns = self._last_ns = self.get_clock().now().nanoseconds
         self._finished = False
         self._message = BallReference()
         self._message.header.frame_id = frame_of(self, settings.frame_id)
         self._publisher = self.create_publisher(BallReference, REFERENCE_TOPIC, STATE)
-        self.create_subscription(BalanceStatus, STATUS_TOPIC, self._on_status, STATE)
-        self.create_timer(1.0 / settings.publish_rate_hz, self._publish)
+        if not is_driven:
+            self.create_subscription(BalanceStatus, STATUS_TOPIC, self._on_status, STATE)
+        self.create_timer(_UNDRIVEN_S if is_driven else 1.0 / settings.publish_rate_hz, self._on_timer)
         self.get_logger().info(f"{settings.trajectory}: {self._trajectory.duration_s:.1f} s")
 
-    def _on_status(self, message: BalanceStatus) -> None:
-        self._status = message.state
-        self._status_ns = self.get_clock().now().nanoseconds
-        if self._status in _FROM_THE_START:
-            self._elapsed_s = 0.0
-            self._finished = False
+    def advance(self, now_ns: int, phase: Phase) -> Reference:
+        """The reference for a moment, which is also published. From any thread.
 
-    def _publish(self) -> None:
+        Parameters
+        ----------
+        now_ns : int
+            The time [ns].
+        phase : Phase
+            What the controller does.
+        """
+        with self._lock:
+            if phase in _FROM_THE_START:
+                self._elapsed_s = 0.0
+                self._finished = False
+            elif phase is Phase.BALANCING:
+                self._elapsed_s += max(now_ns - self._last_ns, 0) * 1e-9
+            self._last_ns = now_ns
+            timed = self._trajectory.at(self._elapsed_s)
+            if self._publisher.get_subscription_count():
+                self._publish(now_ns, timed)
+            if timed.finished and not self._finished:
+                self._finished = True
+                self.get_logger().info("trajectory finished; the ball is held where it ended")
+            return timed.reference
+
+    def _on_status(self, message: BalanceStatus) -> None:
+        self._told = Phase(message.state) if message.state in list(Phase) else Phase.WAITING
+        self._told_ns = self.get_clock().now().nanoseconds
+
+    def _told_phase(self) -> Phase:
+        is_stale = self.get_clock().now().nanoseconds - self._told_ns >= _STATUS_STALE_NS
+        # Whether it still balances is not known: the trajectory waits.
+        return Phase.WAITING if is_stale and self._told is Phase.BALANCING else self._told
+
+    def _on_timer(self) -> None:
         now_ns = self.get_clock().now().nanoseconds
-        if self._status == BalanceStatus.STATE_BALANCING and now_ns - self._status_ns < _STATUS_STALE_NS:
-            self._elapsed_s += max(now_ns - self._last_ns, 0) * 1e-9
-        self._last_ns = now_ns
-        timed, message = self._trajectory.at(self._elapsed_s), self._message
-        reference = timed.reference
+        if not self._is_driven or now_ns - self._last_ns > _UNDRIVEN_S * 1e9:
+            self.advance(now_ns, self.phase())
+
+    def _publish(self, now_ns: int, timed: TimedReference) -> None:
+        reference, message = timed.reference, self._message
         set_stamp(message.header.stamp, now_ns)
         message.segment = timed.segment
         message.segment_time = timed.segment_time_s
@@ -70,9 +120,6 @@ class BallTrajectoryNode(Node):
         message.velocity.x, message.velocity.y = reference.vx_m_s, reference.vy_m_s
         message.acceleration.x, message.acceleration.y = reference.ax_m_s2, reference.ay_m_s2
         self._publisher.publish(message)
-        if timed.finished and not self._finished:
-            self._finished = True
-            self.get_logger().info("trajectory finished; the ball is held where it ended")
 
 
 def main(signals: StopSignals | None = None) -> int:

@@ -88,8 +88,10 @@ class ControlLoop:
 
     Attributes
     ----------
+    look : callable
+        Called at the begin of every control step with the time [ns] and the phase; may renew `ball` and `reference`.
     ball : BallReport or None
-        Newest estimate, to be set by whoever receives it.
+        Newest estimate, to be set by `look` or by whoever receives it.
     reference : ReferenceReport or None
         Newest reference, likewise.
     status : LoopStatus
@@ -103,6 +105,7 @@ class ControlLoop:
         now_ns: Callable[[], int],
         on_step: Callable[[int, tuple[float, float]], None] = lambda _now_ns, _tilt: None,
     ) -> None:
+        self.look: Callable[[int, Phase], None] = lambda _now_ns, _phase: None
         self.ball: BallReport | None = None
         self.reference: ReferenceReport | None = None
         self.status = LoopStatus()
@@ -245,6 +248,7 @@ class ControlLoop:
             if self._stop_reason:
                 controller.end(self._stop_reason)
             now_ns = self._now_ns()
+            self.look(now_ns, controller.state.phase)
             measured = tilt_of(reading.q_rad, config.mount_yaw_rad)
             tilt = controller.step(ControlInput(now_ns, self.ball, self.reference, measured), dt)
             fault = self._aim(joints, tilt) or gate.fault(joints)

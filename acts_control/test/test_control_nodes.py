@@ -52,7 +52,7 @@ def publish_contacts(bench: Bench, sequences: list[int], age_ms: float = 20.0) -
     first_ns = bench.now_ns() - round((age_ms + len(sequences)) * MS)
     for k, sequence in enumerate(sequences):
         bench.publish_contact(sequence, first_ns + k * MS, 0.01, -0.02)
-        if k % 50 == 49:
+        if k % 25 == 24:
             wait_for(partial(received, k - 10), "the queue to empty")
 
 
