@@ -86,7 +86,7 @@ class ReconstructionNode(Node):
         self._rejected: Counter[str] = Counter()
         self._last_sequence: int | None = None
         self._durations_s: deque[float] = deque(maxlen=1000)
-        self._reported = (time.monotonic(), 0, 0)
+        self._reported = (time.monotonic(), 0, 0, 0)
 
         self._look_for_subscribers()
         self.create_timer(_SUBSCRIBERS_PERIOD_S, self._look_for_subscribers)
@@ -241,9 +241,10 @@ class ReconstructionNode(Node):
     def _report(self) -> Report:
         now_s = time.monotonic()
         rejected = self._rejected.total()
-        before_s, frames, rejected_before = self._reported
-        self._reported = (now_s, self._frames, rejected)
+        before_s, frames, rejected_before, lost_before = self._reported
+        self._reported = (now_s, self._frames, rejected, self._lost)
         new_frames, new_rejected = self._frames - frames, rejected - rejected_before
+        new_lost = self._lost - lost_before
         rate_hz = new_frames / max(now_s - before_s, 1e-9)
         values = {
             "rate_hz": rate_hz,
@@ -259,6 +260,8 @@ class ReconstructionNode(Node):
             return WARN, f"{new_rejected} messages dropped that do not fit, see the log", values
         if not new_frames:
             return WARN, "no samples", values
+        if new_lost:
+            return WARN, f"{new_lost} frames lost before they came here, {rate_hz:.0f} frames/s", values
         return OK, f"{rate_hz:.0f} frames/s", values
 
 

@@ -202,7 +202,14 @@ def test_frames_lost_are_counted_over_the_wrap_and_not_over_a_restart(make_bench
     for sequence in (2**32 - 1, 2, 3, 0):  # lost: 0 and 1; then the board begins anew
         bench.send(sequence, indices, indices, header=Contact().header)
     bench.until(lambda: len(bench.received["contact"]) == 4)
-    bench.diagnostics(lambda status, values: values["frames"] == "4" and values["lost"] == "2")
+    bench.diagnostics(
+        lambda status, values: (
+            status.level == b"\x01"
+            and status.message.startswith("2 frames lost before they came here")
+            and values["frames"] == "4"
+            and values["lost"] == "2"
+        )
+    )
     bench.diagnostics(lambda status, values: status.level == b"\x01" and status.message == "no samples")
 
 

@@ -1,0 +1,1 @@
+"""`acts listen`: what of a topic arrives here, and how late."""

@@ -1,0 +1,87 @@
+"""What has arrived of one topic: how much, what is missing, how late; arithmetic only."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from acts_control.stream_statistics import StreamCounter
+
+
+@dataclass(frozen=True)
+class Interval:
+    """How a topic arrived since the previous one.
+
+    Attributes
+    ----------
+    seconds : float
+        Its length [s].
+    received : int
+        Messages in it.
+    lost : int or None
+        Missing by their sequence numbers in it; None for messages without numbers.
+    median_ms, largest_ms : float or None
+        Age of the messages at their arrival, by their stamps [ms]; None without stamps.
+    total_received, total_lost
+        The same counts since the beginning.
+    silent_s : float or None
+        Since the last message [s]; None before the first.
+    """
+
+    seconds: float
+    received: int
+    lost: int | None
+    median_ms: float | None
+    largest_ms: float | None
+    total_received: int
+    total_lost: int | None
+    silent_s: float | None
+
+
+@dataclass
+class Arrivals:
+    """Counts the messages of one topic.
+
+    Attributes
+    ----------
+    begin_s : float
+        On the clock of all other times given to it [s].
+    """
+
+    begin_s: float
+    _received: int = 0
+    _reported: int = 0
+    _reported_lost: int = 0
+    _last_s: float | None = None
+    _counter: StreamCounter = field(default_factory=StreamCounter)
+    _ages_s: list[float] = field(default_factory=list)
+
+    def add(self, now_s: float, sequence: int | None, age_s: float | None) -> None:
+        """Note a message; `sequence` and `age_s` [s] where it has them."""
+        self._received += 1
+        self._last_s = now_s
+        if age_s is not None:
+            self._ages_s.append(age_s)
+        if sequence is not None:
+            self._counter.step(sequence, 0.0)
+
+    def take(self, now_s: float) -> Interval:
+        """What came since the last call."""
+        self._counter.take_latencies()
+        is_numbered = self._counter.received > 0
+        ages_ms = np.array(self._ages_s) * 1e3
+        interval = Interval(
+            seconds=now_s - self.begin_s,
+            received=self._received - self._reported,
+            lost=self._counter.lost - self._reported_lost if is_numbered else None,
+            median_ms=round(float(np.median(ages_ms)), 3) if ages_ms.size else None,
+            largest_ms=round(float(ages_ms.max()), 3) if ages_ms.size else None,
+            total_received=self._received,
+            total_lost=self._counter.lost if is_numbered else None,
+            silent_s=None if self._last_s is None else now_s - self._last_s,
+        )
+        self.begin_s = now_s
+        self._reported, self._reported_lost = self._received, self._counter.lost
+        self._ages_s.clear()
+        return interval

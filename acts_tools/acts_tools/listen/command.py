@@ -1,0 +1,113 @@
+"""`acts listen TOPIC...`: what arrives on this machine, what is missing and how late it is, once a second."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import time
+from dataclasses import asdict
+from typing import TYPE_CHECKING
+
+from acts_core.errors import SettingsError
+
+if TYPE_CHECKING:
+    from acts_tools.listen.arrivals import Interval
+    from acts_tools.listen.listener import Listener
+
+_EVERY_MIN_S = 0.05
+
+_EPILOG = """\
+examples:
+  acts listen /plate/contact                   how the 1 kHz stream arrives here
+  acts listen /plate/samples /diagnostics      also what the nodes complain about
+
+The age of a message runs from its stamp to its arrival here: on two machines it is as right as their clocks agree.
+docs/two_machines.md explains the rest.
+"""
+
+
+def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add ``listen`` to the acts command."""
+    parser = subparsers.add_parser(
+        "listen",
+        help="tell what of a topic arrives here, and how late",
+        description="Count what arrives of some topics, what is missing by the messages' numbers, and how old the "
+        "messages are. Topics may appear later. Ctrl-C ends it.",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("topics", nargs="+", metavar="TOPIC", help="topics, such as /plate/contact")
+    parser.add_argument("-d", "--duration", type=float, metavar="SECONDS", help="end by itself after this time")
+    parser.add_argument("--every", type=float, default=1.0, metavar="SECONDS", help="between two reports (1)")
+    parser.add_argument("--json", action="store_true", help="reports as lines of JSON")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Listen; 0 when something arrived on every topic."""
+    if not arguments.every >= _EVERY_MIN_S:
+        raise SettingsError(f"--every {arguments.every:g}: at least {_EVERY_MIN_S:g} s are needed")
+    if arguments.duration is not None and not 0 < arguments.duration < float("inf"):
+        raise SettingsError(f"--duration {arguments.duration:g} is not a positive time in seconds")
+    # Late: they take time that the other commands need not spend.
+    import rclpy
+    from rclpy.signals import SignalHandlerOptions
+    from rclpy.task import Future
+
+    from acts_ros.executor import make_executor
+    from acts_tools.bags.stopping import StopFlag
+    from acts_tools.listen.listener import Listener
+
+    topics = list(dict.fromkeys(f"/{name.lstrip('/')}" for name in arguments.topics))
+    end_s = None if arguments.duration is None else time.monotonic() + arguments.duration
+    with StopFlag() as stop:
+        rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
+        node = rclpy.create_node("acts_listener", start_parameter_services=False, enable_rosout=False)
+        executor = make_executor()
+        executor.add_node(node)
+        listener = Listener(node, topics)
+        heard: set[str] = set()
+        report_s = time.monotonic() + arguments.every
+        try:
+            while not stop.is_set and (end_s is None or time.monotonic() < end_s):
+                listener.discover()
+                turn_s = min(report_s - time.monotonic(), 0.1)
+                executor.spin_until_future_complete(Future(), timeout_sec=max(turn_s, 0.001))
+                now_s = time.monotonic()
+                if now_s >= report_s:
+                    report_s += arguments.every
+                    intervals = {topic: arrivals.take(now_s) for topic, arrivals in listener.arrivals.items()}
+                    heard |= {topic for topic, interval in intervals.items() if interval.total_received}
+                    _print(topics, intervals, listener, as_json=arguments.json)
+        finally:
+            executor.shutdown()
+            node.destroy_node()
+            rclpy.try_shutdown()
+    return 0 if len(heard) == len(topics) else 1
+
+
+def _print(topics: list[str], intervals: dict[str, Interval], listener: Listener, *, as_json: bool) -> None:
+    if as_json:
+        topic_values = {topic: asdict(interval) for topic, interval in intervals.items()}
+        print(json.dumps({"topics": topic_values, "complaints": listener.complaints}), flush=True)
+        return
+    width = max(map(len, topics))
+    for topic in topics:
+        print(f"{topic:{width}}  {in_words(intervals.get(topic))}", flush=True)
+    for name, words in listener.complaints.items():
+        print(f"  {name}: {words}", flush=True)
+
+
+def in_words(interval: Interval | None) -> str:
+    """One line about a topic; None where nobody publishes it."""
+    if interval is None:
+        return "no publisher found yet"
+    if not interval.received:
+        if interval.silent_s is None:
+            return "nothing yet"
+        return f"nothing for {interval.silent_s:.1f} s, {interval.total_received} messages before"
+    words = f"{interval.received / interval.seconds:7.1f} messages/s"
+    if interval.lost is not None:
+        words += f"  {interval.lost:5d} lost ({interval.total_lost} in all)"
+    if interval.median_ms is not None:
+        words += f"  age {interval.median_ms:.1f} ms, at most {interval.largest_ms:.1f}"
+    return words

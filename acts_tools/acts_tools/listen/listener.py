@@ -1,0 +1,73 @@
+"""Subscribe to topics as they appear, and note what arrives of them."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from functools import partial
+from typing import Any
+
+from diagnostic_msgs.msg import DiagnosticArray
+from rclpy.node import Node
+
+from acts_tools.bags.message_types import message_class
+from acts_tools.bags.qos import for_subscription
+from acts_tools.listen.arrivals import Arrivals
+
+_NS_PER_S = 1_000_000_000
+
+
+class Listener:
+    """Listens to topics of a graph with the quality of service of their publishers.
+
+    Parameters
+    ----------
+    node : Node
+        Subscribes; somebody else spins it.
+    topics : sequence of str
+        Full names.
+
+    Attributes
+    ----------
+    arrivals : dict of str to Arrivals
+        By topic, for those that have appeared.
+    complaints : dict of str to str
+        What the components that have last reported a warning or an error on a topic of diagnostics said, by name.
+    """
+
+    def __init__(self, node: Node, topics: Sequence[str]) -> None:
+        self.arrivals: dict[str, Arrivals] = {}
+        self.complaints: dict[str, str] = {}
+        self._node = node
+        self._topics = topics
+
+    def discover(self) -> None:
+        """Subscribe to what has newly appeared. Call it now and then."""
+        if len(self.arrivals) == len(self._topics):
+            return
+        types = dict(self._node.get_topic_names_and_types())
+        for topic in self._topics:
+            offers = self._node.get_publishers_info_by_topic(topic)
+            if topic in self.arrivals or topic not in types or not offers:
+                continue
+            arrivals = self.arrivals[topic] = Arrivals(time.monotonic())
+            self._node.create_subscription(
+                message_class(types[topic][0]), topic, partial(self._note, arrivals), for_subscription(offers)
+            )
+
+    def _note(self, arrivals: Arrivals, message: Any) -> None:
+        now_ns = time.time_ns()
+        header = getattr(message, "header", None)
+        age_s = None
+        if header is not None:
+            age_s = (now_ns - header.stamp.sec * _NS_PER_S - header.stamp.nanosec) / _NS_PER_S
+        arrivals.add(time.monotonic(), getattr(message, "sequence", None), age_s)
+        if isinstance(message, DiagnosticArray):
+            self._note_complaints(message)
+
+    def _note_complaints(self, message: DiagnosticArray) -> None:
+        for status in message.status:
+            if status.level == b"\x00":
+                self.complaints.pop(status.name, None)
+            else:
+                self.complaints[status.name] = status.message

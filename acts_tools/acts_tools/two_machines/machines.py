@@ -1,0 +1,150 @@
+"""Start programs on two machines and disturb the cable between them."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from acts_core.errors import LaunchError
+from acts_tools.launch.processes import leave_with_parent
+from acts_tools.two_machines.conditions import Conditions, Traffic
+
+_TOOLS = {"ip": "iproute2", "mount": "mount", "nsenter": "util-linux", "unshare": "util-linux"}
+_STOP_TIMEOUT_S = 20.0
+
+
+class TwoMachines:
+    """Two machines, the near one with the board and the far one, and their cable.
+
+    Parameters
+    ----------
+    cable : subprocess.Popen
+        The process that `acts_tools.two_machines.cable` describes.
+    pids : sequence of int
+        The processes in the machines' namespaces.
+    """
+
+    def __init__(self, cable: subprocess.Popen[str], pids: Sequence[int]) -> None:
+        self._cable = cable
+        self._conditions = Conditions()
+        self.near, self.far = (Machine(pid) for pid in pids)
+
+    def set_conditions(self, conditions: Conditions) -> None:
+        """Change the cable, from now on."""
+        self._conditions = conditions
+        self._ask()
+
+    def traffic(self) -> tuple[Traffic, Traffic]:
+        """What the near and the far machine have sent so far."""
+        return self._ask()
+
+    def _ask(self) -> tuple[Traffic, Traffic]:
+        assert self._cable.stdin is not None
+        assert self._cable.stdout is not None
+        self._cable.stdin.write(json.dumps(asdict(self._conditions)) + "\n")
+        self._cable.stdin.flush()
+        near, far = json.loads(self._cable.stdout.readline())
+        return Traffic(**near), Traffic(**far)
+
+
+@dataclass(frozen=True)
+class Machine:
+    """One of them.
+
+    Attributes
+    ----------
+    pid : int
+        A process in its namespaces.
+    """
+
+    pid: int
+
+    def command(self, words: Sequence[str]) -> list[str]:
+        """The command line that runs a program there; the process that is started becomes the program."""
+        user = [] if os.geteuid() == 0 else ["--user", "--preserve-credentials"]
+        return ["nsenter", "--target", str(self.pid), *user, "--net", "--mount", "--", *words]
+
+    def environment(self, domain_id: int) -> dict[str, str]:
+        """What programs there have to be started with to find those of the other one."""
+        return {
+            **os.environ,
+            "ROS_DOMAIN_ID": str(domain_id),
+            "ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET",
+            "PYTHONUNBUFFERED": "1",
+        }
+
+    @contextmanager
+    def running(self, words: Sequence[str], domain_id: int, log: Path) -> Iterator[subprocess.Popen[bytes]]:
+        """Run a program there for the length of a block; what it writes goes to a file."""
+        with log.open("wb") as output:
+            process = subprocess.Popen(
+                self.command(words),
+                env={"ROS_LOG_DIR": str(log.parent), **self.environment(domain_id)},
+                stdin=subprocess.DEVNULL,
+                stdout=output,
+                stderr=subprocess.STDOUT,
+                start_new_session=True,
+                preexec_fn=leave_with_parent(os.getpid()),
+            )
+        try:
+            yield process
+        finally:
+            process.terminate()
+            try:
+                process.wait(_STOP_TIMEOUT_S)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.wait()
+
+
+@contextmanager
+def two_machines() -> Iterator[TwoMachines]:
+    """Two machines for the length of a block; nothing of them is left afterwards.
+
+    Raises
+    ------
+    LaunchError
+        Where the system does not allow them; says what it takes.
+    """
+    packages = sorted({package for tool, package in _TOOLS.items() if shutil.which(tool) is None})
+    if packages:
+        raise LaunchError(f"two machines in namespaces need a tool: sudo apt-get install {' '.join(packages)}")
+    command = [sys.executable, "-m", "acts_tools.two_machines.cable"]
+    if os.geteuid() != 0:
+        command = ["unshare", "--user", "--map-root-user", *command]
+    cable = subprocess.Popen(
+        command,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+        preexec_fn=leave_with_parent(os.getpid()),
+    )
+    assert cable.stdin is not None
+    assert cable.stdout is not None
+    try:
+        line = cable.stdout.readline()
+        start: dict[str, Any] = json.loads(line) if line else {"error": "the process of the cable ended at once"}
+        if "error" in start:
+            raise LaunchError(
+                f"two machines in namespaces are not allowed here ({start['error']}). Run as root; a container needs "
+                "`docker run --cap-add NET_ADMIN --cap-add SYS_ADMIN --security-opt apparmor=unconfined "
+                "--device /dev/net/tun`"
+            )
+        yield TwoMachines(cable, start["pids"])
+    finally:
+        cable.stdin.close()
+        try:
+            cable.wait(_STOP_TIMEOUT_S)
+        except subprocess.TimeoutExpired:
+            cable.kill()
+            cable.wait()
+        cable.stdout.close()
