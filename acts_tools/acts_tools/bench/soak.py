@@ -25,6 +25,7 @@ from acts_tools.bench.skin import pressed
 from acts_tools.bench.workbench import Workbench
 from acts_tools.driver_status import driver_values
 from acts_tools.percentiles import percentiles
+from acts_tools.process_load import cpu_s
 
 GROWTH_MAX_MB_PER_H = 10.0
 """Growth of the driver's memory from which on it counts as a leak; judged on runs of `JUDGED_S` or more."""
@@ -92,7 +93,7 @@ def measure(workbench: Workbench) -> Result:
         graph.spin_for(_SETTLE_S)
         before = _next_status(graph, statuses, check)
         watched = psutil.Process(process.pid)
-        cpu_before_s, received_before, lost_before = _cpu_s(watched), counter.received, counter.lost
+        cpu_before_s, received_before, lost_before = cpu_s(process.pid), counter.received, counter.lost
         counter.take_latencies()
         begin_s = time.monotonic()
         while (passed_s := time.monotonic() - begin_s) < workbench.seconds:
@@ -103,7 +104,7 @@ def measure(workbench: Workbench) -> Result:
         passed_s = time.monotonic() - begin_s
         memory.time_s.append(passed_s)
         memory.mb.append(watched.memory_info().rss / _MB)
-        cpu_percent = (_cpu_s(watched) - cpu_before_s) / passed_s * 100
+        cpu_percent = (cpu_s(process.pid) - cpu_before_s) / passed_s * 100
         received, missed = counter.received - received_before, counter.lost - lost_before
         latencies_ms = np.asarray(counter.take_latencies(), dtype=np.float64) * 1e3
         after = _next_status(graph, statuses, check)
@@ -166,8 +167,3 @@ def _next_status(graph: Graph, statuses: deque[dict[str, int]], check: Callable[
     statuses.clear()
     graph.spin_until(lambda: statuses, START_TIMEOUT_S, "a report of the driver", check)
     return statuses[-1]
-
-
-def _cpu_s(process: psutil.Process) -> float:
-    times = process.cpu_times()
-    return float(times.user + times.system)
