@@ -24,7 +24,9 @@ from acts_ros.parameters import declare, node_options
 from acts_sim.joint_follower import JointFollower, JointSource
 from acts_sim.timed_ring import TimedRingWriter
 from acts_sim.world import Phase, World, WorldConfig, WorldState
-from acts_sim.world_loop import LoopStatistics, WorldLoop
+from acts_sim.world_loop import STEP_NS, LoopStatistics, WorldLoop
+
+_NS_PER_MS = 1_000_000
 
 
 @dataclass(frozen=True)
@@ -38,7 +40,7 @@ class BallWorldSettings(WorldConfig):
     )
     frame_id: str = setting("", "frame of the skin; empty: the namespace of the node")
     truth_every: int = setting(
-        4, "the ball's true position is published every so many milliseconds", minimum=1, maximum=1000
+        4, "the ball's true position is published every so many milliseconds, even ones", minimum=2, maximum=1000
     )
 
     def __post_init__(self) -> None:
@@ -79,7 +81,8 @@ class BallWorld(Node):
 
     def _publish(self, time_ns: int, state: WorldState) -> None:
         self._steps += 1
-        if state.phase is not Phase.ROLLING or self._steps % self._settings.truth_every:
+        every_steps = self._settings.truth_every * _NS_PER_MS // STEP_NS
+        if state.phase is not Phase.ROLLING or self._steps % every_steps:
             return
         stamp_ns = self.get_clock().now().nanoseconds + time_ns - time.monotonic_ns()
         message = self._message
@@ -117,7 +120,8 @@ class BallWorld(Node):
             why = f" ({self._joints.problem})" if self._joints.problem else ""
             return WARN, f"{source.value}{why}; the plate rests", values
         if loop.skipped > before.skipped:
-            return WARN, f"the world stood still for {loop.skipped - before.skipped} ms", values
+            stood_ms = (loop.skipped - before.skipped) * STEP_NS // _NS_PER_MS
+            return WARN, f"the world stood still for {stood_ms} ms", values
         if state.phase is Phase.FALLEN:
             return WARN, "the ball has fallen off the plate", values
         return OK, f"the ball is {state.phase.value}", values
