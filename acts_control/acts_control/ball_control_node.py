@@ -23,7 +23,7 @@ from acts_control.names import (
 )
 from acts_control.pid import Ball, JerkFinder, Reference
 from acts_control.robot import Robot, UrRobot
-from acts_core.realtime import RealtimeConfig, enter_process
+from acts_core.realtime import RealtimeConfig, enter_realtime
 from acts_core.settings import setting
 from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import BalanceStatus, BallReference, BallState
@@ -84,8 +84,7 @@ class BallControlNode(Node):
 
     def begin(self) -> None:
         """Start the control loop, and with `autostart` the robot."""
-        # All of it, and what the loop starts: estimates come through other threads, angles go through the robot's.
-        enter_process(self._settings, "ball_control", log_of(self))
+        enter_realtime(self._settings, "ball_control", log_of(self))
         self._loop.launch()
 
     def close(self) -> None:

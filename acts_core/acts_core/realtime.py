@@ -1,6 +1,6 @@
-"""Real-time scheduling for the threads that must not be late: priority, cores, and a sentence about what became of it.
+"""Real-time scheduling for the processes that must not be late: priority, cores, and a sentence on what became of it.
 
-A thread that asks for nothing is left as it is. What the machine does not allow is told and done without: late data is
+A process that asks for nothing is left as it is. What the machine does not allow is told and done without: late data is
 better than none. `acts_core.realtime_guard` ends what a thread that never pauses would do to the machine.
 """
 
@@ -9,8 +9,7 @@ from __future__ import annotations
 import ctypes
 import os
 import resource
-import threading
-from collections.abc import Callable, Collection
+from collections.abc import Collection
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -106,51 +105,41 @@ def format_cores(cores: Collection[int]) -> str:
     return ",".join(str(first) if first == last else f"{first}-{last}" for first, last in runs)
 
 
-def enter_thread(config: RealtimeConfig, who: str, log: LogCallback) -> None:
-    """Schedule the calling thread, and threads that it starts from now on, as `config` asks.
+def enter_realtime(config: RealtimeConfig, who: str, log: LogCallback) -> None:
+    """Schedule all threads of this process, and those that they start from now on, as `config` asks.
+
+    All of them, and not only the one that must not be late: it shares Python's lock with the others, and waits for
+    whichever has it and was put aside for some other program. The middleware's threads stand before the executor's too.
 
     To be called when what takes long only once, such as compiling, is over. Never raises for a missing right: `log`
-    then takes a warning with the reason, and otherwise one line that says how the thread runs. Nothing is logged where
-    nothing is asked for.
+    then takes a warning with the reason, and otherwise one line that says how the process runs. Nothing is logged where
+    nothing is asked for. Called again, it holds for all threads again.
 
     Parameters
     ----------
     config : RealtimeConfig
         What is asked for.
     who : str
-        Name of the thread in what is told.
+        Name of what runs here, in what is told.
     log : callable
         See `LogCallback`. Also called from another thread, should the guard end real time.
     """
-    _enter(config, who, log, lambda: [threading.get_native_id()])
-
-
-def enter_process(config: RealtimeConfig, who: str, log: LogCallback) -> None:
-    """Schedule all threads of this process so, those of the middleware too; see `enter_thread`.
-
-    For processes whose data comes through the middleware: its receiving threads stand before the executor's.
-    """
-    _enter(config, who, log, _threads)
-
-
-def _enter(config: RealtimeConfig, who: str, log: LogCallback, threads: Callable[[], list[int]]) -> None:
     if not config.realtime_priority and not config.cores:
         return
     done: list[str] = []
     problems: list[str] = []
     if config.realtime_priority:
-        problem = given_up() or _set_priority(config.realtime_priority, threads())
+        problem = given_up() or _set_priority(config.realtime_priority, _threads())
         if problem:
             problems.append(problem)
             done.append("ordinary scheduler")
         else:
-            # Before the thread is bound to its cores: the guard is to have them all.
-            guard_process(config.realtime_priority, who, threads(), log, _CORES)
+            guard_process(config.realtime_priority, who, log, _CORES)
             done.append(f"SCHED_FIFO priority {config.realtime_priority}")
             if _lock_memory():
                 done.append("memory locked")
     if config.cores:
-        problem = _set_cores(config.cores, threads())
+        problem = _set_cores(config.cores, _threads())
         if problem:
             problems.append(problem)
         else:

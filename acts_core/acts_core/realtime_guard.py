@@ -92,7 +92,7 @@ class _Guard:
     def __init__(self, cores: Collection[int]) -> None:
         self._cores = cores
         self._watch = BudgetWatch()
-        self._names: dict[int, str] = {}
+        self._who = ""
         self._log: LogCallback = lambda _level, _sentence: None
         self._thread = threading.Thread(target=self._run, name="acts_rt_guard", daemon=True)
         self.gave_up = ""
@@ -102,8 +102,8 @@ class _Guard:
         """Number of the looking thread, once it has been started."""
         return self._thread.native_id
 
-    def start(self, priority: int, who: str, threads: Collection[int], log: LogCallback) -> None:
-        self._names.update(dict.fromkeys(threads, who))
+    def start(self, priority: int, who: str, log: LogCallback) -> None:
+        self._who = who
         self._log = log
         if not self._thread.is_alive():
             _limit_unbroken_runs()
@@ -131,7 +131,7 @@ class _Guard:
             if runaway is None:
                 continue
             thread, share = runaway
-            who = self._names.get(thread, "another thread")
+            who = self._who
             # First, so that nobody enters again in between.
             self.gave_up = f"real time was given up after {who} had run away"
             demote_process()
@@ -147,17 +147,15 @@ _lock = threading.Lock()
 _guard: _Guard | None = None
 
 
-def guard_process(priority: int, who: str, threads: Collection[int], log: LogCallback, cores: Collection[int]) -> None:
-    """Watch over this process from now on; again with every thread that enters real time.
+def guard_process(priority: int, who: str, log: LogCallback, cores: Collection[int]) -> None:
+    """Watch over the real-time threads of this process from now on.
 
     Parameters
     ----------
     priority : int
         Of the threads that are to be watched.
     who : str
-        Their name in what is told.
-    threads : collection of int
-        Their numbers. Real-time threads that are not among them are watched as well.
+        Name of what runs here, in what is told.
     log : callable
         See `LogCallback`; called once, from the guard's thread, when real time is given up.
     cores : collection of int
@@ -167,7 +165,7 @@ def guard_process(priority: int, who: str, threads: Collection[int], log: LogCal
     with _lock:
         if _guard is None:
             _guard = _Guard(cores)
-        _guard.start(priority, who, threads, log)
+        _guard.start(priority, who, log)
 
 
 def guard_thread() -> int | None:

@@ -18,7 +18,7 @@ DEADLINE_S = 60.0
 
 HEAD = f"""
 import os, re, threading, time
-from acts_core.realtime import RealtimeConfig, enter_process, enter_thread
+from acts_core.realtime import RealtimeConfig, enter_realtime
 from acts_core.realtime_guard import guard_thread
 POLICIES = {{os.SCHED_OTHER: "other", os.SCHED_FIFO: "fifo"}}
 def policy(thread=0):
@@ -57,42 +57,29 @@ def on_the_same_core() -> Iterator[None]:
 
 
 @needs_realtime
-def test_a_thread_runs_as_asked_and_others_do_not() -> None:
-    finished = run("""
-def work():
-    enter_thread(config, "reader", log)
-    print(policy(), os.sched_getparam(0).sched_priority, os.sched_getaffinity(0))
-    print(policy(guard_thread()), os.sched_getparam(guard_thread()).sched_priority)
-thread = threading.Thread(target=work)
-thread.start()
-thread.join()
-print(policy())
-""")
-    lines = finished.stdout.splitlines()
-    assert re.fullmatch(rf"info: reader: SCHED_FIFO priority 10(, memory locked)?, cores {CORE}", lines[0]), finished
-    assert lines[1:] == [f"fifo 10 {{{CORE}}}", "fifo 11", "other"]
-
-
-@needs_realtime
-def test_a_process_is_entered_with_all_its_threads_and_those_they_start() -> None:
+def test_all_threads_run_as_asked_and_those_that_they_start() -> None:
     finished = run("""
 go = threading.Event()
 thread = threading.Thread(target=go.wait)
 thread.start()
-for priority in (10, 12):
-    enter_process(RealtimeConfig(realtime_priority=priority), "reconstruction", log)
+enter_realtime(config, "reader", log)
+print(os.sched_getaffinity(thread.native_id), len(os.sched_getaffinity(guard_thread())))
+enter_realtime(RealtimeConfig(realtime_priority=12), "reader", log)
 later = threading.Thread(target=go.wait)
 later.start()
-print(*(policy(one.native_id) for one in (threading.main_thread(), thread, later)))
-print(os.sched_getparam(guard_thread()).sched_priority)
+threads = (threading.main_thread().native_id, thread.native_id, later.native_id, guard_thread())
+print(*(f"{policy(one)} {os.sched_getparam(one).sched_priority}" for one in threads))
 go.set()
 """)
-    assert finished.stdout.splitlines()[2:] == ["fifo fifo fifo", "13"], finished
+    lines = finished.stdout.splitlines()
+    assert re.fullmatch(rf"info: reader: SCHED_FIFO priority 10(, memory locked)?, cores {CORE}", lines[0]), finished
+    assert lines[1] == f"{{{CORE}}} {len(os.sched_getaffinity(0))}"
+    assert lines[3] == "fifo 12 fifo 12 fifo 12 fifo 13"
 
 
 def test_nothing_asked_is_nothing_said() -> None:
     finished = run("""
-enter_thread(RealtimeConfig(), "reader", log)
+enter_realtime(RealtimeConfig(), "reader", log)
 print(policy(), len(os.sched_getaffinity(0)), guard_thread())
 """)
     assert finished.stdout == f"other {len(os.sched_getaffinity(0))} None\n"
@@ -105,7 +92,7 @@ import resource
 resource.setrlimit(resource.RLIMIT_RTPRIO, (0, 0))
 if os.getuid() == 0:
     os.setuid(65534)
-enter_thread(config, "reader", log)
+enter_realtime(config, "reader", log)
 print(policy(), os.sched_getaffinity(0))
 """)
     told, state = finished.stdout.splitlines()
@@ -120,11 +107,11 @@ print(policy(), os.sched_getaffinity(0))
 def test_a_thread_that_runs_away_in_python_is_put_back() -> None:
     finished = run("""
 def run_away():
-    enter_thread(config, "reader", log)
+    enter_realtime(config, "reader", log)
     while policy() == "fifo" and time.monotonic() < longest:
         pass
     print(policy())
-    enter_thread(config, "reader", log)
+    enter_realtime(config, "reader", log)
 thread = threading.Thread(target=run_away)
 thread.start()
 thread.join()
@@ -150,7 +137,7 @@ def told(level, sentence):
     if level == "error":
         os._exit(5)
 def run_away():
-    enter_thread(config, "reader", told)
+    enter_realtime(config, "reader", told)
     hashlib.pbkdf2_hmac("sha256", b"a", b"b", 100_000_000)
 threading.Thread(target=run_away).start()
 """)
@@ -163,7 +150,7 @@ threading.Thread(target=run_away).start()
 def test_a_thread_that_runs_away_with_the_interpreters_lock_ends_the_process() -> None:
     finished = run("""
 def run_away():
-    enter_thread(config, "reader", log)
+    enter_realtime(config, "reader", log)
     re.match("(a+)+$", 60 * "a" + "b")
 threading.Thread(target=run_away).start()
 """)

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from acts_core.delimited import DelimitedDecoder
 from acts_core.errors import ActsError, PortError
 from acts_core.frames import SampleFrame
-from acts_core.realtime import RealtimeConfig, enter_thread
+from acts_core.realtime import RealtimeConfig, enter_realtime
 from acts_driver.source import READ_TIMEOUT_S, Source
 
 FramesCallback = Callable[[list[SampleFrame], int], None]
@@ -44,7 +44,7 @@ class Reader:
     reconnect_s : float
         Longest wait between two attempts to open a lost source [s].
     realtime : RealtimeConfig or None
-        How the thread is scheduled once its first frames have been handed on.
+        How the process is scheduled once its first frames have been handed on.
     log : callable
         See `LogCallback`.
     on_reconnect : callable or None
@@ -160,7 +160,7 @@ class Reader:
                 self._hand_on(frames, arrival_ns)
                 if self._realtime is not None:
                     # Only now: what decodes the first frames may have to be compiled, which is no work for real time.
-                    enter_thread(self._realtime, "reader", self._log)
+                    enter_realtime(self._realtime, "driver", self._log)
                     self._realtime = None
 
     def _hand_on(self, frames: list[SampleFrame], arrival_ns: int) -> None:

@@ -16,7 +16,7 @@ from rclpy.node import Node
 from sensor_msgs.msg import Image
 
 from acts_core.errors import ArrayError
-from acts_core.realtime import enter_process
+from acts_core.realtime import enter_realtime
 from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import Baseline, TactileSamples
 from acts_msgs.msg import Contact as ContactMessage
@@ -92,8 +92,8 @@ class ReconstructionNode(Node):
         )
 
     def begin(self) -> None:
-        """Let this process be scheduled as the parameters ask: samples come through threads of the middleware."""
-        enter_process(self._settings, "reconstruction", log_of(self))
+        """Let this process be scheduled as the parameters ask."""
+        enter_realtime(self._settings, "reconstruction", log_of(self))
 
     def _look_for_subscribers(self) -> None:
         self._send_cop = self._cop_publisher.get_subscription_count() > 0

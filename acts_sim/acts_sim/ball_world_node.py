@@ -15,7 +15,7 @@ from rclpy.node import Node
 from rclpy.time import Time
 
 from acts_core.errors import ActsError
-from acts_core.realtime import RealtimeConfig, enter_thread
+from acts_core.realtime import RealtimeConfig, enter_realtime
 from acts_core.settings import setting
 from acts_core.stop_signals import StopSignals
 from acts_ros import qos
@@ -80,7 +80,7 @@ class BallWorld(Node):
         self._ring.close()
 
     def _enter_realtime(self) -> None:
-        enter_thread(self._settings, "ball_world", log_of(self))
+        enter_realtime(self._settings, "ball_world", log_of(self))
 
     def _publish(self, time_ns: int, state: WorldState) -> None:
         self._steps += 1

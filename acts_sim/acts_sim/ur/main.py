@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from acts_core.errors import ActsError
-from acts_core.realtime import RealtimeConfig, enter_thread
+from acts_core.realtime import RealtimeConfig, enter_realtime
 from acts_core.settings import default_of, describe, from_mapping
 from acts_core.stop_signals import StopSignals
 from acts_sim.timed_ring import TimedRingWriter
@@ -136,7 +136,7 @@ def run(options: argparse.Namespace, signals: StopSignals) -> None:
             ring = stack.enter_context(_open_ring(options.joint_ring))
         # What exists by now lives as long as the process; there is no use in going through it again and again.
         gc.freeze()
-        enter_thread(config, "cycle", lambda _level, sentence: log(sentence))
+        enter_realtime(config, "all of it", lambda _level, sentence: log(sentence))
         print("ready", flush=True)
         server.run()
 
