@@ -16,6 +16,7 @@ from std_msgs.msg import Header
 
 from acts_core.errors import ArrayError
 from acts_core.frames import SampleFrame
+from acts_core.realtime import enter_realtime
 from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import Baseline, TactileSamples
 from acts_msgs.msg import Contact as ContactMessage
@@ -29,6 +30,7 @@ from acts_recon.reconstruction_settings import ReconstructionSettings
 from acts_ros import qos
 from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
+from acts_ros.log import log_of
 from acts_ros.parameters import declare, node_options
 from acts_ros.sample_messages import frame_of, stamp_ns_of
 
@@ -101,6 +103,10 @@ class ReconstructionNode(Node):
         self.get_logger().info(
             f"ready: array of {self._settings.rows} x {self._settings.cols}, image of {rows} x {cols}"
         )
+
+    def begin(self) -> None:
+        """Let this process be scheduled as the parameters ask."""
+        enter_realtime(self._settings, "reconstruction", log_of(self))
 
     def _look_for_subscribers(self) -> None:
         self._send_cop = self._cop_publisher.get_subscription_count() > 0

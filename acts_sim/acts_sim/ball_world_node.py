@@ -15,11 +15,13 @@ from rclpy.node import Node
 from rclpy.time import Time
 
 from acts_core.errors import ActsError
-from acts_core.settings import setting, validate
+from acts_core.realtime import RealtimeConfig, enter_realtime
+from acts_core.settings import setting
 from acts_core.stop_signals import StopSignals
 from acts_ros import qos
 from acts_ros.diagnostics import ERROR, OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
+from acts_ros.log import log_of
 from acts_ros.parameters import declare, node_options
 from acts_sim.joint_follower import JointFollower, JointSource
 from acts_sim.timed_ring import TimedRingWriter
@@ -30,7 +32,7 @@ _NS_PER_MS = 1_000_000
 
 
 @dataclass(frozen=True)
-class BallWorldSettings(WorldConfig):
+class BallWorldSettings(RealtimeConfig, WorldConfig):
     """Parameters of the node: the world's, and what it is connected to."""
 
     field_ring: str = setting("/dev/shm/acts/field.ring", "shared file the pressure field is written to")
@@ -44,7 +46,7 @@ class BallWorldSettings(WorldConfig):
     )
 
     def __post_init__(self) -> None:
-        validate(self)
+        RealtimeConfig.__post_init__(self)
 
 
 class BallWorld(Node):
@@ -66,7 +68,7 @@ class BallWorld(Node):
         self._world = World(settings)
         self._joints = JointFollower(None if settings.joint_ring == "none" else Path(settings.joint_ring))
         self._ring = TimedRingWriter(field_ring, settings.rows * settings.cols)
-        self._loop = WorldLoop(self._world, self._joints, self._ring, self._publish)
+        self._loop = WorldLoop(self._world, self._joints, self._ring, self._publish, on_running=self._enter_realtime)
         self._diagnostics = DiagnosticsReporter(self, settings.field_ring, self._report)
         self._loop.start()
         self.get_logger().info(
@@ -78,6 +80,9 @@ class BallWorld(Node):
         """Stop the world and remove its ring."""
         self._loop.stop()
         self._ring.close()
+
+    def _enter_realtime(self) -> None:
+        enter_realtime(self._settings, "ball_world", log_of(self))
 
     def _publish(self, time_ns: int, state: WorldState) -> None:
         self._steps += 1

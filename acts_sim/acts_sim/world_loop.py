@@ -59,6 +59,8 @@ class WorldLoop:
         Called after every step, in the loop's thread, with the step's CLOCK_MONOTONIC time [ns] and the state.
     start_ns : int or None
         CLOCK_MONOTONIC time of the world's start [ns]; None for now.
+    on_running : callable
+        Called once in the loop's thread, after the first steps.
     """
 
     def __init__(
@@ -68,11 +70,13 @@ class WorldLoop:
         ring: TimedRingWriter,
         on_step: Callable[[int, WorldState], None],
         start_ns: int | None = None,
+        on_running: Callable[[], None] = lambda: None,
     ) -> None:
         self._world = world
         self._joints = joints
         self._ring = ring
         self._on_step = on_step
+        self._on_running = on_running
         self._world_ns = time.monotonic_ns() if start_ns is None else start_ns
         self._statistics = LoopStatistics()
         self._stop = threading.Event()
@@ -133,6 +137,8 @@ class WorldLoop:
 
     def _run(self) -> None:
         try:
+            self.advance(time.monotonic_ns())
+            self._on_running()
             while not self._stop.is_set():
                 next_ns = self.advance(time.monotonic_ns())
                 time.sleep(max(next_ns - time.monotonic_ns(), 0) / 1e9)
