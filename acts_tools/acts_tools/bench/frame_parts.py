@@ -56,10 +56,10 @@ class Stopwatch:
     def __init__(self) -> None:
         self.times_us: dict[str, list[float]] = {}
 
-    def time(self, part: str, function: Callable[[], T]) -> T:
-        """Call it and note how long that took."""
+    def time(self, part: str, function: Callable[..., T], *arguments: object) -> T:
+        """Call a function and note how long that took."""
         began_ns = time.thread_time_ns()
-        result = function()
+        result = function(*arguments)
         self.times_us.setdefault(part, []).append((time.thread_time_ns() - began_ns) * 1e-3)
         return result
 
@@ -94,7 +94,7 @@ def measure(workbench: Workbench) -> Result:
         stack.callback(source.close)
         gc.collect()
         gc.freeze()
-        _work(workbench, watch, source, node.take, lambda message: publisher.publish(message), samples.take_all)
+        _work(workbench, watch, source, node.take, publisher.publish, samples.take_all)
     return Result(_figures(watch))
 
 
@@ -113,23 +113,26 @@ def _work(
         workbench.check_stop()
         data = watch.time("read", source.read)
         arrival_ns = time.time_ns()
-        frames = watch.time("decode", lambda: decoder.feed(data))
+        frames = watch.time("decode", decoder.feed, data)
         if len(frames) != 1:
             # Not at the pace that is asked about: what was held up counts for nothing.
             stream.accept(frames, arrival_ns)
             continue
-        accepted = watch.time("stamp", lambda: stream.accept(frames, arrival_ns))
+        accepted = watch.time("stamp", stream.accept, frames, arrival_ns)
         if not accepted:
             continue
-        watch.time("baseline", lambda: baseline.observe(accepted))
-        watch.time("recover", lambda: recover(accepted, "bench"))
+        watch.time("baseline", baseline.observe, accepted)
+        watch.time("recover", recover, accepted, "bench")
         frame, stamp_ns = accepted[0]
-        filled = watch.time("fill", lambda: message.fill(frame, stamp_ns))
-        watch.time("send", lambda: send(filled))
+        filled = watch.time("fill", message.fill, frame, stamp_ns)
+        watch.time("send", send, filled)
         received = watch.time("take", take)
         if received:
-            one = received[-1][0]
-            watch.time("unpack", lambda: (frame_of(one), stamp_ns_of(one)))
+            watch.time("unpack", _unpack, received[-1][0])
+
+
+def _unpack(message: TactileSamples) -> tuple[SampleFrame, int]:
+    return frame_of(message), stamp_ns_of(message)
 
 
 def _figures(watch: Stopwatch) -> list[Figure]:

@@ -1,4 +1,4 @@
-"""A subscriber in a process of its own that takes samples and contacts as a controller does, and does nothing with them.
+"""A subscriber in a process of its own that takes samples and contacts as a controller does, and drops them.
 
 python3 -m acts_tools.bench.silent_listener NAMESPACE
 """
