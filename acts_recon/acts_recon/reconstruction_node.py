@@ -39,6 +39,8 @@ _SEQUENCE_MODULUS = 2**32
 _NS_PER_S = 1_000_000_000
 # Of frames that come together, those older than this are not published one by one [ns].
 _LATE_NS = 20_000_000
+# And those older than this are not recovered.
+_VERY_LATE_NS = 60_000_000
 
 
 class ReconstructionNode(Node):
@@ -89,6 +91,7 @@ class ReconstructionNode(Node):
         self._frames = 0
         self._lost = 0
         self._untold = 0
+        self._unused = 0
         self._rejected: Counter[str] = Counter()
         self._last_sequence: int | None = None
         self._durations_s: deque[float] = deque(maxlen=1000)
@@ -124,8 +127,9 @@ class ReconstructionNode(Node):
     def take(self, frames: Sequence[tuple[SampleFrame, int]], frame_id: str) -> None:
         """Recover frames that have come together, and publish what is in them; always from the same thread.
 
-        Where they are late already, as after a stall or where there is too little CPU, the image is made of all of
-        them but only what is in the newest is published: touch may become rare, but it does not become old.
+        Where they are late already, as after a stall or where there is too little CPU, only what is in the newest is
+        published, though the image is made of all; and of very late ones only the newest is used at all. Touch may
+        become rare, but it does not become old.
 
         Parameters
         ----------
@@ -134,13 +138,20 @@ class ReconstructionNode(Node):
         frame_id : str
             Frame of the skin.
         """
-        late_ns = time.time_ns() - _LATE_NS if len(frames) > 1 else 0
-        for number, (frame, stamp_ns) in enumerate(frames, 1):
-            is_told = number == len(frames) or stamp_ns > late_ns
-            self._step(frame, stamp_ns, frame_id, is_told)
-            self._untold += not is_told
+        *older, newest = frames
+        if older:
+            now_ns = time.time_ns()
+            for frame, stamp_ns in older:
+                late_ns = now_ns - stamp_ns
+                self._untold += late_ns > _LATE_NS
+                if late_ns > _VERY_LATE_NS:
+                    self._unused += 1
+                    self._follow(frame.sequence)
+                else:
+                    self._step(frame, stamp_ns, frame_id, is_told=late_ns <= _LATE_NS)
+        self._step(*newest, frame_id, is_told=True)
 
-    def _step(self, frame: SampleFrame, stamp_ns: int, frame_id: str, is_told: bool) -> None:
+    def _step(self, frame: SampleFrame, stamp_ns: int, frame_id: str, *, is_told: bool) -> None:
         began_s = time.perf_counter()
         settings = self._settings
         if frame.rows != settings.rows or frame.cols != settings.cols:
@@ -275,6 +286,7 @@ class ReconstructionNode(Node):
             "rejected.bad_frame": self._rejected["bad_frame"],
             "rejected.bad_baseline": self._rejected["bad_baseline"],
             "not_published": self._untold,
+            "not_used": self._unused,
             "baseline": "subtracted" if self._baseline.is_set else "none",
             "frame_us.median": 1e6 * median(list(self._durations_s)) if self._durations_s else 0.0,
         }

@@ -274,11 +274,11 @@ def test_the_program_ends_with_one_line_and_exit_code_1() -> None:
     assert "Traceback" not in result.stderr
 
 
-def test_of_frames_that_are_late_only_the_newest_is_told_but_all_of_them_count(
+def test_of_late_frames_only_the_newest_is_published_and_of_very_late_ones_only_it_is_used(
     make_bench: Callable[..., Bench],
 ) -> None:
     bench = make_bench(44, method="fusion")
-    cells = [np.array([cell], dtype=np.uint16) for cell in (100, 101, 102, 103)]
+    cells = [np.array([cell], dtype=np.uint16) for cell in (100, 140, 180, 220)]
 
     def frames(first: int, age_ms: float) -> list[tuple[SampleFrame, int]]:
         begin_ns = time.time_ns() - round(age_ms * 1e6)
@@ -288,9 +288,20 @@ def test_of_frames_that_are_late_only_the_newest_is_told_but_all_of_them_count(
             for k, cell in enumerate(cells)
         ]
 
-    bench.node.take(frames(0, age_ms=300.0), "plate")
-    assert bench.contact(3).active_taxels >= len(cells)
-    bench.node.take(frames(4, age_ms=5.0), "plate")
+    def known() -> list[bool]:
+        return [bool(bench.node._recovery.image.ravel()[cell] > 250) for (cell,) in cells]
+
+    bench.node.take(frames(0, age_ms=1000.0), "plate")
+    bench.contact(3)
+    assert known() == [False, False, False, True]
+    bench.node.take(frames(4, age_ms=40.0), "plate")
     bench.contact(7)
-    assert [message.sequence for message in bench.received["contact"]] == [3, 4, 5, 6, 7]
-    bench.diagnostics(lambda status, values: values["not_published"] == "3" and values["frames"] == "8")
+    assert known() == [True, True, True, True]
+    bench.node.take(frames(8, age_ms=5.0), "plate")
+    bench.contact(11)
+    assert [message.sequence for message in bench.received["contact"]] == [3, 7, 8, 9, 10, 11]
+
+    def told(status: object, values: dict[str, str]) -> bool:
+        return (values["not_published"], values["not_used"], values["frames"], values["lost"]) == ("6", "3", "9", "0")
+
+    bench.diagnostics(told)
