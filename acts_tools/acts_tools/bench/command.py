@@ -28,6 +28,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument("names", nargs="*", metavar="NAME", help="measurements to make (default: the short ones)")
     parser.add_argument("--seconds", type=float, help="how long each measures (default: its own time)")
     parser.add_argument("--out", type=Path, default=Path("out"), help="folder for bench.json (default: out)")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write the report to this file instead")
     parser.add_argument("--markdown", action="store_true", help="print the table in Markdown")
     parser.add_argument("--show", type=Path, metavar="FILE", help="print the table of an earlier bench.json again")
 
@@ -47,16 +48,26 @@ def _measure(arguments: argparse.Namespace) -> dict[str, Any]:
     from acts_tools.ros_domain import use_free_domain
 
     names = runner.choose(arguments.names)
-    out = arguments.out
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise ActsError(f"--out {out}: the folder cannot be made ({error.strerror})") from error
+    path = _file(arguments, "bench.json")
     use_free_domain()
     with StopFlag() as stop:
         report = runner.run(names, arguments.seconds, stop)
-    (out / "bench.json").write_text(json.dumps(report, indent=2) + "\n")
+    path.write_text(json.dumps(report, indent=2) + "\n")
     return report
+
+
+def _file(arguments: argparse.Namespace, name: str) -> Path:
+    """Where the report goes; told before the work where that cannot be."""
+    from acts_tools.output_file import require_writable
+
+    path = Path(arguments.out / name if arguments.json is None else arguments.json)
+    option = "--out" if arguments.json is None else "--json"
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise ActsError(f"{option} {path.parent}: the folder cannot be made ({error.strerror})") from error
+    require_writable(path)
+    return path
 
 
 def _read(path: Path) -> dict[str, Any]:

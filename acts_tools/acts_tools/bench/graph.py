@@ -84,7 +84,11 @@ class Graph:
                 check()
             if time.monotonic() > deadline_s:
                 raise LaunchError(f"waited {timeout_s:g} s in vain for {what}")
-            self._executor.spin_until_future_complete(Future(), timeout_sec=_SLICE_S)
+            self.spin_slice(_SLICE_S)
+
+    def spin_slice(self, seconds: float) -> None:
+        """Run callbacks for a while [s] and look at nothing meanwhile, not even at the wish to stop."""
+        self._executor.spin_until_future_complete(Future(), timeout_sec=seconds)
 
     def spin_for(self, seconds: float) -> None:
         """Run callbacks for a while [s]."""
