@@ -13,6 +13,7 @@ from acts_core.errors import ActsError
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Add ``bench`` to the acts command."""
     from acts_tools.bench.registry import MEASUREMENTS
+    from acts_tools.bench.skins import options as skins
 
     parser = subparsers.add_parser(
         "bench",
@@ -22,23 +23,37 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         + "".join(
             f"  {name:<12} {entry.summary}, {entry.seconds:g} s{' (only by name)' if entry.only_by_name else ''}\n"
             for name, entry in MEASUREMENTS.items()
-        ),
+        )
+        + f"  {skins.NAME:<12} {skins.SUMMARY}, {skins.SECONDS:g} s (only by name)\n",
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("names", nargs="*", metavar="NAME", help="measurements to make (default: the short ones)")
     parser.add_argument("--seconds", type=float, help="how long each measures (default: its own time)")
-    parser.add_argument("--out", type=Path, default=Path("out"), help="folder for bench.json (default: out)")
+    parser.add_argument(
+        "--out", type=Path, default=Path("out"), help="folder for bench.json or bench_skins.json (default: out)"
+    )
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the report to this file instead")
     parser.add_argument("--markdown", action="store_true", help="print the table in Markdown")
     parser.add_argument("--show", type=Path, metavar="FILE", help="print the table of an earlier bench.json again")
+    skins.add_options(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Measure, write and print; the exit code tells whether something was wrong, not merely slow."""
     from acts_tools.bench import report as reports
+    from acts_tools.bench.skins import options as skins
+    from acts_tools.bench.skins import table as skins_table
 
-    report = _read(arguments.show) if arguments.show is not None else _measure(arguments)
-    print(reports.markdown(report) if arguments.markdown else reports.table(report))
+    if arguments.show is not None:
+        report = _read(arguments.show)
+    elif skins.is_chosen(arguments):
+        from acts_tools.bench.skins import command
+
+        report = command.run(arguments, _file(arguments, "bench_skins.json"))
+    else:
+        report = _measure(arguments)
+    form = skins_table if "skins" in report else reports
+    print(form.markdown(report) if arguments.markdown else form.table(report))
     return 1 if report["problems"] else 0
 
 
