@@ -25,11 +25,13 @@ from acts_control.names import (
 )
 from acts_control.pid import Ball, JerkFinder, Reference
 from acts_control.robot import Robot, UrRobot
+from acts_core.realtime import RealtimeConfig, enter_realtime
 from acts_core.settings import setting
 from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import BalanceStatus, BallReference, BallState
 from acts_ros.diagnostics import ERROR, OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
+from acts_ros.log import log_of
 from acts_ros.parameters import declare, node_options
 from acts_ros.qos import STATE, STREAM
 
@@ -40,11 +42,15 @@ _LEVELS = {Phase.CONNECTING: WARN, Phase.STOPPED: ERROR}
 
 
 @dataclass(frozen=True)
-class BallControlSettings(LoopConfig):
+class BallControlSettings(RealtimeConfig, LoopConfig):
     """Parameters of the node."""
 
     status_rate_hz: float = setting(50.0, "how often the status is published", minimum=1.0, maximum=500.0)
     frame_id: str = setting("", "frame of the skin; empty: the name of the namespace")
+
+    def __post_init__(self) -> None:
+        LoopConfig.__post_init__(self)
+        RealtimeConfig.__post_init__(self)
 
 
 class BallControlNode(Node):
@@ -67,6 +73,7 @@ class BallControlNode(Node):
     ) -> None:
         super().__init__("ball_control", **node_options(), **node_arguments)
         settings = declare(self, BallControlSettings)
+        self._settings = settings
         self._jerk = JerkFinder()
         self._told = LoopStatus()
         frame_id = frame_of(self, settings.frame_id)
@@ -101,6 +108,7 @@ class BallControlNode(Node):
 
     def begin(self) -> None:
         """Start the control loop, and with `autostart` the robot."""
+        enter_realtime(self._settings, "ball_control", log_of(self))
         self._loop.launch()
 
     def close(self) -> None:

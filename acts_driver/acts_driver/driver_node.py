@@ -26,7 +26,7 @@ from acts_ros.parameters import declare, node_options
 from acts_ros.qos import STREAM, overridable
 from acts_ros.sample_messages import SamplesMessage
 
-FrameConsumer = Callable[[SampleFrame, int, str], None]
+FrameConsumer = Callable[[list[tuple[SampleFrame, int]], str], None]
 
 SUCCESS = TransitionCallbackReturn.SUCCESS
 FAILURE = TransitionCallbackReturn.FAILURE
@@ -45,8 +45,9 @@ class DriverNode(LifecycleNode):
     intake : Intake or None
         What it reads with; None while it is unconfigured.
     consumers : list of callable
-        Each takes a frame that is published, its stamp [ns] and the frame of the skin, on the reader's thread: nodes of
-        the same process, to which no message has to be sent. To be filled before the node is spun.
+        Each takes the frames that were read together, with their stamps [ns], and the frame of the skin, on the
+        reader's thread: nodes of the same process, to which no message has to be sent. To be filled before the node is
+        spun.
     """
 
     def __init__(self, **node_arguments: object) -> None:
@@ -136,10 +137,10 @@ class DriverNode(LifecycleNode):
         if not self.active:
             return
         is_heard = self._publisher.get_subscription_count() > 0
-        for frame, stamp_ns in frames:
-            for consume in self.consumers:
-                consume(frame, stamp_ns, self._frame_id)
-            if is_heard:
+        for consume in self.consumers:
+            consume(frames, self._frame_id)
+        if is_heard:
+            for frame, stamp_ns in frames:
                 self._publisher.publish(self._message.fill(frame, stamp_ns))
         for result, stamp_ns in results:
             self._topics.publish(result, stamp_ns)

@@ -78,6 +78,7 @@ class Intake:
             self._on_frames,
             has_results=self._results.has_results,
             reconnect_s=settings.reconnect_s,
+            realtime=settings,
             log=log,
             on_reconnect=self._on_reconnect,
         )

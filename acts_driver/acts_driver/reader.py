@@ -9,6 +9,7 @@ from collections.abc import Callable
 from acts_core.delimited import DelimitedDecoder
 from acts_core.errors import ActsError, PortError
 from acts_core.frames import SampleFrame
+from acts_core.realtime import RealtimeConfig, enter_realtime
 from acts_driver.source import READ_TIMEOUT_S, Source
 
 FramesCallback = Callable[[list[SampleFrame], int], None]
@@ -42,6 +43,8 @@ class Reader:
         Whether the bytes just decoded held anything besides frames that `on_frames` is to be called for.
     reconnect_s : float
         Longest wait between two attempts to open a lost source [s].
+    realtime : RealtimeConfig or None
+        How the process is scheduled once its first frames have been handed on.
     log : callable
         See `LogCallback`.
     on_reconnect : callable or None
@@ -69,6 +72,7 @@ class Reader:
         *,
         has_results: Callable[[], bool] = lambda: False,
         reconnect_s: float = 0.5,
+        realtime: RealtimeConfig | None = None,
         log: LogCallback = lambda level, message: None,
         on_reconnect: Callable[[], None] | None = None,
         now_ns: Callable[[], int] = time.time_ns,
@@ -79,6 +83,7 @@ class Reader:
         self._on_reconnect = on_reconnect
         self._has_results = has_results
         self._reconnect_s = reconnect_s
+        self._realtime = realtime
         self._log = log
         self._now_ns = now_ns
         self._stop = threading.Event()
@@ -153,6 +158,10 @@ class Reader:
             frames = feed(data)
             if frames or has_results():
                 self._hand_on(frames, arrival_ns)
+                if self._realtime is not None:
+                    # Only now: what decodes the first frames may have to be compiled, which is no work for real time.
+                    enter_realtime(self._realtime, "driver", self._log)
+                    self._realtime = None
 
     def _hand_on(self, frames: list[SampleFrame], arrival_ns: int) -> None:
         try:

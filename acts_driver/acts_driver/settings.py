@@ -10,7 +10,8 @@ from acts_core.array import MAX_SIDE
 from acts_core.board_messages import BoardMessage
 from acts_core.delimited import DelimitedDecoder
 from acts_core.raster_ascii import RasterDecoder
-from acts_core.settings import setting, validate
+from acts_core.realtime import RealtimeConfig
+from acts_core.settings import setting
 from acts_core.wire import StreamDecoder
 from acts_driver.baseline_parameters import BaselineParameters
 from acts_driver.board_parameters import BoardParameters
@@ -64,11 +65,11 @@ class SourceParameters:
 
 
 @dataclass(frozen=True)
-class DriverSettings(BaselineParameters, BoardParameters, SourceParameters):
+class DriverSettings(RealtimeConfig, BaselineParameters, BoardParameters, SourceParameters):
     """See the descriptions; `docs/driver.md` lists them."""
 
     def __post_init__(self) -> None:
-        validate(self)
+        RealtimeConfig.__post_init__(self)
         check_port(self.port)
         self.check_board_parameters()
 

@@ -5,9 +5,11 @@
 #include <exception>
 #include <iostream>
 #include <memory>
+#include <string>
 
 #include "options.hpp"
 #include "process.hpp"
+#include "realtime.hpp"
 
 namespace acts {
 
@@ -41,7 +43,11 @@ int main(int argc, char** argv) {
     }
     acts::install_signals();
     prctl(PR_SET_TIMERSLACK, 1000UL);  // wake within a microsecond or so of the time asked for, not fifty
-    std::make_unique<acts::Process>(options, acts::stop_requested)->run();
+    const auto process = std::make_unique<acts::Process>(options, acts::stop_requested);
+    if (const std::string scheduling = acts::enter_realtime(options.realtime); !scheduling.empty()) {
+      std::cerr << "virtual_board: " << scheduling << std::endl;
+    }
+    process->run();
     return 0;
   } catch (const acts::OptionError& error) {
     std::cerr << "virtual_board: " << error.what() << std::endl;

@@ -15,6 +15,8 @@ namespace {
 // Smaller shares would all mean the same: one taxel of even the largest array.
 constexpr double kMinShare = 0.0001;
 
+constexpr int kMaxPriority = 99;
+
 // Bases of strtoull.
 constexpr int kDecimal = 10;
 constexpr int kDecimalOrHexadecimal = 0;
@@ -159,6 +161,13 @@ std::vector<Option> make_options(Options& o) {
        [&o](const std::string&) { o.print_status = true; }},
       {"--status-period-s", "T", "print another such line with frames and overruns every T seconds (0: never)",
        [&o](const std::string& v) { o.status_period_s = number("--status-period-s", v, 0.0, 1e6); }},
+      {"--realtime-priority", "N",
+       "run under SCHED_FIFO with this priority, 1 to 99, where the limits allow it (0: do not)",
+       [&o](const std::string& v) { o.realtime.priority = whole("--realtime-priority", v, 0, kMaxPriority); }},
+      {"--cpu-affinity", "CORES", "cores to run on, as in 2 or 0,2-3; none: any",
+       [&o](const std::string& v) {
+         named("--cpu-affinity", [&o, &v] { o.realtime.cores = parse_cores(path_or_none(v)); });
+       }},
       {"--help", "", "print this and stop", [&o](const std::string&) { o.help = true; }},
   };
 }

@@ -10,6 +10,7 @@
 #include "acts_firmware/firmware.hpp"
 #include "acts_firmware/sampling/sampler.hpp"
 #include "faults.hpp"
+#include "realtime.hpp"
 #include "wired_board.hpp"
 #include "wiring_faults.hpp"
 
@@ -35,6 +36,7 @@ struct Options {
   Protocol protocol = Protocol::kBinary;
   std::vector<Fault> faults;
   std::string control;  // empty: none
+  Realtime realtime;
   bool print_status = false;
   double status_period_s = 0.0;  // 0: none
 };

@@ -18,7 +18,7 @@ namespace acts {
 
 namespace {
 
-constexpr std::int64_t kCatchUpNs = 250'000'000;  // later than this, frames are skipped
+constexpr std::int64_t kCatchUpNs = 100'000'000;  // later than this, frames are skipped
 constexpr std::int64_t kNapNs = 50'000'000;       // the terminal is looked after at least this often
 
 std::string json_text(const std::string& text) {

@@ -168,28 +168,38 @@ def _moved(
 
 @numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
 def _predict(state: State, period_s: float, rows: int, cols: int, tuning: Tuning) -> None:
-    """Carry the image on to the end of the frame by motion and, for the share it does not explain, by slopes."""
-    image, before, age, slope = state.image, state.before, state.age, state.slope
+    """Carry the image on to the end of the frame by motion and, for the share it does not explain, by slopes.
+
+    First all taxels by their slopes, without a branch, so that the compiler takes several at once; then anew those that
+    move.
+    """
+    image, before, age, elapsed, rate = state.image, state.before, state.age, state.elapsed, state.rate
     period, horizon = _F(period_s), _F(tuning.horizon_s)
+    fading = _F(math.exp(-period_s / tuning.damping_s))
     for i in range(image.shape[0]):
         before[i] = image[i]
-    for row in range(rows):
-        for col in range(cols):
-            i = row * cols + col
-            age[i] += period
-            # A measured taxel stood at its own time, not at the end of the frame.
-            elapsed = min(age[i] if state.fresh[i] else period, horizon)
-            state.fresh[i] = False
-            velocity = state.velocity[row // TILE, col // TILE]
+        age[i] += period
+        # A measured taxel stood at its own time, not at the end of the frame.
+        elapsed[i] = min(age[i] if state.fresh[i] else period, horizon)
+        state.fresh[i] = False
+        faded = state.fade[i] * fading
+        state.fade[i] = faded if faded > _TINY else _F(0)
+        rate[i] = state.slope[i] * state.fade[i] if age[i] < horizon and elapsed[i] > _F(0) else _F(0)
+        image[i] = min(max(before[i] + rate[i] * elapsed[i], _F(0)), _TOP)
+    for a in range(state.velocity.shape[0]):
+        for b in range(state.velocity.shape[1]):
+            velocity = state.velocity[a, b]
             share = velocity[2]
-            change = _F(0)
-            if share > _F(0):
-                moved = _moved(before, row, col, velocity[1] * elapsed, velocity[0] * elapsed, rows, cols)
-                change = share * (moved - before[i])
-            if slope[i] != _F(0) and age[i] < horizon:
-                change += (_F(1) - share) * slope[i] * elapsed * _F(math.exp(-age[i] / _F(tuning.damping_s)))
-            state.rate[i] = change / elapsed if elapsed > _F(0) else _F(0)
-            image[i] = min(max(before[i] + change, _F(0)), _TOP)
+            if not share > _F(0):
+                continue
+            for row in range(a * TILE, min((a + 1) * TILE, rows)):
+                for col in range(b * TILE, min((b + 1) * TILE, cols)):
+                    i = row * cols + col
+                    time = elapsed[i]
+                    moved = _moved(before, row, col, velocity[1] * time, velocity[0] * time, rows, cols)
+                    change = share * (moved - before[i]) + (_F(1) - share) * rate[i] * time
+                    rate[i] = change / time if time > _F(0) else _F(0)
+                    image[i] = min(max(before[i] + change, _F(0)), _TOP)
 
 
 @numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
@@ -225,6 +235,7 @@ def _take(
             state.unrest[i] += (_F(1) if begins else _F(UNREST_SHARE)) * (error - state.unrest[i])
         state.value[i] = count
         state.age[i] = lag
+        state.fade[i] = _F(math.exp(-lag / _F(tuning.damping_s)))
         state.fresh[i] = True
     log_scale = state.log_scale[0] + _F(SCALE_STEP) * surprise
     state.log_scale[0] = min(max(log_scale, -_F(SCALE_LIMIT)), _F(SCALE_LIMIT))
@@ -308,23 +319,28 @@ def _doubt(state: State, rows: int, cols: int, tuning: Tuning) -> None:
     limit = _F(UNKNOWN_COUNTS)
     unrest, in_row = state.unrest, state.before
     for row in range(rows):
-        for i in range(row * cols, (row + 1) * cols):
-            in_row[i] = max(unrest[i], unrest[max(i - 1, row * cols)], unrest[min(i + 1, (row + 1) * cols - 1)])
+        first, last = row * cols, (row + 1) * cols - 1
+        in_row[first] = max(unrest[first], unrest[min(first + 1, last)])
+        for i in range(first + 1, last):
+            in_row[i] = max(unrest[i], unrest[i - 1], unrest[i + 1])
+        in_row[last] = max(unrest[last], unrest[max(last - 1, first)])
     for row in range(rows):
-        above, below = (-cols if row > 0 else 0), (cols if row + 1 < rows else 0)
-        for i in range(row * cols, (row + 1) * cols):
-            age = state.age[i]
-            known = min(age, _F(1e3))
+        # Slices, so that the compiler sees that no index is negative, and takes several taxels at once.
+        here = slice(row * cols, (row + 1) * cols)
+        above = in_row[max(row - 1, 0) * cols : (max(row - 1, 0) + 1) * cols]
+        below = in_row[min(row + 1, rows - 1) * cols : (min(row + 1, rows - 1) + 1) * cols]
+        beside, own, ages = in_row[here], unrest[here], state.age[here]
+        rates, is_fresh, sigma = state.rate[here], state.fresh[here], state.sigma[here]
+        for c in range(cols):
+            # A fresh taxel's value is kept as measured, though it has been changing since.
+            fresh, age = is_fresh[c], ages[c]
+            around = max(beside[c], above[c], below[c])
+            gathers = own[c] if fresh else _F(0.5) * (own[c] + around)
+            lag_error = rates[c] * age if fresh else _F(0)
             gathering = min(age, horizon)
-            variance = noise_variance + (idle * known) ** 2
-            if state.fresh[i]:
-                # Its value is kept as measured, though it has been changing since.
-                lag_error = state.rate[i] * age
-                variance += scale * unrest[i] * gathering * gathering + lag_error * lag_error
-            else:
-                around = max(in_row[i], in_row[i + above], in_row[i + below])
-                variance += scale * _F(0.5) * (unrest[i] + around) * gathering * gathering
-            state.sigma[i] = min(_F(math.sqrt(variance)), limit)
+            idled = idle * min(age, _F(1e3))
+            variance = noise_variance + idled * idled + scale * gathers * gathering * gathering + lag_error * lag_error
+            sigma[c] = min(_F(math.sqrt(variance)), limit)
 
 
 @numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]

@@ -39,6 +39,8 @@ class State(NamedTuple):
         Last measurement [counts], how fast it changed [counts/s], and how long it has been [s]; inf: never.
     unrest : np.ndarray [shape=(taxels,), dtype=float32]
         Mean square of the error that predictions gather per second [(counts/s)^2].
+    fade : np.ndarray [shape=(taxels,), dtype=float32]
+        What is left of the slope since the measurement; 1 at its time.
     fresh : np.ndarray [shape=(taxels,), dtype=bool]
         Whether the taxel was measured in the last frame.
     evidence, row_sums : np.ndarray [shape=(tile_rows, tile_cols, 6), dtype=float32]
@@ -49,7 +51,7 @@ class State(NamedTuple):
         Logarithm of what all error variances are multiplied by, from how well predictions have held.
     frame_scale : np.ndarray [shape=(1,), dtype=float32]
         What they are multiplied by besides, for the surprise of the last frame; at least 1.
-    before, rate, innovation, total, unrest_total, weight, seen
+    before, elapsed, rate, innovation, total, unrest_total, weight, seen
         Scratch.
     """
 
@@ -59,6 +61,7 @@ class State(NamedTuple):
     slope: NDArray[np.float32]
     age: NDArray[np.float32]
     unrest: NDArray[np.float32]
+    fade: NDArray[np.float32]
     fresh: NDArray[np.bool_]
     evidence: NDArray[np.float32]
     row_sums: NDArray[np.float32]
@@ -66,6 +69,7 @@ class State(NamedTuple):
     log_scale: NDArray[np.float32]
     frame_scale: NDArray[np.float32]
     before: NDArray[np.float32]
+    elapsed: NDArray[np.float32]
     rate: NDArray[np.float32]
     innovation: NDArray[np.float32]
     total: NDArray[np.float32]
@@ -88,6 +92,7 @@ def new_state(rows: int, cols: int) -> State:
         slope=taxels(),
         age=taxels(),
         unrest=taxels(),
+        fade=taxels(),
         fresh=np.zeros(rows * cols, dtype=np.bool_),
         evidence=np.zeros((*tiles, 6), dtype=np.float32),
         row_sums=np.zeros((*tiles, 6), dtype=np.float32),
@@ -95,6 +100,7 @@ def new_state(rows: int, cols: int) -> State:
         log_scale=np.zeros(1, dtype=np.float32),
         frame_scale=np.zeros(1, dtype=np.float32),
         before=taxels(),
+        elapsed=taxels(),
         rate=taxels(),
         innovation=taxels(),
         total=taxels(),

@@ -16,6 +16,7 @@ from std_msgs.msg import Header
 
 from acts_core.errors import ArrayError
 from acts_core.frames import SampleFrame
+from acts_core.realtime import enter_realtime
 from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import Baseline, TactileSamples
 from acts_msgs.msg import Contact as ContactMessage
@@ -29,12 +30,15 @@ from acts_recon.reconstruction_settings import ReconstructionSettings
 from acts_ros import qos
 from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
+from acts_ros.log import log_of
 from acts_ros.parameters import declare, node_options
 from acts_ros.sample_messages import frame_of, stamp_ns_of
 
 _SUBSCRIBERS_PERIOD_S = 0.2
 _SEQUENCE_MODULUS = 2**32
 _NS_PER_S = 1_000_000_000
+# Of frames that come together, those older than this are not published one by one [ns].
+_LATE_NS = 20_000_000
 
 
 class ReconstructionNode(Node):
@@ -83,6 +87,7 @@ class ReconstructionNode(Node):
 
         self._frames = 0
         self._lost = 0
+        self._untold = 0
         self._rejected: Counter[str] = Counter()
         self._last_sequence: int | None = None
         self._durations_s: deque[float] = deque(maxlen=1000)
@@ -99,6 +104,10 @@ class ReconstructionNode(Node):
             f"ready: array of {self._settings.rows} x {self._settings.cols}, image of {rows} x {cols}"
         )
 
+    def begin(self) -> None:
+        """Let this process be scheduled as the parameters ask."""
+        enter_realtime(self._settings, "reconstruction", log_of(self))
+
     def _look_for_subscribers(self) -> None:
         self._send_cop = self._cop_publisher.get_subscription_count() > 0
         self._send_raw = self._raw_publisher.get_subscription_count() > 0
@@ -109,19 +118,28 @@ class ReconstructionNode(Node):
             self._objects.look_for_subscribers()
 
     def _on_samples(self, samples: TactileSamples) -> None:
-        self.take(frame_of(samples), stamp_ns_of(samples), samples.header.frame_id)
+        self.take([(frame_of(samples), stamp_ns_of(samples))], samples.header.frame_id)
 
-    def take(self, frame: SampleFrame, stamp_ns: int, frame_id: str) -> None:
-        """Recover a frame and publish what is in it; always from the same thread.
+    def take(self, frames: Sequence[tuple[SampleFrame, int]], frame_id: str) -> None:
+        """Recover frames that have come together, and publish what is in them; always from the same thread.
+
+        Where they are late already, as after a stall or where there is too little CPU, the image is made of all of
+        them but only what is in the newest is published: touch may become rare, but it does not become old.
 
         Parameters
         ----------
-        frame : SampleFrame
-        stamp_ns : int
-            ROS time at the end of its last measurement [ns].
+        frames : sequence of (SampleFrame, int)
+            Each with the ROS time at the end of its last measurement [ns].
         frame_id : str
             Frame of the skin.
         """
+        late_ns = time.time_ns() - _LATE_NS if len(frames) > 1 else 0
+        for number, (frame, stamp_ns) in enumerate(frames, 1):
+            is_told = number == len(frames) or stamp_ns > late_ns
+            self._step(frame, stamp_ns, frame_id, is_told)
+            self._untold += not is_told
+
+    def _step(self, frame: SampleFrame, stamp_ns: int, frame_id: str, is_told: bool) -> None:
         began_s = time.perf_counter()
         settings = self._settings
         if frame.rows != settings.rows or frame.cols != settings.cols:
@@ -144,6 +162,8 @@ class ReconstructionNode(Node):
             return
         self._frames += 1
         self._follow(frame.sequence)
+        if not is_told:
+            return
         header = self._header
         header.frame_id = frame_id
         header.stamp.sec, header.stamp.nanosec = divmod(stamp_ns, _NS_PER_S)
@@ -253,6 +273,7 @@ class ReconstructionNode(Node):
             "rejected.wrong_array_size": self._rejected["wrong_array_size"],
             "rejected.bad_frame": self._rejected["bad_frame"],
             "rejected.bad_baseline": self._rejected["bad_baseline"],
+            "not_published": self._untold,
             "baseline": "subtracted" if self._baseline.is_set else "none",
             "frame_us.median": 1e6 * median(list(self._durations_s)) if self._durations_s else 0.0,
         }

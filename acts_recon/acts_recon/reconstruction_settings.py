@@ -8,7 +8,8 @@ from pathlib import Path
 from acts_core.array import COUNT_MAX, MAX_SIDE, ArrayGeometry
 from acts_core.force import ForceResponse, MeasuredForceResponse
 from acts_core.layouts import LAYOUTS, layout
-from acts_core.settings import default_of, setting, validate
+from acts_core.realtime import RealtimeConfig
+from acts_core.settings import default_of, setting
 from acts_recon.blobs import BlobConfig
 from acts_recon.classification import Classifier, ClassifierConfig
 from acts_recon.dictionary import load_dictionary
@@ -25,7 +26,7 @@ _RESPONSE = ForceResponse()
 
 
 @dataclass(frozen=True)
-class ReconstructionSettings:
+class ReconstructionSettings(RealtimeConfig):
     """Parameters of the node ``reconstruction``."""
 
     rows: int = setting(_ARRAY.rows, "rows of the array", minimum=1, maximum=MAX_SIDE)
@@ -142,7 +143,7 @@ class ReconstructionSettings:
     )
 
     def __post_init__(self) -> None:
-        validate(self)
+        RealtimeConfig.__post_init__(self)
 
     def reconstructor(self) -> Reconstructor:
         """Load the dictionary and make everything ready for the first frame; takes seconds when not yet compiled.

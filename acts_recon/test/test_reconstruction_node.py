@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+import time
 from collections.abc import Callable
 
 import numpy as np
@@ -16,6 +17,7 @@ from sensor_msgs.msg import Image
 from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError, DictionaryError, ObjectLibraryError, SettingsError
 from acts_core.force import ForceResponse
+from acts_core.frames import SampleFrame, Scheme
 from acts_core.layouts import layout
 from acts_msgs.msg import Contact
 from acts_recon.contact import find_contact
@@ -270,3 +272,25 @@ def test_the_program_ends_with_one_line_and_exit_code_1() -> None:
     assert result.returncode == 1
     assert "error: /no/such.npz: cannot be read" in result.stderr
     assert "Traceback" not in result.stderr
+
+
+def test_of_frames_that_are_late_only_the_newest_is_told_but_all_of_them_count(
+    make_bench: Callable[..., Bench],
+) -> None:
+    bench = make_bench(44, method="fusion")
+    cells = [np.array([cell], dtype=np.uint16) for cell in (100, 101, 102, 103)]
+
+    def frames(first: int, age_ms: float) -> list[tuple[SampleFrame, int]]:
+        begin_ns = time.time_ns() - round(age_ms * 1e6)
+        pressed = np.array([500], dtype=np.uint16)
+        return [
+            (SampleFrame(first + k, 0, 900, Scheme.TRACKING, 32, 32, 0, cell, pressed), begin_ns + k * 1_000_000)
+            for k, cell in enumerate(cells)
+        ]
+
+    bench.node.take(frames(0, age_ms=300.0), "plate")
+    assert bench.contact(3).active_taxels >= len(cells)
+    bench.node.take(frames(4, age_ms=5.0), "plate")
+    bench.contact(7)
+    assert [message.sequence for message in bench.received["contact"]] == [3, 4, 5, 6, 7]
+    bench.diagnostics(lambda status, values: values["not_published"] == "3" and values["frames"] == "8")

@@ -15,20 +15,24 @@ from rclpy.node import Node
 from rclpy.time import Time
 
 from acts_core.errors import ActsError
-from acts_core.settings import setting, validate
+from acts_core.realtime import RealtimeConfig, enter_realtime
+from acts_core.settings import setting
 from acts_core.stop_signals import StopSignals
 from acts_ros import qos
 from acts_ros.diagnostics import ERROR, OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
+from acts_ros.log import log_of
 from acts_ros.parameters import declare, node_options
 from acts_sim.joint_follower import JointFollower, JointSource
 from acts_sim.timed_ring import TimedRingWriter
 from acts_sim.world import Phase, World, WorldConfig, WorldState
-from acts_sim.world_loop import LoopStatistics, WorldLoop
+from acts_sim.world_loop import STEP_NS, LoopStatistics, WorldLoop
+
+_NS_PER_MS = 1_000_000
 
 
 @dataclass(frozen=True)
-class BallWorldSettings(WorldConfig):
+class BallWorldSettings(RealtimeConfig, WorldConfig):
     """Parameters of the node: the world's, and what it is connected to."""
 
     field_ring: str = setting("/dev/shm/acts/field.ring", "shared file the pressure field is written to")
@@ -38,11 +42,11 @@ class BallWorldSettings(WorldConfig):
     )
     frame_id: str = setting("", "frame of the skin; empty: the namespace of the node")
     truth_every: int = setting(
-        4, "the ball's true position is published every so many milliseconds", minimum=1, maximum=1000
+        4, "the ball's true position is published every so many milliseconds, even ones", minimum=2, maximum=1000
     )
 
     def __post_init__(self) -> None:
-        validate(self)
+        RealtimeConfig.__post_init__(self)
 
 
 class BallWorld(Node):
@@ -64,7 +68,7 @@ class BallWorld(Node):
         self._world = World(settings)
         self._joints = JointFollower(None if settings.joint_ring == "none" else Path(settings.joint_ring))
         self._ring = TimedRingWriter(field_ring, settings.rows * settings.cols)
-        self._loop = WorldLoop(self._world, self._joints, self._ring, self._publish)
+        self._loop = WorldLoop(self._world, self._joints, self._ring, self._publish, on_running=self._enter_realtime)
         self._diagnostics = DiagnosticsReporter(self, settings.field_ring, self._report)
         self._loop.start()
         self.get_logger().info(
@@ -77,9 +81,13 @@ class BallWorld(Node):
         self._loop.stop()
         self._ring.close()
 
+    def _enter_realtime(self) -> None:
+        enter_realtime(self._settings, "ball_world", log_of(self))
+
     def _publish(self, time_ns: int, state: WorldState) -> None:
         self._steps += 1
-        if state.phase is not Phase.ROLLING or self._steps % self._settings.truth_every:
+        every_steps = self._settings.truth_every * _NS_PER_MS // STEP_NS
+        if state.phase is not Phase.ROLLING or self._steps % every_steps:
             return
         stamp_ns = self.get_clock().now().nanoseconds + time_ns - time.monotonic_ns()
         message = self._message
@@ -117,7 +125,8 @@ class BallWorld(Node):
             why = f" ({self._joints.problem})" if self._joints.problem else ""
             return WARN, f"{source.value}{why}; the plate rests", values
         if loop.skipped > before.skipped:
-            return WARN, f"the world stood still for {loop.skipped - before.skipped} ms", values
+            stood_ms = (loop.skipped - before.skipped) * STEP_NS // _NS_PER_MS
+            return WARN, f"the world stood still for {stood_ms} ms", values
         if state.phase is Phase.FALLEN:
             return WARN, "the ball has fallen off the plate", values
         return OK, f"the ball is {state.phase.value}", values

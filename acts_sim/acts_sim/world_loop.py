@@ -11,16 +11,17 @@ from acts_sim.joint_follower import JointFollower
 from acts_sim.timed_ring import TimedRingWriter
 from acts_sim.world import World, WorldState
 
-STEP_NS = 1_000_000
+STEP_NS = 2_000_000
+"""As long as the simulated robot's own cycle; between two steps the board interpolates the field."""
 
 LEAD_NS = 2 * STEP_NS
 """How far the world is ahead of the clock [ns]. One step would do if every step came in time; with two, the board still
-finds a field beyond its own time when a step comes up to a millisecond late."""
+finds a field beyond its own time when a step comes up to two milliseconds late."""
 
-LONGEST_CATCH_UP_STEPS = 50
+LONGEST_CATCH_UP_STEPS = 25
 """A world that is further behind than this leaves out the rest: the ball stands still meanwhile."""
 
-_LATE_NS = STEP_NS
+_LATE_NS = 1_000_000
 
 
 @dataclass(frozen=True)
@@ -30,7 +31,7 @@ class LoopStatistics:
     Attributes
     ----------
     steps : int
-        Steps of the world, 1 ms each.
+        Steps of the world, 2 ms each.
     late : int
         Wake-ups more than 1 ms after their time.
     latest_s : float
@@ -46,7 +47,7 @@ class LoopStatistics:
 
 
 class WorldLoop:
-    """Steps a world at 1 kHz and writes its field, each with the time it is for, which is in the near future.
+    """Steps a world at 500 Hz and writes its field, each with the time it is for, which is in the near future.
 
     Parameters
     ----------
@@ -58,6 +59,8 @@ class WorldLoop:
         Called after every step, in the loop's thread, with the step's CLOCK_MONOTONIC time [ns] and the state.
     start_ns : int or None
         CLOCK_MONOTONIC time of the world's start [ns]; None for now.
+    on_running : callable
+        Called once in the loop's thread, after the first steps.
     """
 
     def __init__(
@@ -67,11 +70,13 @@ class WorldLoop:
         ring: TimedRingWriter,
         on_step: Callable[[int, WorldState], None],
         start_ns: int | None = None,
+        on_running: Callable[[], None] = lambda: None,
     ) -> None:
         self._world = world
         self._joints = joints
         self._ring = ring
         self._on_step = on_step
+        self._on_running = on_running
         self._world_ns = time.monotonic_ns() if start_ns is None else start_ns
         self._statistics = LoopStatistics()
         self._stop = threading.Event()
@@ -132,6 +137,8 @@ class WorldLoop:
 
     def _run(self) -> None:
         try:
+            self.advance(time.monotonic_ns())
+            self._on_running()
             while not self._stop.is_set():
                 next_ns = self.advance(time.monotonic_ns())
                 time.sleep(max(next_ns - time.monotonic_ns(), 0) / 1e9)

@@ -19,6 +19,7 @@ COMMANDS = {
     "listen": ("acts_tools.listen.command", "tell what of a topic arrives here, and how late"),
     "driver": ("acts_tools.driver_command", "ask or tell a running driver: query, calibrate, tare, set"),
     "selftest": ("acts_tools.selftest.command", "test a board, its wiring and its skin"),
+    "doctor": ("acts_tools.doctor.command", "tell what this machine lacks, and how to mend it"),
     "train": ("acts_tools.train", "train a dictionary for the reconstruction"),
     "library": ("acts_tools.library", "write a library of known objects for the classification"),
     "bench": ("acts_tools.bench.command", "measure throughput, CPU and latency"),

@@ -8,11 +8,13 @@ import gc
 import sys
 import time
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from acts_core.errors import ActsError
+from acts_core.realtime import RealtimeConfig, enter_realtime
 from acts_core.settings import default_of, describe, from_mapping
 from acts_core.stop_signals import StopSignals
 from acts_sim.timed_ring import TimedRingWriter
@@ -28,6 +30,14 @@ RTDE_PORT, DASHBOARD_PORT, SCRIPT_PORT = 30004, 29999, 30003
 
 JOINT_RING_WIDTH = 12
 """Values in a slot of the joint ring: six angles [rad], six speeds [rad/s]."""
+
+
+@dataclass(frozen=True)
+class ControllerSettings(RealtimeConfig, ControllerConfig):
+    """Options of the command line: the robot's, and how its process is scheduled."""
+
+    def __post_init__(self) -> None:
+        RealtimeConfig.__post_init__(self)
 
 
 class _Log:
@@ -58,13 +68,13 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     parser.add_argument(
         "--hook-port", type=int, default=0, help="port of the test hooks; 0: none. Lines: protective_stop, state ..."
     )
-    for name, info in describe(ControllerConfig).items():
-        default = default_of(ControllerConfig, name)
+    for name, info in describe(ControllerSettings).items():
+        default = default_of(ControllerSettings, name)
         allowed = f" ({info.allowed})" if info.allowed else ""
         parser.add_argument(
             _option(name),
             default=default,
-            type=_floats if isinstance(default, tuple) else float,
+            type=_floats if isinstance(default, tuple) else type(default),
             help=info.description + allowed,
         )
     own = list(arguments)
@@ -89,9 +99,9 @@ def run(options: argparse.Namespace, signals: StopSignals) -> None:
     ActsError
         When a setting is out of range, a port is taken or the ring cannot be written.
     """
-    names = describe(ControllerConfig)
+    names = describe(ControllerSettings)
     values = {name: getattr(options, "q0" if name == "q0_rad" else name) for name in names}
-    config = from_mapping(ControllerConfig, values, "ur_controller")
+    config = from_mapping(ControllerSettings, values, "ur_controller")
     log = _Log(options.host)
     controller = Controller(config, log)
     rtde = RtdePort(controller)
@@ -126,6 +136,7 @@ def run(options: argparse.Namespace, signals: StopSignals) -> None:
             ring = stack.enter_context(_open_ring(options.joint_ring))
         # What exists by now lives as long as the process; there is no use in going through it again and again.
         gc.freeze()
+        enter_realtime(config, "all of it", lambda _level, sentence: log(sentence))
         print("ready", flush=True)
         server.run()
 

@@ -72,11 +72,41 @@ def virtual_board(folder: Path, *options: str) -> Iterator[Board]:
 
 
 @contextmanager
-def driver(folder: Path, link: Path) -> Iterator[subprocess.Popen[bytes]]:
-    """Run the driver node on a port, in `NAMESPACE`; its log goes to ``folder/driver.log``."""
-    command = [str(executable("acts_driver", "driver", os.environ)), "--ros-args"]
-    command += ["-r", f"__ns:={NAMESPACE}", "-p", f"port:={link}"]
-    with _running(command, folder / "driver.log") as process:
+def driver(folder: Path, link: Path, *parameters: str) -> Iterator[subprocess.Popen[bytes]]:
+    """Run the driver node on a port, in `NAMESPACE`; its log goes to ``folder/driver.log``.
+
+    Parameters
+    ----------
+    folder : Path
+        For its log.
+    link : Path
+        The port.
+    *parameters : str
+        More parameters, as ``name:=value``.
+    """
+    with _node(folder, "acts_driver", "driver", f"port:={link}", *parameters) as process:
+        yield process
+
+
+@contextmanager
+def reconstruction(folder: Path, *parameters: str) -> Iterator[subprocess.Popen[bytes]]:
+    """Run the reconstruction node, see `driver`; its log goes to ``folder/reconstruction.log``."""
+    with _node(folder, "acts_recon", "reconstruction", *parameters) as process:
+        yield process
+
+
+@contextmanager
+def _node(folder: Path, package: str, name: str, *parameters: str) -> Iterator[subprocess.Popen[bytes]]:
+    command = [str(executable(package, name, os.environ)), "--ros-args", "-r", f"__ns:={NAMESPACE}"]
+    command += [word for parameter in parameters for word in ("-p", parameter)]
+    with _running(command, folder / f"{name}.log") as process:
+        yield process
+
+
+@contextmanager
+def command_line(folder: Path, name: str, command: Sequence[str]) -> Iterator[subprocess.Popen[bytes]]:
+    """Run any program; its errors go to ``folder/NAME.log``."""
+    with _running(command, folder / f"{name}.log") as process:
         yield process
 
 

@@ -1,0 +1,22 @@
+"""The logger of a node for code that knows no ROS."""
+
+from __future__ import annotations
+
+from rclpy.node import Node
+
+from acts_core.realtime_guard import LogCallback
+
+
+def log_of(node: Node) -> LogCallback:
+    """A function that takes a level ("info", "warning" or "error") and a sentence, from any thread."""
+
+    def log(level: str, sentence: str) -> None:
+        # A line each: rclpy refuses a line that changes its severity.
+        if level == "error":
+            node.get_logger().error(sentence)
+        elif level == "warning":
+            node.get_logger().warning(sentence)
+        else:
+            node.get_logger().info(sentence)
+
+    return log

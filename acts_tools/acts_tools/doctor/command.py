@@ -1,0 +1,53 @@
+"""`acts doctor`: what does this machine lack?"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from pathlib import Path
+
+from acts_core.errors import ActsError
+from acts_tools.doctor.machine import Machine
+from acts_tools.doctor.report import examine
+
+_EPILOG = """\
+levels:
+  ok      as it should be
+  ?       cannot be told here, as in a container
+  note    1 kHz works, single frames come late
+  lacks   1 kHz does not work, or real time does not where --realtime asks for it
+
+It changes nothing; below what could be better stand the commands that mend it. The exit code is 1 when something is
+lacking, and 0 also where there are only notes. docs/real_time.md explains what real time needs.
+"""
+
+
+def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add ``doctor`` to the acts command."""
+    parser = subparsers.add_parser(
+        "doctor",
+        help="tell what this machine lacks, and how to mend it",
+        description="Look at this machine: does it have what 1 kHz, and real time, need?",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument(
+        "--realtime", action="store_true", help="realtime_priority is to work: what it needs is lacking"
+    )
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write the report as JSON")
+    parser.add_argument("--root", type=Path, default=Path("/"), metavar="FOLDER", help="a folder in place of / (/)")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Look and report; 1 when something is lacking."""
+    if not arguments.root.is_dir():
+        raise ActsError(f"--root {arguments.root}: is no folder")
+    diagnosis = examine(Machine(root=arguments.root), realtime=arguments.realtime)
+    print(diagnosis.text(coloured=sys.stdout.isatty() and "NO_COLOR" not in os.environ))
+    if arguments.json is not None:
+        try:
+            arguments.json.write_text(diagnosis.to_json())
+        except OSError as error:
+            raise ActsError(f"{arguments.json}: cannot be written ({error.strerror})") from error
+    return 0 if diagnosis.is_well else 1

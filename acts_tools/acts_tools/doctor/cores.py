@@ -1,0 +1,58 @@
+"""How many cores there are for us, and how fast they are when a frame comes."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+from acts_tools.doctor.finding import Finding, Level, unknown
+from acts_tools.doctor.machine import Machine
+
+
+def cores(machine: Machine) -> Finding:
+    """Cores that this process may use, and how much of them."""
+    name = "cores"
+    allowed = machine.cores()
+    if allowed is None:
+        return unknown(name, "Cpus_allowed_list in /proc/self/status")
+    quota = _quota_cores(machine)
+    if quota is not None and quota < len(allowed):
+        text = f"{len(allowed)}, of which the control group allows {quota:.2g} cores' worth of time"
+        mend = "docker run --cpus=2 ...     # or no --cpus at all; of a service: CPUQuota=200%"
+        # Used up, it holds everything until the next tenth of a second, real time or not.
+        return Finding(name, Level.LACKS if quota < 1 else Level.NOTE, text, mend if quota < 2 else "")
+    if len(allowed) == 1:
+        return Finding(name, Level.NOTE, "one: enough for one skin, if nothing else runs")
+    return Finding(name, Level.OK, str(len(allowed)))
+
+
+def _quota_cores(machine: Machine) -> float | None:
+    """What the control group allows, in cores; None where there is no limit."""
+    folder = machine.control_group("")
+    words = (machine.text(f"{folder}/cpu.max") or "").split() if folder is not None else []
+    if len(words) == 2 and all(word.isdecimal() for word in words):
+        return int(words[0]) / int(words[1])
+    folder = machine.control_group("cpu")
+    if folder is None:
+        return None
+    quota_us, period_us = (machine.number(f"{folder}/cpu.cfs_{what}_us") for what in ("quota", "period"))
+    return quota_us / period_us if quota_us is not None and quota_us > 0 and period_us else None
+
+
+def core_clock(machine: Machine) -> Finding:
+    """Whether the cores keep their speed between frames."""
+    name = "core clock"
+    governors: Counter[str] = Counter()
+    for path in machine.found("sys/devices/system/cpu/cpu[0-9]*/cpufreq/scaling_governor"):
+        governors[path.read_text().strip()] += 1
+    if not governors:
+        return unknown(name, "cpufreq in /sys/devices/system/cpu, as in most virtual machines", for_realtime=True)
+    if set(governors) == {"performance"}:
+        return Finding(name, Level.OK, "governor performance on all cores", for_realtime=True)
+    words = ", ".join(f"{governor} on {count}" for governor, count in sorted(governors.items()))
+    return Finding(
+        name,
+        Level.NOTE,
+        f"governor {words}: cores slow down between frames",
+        "sudo cpupower frequency-set -g performance     # until the next start",
+        for_realtime=True,
+    )

@@ -1,0 +1,105 @@
+"""All findings together: the verdict, the text for a person, and JSON."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from acts_tools.doctor import cores, memory, network, ports, scheduling
+from acts_tools.doctor.finding import Finding, Level
+from acts_tools.doctor.machine import Machine
+
+CHECKS: tuple[Callable[[Machine], Finding], ...] = (
+    cores.cores,
+    cores.core_clock,
+    scheduling.kernel,
+    scheduling.rtprio_limit,
+    scheduling.locked_memory,
+    scheduling.realtime_share,
+    memory.shared_memory,
+    memory.left_over,
+    memory.swap,
+    ports.port_rights,
+    ports.latency_timers,
+    network.socket_buffers,
+    network.ros_domain,
+    network.discovery,
+)
+"""Everything that is looked at, in the order of the report. A new check is a function here and nothing else."""
+
+_WORDS = {Level.OK: "ok", Level.UNKNOWN: "?", Level.NOTE: "note", Level.LACKS: "lacks"}
+_COLOURS = {Level.OK: 32, Level.UNKNOWN: 90, Level.NOTE: 33, Level.LACKS: 31}
+_LEVEL_WIDTH = max(map(len, _WORDS.values()))
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """What was found.
+
+    Attributes
+    ----------
+    findings : sequence of Finding
+        In the order of `CHECKS`.
+    realtime : bool
+        Whether notes that concern real-time scheduling count as lacking.
+    """
+
+    findings: Sequence[Finding]
+    realtime: bool = False
+
+    @property
+    def is_well(self) -> bool:
+        """Whether nothing is lacking."""
+        return all(finding.level is not Level.LACKS for finding in self.findings)
+
+    def text(self, *, coloured: bool = False) -> str:
+        """The report for a person, with the commands below what they mend."""
+        name_width = max((len(finding.name) for finding in self.findings), default=0)
+        indent = " " * (_LEVEL_WIDTH + name_width + 4)
+        lines = []
+        for finding in self.findings:
+            word = f"{_WORDS[finding.level]:<{_LEVEL_WIDTH}}"
+            if coloured:
+                word = f"\033[{_COLOURS[finding.level]}m{word}\033[0m"
+            lines.append(f"{word}  {finding.name:<{name_width}}  {finding.text}")
+            lines += [f"{indent}$ {command}" for command in finding.mend.splitlines()]
+        return "\n".join([*lines, "", self.verdict])
+
+    @property
+    def verdict(self) -> str:
+        """All of it in one line."""
+        what = "real time at 1 kHz" if self.realtime else "1 kHz"
+        lacking = [finding.name for finding in self.findings if finding.level is Level.LACKS]
+        notes = sum(finding.level is Level.NOTE for finding in self.findings)
+        if lacking:
+            return f"this machine lacks something for {what}: {', '.join(lacking)}"
+        rest = f"; {notes} {'note' if notes == 1 else 'notes'} on what could be better" if notes else ""
+        return f"this machine has what {what} needs{rest}"
+
+    def to_json(self) -> str:
+        """The report for a program."""
+        findings = [{**dataclasses.asdict(finding), "level": _WORDS[finding.level]} for finding in self.findings]
+        return json.dumps({"ok": self.is_well, "realtime": self.realtime, "findings": findings}, indent=2) + "\n"
+
+
+def examine(machine: Machine, *, realtime: bool = False) -> Diagnosis:
+    """Look at everything.
+
+    Parameters
+    ----------
+    machine : Machine
+        Where to look.
+    realtime : bool
+        Real-time scheduling is to work as well: what it depends on and is only noted counts as lacking.
+    """
+    findings = [check(machine) for check in CHECKS]
+    if realtime:
+        findings = [
+            dataclasses.replace(finding, level=Level.LACKS)
+            if finding.for_realtime and finding.level is Level.NOTE
+            else finding
+            for finding in findings
+        ]
+    return Diagnosis(findings, realtime)

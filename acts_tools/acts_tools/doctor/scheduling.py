@@ -1,0 +1,102 @@
+"""Whether the machine allows real-time scheduling, and how good it is at it."""
+
+from __future__ import annotations
+
+import resource
+
+from acts_tools.doctor.finding import Finding, Level, unknown
+from acts_tools.doctor.machine import Machine
+
+_CAP_SYS_NICE = 23
+_CAP_IPC_LOCK = 14
+_LIMITS_FILE = "/etc/security/limits.d/99-realtime.conf"
+_JOIN = "sudo groupadd --force realtime && sudo usermod -a -G realtime $USER"
+_DEFAULT_SHARE_US = 950_000
+
+
+def rtprio_limit(machine: Machine) -> Finding:
+    """The highest priority an ordinary user may ask for."""
+    name = "rtprio limit"
+    if machine.has_capability(_CAP_SYS_NICE):
+        return Finding(name, Level.OK, "any priority: this process has the right CAP_SYS_NICE", for_realtime=True)
+    soft, hard = machine.limit(resource.RLIMIT_RTPRIO)
+    if soft in (resource.RLIM_INFINITY, 99):
+        return Finding(name, Level.OK, "any priority", for_realtime=True)
+    if hard == resource.RLIM_INFINITY or hard > soft:
+        allowed = "any" if hard == resource.RLIM_INFINITY else hard
+        text = f"priorities up to {soft} are allowed in this shell, up to {allowed} may be"
+        return Finding(name, Level.NOTE, text, f"ulimit -r {99 if allowed == 'any' else hard}", for_realtime=True)
+    if soft > 0:
+        return Finding(name, Level.OK, f"priorities up to {soft}; a higher realtime_priority is refused")
+    return Finding(
+        name,
+        Level.NOTE,
+        "real-time scheduling is not allowed: realtime_priority has no effect",
+        _limits("rtprio 99"),
+        for_realtime=True,
+    )
+
+
+def locked_memory(machine: Machine) -> Finding:
+    """Whether pages can be kept in memory."""
+    name = "locked memory"
+    if machine.has_capability(_CAP_IPC_LOCK):
+        return Finding(name, Level.OK, "no limit: this process has the right CAP_IPC_LOCK", for_realtime=True)
+    soft, _ = machine.limit(resource.RLIMIT_MEMLOCK)
+    if soft == resource.RLIM_INFINITY:
+        return Finding(name, Level.OK, "no limit", for_realtime=True)
+    return Finding(
+        name,
+        Level.NOTE,
+        f"at most {soft // 1024} KiB: real-time processes do without, and may be swapped out",
+        _limits("memlock unlimited"),
+        for_realtime=True,
+    )
+
+
+def kernel(machine: Machine) -> Finding:
+    """Whether the kernel can be interrupted nearly everywhere."""
+    name = "kernel"
+    version = machine.text("proc/version")
+    if machine.text("sys/kernel/realtime") == "1" or "PREEMPT_RT" in (version or ""):
+        return Finding(name, Level.OK, "PREEMPT_RT")
+    if version is None:
+        return unknown(name, "/proc/version")
+    # Real-time scheduling works with any kernel, so this is never lacking.
+    return Finding(
+        name,
+        Level.NOTE,
+        "not PREEMPT_RT: now and then a frame is late by a millisecond or more, whatever its priority",
+        "sudo pro enable realtime-kernel          # Ubuntu\nsudo apt install linux-image-rt-amd64     # Debian",
+    )
+
+
+def realtime_share(machine: Machine) -> Finding:
+    """How much of a core the kernel leaves to real-time threads."""
+    name = "real-time share"
+    folder = machine.control_group("cpu")
+    if folder is not None and machine.number(f"{folder}/cpu.rt_runtime_us") == 0:
+        return Finding(
+            name,
+            Level.NOTE,
+            "the control group of this process has no real-time share: SCHED_FIFO is refused",
+            f"echo {_DEFAULT_SHARE_US} | sudo tee /{folder}/cpu.rt_runtime_us",
+            for_realtime=True,
+        )
+    share_us = machine.number("proc/sys/kernel/sched_rt_runtime_us")
+    period_us = machine.number("proc/sys/kernel/sched_rt_period_us") or 1_000_000
+    mend = f"sudo sysctl -w kernel.sched_rt_runtime_us={_DEFAULT_SHARE_US}"
+    if share_us is None:
+        return unknown(name, "/proc/sys/kernel/sched_rt_runtime_us", for_realtime=True)
+    if share_us < 0:
+        return Finding(name, Level.NOTE, "the kernel's guard is off: real-time threads may take whole cores", mend)
+    if share_us < period_us // 2:
+        text = f"real-time threads are held after {100 * share_us / period_us:.0f} % of a core"
+        return Finding(name, Level.NOTE, text, mend, for_realtime=True)
+    text = f"{100 * share_us / period_us:.0f} % of a core, the rest is left to others"
+    return Finding(name, Level.OK, text, for_realtime=True)
+
+
+def _limits(item: str) -> str:
+    lines = "".join(f"@realtime {kind} {item}\\n" for kind in ("soft", "hard"))
+    return f"{_JOIN}\nprintf '{lines}' | sudo tee -a {_LIMITS_FILE}     # then log out and in again"
