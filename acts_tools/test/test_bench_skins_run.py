@@ -85,6 +85,19 @@ def test_two_skins_beside_a_busy_loop(tmp_path: Path) -> None:
     assert "| tactile skin_2 |" in text
 
 
+def test_real_time_is_asked_for_and_what_was_granted_is_told(tmp_path: Path) -> None:
+    report, text = measured(tmp_path / "fifo.json", "--realtime", "on", "--load", "1", "--seconds", "1")
+    assert report["realtime"] == "on"
+    asked = {"bench": 35, "virtual_board skin_1": 45, "tactile skin_1": 40}
+    granted = report["realtime_granted"]
+    assert granted.pop("load 1") == 0
+    # Nothing where the limits of this machine do not allow it, and then that is told.
+    assert all(granted[name] in (0, priority) for name, priority in asked.items())
+    refused = [name for name, priority in granted.items() if not priority]
+    assert [name for name in refused if name not in "".join(report["warnings"])] == []
+    assert "in real time" in text
+
+
 class Running:
     """A measurement of a minute on a terminal."""
 

@@ -64,8 +64,6 @@ def measure(workbench: Workbench, options: SkinsOptions, terminal: TextIO | None
     LaunchError
         When a process does not start, or ends before it is told to.
     """
-    if options.realtime:
-        realtime.require_available()
     with running_skins(workbench.folder, options) as skins, Graph(workbench) as graph:
         streams = {name: ContactStream() for name in options.names}
         for name, stream in streams.items():
@@ -78,14 +76,14 @@ def measure(workbench: Workbench, options: SkinsOptions, terminal: TextIO | None
         )
         with computing(workbench.folder, options.load) as load:
             watched = [*skins, *load]
-            if options.realtime:
-                realtime.enter_subscriber()
             settle()
-            graph.spin_for(min(SETTLE_S, workbench.seconds))
-            before = _driver_counters(graph, options.names, lambda: _check(watched))
-            line = StatusLine(workbench.seconds, sys.stderr if terminal is None else terminal)
-            report = _count(workbench, graph, streams, watched, line)
-            after = _driver_counters(graph, options.names, lambda: _check(watched))
+            # After all children were started, which would inherit it.
+            with realtime.subscriber(options.realtime):
+                graph.spin_for(min(SETTLE_S, workbench.seconds))
+                before = _driver_counters(graph, options.names, lambda: _check(watched))
+                line = StatusLine(workbench.seconds, sys.stderr if terminal is None else terminal)
+                report = _count(workbench, graph, streams, watched, line)
+                after = _driver_counters(graph, options.names, lambda: _check(watched))
     for skin in report["skins"]:
         was, is_now = before[skin["name"]], after[skin["name"]]
         skin["driver"] = {name: is_now[name] - was[name] for name in COUNTERS}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import subprocess
+import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
@@ -12,7 +13,7 @@ from pathlib import Path
 import psutil
 
 from acts_core.errors import LaunchError
-from acts_tools.bench.processes import check_alive, python_module, tactile, virtual_board
+from acts_tools.bench.processes import check_alive, command_line, tactile, virtual_board
 from acts_tools.bench.skin import pressed
 from acts_tools.bench.skins.options import SkinsOptions
 from acts_tools.bench.skins.realtime import board_options, tactile_options
@@ -78,11 +79,13 @@ def running_skins(folder: Path, options: SkinsOptions) -> Iterator[list[Watched]
 @contextmanager
 def computing(folder: Path, count: int) -> Iterator[list[Watched]]:
     """Run processes that compute without end, at ordinary priority."""
-    module = "acts_tools.bench.busy_loop"
     with ExitStack() as stack:
-        processes = [stack.enter_context(python_module(folder, module, [])) for _ in range(count)]
-        log = folder / f"{module}.log"
-        yield [Watched(f"load {number}", process, log) for number, process in enumerate(processes, 1)]
+        watched: list[Watched] = []
+        for number in range(1, count + 1):
+            name = f"load {number}"
+            process = stack.enter_context(command_line(folder, name, [sys.executable, "-c", "while True: pass"]))
+            watched.append(Watched(name, process, folder / f"{name}.log"))
+        yield watched
 
 
 class Consumption:
