@@ -22,7 +22,14 @@ def skin(name: str, **changed: Any) -> dict[str, Any]:
     latency_ms = {"median": 0.3, "p99": 0.9, "p999": 2.0, "max": 3.5}
     driver = dict.fromkeys(("lost", "overruns", "crc_errors", "restarts"), 0)
     values = {"received": 10000, "rate_hz": 1000.0, "lost": 0, "silent_s": 0.0}
-    return {"name": name, **values, "latency_ms": latency_ms, "driver": driver, **changed}
+    return {
+        "name": name,
+        **values,
+        "latency_ms": latency_ms,
+        "driver": driver,
+        "reconstruction": {"not_published": 0},
+        **changed,
+    }
 
 
 def report(*skins: dict[str, Any], **changed: Any) -> dict[str, Any]:
@@ -121,10 +128,12 @@ def test_a_stream_counts_from_its_beginning_and_sums_up_latencies() -> None:
 
 def test_lost_frames_and_silence_are_problems_and_slowness_is_none() -> None:
     assert report(skin("skin_1", latency_ms={"median": 50.0, "p99": 90.0, "p999": 95.0, "max": 99.0}))["problems"] == []
-    lost = skin("skin_1", lost=7, driver={"lost": 5, "overruns": 3})
+    lost = skin("skin_1", lost=9, driver={"lost": 5, "overruns": 3}, reconstruction={"not_published": 2})
     assert report(lost)["problems"] == [
-        "skin_1: 7 frames lost (5 before the driver, 3 of them dropped by the board; 2 between driver and subscriber)"
+        "skin_1: 9 frames lost (5 before the driver, 3 of them dropped by the board; 2 late and left out by the "
+        "reconstruction for newer ones; 2 between them and the subscriber)"
     ]
+    assert report(skin("skin_1", lost=2))["problems"] == ["skin_1: 2 frames lost (2 between them and the subscriber)"]
     silent = report(skin("skin_1"), skin("skin_2", silent_s=4.0), skin("skin_3", received=0))
     assert silent["problems"] == [
         "skin_2: nothing was received in the last 4 s",
@@ -173,7 +182,7 @@ def test_the_table_names_skins_processes_and_conditions(tmp_path: Path, capsys: 
     for words in ("2 skins, 1000 frames/s, M = 55, 10 s, 1 busy loop beside, ordinary", "tactile skin_2", "problem: "):
         assert words in text
     marked = table.markdown(made)
-    assert "| skin_1 | 1000.0 | 0 | 0 | 0.3 | 0.9 | 2 | 3.5 |" in marked
+    assert "| skin_1 | 1000.0 | 0 | 0 | 0 | 0.3 | 0.9 | 2 | 3.5 |" in marked
     path = tmp_path / "report.json"
     path.write_text(json.dumps(made))
     assert main(["bench", "--show", str(path)]) == 1

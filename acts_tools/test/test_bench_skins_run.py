@@ -50,6 +50,7 @@ def check_skin(skin: dict[str, Any], seconds: float) -> None:
     assert skin["rate_hz"] == pytest.approx(skin["received"] / seconds, rel=1e-3)
     assert skin["lost"] >= 0
     assert {"lost", "overruns", "restarts"} <= skin["driver"].keys()
+    assert skin["reconstruction"]["not_published"] >= 0
     latency_ms = [skin["latency_ms"][name] for name in ("median", "p99", "p999", "max")]
     assert latency_ms == sorted(latency_ms)
     # Nothing is received before it was measured, as far as the estimate of the board's clock is right.

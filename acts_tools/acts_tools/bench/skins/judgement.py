@@ -97,15 +97,21 @@ def _is_load(name: str) -> bool:
 
 
 def _where(skin: Mapping[str, Any]) -> str:
-    """Where frames stayed; the driver's own time of counting is a little longer than ours."""
-    before_us, by_board = min(skin["lost"], skin["driver"]["lost"]), min(skin["lost"], skin["driver"]["overruns"])
+    """Where frames stayed; the nodes' own time of counting is a little longer than ours."""
+    left = int(skin["lost"])
     parts = []
-    if before_us:
-        parts.append(
-            f"{before_us} before the driver" + (f", {by_board} of them dropped by the board" if by_board else "")
-        )
-    if skin["lost"] > before_us:
-        parts.append(f"{skin['lost'] - before_us} between driver and subscriber")
+    for count, where in (
+        (skin["driver"]["lost"], "before the driver"),
+        (skin["reconstruction"]["not_published"], "late and left out by the reconstruction for newer ones"),
+        (left, "between them and the subscriber"),
+    ):
+        stayed = min(left, count)
+        left -= stayed
+        if stayed:
+            parts.append(f"{stayed} {where}")
+    dropped = min(skin["lost"], skin["driver"]["lost"], skin["driver"]["overruns"])
+    if dropped:
+        parts[0] += f", {dropped} of them dropped by the board"
     return f" ({'; '.join(parts)})"
 
 

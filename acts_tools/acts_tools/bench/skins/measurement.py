@@ -9,10 +9,8 @@ from __future__ import annotations
 import os
 import sys
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, TextIO
-
-from diagnostic_msgs.msg import DiagnosticArray
 
 from acts_msgs.msg import Contact
 from acts_ros.executor import settle
@@ -22,20 +20,16 @@ from acts_tools.bench.machine import BusyMeter
 from acts_tools.bench.skins import realtime
 from acts_tools.bench.skins.options import SkinsOptions
 from acts_tools.bench.skins.processes import BENCH, Consumption, Watched, computing, running_skins
+from acts_tools.bench.skins.reports import added, next_counts
 from acts_tools.bench.skins.status_line import StatusLine
 from acts_tools.bench.skins.stream import ContactStream
 from acts_tools.bench.workbench import Workbench
-from acts_tools.driver_status import driver_values
 
 SETTLE_S = 6.0
 """The driver's clock estimate takes the drift into account after 2.5 s and is settled after 5 [s]."""
 
-COUNTERS = ("lost", "overruns", "crc_errors", "malformed", "repeated", "restarts", "reconnects", "consumer_errors")
-"""What a driver counts that should stay 0, see docs/driver.md."""
-
 # Kernels are compiled at the first start on a machine, by all skins at once.
 _START_TIMEOUT_S = 180.0
-_STATUS_TIMEOUT_S = 30.0
 _SLICE_S = 0.5
 _LINE_EVERY_S = 1.0
 # Rarely: it takes as long as some frames.
@@ -80,13 +74,12 @@ def measure(workbench: Workbench, options: SkinsOptions, terminal: TextIO | None
             # After all children were started, which would inherit it.
             with realtime.subscriber(options.realtime):
                 graph.spin_for(min(SETTLE_S, workbench.seconds))
-                before = _driver_counters(graph, options.names, lambda: _check(watched))
+                before = next_counts(graph, options.names, lambda: _check(watched))
                 line = StatusLine(workbench.seconds, sys.stderr if terminal is None else terminal)
                 report = _count(workbench, graph, streams, watched, line)
-                after = _driver_counters(graph, options.names, lambda: _check(watched))
+                after = next_counts(graph, options.names, lambda: _check(watched))
     for skin in report["skins"]:
-        was, is_now = before[skin["name"]], after[skin["name"]]
-        skin["driver"] = {name: is_now[name] - was[name] for name in COUNTERS}
+        skin |= added(before[skin["name"]], after[skin["name"]])
     return report
 
 
@@ -141,27 +134,6 @@ def _count(
         "rss_mb": consumption.rss_mb(),
         "realtime_granted": granted,
     }
-
-
-def _driver_counters(graph: Graph, names: Sequence[str], check: Callable[[], None]) -> dict[str, dict[str, int]]:
-    """The next report of every skin's driver.
-
-    Subscribed only for it: the reports are long, and reading them takes as long as several frames.
-    """
-    found: dict[str, dict[str, int]] = {}
-
-    def keep(message: DiagnosticArray) -> None:
-        for name in names:
-            values = driver_values(message, f"/{name}")
-            if values is not None and values["state"] == "active":
-                found[name] = {counter: int(values[counter]) for counter in COUNTERS}
-
-    subscription = graph.node.create_subscription(DiagnosticArray, "/diagnostics", keep, 10)
-    try:
-        graph.spin_until(lambda: len(found) == len(names), _STATUS_TIMEOUT_S, "a report of every driver", check)
-    finally:
-        graph.node.destroy_subscription(subscription)
-    return found
 
 
 def _check(watched: Sequence[Watched]) -> None:

@@ -49,10 +49,10 @@ def _title(report: Report) -> str:
 
 
 def _skins(report: Report) -> Rows:
-    rows = [["skin", "contacts/s", "lost", "by the driver", *_LATENCIES.values()]]
+    rows = [["skin", "contacts/s", "lost", "before driver", "left out", *_LATENCIES.values()]]
     for skin in report["skins"]:
         latencies = [_number(skin["latency_ms"][key]) for key in _LATENCIES]
-        counts = [str(skin["lost"]), str(skin["driver"]["lost"])]
+        counts = [str(skin["lost"]), str(skin["driver"]["lost"]), str(skin["reconstruction"]["not_published"])]
         rows.append([skin["name"], f"{skin['rate_hz']:.1f}", *counts, *latencies])
     return rows
 
