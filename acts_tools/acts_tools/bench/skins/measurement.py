@@ -62,16 +62,17 @@ def measure(workbench: Workbench, options: SkinsOptions, terminal: TextIO | None
         streams = {name: ContactStream() for name in options.names}
         for name, stream in streams.items():
             graph.node.create_subscription(Contact, f"/{name}/contact", stream.take, STREAM)
-        graph.spin_until(
-            lambda: all(stream.ever_received for stream in streams.values()),
-            _START_TIMEOUT_S,
-            "the first contact of every skin",
-            lambda: _check(skins),
-        )
+        with realtime.subscriber(options.realtime):
+            graph.spin_until(
+                lambda: all(stream.ever_received for stream in streams.values()),
+                _START_TIMEOUT_S,
+                "the first contact of every skin",
+                lambda: _check(skins),
+            )
         with computing(workbench.folder, options.load) as load:
             watched = [*skins, *load]
             settle()
-            # After all children were started, which would inherit it.
+            # Again only now, as children inherit it.
             with realtime.subscriber(options.realtime):
                 graph.spin_for(min(SETTLE_S, workbench.seconds))
                 before = next_counts(graph, options.names, lambda: _check(watched))
