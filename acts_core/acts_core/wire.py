@@ -135,6 +135,10 @@ class StreamDecoder(DelimitedDecoder):
         self._on_message = on_message
         self._seen = np.zeros(MAX_SIDE**2, dtype=np.uint32)
         self._mark = 0
+        # Compiles, or loads from the cache, what the first frame would otherwise wait for.
+        nothing = np.empty(0, dtype=np.uint8)
+        decode_into(b"", nothing)
+        first_fault(nothing.view(_U2), nothing.view(_U2), 1, self._seen, self._mark)
 
     def _decode(self, packet: bytes) -> SampleFrame | None:
         buffer = np.empty(len(packet), dtype=np.uint8)

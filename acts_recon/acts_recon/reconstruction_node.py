@@ -76,6 +76,7 @@ class ReconstructionNode(Node):
         self._sureness = _empty_image(rows, cols, "mono8", 1)
         scale = self._settings.image_scale
         self._view = _empty_image(rows * scale, cols * scale, "rgb8", 3)
+        self._raw_limit = RateLimit(self._settings.image_raw_rate_hz)
         self._view_limit = RateLimit(self._settings.image_rate_hz)
         recogniser = self._settings.recogniser(self._recovery)
         self._objects: ObjectPublisher | None = None
@@ -175,7 +176,7 @@ class ReconstructionNode(Node):
         self._durations_s.append(time.perf_counter() - began_s)
 
     def _publish_images(self) -> None:
-        if self._send_raw:
+        if self._send_raw and self._raw_limit.due(time.monotonic()):
             self._raw.header = self._header
             self._raw.data = array("B", mono16(self._recovery.image))
             self._raw_publisher.publish(self._raw)

@@ -92,6 +92,9 @@ class ReconstructionSettings(RealtimeConfig):
         "",
         "path of a measured force response, csv or npz of newtons and counts, used instead of the three force_* values",
     )
+    image_raw_rate_hz: float = setting(
+        0.0, "largest rate of the topic image_raw [Hz]; 0: every frame", minimum=0.0, maximum=1000.0
+    )
     image_rate_hz: float = setting(30.0, "largest rate of the topic image [Hz]", minimum=0.1, maximum=1000.0)
     image_scale: int = setting(10, "pixels along a taxel's side in the topic image", minimum=1, maximum=64)
     image_full_scale_counts: float = setting(

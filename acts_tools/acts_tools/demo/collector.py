@@ -14,8 +14,6 @@ from acts_ros import qos
 from acts_tools.demo.recording import Recording
 from acts_tools.driver_status import driver_values
 
-_IMAGE_PERIOD_S = 0.01
-
 
 def seconds(stamp: object) -> float:
     """A message stamp as seconds."""
@@ -46,7 +44,6 @@ class Collector(Node):
         self._first: StreamStatistics | None = None
         self._frames_lost_before: int | None = None
         self._crc_errors_before = 0
-        self._last_image_s = 0.0
         subscribe = self.create_subscription
         subscribe(BalanceStatus, "ball/status", self._on_status, qos.STATE)
         subscribe(BallReference, "ball/reference", self._on_reference, qos.STATE)
@@ -113,11 +110,8 @@ class Collector(Node):
         self.recording.crc_errors = crc_errors - self._crc_errors_before
 
     def _on_image(self, message: Image) -> None:
-        # One image in ten is plenty for a map and costs a tenth.
-        stamp_s = seconds(message.header.stamp)
-        if not self._balancing or self.recording.finished or stamp_s - self._last_image_s < _IMAGE_PERIOD_S:
+        if not self._balancing or self.recording.finished:
             return
-        self._last_image_s = stamp_s
         image = np.frombuffer(message.data, dtype=np.uint16).reshape(message.height, message.width)
         total = self.recording.segment_pressure.setdefault(self.segment, np.zeros(image.shape))
         total += image

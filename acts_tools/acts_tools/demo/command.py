@@ -18,6 +18,12 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     ball.add_argument("--seconds", type=float, help="shorten it: trace only what fits into this time (default: all)")
     ball.add_argument("--out", type=Path, default=Path("out"), help="folder for the results (default: out)")
     ball.add_argument("--robot-ip", default="127.0.0.1", help="loopback address of the simulated robot")
+    ball.add_argument(
+        "--realtime-priority",
+        type=int,
+        default=0,
+        help="priority of all processes under SCHED_FIFO, 1 to 99, where the limits allow it; see docs/real_time.md",
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -25,4 +31,4 @@ def run(arguments: argparse.Namespace) -> int:
     # Late: the other commands need neither ROS messages nor the drawing library.
     from acts_tools.demo import ball_balancing
 
-    return ball_balancing.run(arguments.seconds, arguments.out, arguments.robot_ip)
+    return ball_balancing.run(arguments.seconds, arguments.out, arguments.robot_ip, arguments.realtime_priority)

@@ -1,0 +1,107 @@
+"""Subscriptions that are read when their reader is due; ROS_DOMAIN_ID 133."""
+
+import time
+from collections.abc import Callable, Iterator
+
+import pytest
+import rclpy
+from rclpy.context import Context
+from rclpy.executors import Executor, SingleThreadedExecutor
+from rclpy.node import Node
+from std_msgs.msg import Int32
+
+from acts_ros.executor import EventsExecutor
+from acts_ros.polled import PolledSubscription, PollingNode
+from acts_ros.qos import STREAM
+
+DEADLINE_S = 30.0
+
+
+class Pair:
+    """A node that is asked, on an executor, and another one that publishes."""
+
+    def __init__(self, make_executor: Callable[[Context], Executor]) -> None:
+        self.context = Context()
+        rclpy.init(context=self.context, domain_id=133)
+        self.node = PollingNode("asked", context=self.context)
+        self.called: list[int] = []
+        self.node.create_subscription(Int32, "called", lambda message: self.called.append(message.data), STREAM)
+        self.polled: PolledSubscription[Int32] = self.node.create_polled_subscription(Int32, "polled", STREAM, depth=8)
+        self.peer = Node("peer", context=self.context)
+        self.publishers = [self.peer.create_publisher(Int32, topic, STREAM) for topic in ("called", "polled")]
+        self.executor = make_executor(self.context)
+        self.executor.add_node(self.node)
+        self.until(lambda: all(publisher.get_subscription_count() == 1 for publisher in self.publishers))
+
+    def send(self, *numbers: int) -> None:
+        for number in numbers:
+            for publisher in self.publishers:
+                publisher.publish(Int32(data=number))
+
+    def until(self, condition: Callable[[], bool]) -> None:
+        deadline_s = time.monotonic() + DEADLINE_S
+        while not condition():
+            assert time.monotonic() < deadline_s, "timed out"
+            self.executor.spin_once(timeout_sec=0.02)
+
+    def take_until(self, number: int) -> list[int]:
+        taken: list[int] = []
+
+        def is_there() -> bool:
+            taken.extend(message.data for message, _ in self.polled.take_all())
+            return number in taken
+
+        self.until(is_there)
+        return taken
+
+    def close(self) -> None:
+        self.executor.shutdown()
+        self.node.destroy_node()
+        self.peer.destroy_node()
+        rclpy.try_shutdown(context=self.context)
+
+
+def _events(context: Context) -> Executor:
+    return EventsExecutor(context=context)
+
+
+def _single(context: Context) -> Executor:
+    return SingleThreadedExecutor(context=context)
+
+
+@pytest.fixture(params=[_single] if EventsExecutor is None else [_single, _events], ids=lambda make: make.__name__)
+def pair(request: pytest.FixtureRequest) -> Iterator[Pair]:
+    made = Pair(request.param)
+    yield made
+    made.close()
+
+
+def test_messages_wait_until_they_are_asked_for(pair: Pair) -> None:
+    pair.send(1, 2, 3)
+    # The other subscription of the node is called back, so the executor has had its chance to take these as well.
+    pair.until(lambda: 3 in pair.called)
+    assert pair.take_until(3) == [1, 2, 3]
+    assert pair.polled.take_all() == []
+    assert pair.polled.topic_name == "/polled"
+    assert pair.polled.publisher_count == 1
+
+
+def test_of_too_many_the_newest_are_kept(pair: Pair) -> None:
+    pair.send(*range(100))
+    pair.until(lambda: 99 in pair.called)
+    taken = pair.take_until(99)
+    assert taken[-8:] == list(range(92, 100))
+    assert taken == sorted(taken)
+
+
+def test_the_time_of_reception_is_told(pair: Pair) -> None:
+    before_ns = time.time_ns()
+    pair.send(7)
+    found: list[tuple[Int32, int]] = []
+
+    def is_there() -> bool:
+        found.extend(pair.polled.take_all())
+        return bool(found)
+
+    pair.until(is_there)
+    assert before_ns <= found[0][1] <= time.time_ns()
