@@ -31,6 +31,14 @@ def make_executor() -> Executor:
     return SingleThreadedExecutor() if EventsExecutor is None else EventsExecutor()
 
 
+def settle() -> None:
+    """What a process does before it works a thousand times a second."""
+    # Imports and the compiler leave some 100,000 objects behind; a full collection of them stops the stream for 30 ms.
+    gc.collect()
+    gc.freeze()
+    sys.setswitchinterval(_SWITCH_INTERVAL_S)
+
+
 def run(
     factories: Sequence[Callable[[], Node]], args: Sequence[str] | None = None, signals: StopSignals | None = None
 ) -> int:
@@ -69,7 +77,7 @@ def run(
                 node = factory()
                 nodes.append(node)
                 executor.add_node(node)
-        _settle()
+        settle()
         for node in nodes:
             _call(node, "begin")
         _spin(executor, signals)
@@ -98,14 +106,6 @@ def _spin(executor: Executor, signals: StopSignals) -> None:
     signals.on_stop(lambda: stopped.set_result(None))
     while not stopped.done():
         executor.spin_until_future_complete(stopped, timeout_sec=_SPIN_S)
-
-
-def _settle() -> None:
-    """What a process does before it works a thousand times a second."""
-    # Imports and the compiler leave some 100,000 objects behind; a full collection of them stops the stream for 30 ms.
-    gc.collect()
-    gc.freeze()
-    sys.setswitchinterval(_SWITCH_INTERVAL_S)
 
 
 def _call(node: Node, name: str) -> None:

@@ -115,3 +115,11 @@ def test_decoding_leaves_a_report(tmp_path: Path, capsys: pytest.CaptureFixture[
     assert figures["turns"] >= 3
     assert written["problems"] == []
     assert "StreamDecoder to plain Python" in capsys.readouterr().out
+
+
+def test_the_report_goes_to_the_file_that_is_asked_for(tmp_path: Path) -> None:
+    path = tmp_path / "deep" / "decode.json"
+    words = ["--seconds", "0.2", "--json", str(path), "--out", str(tmp_path / "out")]
+    assert main(["bench", "decode", *words]) == 0
+    assert "decode" in json.loads(path.read_text())["measurements"]
+    assert not (tmp_path / "out").exists()

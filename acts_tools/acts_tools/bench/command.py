@@ -13,6 +13,7 @@ from acts_core.errors import ActsError
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Add ``bench`` to the acts command."""
     from acts_tools.bench.registry import MEASUREMENTS
+    from acts_tools.bench.skins import options as skins
 
     parser = subparsers.add_parser(
         "bench",
@@ -22,22 +23,37 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         + "".join(
             f"  {name:<12} {entry.summary}, {entry.seconds:g} s{' (only by name)' if entry.only_by_name else ''}\n"
             for name, entry in MEASUREMENTS.items()
-        ),
+        )
+        + f"  {skins.NAME:<12} {skins.SUMMARY}, {skins.SECONDS:g} s (only by name)\n",
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("names", nargs="*", metavar="NAME", help="measurements to make (default: the short ones)")
     parser.add_argument("--seconds", type=float, help="how long each measures (default: its own time)")
-    parser.add_argument("--out", type=Path, default=Path("out"), help="folder for bench.json (default: out)")
+    parser.add_argument(
+        "--out", type=Path, default=Path("out"), help="folder for bench.json or bench_skins.json (default: out)"
+    )
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write the report to this file instead")
     parser.add_argument("--markdown", action="store_true", help="print the table in Markdown")
     parser.add_argument("--show", type=Path, metavar="FILE", help="print the table of an earlier bench.json again")
+    skins.add_options(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Measure, write and print; the exit code tells whether something was wrong, not merely slow."""
     from acts_tools.bench import report as reports
+    from acts_tools.bench.skins import options as skins
+    from acts_tools.bench.skins import table as skins_table
 
-    report = _read(arguments.show) if arguments.show is not None else _measure(arguments)
-    print(reports.markdown(report) if arguments.markdown else reports.table(report))
+    if arguments.show is not None:
+        report = _read(arguments.show)
+    elif skins.is_chosen(arguments):
+        from acts_tools.bench.skins import command
+
+        report = command.run(arguments, _file(arguments, "bench_skins.json"))
+    else:
+        report = _measure(arguments)
+    form = skins_table if "skins" in report else reports
+    print(form.markdown(report) if arguments.markdown else form.table(report))
     return 1 if report["problems"] else 0
 
 
@@ -47,16 +63,26 @@ def _measure(arguments: argparse.Namespace) -> dict[str, Any]:
     from acts_tools.ros_domain import use_free_domain
 
     names = runner.choose(arguments.names)
-    out = arguments.out
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise ActsError(f"--out {out}: the folder cannot be made ({error.strerror})") from error
+    path = _file(arguments, "bench.json")
     use_free_domain()
     with StopFlag() as stop:
         report = runner.run(names, arguments.seconds, stop)
-    (out / "bench.json").write_text(json.dumps(report, indent=2) + "\n")
+    path.write_text(json.dumps(report, indent=2) + "\n")
     return report
+
+
+def _file(arguments: argparse.Namespace, name: str) -> Path:
+    """Where the report goes; told before the work where that cannot be."""
+    from acts_tools.output_file import require_writable
+
+    path = Path(arguments.out / name if arguments.json is None else arguments.json)
+    option = "--out" if arguments.json is None else "--json"
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise ActsError(f"{option} {path.parent}: the folder cannot be made ({error.strerror})") from error
+    require_writable(path)
+    return path
 
 
 def _read(path: Path) -> dict[str, Any]:

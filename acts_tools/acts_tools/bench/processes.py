@@ -118,10 +118,18 @@ def python_module(folder: Path, module: str, arguments: Sequence[str]) -> Iterat
         yield process
 
 
-def check_alive(process: subprocess.Popen[bytes], log: Path) -> None:
-    """Raise `LaunchError` with the end of its log where a process has ended."""
+@contextmanager
+def tactile(folder: Path, link: Path, namespace: str, *options: str) -> Iterator[subprocess.Popen[bytes]]:
+    """Run driver and reconstruction of one skin in one process; its log goes to ``folder/tactile.log``."""
+    command = [str(executable("acts_skins", "tactile", os.environ)), "--set", f"driver.port={link}", *options]
+    with _running([*command, "--ros-args", "-r", f"__ns:={namespace}"], folder / "tactile.log") as process:
+        yield process
+
+
+def check_alive(process: subprocess.Popen[bytes], log: Path, name: str = "") -> None:
+    """Raise `LaunchError` with its name, or that of its log, and the end of its log where a process has ended."""
     if process.poll() is not None:
-        raise LaunchError(f"{log.stem} ended early with code {process.returncode}: {_log_end(log)}")
+        raise LaunchError(f"{name or log.stem} ended early with code {process.returncode}: {_log_end(log)}")
 
 
 @contextmanager

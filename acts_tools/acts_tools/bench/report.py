@@ -42,13 +42,17 @@ def markdown(report: Report) -> str:
 
 def conditions(report: Report) -> str:
     """When, where and how loaded, in a line."""
+    others = ", ".join(f"{name} {one['others_cpu_percent']:.0f}" for name, one in report["measurements"].items())
+    return f"{surroundings(report)}; CPU used by others meanwhile [% of one core]: {others}"
+
+
+def surroundings(report: Report) -> str:
+    """When and where, and how loaded the machine was before and after."""
     where = report["machine"]
     before, after = report["load_average_before"], report["load_average_after"]
-    others = ", ".join(f"{name} {one['others_cpu_percent']:.0f}" for name, one in report["measurements"].items())
     return (
         f"{report['date']}, {where['cores']} {where['architecture']} cores, Python {where['python']}, "
-        f"ROS {where['ros']}; load average {before[0]:.2f} before, {after[0]:.2f} after; "
-        f"CPU used by others meanwhile [% of one core]: {others}"
+        f"ROS {where['ros']}; load average {before[0]:.2f} before, {after[0]:.2f} after"
     )
 
 

@@ -67,24 +67,38 @@ def run(names: Sequence[str], seconds: float | None, stop: StopFlag) -> dict[str
     ActsError
         When `seconds` is out of range or a measurement cannot be made.
     """
-    if seconds is not None and not SECONDS_MIN <= seconds <= SECONDS_MAX:
-        raise ActsError(f"--seconds {seconds:g}: allowed is {SECONDS_MIN:g} to {SECONDS_MAX:g}")
-    report: dict[str, Any] = {
-        "date": datetime.now(timezone.utc).date().isoformat(),
-        "machine": machine.describe(),
-        "load_average_before": _load_average(),
-        "measurements": {},
-    }
+    check_seconds(seconds)
+    report: dict[str, Any] = {**begin_report(), "measurements": {}}
     for name in names:
         entry = MEASUREMENTS[name]
         print(f"[bench] {name}: {entry.summary}", file=sys.stderr, flush=True)
         report["measurements"][name] = _measure(entry, entry.seconds if seconds is None else seconds, stop)
-    report["load_average_after"] = _load_average()
+    report["load_average_after"] = load_average()
     report["problems"] = [
         f"{name}: {problem}" for name, measured in report["measurements"].items() for problem in measured["problems"]
     ]
     report["warnings"] = _warnings(report["measurements"])
     return report
+
+
+def check_seconds(seconds: float | None) -> None:
+    """Raise `ActsError` where nobody can measure for so long [s]; None is fine."""
+    if seconds is not None and not SECONDS_MIN <= seconds <= SECONDS_MAX:
+        raise ActsError(f"--seconds {seconds:g}: allowed is {SECONDS_MIN:g} to {SECONDS_MAX:g}")
+
+
+def begin_report() -> dict[str, Any]:
+    """What every report begins with: when, where, and how loaded the machine is."""
+    return {
+        "date": datetime.now(timezone.utc).date().isoformat(),
+        "machine": machine.describe(),
+        "load_average_before": load_average(),
+    }
+
+
+def load_average() -> list[float]:
+    """Of the last 1, 5 and 15 minutes."""
+    return [round(load, 2) for load in os.getloadavg()]
 
 
 def _measure(entry: Entry, seconds: float, stop: StopFlag) -> dict[str, Any]:
@@ -110,7 +124,3 @@ def _warnings(measured: Mapping[str, Mapping[str, Any]]) -> list[str]:
         return []
     loads = ", ".join(f"{name} {percent:.0f} %" for name, percent in busy.items())
     return [f"others used the CPU meanwhile ({loads} of one core): figures are worse than on a quiet machine"]
-
-
-def _load_average() -> list[float]:
-    return [round(load, 2) for load in os.getloadavg()]

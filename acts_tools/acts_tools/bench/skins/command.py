@@ -1,0 +1,77 @@
+"""`acts bench skins`: from the command line to a report."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import sys
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from acts_tools.bags.stopping import StopFlag
+from acts_tools.bench import runner
+from acts_tools.bench.processes import M
+from acts_tools.bench.skins import judgement, realtime
+from acts_tools.bench.skins.measurement import SETTLE_S, measure
+from acts_tools.bench.skins.options import NAME, SECONDS, SUMMARY, options_from
+from acts_tools.bench.skins.processes import RATE_HZ
+from acts_tools.bench.workbench import Workbench
+from acts_tools.ros_domain import use_free_domain
+from acts_tools.run_folder import shared_memory
+
+
+def run(arguments: argparse.Namespace, path: Path) -> dict[str, Any]:
+    """Measure and write the report.
+
+    Parameters
+    ----------
+    arguments : argparse.Namespace
+        Of `acts bench`.
+    path : Path
+        Where the report goes.
+
+    Returns
+    -------
+    dict
+        The report, in the layout of ``docs/benchmarks.md``.
+
+    Raises
+    ------
+    ActsError
+        When an option is out of range, or a process did not run to the end.
+    """
+    options = options_from(arguments)
+    runner.check_seconds(arguments.seconds)
+    seconds = SECONDS if arguments.seconds is None else arguments.seconds
+    use_free_domain()
+    print(f"[bench] {NAME}: {SUMMARY}", file=sys.stderr, flush=True)
+    report: dict[str, Any] = {
+        **runner.begin_report(),
+        "settings": {
+            "skins": options.skins,
+            "asked_seconds": seconds,
+            "rate_hz": RATE_HZ,
+            "m": M,
+            "settle_s": min(SETTLE_S, seconds),
+            "middleware": os.environ.get("RMW_IMPLEMENTATION", "default"),
+            "ros_domain_id": os.environ["ROS_DOMAIN_ID"],
+            "realtime_priorities": {
+                "virtual_board": realtime.BOARD_PRIORITY,
+                "tactile": realtime.SKIN_PRIORITY,
+                "bench": realtime.SUBSCRIBER_PRIORITY,
+            },
+        },
+        "load": options.load,
+        "realtime": "on" if options.realtime else "off",
+    }
+    with StopFlag() as stop, tempfile.TemporaryDirectory(prefix="acts_bench_", dir=shared_memory()) as folder:
+        report |= measure(Workbench(seconds, Path(folder), stop), options)
+    report["load_average_after"] = runner.load_average()
+    report["cpu_percent_total"] = judgement.total_percent(report)
+    report["verdict"] = judgement.verdict(report)
+    report["problems"] = judgement.problems(report)
+    report["warnings"] = judgement.warnings(report)
+    path.write_text(json.dumps(report, indent=2) + "\n")
+    return report

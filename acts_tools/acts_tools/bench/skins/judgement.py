@@ -1,0 +1,123 @@
+"""What the figures of several skins mean: what was wrong, what makes them worse than they are, and whether they do."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from acts_tools.bench.runner import OTHERS_WARNING_PERCENT
+from acts_tools.bench.skins.processes import BENCH, RATE_HZ
+from acts_tools.bench.soak import GROWTH_MAX_MB_PER_H
+
+Report = Mapping[str, Any]
+
+ONE_CPU_PERCENT = 20.0
+ONE_MEDIAN_MS = 0.35
+ONE_P99_MS = 1.0
+"""What one skin with nothing beside it should do on one core: CPU of driver and reconstruction, latency."""
+
+SEVERAL = 4
+SEVERAL_P99_MS = 5.0
+"""Up to `SEVERAL` skins should lose nothing on two cores and have this latency."""
+
+_SILENT_S = 1.0
+_RATE_SHARE = 0.98
+
+
+def problems(report: Report) -> list[str]:
+    """What was wrong, not merely slow."""
+    found = []
+    for skin in report["skins"]:
+        if not skin["received"]:
+            found.append(f"{skin['name']}: nothing was received")
+            continue
+        if skin["silent_s"] >= _SILENT_S:
+            found.append(f"{skin['name']}: nothing was received in the last {skin['silent_s']:.0f} s")
+        if skin["lost"]:
+            found.append(f"{skin['name']}: {skin['lost']} frames lost{_where(skin)}")
+        counted = {name: count for name, count in skin["driver"].items() if count and name not in ("lost", "overruns")}
+        if counted:
+            counts = ", ".join(f"{count} {name}" for name, count in counted.items())
+            found.append(f"{skin['name']}: the driver counted {counts} on an undisturbed line")
+    return found
+
+
+def warnings(report: Report) -> list[str]:
+    """What a reader of the figures has to know."""
+    found = []
+    others = report["others_cpu_percent"]
+    if others > OTHERS_WARNING_PERCENT:
+        found.append(
+            f"others used the CPU meanwhile ({others:.0f} % of one core): figures are worse than on a quiet machine"
+        )
+    slow = [
+        f"{skin['name']} {skin['rate_hz']:.0f}" for skin in report["skins"] if skin["rate_hz"] < _RATE_SHARE * RATE_HZ
+    ]
+    if slow:
+        found.append(f"fewer contacts than frames are due, {RATE_HZ:.0f} a second: {', '.join(slow)}")
+    if report["realtime"] == "on":
+        refused = [name for name, priority in report["realtime_granted"].items() if not (priority or _is_load(name))]
+        if refused:
+            found.append(f"not in real time, as the kernel did not grant it or took it away: {', '.join(refused)}")
+    for name, memory in report["rss_mb"].items():
+        growth = memory["growth_mb_per_h"]
+        # This process keeps a number for every contact.
+        if name != BENCH and growth is not None and growth > GROWTH_MAX_MB_PER_H:
+            found.append(f"the memory of {name} grows by {growth:.1f} MB an hour")
+    return found
+
+
+def verdict(report: Report) -> list[str]:
+    """The figures against what is wanted, in words; empty where nothing is said about so many skins or such a load."""
+    skins = report["skins"]
+    if report["load"] or len(skins) > SEVERAL or any(not skin["received"] for skin in skins):
+        return []
+    worst_p99_ms = max(skin["latency_ms"]["p99"] for skin in skins)
+    if len(skins) > 1:
+        lost = sum(skin["lost"] for skin in skins)
+        return [
+            f"frames lost: {lost}, wanted 0" + _mark(lost == 0),
+            _against("largest 99 % within", worst_p99_ms, SEVERAL_P99_MS, "ms"),
+        ]
+    cpu_percent = report["cpu_percent"][f"tactile {skins[0]['name']}"]
+    return [
+        _against("driver and reconstruction", cpu_percent, ONE_CPU_PERCENT, "% of a core"),
+        _against("latency, median", skins[0]["latency_ms"]["median"], ONE_MEDIAN_MS, "ms"),
+        _against("latency, 99 % within", worst_p99_ms, ONE_P99_MS, "ms"),
+    ]
+
+
+def total_percent(report: Report) -> float:
+    """CPU of everything but the load [% of one core]."""
+    return round(sum(percent for name, percent in report["cpu_percent"].items() if not _is_load(name)), 2)
+
+
+def _is_load(name: str) -> bool:
+    return name.startswith("load ")
+
+
+def _where(skin: Mapping[str, Any]) -> str:
+    """Where frames stayed; the nodes' own time of counting is a little longer than ours."""
+    left = int(skin["lost"])
+    parts = []
+    for count, where in (
+        (skin["driver"]["lost"], "before the driver"),
+        (skin["reconstruction"]["not_published"], "late and left out by the reconstruction for newer ones"),
+        (left, "between them and the subscriber"),
+    ):
+        stayed = min(left, count)
+        left -= stayed
+        if stayed:
+            parts.append(f"{stayed} {where}")
+    dropped = min(skin["lost"], skin["driver"]["lost"], skin["driver"]["overruns"])
+    if dropped:
+        parts[0] += f", {dropped} of them dropped by the board"
+    return f" ({'; '.join(parts)})"
+
+
+def _against(what: str, value: float, wanted: float, unit: str) -> str:
+    return f"{what}: {value:.4g} {unit}, wanted at most {wanted:g}{_mark(value <= wanted)}"
+
+
+def _mark(is_met: bool) -> str:
+    return ": met" if is_met else ": not met"

@@ -1,0 +1,100 @@
+"""The options of `acts bench skins`."""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import dataclass
+from typing import Any
+
+from acts_core.errors import ActsError
+
+NAME = "skins"
+SUMMARY = "1 to 16 skins at 1 kHz, M = 55, to a subscriber of their contacts"
+SECONDS = 60.0
+"""How long it measures unless told otherwise [s]."""
+
+SKINS_MAX = 16
+LOAD_MAX = 64
+
+
+@dataclass(frozen=True)
+class SkinsOptions:
+    """What is run.
+
+    Attributes
+    ----------
+    skins : int
+        How many skins, 1 to `SKINS_MAX`.
+    load : int
+        How many processes compute without end beside them, 0 to `LOAD_MAX`.
+    realtime : bool
+        Whether boards, skins and subscriber run under SCHED_FIFO; the load never does.
+
+    Raises
+    ------
+    ActsError
+        When a number is out of range.
+    """
+
+    skins: int = 1
+    load: int = 0
+    realtime: bool = False
+
+    def __post_init__(self) -> None:
+        if not 1 <= self.skins <= SKINS_MAX:
+            raise ActsError(f"--skins {self.skins}: allowed is 1 to {SKINS_MAX}")
+        if not 0 <= self.load <= LOAD_MAX:
+            raise ActsError(f"--load {self.load}: allowed is 0 to {LOAD_MAX}")
+
+    @property
+    def names(self) -> list[str]:
+        """The skins' names, which are their namespaces."""
+        return [f"skin_{number}" for number in range(1, self.skins + 1)]
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add them, in a group of their own. Not given, they are None."""
+    group = parser.add_argument_group(f"options of {NAME}, which is measured by itself")
+    group.add_argument("--skins", type=int, metavar="N", help="how many skins (default: 1)")
+    group.add_argument("--load", type=int, metavar="L", help="processes that compute without end beside (default: 0)")
+    group.add_argument(
+        "--realtime", choices=("on", "off"), help="run boards, skins and subscriber in real time (default: off)"
+    )
+
+
+def is_chosen(arguments: argparse.Namespace) -> bool:
+    """Whether the command line asks for the skins.
+
+    Raises
+    ------
+    ActsError
+        When it also asks for another measurement, or has options of the skins and does not ask for them.
+    """
+    names = list(dict.fromkeys(arguments.names))
+    if NAME in names:
+        others = [name for name in names if name != NAME]
+        if others:
+            raise ActsError(f"{NAME} is measured by itself; leave out {', '.join(others)}")
+        return True
+    given = [f"--{name}" for name, value in _values(arguments).items() if value is not None]
+    if given:
+        raise ActsError(f"{given[0]} is an option of `acts bench {NAME}` only")
+    return False
+
+
+def options_from(arguments: argparse.Namespace) -> SkinsOptions:
+    """The options as a command line says.
+
+    Raises
+    ------
+    ActsError
+        When a number is out of range.
+    """
+    given = {name: value for name, value in _values(arguments).items() if value is not None}
+    if "realtime" in given:
+        given["realtime"] = given["realtime"] == "on"
+    return SkinsOptions(**given)
+
+
+def _values(arguments: argparse.Namespace) -> dict[str, Any]:
+    return {name: getattr(arguments, name) for name in ("skins", "load", "realtime")}

@@ -1,0 +1,75 @@
+"""What arrives of one skin: its contacts, counted and timed."""
+
+from __future__ import annotations
+
+import time
+
+import numpy as np
+
+from acts_control.stream_statistics import StreamCounter
+from acts_msgs.msg import Contact
+from acts_tools.percentiles import percentiles
+
+_NS_PER_S = 1_000_000_000
+_KEYS = {"median": "median", "p99": "p99", "p99_9": "p999"}
+
+
+class ContactStream:
+    """Takes the contacts of a skin as an ordinary subscriber gets them; keeps four bytes of each.
+
+    Attributes
+    ----------
+    received, lost : int
+        Contacts, and numbers missing between them, since `begin`.
+    silent_s : float
+        Time since the last one, at the last call of `look` [s].
+    """
+
+    def __init__(self) -> None:
+        self._counter = StreamCounter()
+        self._received_before = 0
+        self._lost_before = 0
+        self._received_at_look = 0
+        self._looked_s = 0.0
+        self.silent_s = 0.0
+
+    def take(self, message: Contact) -> None:
+        """Note a contact: the callback of a subscription."""
+        now_ns = time.time_ns()
+        stamp = message.header.stamp
+        self._counter.step(message.sequence, (now_ns - stamp.sec * _NS_PER_S - stamp.nanosec) * 1e-9)
+
+    def begin(self, now_s: float) -> None:
+        """Count from now on."""
+        self._received_before, self._lost_before = self._counter.received, self._counter.lost
+        self._counter.take_latencies()
+        self._received_at_look, self._looked_s, self.silent_s = self._counter.received, now_s, 0.0
+
+    def look(self, now_s: float) -> float:
+        """Contacts per second since the last look; notes silence."""
+        passed_s, new = now_s - self._looked_s, self._counter.received - self._received_at_look
+        self._received_at_look, self._looked_s = self._counter.received, now_s
+        self.silent_s = 0.0 if new else self.silent_s + passed_s
+        return new / max(passed_s, 1e-9)
+
+    @property
+    def ever_received(self) -> int:
+        """Contacts since it was made."""
+        return self._counter.received
+
+    @property
+    def received(self) -> int:
+        """Contacts since `begin`."""
+        return self._counter.received - self._received_before
+
+    @property
+    def lost(self) -> int:
+        """Numbers missing since `begin`, between the contacts received."""
+        return self._counter.lost - self._lost_before
+
+    def take_latencies_ms(self) -> dict[str, float | None]:
+        """``median``, ``p99``, ``p999`` and ``max`` from stamp to callback since `begin` [ms]; to be called once."""
+        latencies_ms = np.asarray(self._counter.take_latencies(), dtype=np.float64) * 1e3
+        summed = {_KEYS[name]: value for name, value in percentiles(latencies_ms).items()}
+        summed["max"] = round(float(latencies_ms.max()), 3) if latencies_ms.size else None
+        return summed
