@@ -2,4 +2,5 @@
 
 from acts_ros.program import Program
 
+skins = Program("acts_skins.skins")
 tactile = Program("acts_skins.tactile")
