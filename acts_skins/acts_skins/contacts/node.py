@@ -7,11 +7,13 @@ from collections import Counter
 from dataclasses import dataclass
 from math import ceil
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import Any
 
-from acts_core.errors import ActsError, SettingsError
+from rclpy.serialization import deserialize_message
+
+from acts_core.errors import ActsError, ArrayError, SettingsError
 from acts_core.settings import setting
-from acts_msgs.msg import Contact, Contacts, SkinContact, SkinContacts
+from acts_msgs.msg import SkinContact, SkinContacts
 from acts_msgs.msg import SkinState as StateMessage
 from acts_ros import qos
 from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
@@ -19,7 +21,7 @@ from acts_ros.parameters import declare, node_options
 from acts_ros.polled import PollingNode
 from acts_skins.contacts.alignment import Aligned, AlignedSkin, Aligner, AlignmentConfig, SkinState
 from acts_skins.contacts.cycle import Cycle
-from acts_skins.contacts.messages import CONTACT_TYPES, skin_contact, touches
+from acts_skins.contacts.messages import CONTACT_TYPES, header_of, skin_contact, touches
 from acts_skins.contacts.placing import Placement
 from acts_skins.skins_file import read_skins
 
@@ -28,8 +30,6 @@ _FRAMES_HZ = 1000.0
 # How many cycles the node may be held up before frames of a skin are lost; at least so many frames are kept.
 _CYCLES_KEPT = 4
 _FRAMES_KEPT = 64
-
-Frame: TypeAlias = "Contacts | Contact"
 
 
 @dataclass(frozen=True)
@@ -63,18 +63,18 @@ class SkinContactsNode(PollingNode):
         self._base_frame = base_frame
         self._links = {skin.name: skin.pose.parent for skin in skins_file.skins}
         self._placements = {name: Placement(pose) for name, pose in skins_file.in_base(base_frame).items()}
-        self._aligner: Aligner[Frame] = Aligner(list(self._placements), settings)
+        self._aligner: Aligner[bytes] = Aligner(list(self._placements), settings)
         depth = max(_FRAMES_KEPT, ceil(_CYCLES_KEPT * _FRAMES_HZ / settings.rate_hz))
-        kind = CONTACT_TYPES[settings.topic]
+        self._kind = CONTACT_TYPES[settings.topic]
         self._subscriptions_of = {
-            name: self.create_polled_subscription(kind, f"{name}/{settings.topic}", qos.STREAM, depth=depth)
+            name: self.create_raw_polled_subscription(self._kind, f"{name}/{settings.topic}", qos.STREAM, depth=depth)
             for name in self._placements
         }
         self._publisher = self.create_publisher(SkinContacts, "skin_contacts", **qos.overridable(qos.STREAM))
         self._clock = self.get_clock()
-        self._states: dict[str, SkinState] = {}
+        self._there: set[str] = set()
         self._refused: Counter[tuple[str, str]] = Counter()
-        self._aligned: Aligned[Frame] | None = None
+        self._aligned: Aligned[bytes] | None = None
         self._cycle = Cycle(settings.rate_hz, self._step)
         self._reported: tuple[float, int, int, Counter[tuple[str, str]]] = (time.monotonic(), 0, 0, Counter())
         self._diagnostics = DiagnosticsReporter(self, str(skins_file.path), self._report)
@@ -90,19 +90,23 @@ class SkinContactsNode(PollingNode):
     def _step(self) -> None:
         now_ns = self._clock.now().nanoseconds
         for name, subscription in self._subscriptions_of.items():
-            for message, _ in subscription.take_all():
-                if message.header.frame_id != name:
-                    # Its pose is not in the file.
-                    self._refused[name, f"in the frame {message.header.frame_id!r}"] += 1
+            for data, _ in subscription.take_all():
+                try:
+                    stamp_ns, frame_id = header_of(data)
+                except ArrayError:
+                    self._refused[name, "without a header"] += 1
                     continue
-                stamp = message.header.stamp
-                self._aligner.take(name, stamp.sec * _NS_PER_S + stamp.nanosec, message, now_ns)
+                if frame_id != name:
+                    # Its pose is not in the file.
+                    self._refused[name, f"in the frame {frame_id!r}"] += 1
+                    continue
+                self._aligner.take(name, stamp_ns, data, now_ns)
         aligned = self._aligner.step(now_ns)
         self._publisher.publish(self._message(aligned))
         self._aligned = aligned
         self._tell_changes(aligned)
 
-    def _message(self, aligned: Aligned[Frame]) -> SkinContacts:
+    def _message(self, aligned: Aligned[bytes]) -> SkinContacts:
         message = SkinContacts()
         message.header.frame_id = self._base_frame
         message.header.stamp.sec, message.header.stamp.nanosec = divmod(aligned.time_ns, _NS_PER_S)
@@ -112,7 +116,7 @@ class SkinContactsNode(PollingNode):
             state = StateMessage(name=skin.name, state=skin.state.value, age=skin.age_s)
             if skin.frame is not None and skin.stamp_ns is not None:
                 state.stamp.sec, state.stamp.nanosec = divmod(skin.stamp_ns, _NS_PER_S)
-                for touch in touches(skin.frame):
+                for touch in touches(deserialize_message(skin.frame, self._kind)):
                     if not touch.is_finite():
                         self._refused[skin.name, "with numbers that are none"] += 1
                         continue
@@ -123,13 +127,13 @@ class SkinContactsNode(PollingNode):
         message.skins, message.contacts = skins, contacts
         return message
 
-    def _tell_changes(self, aligned: Aligned[Frame]) -> None:
+    def _tell_changes(self, aligned: Aligned[bytes]) -> None:
         for skin in aligned.skins:
-            before = self._states.get(skin.name)
-            self._states[skin.name] = skin.state
-            if skin.state is SkinState.LOST and before in (SkinState.FRESH, SkinState.STALE):
+            if skin.state is SkinState.LOST and skin.name in self._there:
+                self._there.remove(skin.name)
                 self.get_logger().warning(f"skin {skin.name}: lost")
-            elif skin.state is SkinState.FRESH and before in (None, SkinState.LOST):
+            elif skin.state is SkinState.FRESH and skin.name not in self._there:
+                self._there.add(skin.name)
                 self.get_logger().info(f"skin {skin.name}: there")
 
     def _report(self) -> Report:
@@ -166,7 +170,7 @@ class SkinContactsNode(PollingNode):
         return OK, f"{len(self._placements)} skins in {self._base_frame}", values
 
 
-def _silence(skin: AlignedSkin[Frame]) -> str:
+def _silence(skin: AlignedSkin[bytes]) -> str:
     if skin.silent_s is None:
         return "lost: no contacts yet"
     return f"{skin.state.name.lower()}: no contacts for {skin.silent_s:.3g} s"
