@@ -1,4 +1,4 @@
-"""Every launch file, started for real: processes, topics, faults, orderly end. ROS_DOMAIN_ID 90 to 99, 168 to 170."""
+"""Every launch file, started for real: processes, topics, faults, orderly end. ROS_DOMAIN_ID 90 to 99, 168 and 169."""
 
 import os
 import re

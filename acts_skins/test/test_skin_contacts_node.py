@@ -1,4 +1,4 @@
-"""The nodes around all skins, over DDS; ROS_DOMAIN_IDs 163 to 168."""
+"""The nodes around all skins, over DDS; ROS_DOMAIN_IDs 163 to 167."""
 
 from __future__ import annotations
 

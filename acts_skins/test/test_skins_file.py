@@ -43,6 +43,15 @@ def test_the_shipped_file_has_two_skins_that_stand_to_one_another() -> None:
         assert tactile_parameters(skin, skin.port or "").driver.frame_id == skin.name
 
 
+def test_the_file_of_the_documents_is_one(tmp_path: Path) -> None:
+    page = Path(__file__).resolve().parents[2] / "docs" / "skins.md"
+    skins_file = read(tmp_path, page.read_text().partition("```yaml")[2].partition("```")[0])
+    assert [skin.name for skin in skins_file.skins] == ["left_arm", "left_sole"]
+    for skin in skins_file.skins:
+        tactile_parameters(skin, skin.port or "")
+    assert skins_file.in_base()["left_arm"].position_m == pytest.approx((0.25, 0.2, 0.14))
+
+
 def test_everything_that_can_be_said_of_a_skin(tmp_path: Path) -> None:
     (tmp_path / "press.npy").touch()
     text = of_skin(
