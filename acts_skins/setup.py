@@ -18,5 +18,9 @@ setup(
     maintainer_email="acts-maintainers@example.org",
     description="Driver and reconstruction of a skin in one process, and several skins of a robot.",
     license="Apache-2.0",
-    entry_points={"console_scripts": ["tactile = acts_skins.programs:tactile"]},
+    entry_points={
+        "console_scripts": [
+            f"{name} = acts_skins.programs:{name}" for name in ("skin_contacts", "skin_overview", "skins", "tactile")
+        ]
+    },
 )

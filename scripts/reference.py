@@ -19,6 +19,9 @@ NODES = (
     ("acts_control", "ball_state", "acts_control.ball_state_node", "BallStateSettings"),
     ("acts_control", "ball_trajectory", "acts_control.ball_trajectory_node", "BallTrajectorySettings"),
     ("acts_control", "ball_control", "acts_control.ball_control_node", "BallControlSettings"),
+    ("acts_skins", "skin_contacts", "acts_skins.contacts.node", "SkinContactsSettings"),
+    ("acts_skins", "skin_diagnostics", "acts_skins.overview.diagnostics_node", "SkinDiagnosticsSettings"),
+    ("acts_skins", "skin_frames", "acts_skins.overview.frames_node", "SkinFramesSettings"),
     ("acts_sim", "ball_world", "acts_sim.ball_world_node", "BallWorldSettings"),
 )
 """Package, executable, module and settings class of every node with parameters."""

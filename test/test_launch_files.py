@@ -1,4 +1,4 @@
-"""Every launch file, started for real: processes, topics, faults, orderly end. ROS_DOMAIN_ID 90 to 99."""
+"""Every launch file, started for real: processes, topics, faults, orderly end. ROS_DOMAIN_ID 90 to 99, 168 and 169."""
 
 import os
 import re
@@ -12,14 +12,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 from ament_index_python.packages import get_package_share_directory
-from diagnostic_msgs.msg import DiagnosticArray
-from geometry_msgs.msg import PointStamped
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from geometry_msgs.msg import PointStamped, TransformStamped
 from sensor_msgs.msg import Image
 
 from acts_core.array import ArrayGeometry
 from acts_core.frames import SampleFrame, Scheme
 from acts_core.wire import StreamDecoder
-from acts_msgs.msg import BalanceStatus, Contact, TactileSamples
+from acts_msgs.msg import BalanceStatus, Contact, SkinContacts, SkinState, TactileSamples
 from acts_tools.testing.launch_runner import HAS_LAUNCH_PYTEST, Launched, LaunchFile, launch_fixture, launch_test
 
 PACKAGE = "acts_bringup"
@@ -304,6 +304,99 @@ def test_a_lost_robot_stops_the_controller_with_a_reason(robot_lost: Launched) -
     status = wait_for_state(robot_lost, BalanceStatus.STATE_STOPPED, LONG_S)
     assert "127.0.6.4" in status.reason or "robot" in status.reason
     assert robot_lost.stop() == 1  # the robot died
+
+
+def skins_file(folder: Path) -> Path:
+    """Two skins that feel the same disc, the second a metre above the first and upside down."""
+    disc = disc_recording(folder)
+    source = f"recording: {disc}, recording_rate_hz: 30"
+    path = folder / "skins.yaml"
+    path.write_text(
+        "base_frame: torso\nskins:\n"
+        f"  low: {{{source}, pose: {{parent: torso}}}}\n"
+        f"  high: {{{source}, pose: {{parent: torso, position_m: [0, 0, 1], quaternion_xyzw: [1, 0, 0, 0]}}}}\n"
+    )
+    return path
+
+
+@launch_fixture
+def two_skins(tmp_path: Path) -> LaunchFile:
+    arguments = {"run_dir": str(tmp_path / "run"), "skins_file": str(skins_file(tmp_path))}
+    return LaunchFile(PACKAGE, "skins.launch.xml", 168, arguments)
+
+
+def merged(launched: Launched, low: int, high: int) -> SkinContacts:
+    """Wait for merged contacts with these states of the skins."""
+    messages: list[SkinContacts] = []
+
+    def reached() -> bool:
+        messages.append(launched.wait_for_message("/skin_contacts", SkinContacts, START_S))
+        states = {skin.name: skin.state for skin in messages[-1].skins}
+        skins = {contact.skin for contact in messages[-1].contacts}
+        felt = {name for name, state in (("low", low), ("high", high)) if state == SkinState.STATE_FRESH}
+        return states == {"low": low, "high": high} and skins == felt
+
+    launched.wait_for(reached, START_S, f"skins in the states {low} and {high}")
+    return messages[-1]
+
+
+def skin_pid(launched: Launched, label: str) -> int:
+    return int(re.findall(rf"\[{label}\]: process started with pid \[(\d+)\]", launched.output)[-1])
+
+
+@launch_test(two_skins)
+def test_skins_are_merged_and_a_lost_one_leaves_the_other_alone(two_skins: Launched, tmp_path: Path) -> None:
+    fresh, lost = SkinState.STATE_FRESH, SkinState.STATE_LOST
+    message = merged(two_skins, fresh, fresh)
+    geometry = ArrayGeometry()
+    x_m, y_m, close_m = float(geometry.x_m(24)), float(geometry.y_m(8)), geometry.pitch_m / 4
+    assert message.header.frame_id == "torso"
+    for contact in message.contacts:
+        sign, z_m = (1, 0.0) if contact.skin == "low" else (-1, 1.0)
+        assert contact.position.x == pytest.approx(x_m, abs=close_m)
+        assert contact.position.y == pytest.approx(sign * y_m, abs=close_m)
+        assert contact.position.z == pytest.approx(z_m, abs=1e-9)
+        assert contact.force.z * sign < -0.5
+    pose = two_skins.wait_for_message("/high/pose", TransformStamped)
+    assert (pose.header.frame_id, pose.child_frame_id, pose.transform.translation.z) == ("torso", "high", 1.0)
+
+    # Its board vanishes, and is there again.
+    os.kill(skin_pid(two_skins, "high/virtual_board"), signal.SIGKILL)
+    assert merged(two_skins, fresh, lost).header.frame_id == "torso"
+    merged(two_skins, fresh, fresh)
+    # The whole skin does.
+    os.kill(skin_pid(two_skins, "low/tactile"), signal.SIGKILL)
+    merged(two_skins, lost, fresh)
+    merged(two_skins, fresh, fresh)
+
+    def all_well() -> bool:
+        whole = two_skins.wait_for_message("/diagnostics_toplevel_state", DiagnosticStatus, START_S)
+        return bool(whole.level == DiagnosticStatus.OK and whole.message == "2 skins, all well")
+
+    two_skins.wait_for(all_well, START_S, "an aggregate that is well again")
+    assert two_skins.stop() == 0
+    assert not [path for path in (tmp_path / "run").rglob("*") if not path.is_dir()]
+
+
+@launch_fixture
+def missing_skins(tmp_path: Path) -> LaunchFile:
+    text = skins_file(tmp_path).read_text().replace("{recording", f"{{port: {tmp_path}/PORT, recording")
+    for name in ("low", "high"):
+        text = text.replace("PORT", name, 1)
+    (tmp_path / "skins.yaml").write_text(text)
+    arguments = {"skins_file": str(tmp_path / "skins.yaml"), "sim": "false", "merge": "false"}
+    return LaunchFile(PACKAGE, "skins.launch.xml", 169, arguments)
+
+
+@launch_test(missing_skins)
+def test_skins_whose_boards_are_missing_are_named_in_the_aggregate(missing_skins: Launched) -> None:
+    def complaint() -> str:
+        return str(missing_skins.wait_for_message("/diagnostics_toplevel_state", DiagnosticStatus, START_S).message)
+
+    missing_skins.wait_for(
+        lambda: "low: driver: " in complaint() and "high: driver: " in complaint(), START_S, "both skins in trouble"
+    )
+    assert missing_skins.stop() == 0
 
 
 def test_the_back_end_is_the_one_for_this_machine() -> None:

@@ -89,12 +89,21 @@ class PollingNode(Node):
         depth : int or None
             How many messages are kept between two readings; None: as the profile says. Of more the oldest are lost.
         """
+        return PolledSubscription(self._subscribe(kind, topic, profile, depth, raw=False))
+
+    def create_raw_polled_subscription(
+        self, kind: type, topic: str, profile: QoSProfile, *, depth: int | None = None
+    ) -> PolledSubscription[bytes]:
+        """As `create_polled_subscription`; messages are the bytes that were sent, for who needs only some of them."""
+        return PolledSubscription(self._subscribe(kind, topic, profile, depth, raw=True))
+
+    def _subscribe(self, kind: type, topic: str, profile: QoSProfile, depth: int | None, *, raw: bool) -> Subscription:
         profile = copy(profile)
         if depth is not None:
             profile.depth = depth
-        subscription = self.create_subscription(kind, topic, _never, **overridable(profile))
+        subscription = self.create_subscription(kind, topic, _never, raw=raw, **overridable(profile))
         self._polled.add(subscription)
-        return PolledSubscription(subscription)
+        return subscription
 
 
 def _never(_message: Any) -> None:

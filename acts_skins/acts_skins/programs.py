@@ -2,4 +2,7 @@
 
 from acts_ros.program import Program
 
+skin_contacts = Program("acts_skins.contacts.main")
+skin_overview = Program("acts_skins.overview.main")
+skins = Program("acts_skins.skins")
 tactile = Program("acts_skins.tactile")

@@ -53,7 +53,7 @@ def test_errors_are_one_line_on_standard_error(capsys: pytest.CaptureFixture[str
 
 def test_starting_a_launch_imports_neither_ros_nor_numerics() -> None:
     code = (
-        "import sys\nfrom acts_tools.cli import main\nimport acts_tools.launch.evaluate, acts_tools.launch.processes\n"
+        "import sys\nfrom acts_tools.cli import main\nimport acts_tools.launch.evaluate, acts_ros.processes.launcher\n"
         "try:\n    main(['launch', '--help'])\nexcept SystemExit:\n    pass\n"
         "heavy = {'numba', 'matplotlib', 'scipy', 'rclpy', 'rosbags'} & set(sys.modules)\n"
         "assert not heavy, heavy\n"

@@ -92,7 +92,7 @@ def _hand_over(arguments: argparse.Namespace) -> int:
 
 def _find_file(package: str, words: list[str]) -> tuple[Path, list[str]]:
     """The launch file and the words that are left; a path wins over a package of the same name."""
-    from acts_tools.launch import packages
+    from acts_ros.processes import packages
 
     if Path(package).is_file():
         return Path(package).absolute(), words
@@ -107,9 +107,9 @@ def _find_file(package: str, words: list[str]) -> tuple[Path, list[str]]:
 
 def _launch(file: Path, values: dict[str, str], only_print: bool) -> int:
     # Late: listing arguments needs none of it.
-    from acts_tools.launch.console import Console, make_log_folder
+    from acts_ros.processes.console import Console, make_log_folder
+    from acts_ros.processes.launcher import Launcher
     from acts_tools.launch.evaluate import evaluate
-    from acts_tools.launch.processes import Launcher
 
     timeouts_s = [_seconds(name, values.get(name, "5")) for name in _TIMEOUTS]
     with tempfile.TemporaryDirectory(prefix="acts_launch_") as folder:

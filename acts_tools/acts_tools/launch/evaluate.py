@@ -12,7 +12,9 @@ from pathlib import Path
 import yaml
 
 from acts_core.errors import LaunchError
-from acts_tools.launch import packages, parameters, substitutions
+from acts_ros.processes import packages
+from acts_ros.processes.process import Process
+from acts_tools.launch import parameters, substitutions
 from acts_tools.launch.model import (
     AnyAction,
     Condition,
@@ -32,37 +34,6 @@ from acts_tools.launch.substitutions import Scope
 _MAXIMUM_DEPTH = 30
 _NAMESPACE_VARIABLE = "ros_namespace"
 _OUTPUTS = ("screen", "log", "both")
-
-
-@dataclass(frozen=True)
-class Process:
-    """One process to start.
-
-    Attributes
-    ----------
-    label : str
-        Name for people: the executable and a running number, such as ``driver-2``.
-    command : tuple of str
-        Program and arguments.
-    environment : dict of str to str
-        All of its environment.
-    output : str
-        "screen", "log" (standard error still goes to the screen) or "both".
-    respawn : bool
-        Start it again whenever it ends.
-    respawn_delay_s : float
-        Pause before that [s].
-    parameter_files : tuple of Path
-        Files among the arguments that were written for it.
-    """
-
-    label: str
-    command: tuple[str, ...]
-    environment: dict[str, str]
-    output: str
-    respawn: bool
-    respawn_delay_s: float
-    parameter_files: tuple[Path, ...]
 
 
 @dataclass

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TypeAlias
 
 from acts_core.errors import LaunchError
-from acts_tools.launch import packages
+from acts_ros.processes import packages
 
 
 @dataclass(frozen=True)

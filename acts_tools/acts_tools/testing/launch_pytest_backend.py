@@ -24,7 +24,7 @@ from launch.event_handlers import OnProcessExit, OnProcessIO, OnProcessStart
 from launch.events import Shutdown
 from launch.launch_description_sources import AnyLaunchDescriptionSource
 
-from acts_tools.launch import packages
+from acts_ros.processes import packages
 from acts_tools.testing.launch_runner import Launched, LaunchFile
 
 _STOPPED_CODES = (0, -signal.SIGINT, -signal.SIGTERM, 128 + signal.SIGINT, 128 + signal.SIGTERM)

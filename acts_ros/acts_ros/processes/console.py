@@ -36,20 +36,21 @@ class Console:
 
     Parameters
     ----------
-    folder : Path
-        Where the log file goes.
+    folder : Path or None
+        Where the log file goes; None: there is none.
     screen : TextIO
         Standard output unless told otherwise.
     """
 
-    def __init__(self, folder: Path, screen: TextIO | None = None) -> None:
+    def __init__(self, folder: Path | None, screen: TextIO | None = None) -> None:
         self._screen = sys.stdout if screen is None else screen
-        self._log = (folder / "launch.log").open("a", buffering=1)
+        self._log = None if folder is None else (folder / "launch.log").open("a", buffering=1)
         self.screen_lost = False
 
     def close(self) -> None:
         """Close the log file."""
-        self._log.close()
+        if self._log is not None:
+            self._log.close()
 
     def say(self, level: str, who: str, text: str) -> None:
         """A message of the launch itself; `level` is INFO, WARNING or ERROR."""
@@ -57,7 +58,7 @@ class Console:
 
     def write(self, line: str, to_screen: bool, to_log: bool) -> None:
         """One line; what goes to neither is dropped."""
-        if to_log:
+        if to_log and self._log is not None:
             self._log.write(f"{time.time():.7f} {line}\n")
         if to_screen and not self.screen_lost:
             try:

@@ -1,0 +1,327 @@
+"""Run processes: start, watch, respawn, and stop them so that none is left behind.
+
+One thread only: a child is told when its parent's thread ends (`leave_with_parent`), and that must be the main one.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import selectors
+import signal
+import subprocess
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass, field
+from typing import IO
+
+from acts_ros.processes.console import Console
+from acts_ros.processes.process import Process
+
+_STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT)
+# How a process may end once it has been asked to; shells report a signal as 128 + its number.
+_STOPPED_CODES = (0, -signal.SIGINT, -signal.SIGTERM, 128 + signal.SIGINT, 128 + signal.SIGTERM)
+_DRAIN_S = 0.5
+_PR_SET_PDEATHSIG = 1
+
+
+@dataclass
+class _Child:
+    """One process of the plan and the program that runs for it now, if any."""
+
+    process: Process
+    popen: subprocess.Popen[bytes] | None = None
+    restart_at_s: float | None = None
+    escalations: list[tuple[float, signal.Signals, str]] = field(default_factory=list)
+    killed: bool = False
+    failure: str | None = None
+
+    @property
+    def pending(self) -> bool:
+        return self.popen is not None or self.restart_at_s is not None
+
+
+@dataclass
+class _Stream:
+    """One output pipe and the line that is not complete yet."""
+
+    child: _Child
+    pipe: IO[bytes]
+    is_error: bool
+    rest: bytes = b""
+
+
+class Launcher:
+    """Runs processes until all have ended or the user stops them.
+
+    Parameters
+    ----------
+    console : Console
+        Takes their output and our messages.
+    sigterm_timeout_s, sigkill_timeout_s : float
+        A process that has not ended this long after SIGINT gets SIGTERM, and this long after that SIGKILL [s].
+    name : str
+        Who speaks in our messages.
+    """
+
+    def __init__(
+        self, console: Console, sigterm_timeout_s: float = 5.0, sigkill_timeout_s: float = 5.0, *, name: str = "launch"
+    ) -> None:
+        self._console = console
+        self._name = name
+        self._sigterm_timeout_s = sigterm_timeout_s
+        self._sigkill_timeout_s = sigkill_timeout_s
+        self._children: list[_Child] = []
+        self._selector = selectors.DefaultSelector()
+        self._groups: set[int] = set()
+        self._signals: list[int] = []
+        self._stopping = False
+
+    def run(self, processes: list[Process]) -> int:
+        """Start the processes and stay until the last one has ended.
+
+        Parameters
+        ----------
+        processes : list of Process
+            In the order in which they are started.
+
+        Returns
+        -------
+        int
+            0 when every process ended by itself with code 0, was respawned, or ended in order when asked to;
+            1 when one died.
+        """
+        self._children = [_Child(process) for process in processes]
+        with self._signal_wakeup():
+            try:
+                for child in self._children:
+                    if not self._stopping:
+                        self._start(child)
+                        self._turn(timeout_s=0.0)
+                while any(child.pending for child in self._children):
+                    self._turn(self._next_deadline_s())
+                self._drain()
+            finally:
+                self._kill_rest()
+        failed = [child for child in self._children if child.failure is not None]
+        for child in failed:
+            self._console.say("ERROR", self._name, f"{child.process.label} {child.failure}")
+        return 1 if failed else 0
+
+    @contextmanager
+    def _signal_wakeup(self) -> Iterator[None]:
+        """Signals only set a note and wake the loop, so that nothing is interrupted half-way."""
+        read_end, write_end = os.pipe2(os.O_NONBLOCK | os.O_CLOEXEC)
+        # Under nohup the end of the terminal is none of our business.
+        nohup = signal.getsignal(signal.SIGHUP) is signal.SIG_IGN
+        stop_signals = [number for number in _STOP_SIGNALS if not (nohup and number is signal.SIGHUP)]
+        handlers = {number: signal.getsignal(number) for number in (*stop_signals, signal.SIGCHLD)}
+        previous_fd = signal.set_wakeup_fd(write_end, warn_on_full_buffer=False)
+        for number in stop_signals:
+            signal.signal(number, lambda number, _frame: self._signals.append(number))
+        signal.signal(signal.SIGCHLD, lambda _number, _frame: None)
+        self._selector.register(read_end, selectors.EVENT_READ, None)
+        try:
+            yield
+        finally:
+            for number, handler in handlers.items():
+                signal.signal(number, handler)
+            signal.set_wakeup_fd(previous_fd)
+            self._selector.close()
+            os.close(read_end)
+            os.close(write_end)
+
+    def _turn(self, timeout_s: float | None) -> None:
+        """Wait for something to happen and see to it."""
+        for key, _ in self._selector.select(timeout_s):
+            if key.data is None:
+                with suppress(BlockingIOError):
+                    while os.read(key.fd, 4096):
+                        pass
+            else:
+                self._read(key.data)
+        while self._signals:
+            self._on_stop_signal(signal.Signals(self._signals.pop(0)))
+        if self._console.screen_lost and not self._stopping:
+            self._stop("the screen went away")
+        now_s = time.monotonic()
+        for child in self._children:
+            self._reap(child, now_s)
+            if child.restart_at_s is not None and now_s >= child.restart_at_s:
+                self._start(child)
+            while child.popen is not None and child.escalations and now_s >= child.escalations[0][0]:
+                _, number, words = child.escalations.pop(0)
+                self._console.say("ERROR", child.process.label, words)
+                self._send(child, number)
+
+    def _next_deadline_s(self) -> float | None:
+        deadlines = [child.restart_at_s for child in self._children if child.restart_at_s is not None]
+        deadlines += [child.escalations[0][0] for child in self._children if child.popen and child.escalations]
+        return max(0.0, min(deadlines) - time.monotonic()) if deadlines else None
+
+    def _start(self, child: _Child) -> None:
+        child.restart_at_s = None
+        try:
+            child.popen = subprocess.Popen(
+                child.process.command,
+                env=child.process.environment,
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                # A session of its own: the terminal's Ctrl-C must not reach it besides the signal that we send.
+                start_new_session=True,
+                preexec_fn=leave_with_parent(os.getpid()),
+            )
+        except (OSError, subprocess.SubprocessError) as error:
+            child.failure = f"could not be started: {error}"
+            self._console.say("ERROR", child.process.label, f"exception occurred while executing process: {error}")
+            return
+        self._groups.add(child.popen.pid)
+        self._console.say("INFO", child.process.label, f"process started with pid [{child.popen.pid}]")
+        for pipe, is_error in ((child.popen.stdout, False), (child.popen.stderr, True)):
+            assert pipe is not None
+            os.set_blocking(pipe.fileno(), False)
+            self._selector.register(pipe, selectors.EVENT_READ, _Stream(child, pipe, is_error))
+
+    def _read(self, stream: _Stream) -> None:
+        """Pass on what there is; at its end close the pipe."""
+        while True:
+            try:
+                data = os.read(stream.pipe.fileno(), 65536)
+            except BlockingIOError:
+                return
+            *lines, stream.rest = (stream.rest + data).split(b"\n")
+            if not data and stream.rest:
+                lines, stream.rest = [stream.rest], b""
+            for line in lines:
+                self._show(stream, line)
+            if not data:
+                self._selector.unregister(stream.pipe)
+                stream.pipe.close()
+                return
+
+    def _show(self, stream: _Stream, line: bytes) -> None:
+        process = stream.child.process
+        self._console.write(
+            f"[{process.label}] {line.decode(errors='replace')}",
+            to_screen=process.output != "log" or stream.is_error,
+            to_log=process.output != "screen",
+        )
+
+    def _streams(self) -> list[_Stream]:
+        return [key.data for key in self._selector.get_map().values() if key.data is not None]
+
+    def _reap(self, child: _Child, now_s: float) -> None:
+        popen = child.popen
+        if popen is None:
+            return
+        # Looked at before it is collected: as long as it is not, its process group cannot be anyone else's.
+        if os.waitid(os.P_PID, popen.pid, os.WEXITED | os.WNOHANG | os.WNOWAIT) is None:
+            return
+        with suppress(ProcessLookupError):
+            os.killpg(popen.pid, signal.SIGTERM)  # what it has started itself and left behind
+        code = popen.wait()
+        try:
+            os.killpg(popen.pid, 0)
+        except ProcessLookupError:
+            self._groups.discard(popen.pid)  # from now on the number may become anyone's
+        for stream in self._streams():
+            if stream.child is child:
+                self._read(stream)
+        child.popen = None
+        child.escalations.clear()
+        self._tell_end(child, popen.pid, code)
+        if child.process.respawn and not self._stopping:
+            child.restart_at_s = now_s + child.process.respawn_delay_s
+
+    def _tell_end(self, child: _Child, pid: int, code: int) -> None:
+        if code == 0:
+            self._console.say("INFO", child.process.label, f"process has finished cleanly [pid {pid}]")
+            return
+        self._console.say(
+            "ERROR",
+            child.process.label,
+            f"process has died [pid {pid}, exit code {code}, cmd '{' '.join(child.process.command)}'].",
+        )
+        if self._stopping:
+            if child.killed:
+                child.failure = "had to be killed"
+            elif code not in _STOPPED_CODES:
+                child.failure = f"died while it was being stopped: {_describe_code(code)}"
+        elif not child.process.respawn:
+            child.failure = f"died: {_describe_code(code)}"
+
+    def _on_stop_signal(self, number: signal.Signals) -> None:
+        words = "user interrupted with ctrl-c (SIGINT)" if number is signal.SIGINT else f"received {number.name}"
+        if self._stopping:
+            self._console.say("WARNING", self._name, f"{words} again, ignoring...")
+        else:
+            self._stop(words)
+
+    def _stop(self, why: str) -> None:
+        """Ask every process to end, once; what does not is escalated by `_turn`."""
+        self._stopping = True
+        self._console.say("WARNING", self._name, why)
+        now_s = time.monotonic()
+        for child in self._children:
+            child.restart_at_s = None
+            if child.popen is None:
+                continue
+            label = child.process.label
+            after_int_s = now_s + self._sigterm_timeout_s
+            child.escalations = [
+                (after_int_s, signal.SIGTERM, _escalation(label, self._sigterm_timeout_s, "SIGINT", "SIGTERM")),
+                (
+                    after_int_s + self._sigkill_timeout_s,
+                    signal.SIGKILL,
+                    _escalation(label, self._sigkill_timeout_s, "SIGTERM", "SIGKILL"),
+                ),
+            ]
+            self._send(child, signal.SIGINT)
+
+    def _send(self, child: _Child, number: signal.Signals) -> None:
+        assert child.popen is not None
+        label = child.process.label
+        self._console.say("INFO", label, f"sending signal '{number.name}' to process[{label}]")
+        child.killed = number is signal.SIGKILL
+        # The whole group, as a terminal does it: a wrapper script ends together with what it runs.
+        with suppress(ProcessLookupError):
+            os.killpg(child.popen.pid, number)
+
+    def _drain(self) -> None:
+        """Read what descendants of ended processes still write, for a moment."""
+        deadline_s = time.monotonic() + _DRAIN_S
+        while self._streams() and time.monotonic() < deadline_s:
+            self._turn(timeout_s=0.05)
+
+    def _kill_rest(self) -> None:
+        """Whatever is left of any process group, also after an error of our own."""
+        for group in self._groups:
+            with suppress(ProcessLookupError, PermissionError):
+                os.killpg(group, signal.SIGKILL)
+        for stream in self._streams():
+            stream.pipe.close()
+
+
+def _escalation(label: str, timeout_s: float, sent: str, next_signal: str) -> str:
+    return (
+        f"process[{label}] failed to terminate '{timeout_s:g}' seconds after receiving '{sent}', "
+        f"escalating to '{next_signal}'"
+    )
+
+
+def _describe_code(code: int) -> str:
+    return f"exit code {code}" if code >= 0 else f"exit code {code} ({signal.Signals(-code).name})"
+
+
+def leave_with_parent(parent_pid: int) -> Callable[[], None]:
+    """What a child runs before its program: it gets SIGTERM should the parent be killed."""
+    libc = ctypes.CDLL(None, use_errno=True)
+
+    def prepare() -> None:
+        libc.prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
+        if os.getppid() != parent_pid:
+            os._exit(1)  # it was killed before the line above
+
+    return prepare

@@ -1,0 +1,95 @@
+"""Processes run by a program of its own, without a log file: respawn, orderly end, and the program killed."""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+DEADLINE_S = 30.0
+
+PROGRAM = '''
+import os, sys
+from acts_ros.processes.console import Console
+from acts_ros.processes.launcher import Launcher
+from acts_ros.processes.process import Process
+
+child = """
+import signal, sys
+signal.signal(signal.SIGINT, lambda *_: sys.exit(0))
+print("ready", flush=True)
+signal.pause()
+"""
+command = (sys.executable, "-c", child)
+processes = [Process(f"it-{number}", command, dict(os.environ), "screen", True, 0.05) for number in (1, 2)]
+sys.exit(Launcher(Console(None), name="someone").run(processes))
+'''
+
+
+class Run:
+    """The program and what it has written."""
+
+    def __init__(self, process: subprocess.Popen[bytes], path: Path) -> None:
+        self.process = process
+        self._path = path
+
+    @property
+    def output(self) -> str:
+        return self._path.read_text()
+
+    @property
+    def pids(self) -> list[int]:
+        return [int(number) for number in re.findall(r"started with pid \[(\d+)\]", self.output)]
+
+    def wait_until(self, condition: Callable[[], bool]) -> None:
+        deadline_s = time.monotonic() + DEADLINE_S
+        while not condition():
+            assert time.monotonic() < deadline_s, self.output
+            time.sleep(0.01)
+
+
+@contextmanager
+def running(folder: Path) -> Iterator[Run]:
+    path = folder / "output.txt"
+    with path.open("wb") as output, subprocess.Popen([sys.executable, "-c", PROGRAM], stdout=output) as process:
+        run = Run(process, path)
+        try:
+            run.wait_until(lambda: run.output.count("] ready") == 2)
+            yield run
+        finally:
+            process.kill()
+
+
+def is_gone(pid: int) -> bool:
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return True
+    # One that nobody has collected yet is gone as well.
+    return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] == "Z"
+
+
+def test_what_dies_is_started_again_and_the_other_goes_on(tmp_path: Path) -> None:
+    with running(tmp_path) as run:
+        first, second = run.pids
+        os.kill(first, signal.SIGKILL)
+        run.wait_until(lambda: run.output.count("[it-1] ready") == 2)
+        assert not is_gone(second)
+        assert run.output.count("[it-2] ready") == 1
+        run.process.send_signal(signal.SIGINT)
+        assert run.process.wait(DEADLINE_S) == 0
+        assert all(is_gone(pid) for pid in run.pids)
+        assert "[WARNING] [someone]: user interrupted with ctrl-c (SIGINT)" in run.output
+
+
+def test_what_was_started_ends_when_its_program_is_killed(tmp_path: Path) -> None:
+    with running(tmp_path) as run:
+        run.process.kill()
+        run.process.wait()
+        run.wait_until(lambda: all(is_gone(pid) for pid in run.pids))

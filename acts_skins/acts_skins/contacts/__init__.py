@@ -1,0 +1,1 @@
+"""The contacts of all skins in one frame and one message."""

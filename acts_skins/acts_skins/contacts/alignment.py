@@ -1,0 +1,200 @@
+"""Which frame of each skin belongs to one common time, and which skins have fallen silent. Knows no ROS."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from enum import Enum
+from typing import Generic, TypeVar
+
+from acts_core.errors import SettingsError
+from acts_core.settings import setting, validate
+
+F = TypeVar("F")
+
+_NS_PER_S = 1_000_000_000
+# Frames of a skin that wait for the others: more than any alignment asks for at 1 kHz.
+_MAX_WAITING = 1024
+
+
+@dataclass(frozen=True)
+class AlignmentConfig:
+    """How long is waited for skins."""
+
+    align_s: float = setting(
+        0.02,
+        "the common time lags behind the newest skin at most by this, for slower skins [s]",
+        minimum=0.0,
+        maximum=1.0,
+    )
+    stale_after_s: float = setting(
+        0.1, "a skin is stale when its newest contacts are older than this [s]", minimum=0.001, maximum=10.0
+    )
+    lost_after_s: float = setting(
+        0.5,
+        "a skin is lost, and its contacts no longer given, when they are older than this [s]",
+        minimum=0.001,
+        maximum=60.0,
+    )
+    future_s: float = setting(
+        0.05,
+        "contacts whose stamp lies further ahead of the clock than this are dropped [s]",
+        minimum=0.0,
+        maximum=10.0,
+    )
+
+    def __post_init__(self) -> None:
+        validate(self)
+        if self.lost_after_s < self.stale_after_s:
+            raise SettingsError(
+                f"lost_after_s = {self.lost_after_s:g}: allowed is stale_after_s ({self.stale_after_s:g}) or more"
+            )
+
+
+class SkinState(Enum):
+    """How a skin is heard of; see acts_msgs/SkinState."""
+
+    FRESH = 0
+    STALE = 1
+    LOST = 2
+
+
+@dataclass(frozen=True)
+class AlignedSkin(Generic[F]):
+    """One skin at the common time.
+
+    Attributes
+    ----------
+    name : str
+    state : SkinState
+    stamp_ns : int or None
+        Of `frame`.
+    age_s : float
+        How old that is at present [s].
+    frame : object or None
+        The newest frame at or before the common time; None where there is none, or the skin is lost.
+    silent_s : float or None
+        Time since the newest stamp of the skin [s]; None where there has been none.
+    """
+
+    name: str
+    state: SkinState
+    stamp_ns: int | None
+    age_s: float
+    frame: F | None
+    silent_s: float | None
+
+
+@dataclass(frozen=True)
+class Aligned(Generic[F]):
+    """All skins at one time [ns]."""
+
+    time_ns: int
+    skins: tuple[AlignedSkin[F], ...]
+
+
+@dataclass
+class Counters:
+    """What was received of a skin, and dropped."""
+
+    frames: int = 0
+    future: int = 0
+    out_of_order: int = 0
+    ahead_s: float = 0.0
+
+
+@dataclass
+class _Skin(Generic[F]):
+    waiting: deque[tuple[int, F]] = field(default_factory=lambda: deque(maxlen=_MAX_WAITING))
+    chosen: tuple[int, F] | None = None
+    newest_ns: int | None = None
+
+
+class Aligner(Generic[F]):
+    """Takes frames of several skins, each with its time of measurement, and gives all of them at a common time.
+
+    The common time is the newest for which every fresh skin has a frame at or before it that is its newest, as far as
+    `align_s` allows. It never goes back, unless the clock was set back.
+
+    Parameters
+    ----------
+    names : sequence of str
+        The skins.
+    config : AlignmentConfig
+    """
+
+    def __init__(self, names: Sequence[str], config: AlignmentConfig) -> None:
+        self._config = config
+        self._stale_ns = round(config.stale_after_s * _NS_PER_S)
+        self._lost_ns = round(config.lost_after_s * _NS_PER_S)
+        self._align_ns = round(config.align_s * _NS_PER_S)
+        self._future_ns = round(config.future_s * _NS_PER_S)
+        self._skins: dict[str, _Skin[F]] = {name: _Skin() for name in names}
+        self._now_ns: int | None = None
+        self._time_ns = 0
+        self.clock_resets = 0
+        self.counters = {name: Counters() for name in names}
+
+    def take(self, name: str, stamp_ns: int, frame: F, now_ns: int) -> None:
+        """Take a frame.
+
+        Parameters
+        ----------
+        name : str
+            Of its skin.
+        stamp_ns : int
+            When it was measured [ns].
+        frame : object
+            Handed back by `step`.
+        now_ns : int
+            The present, by the same clock [ns].
+        """
+        self._look_at_clock(now_ns)
+        skin, counters = self._skins[name], self.counters[name]
+        counters.frames += 1
+        if stamp_ns > now_ns + self._future_ns:
+            counters.future += 1
+            counters.ahead_s = (stamp_ns - now_ns) / _NS_PER_S
+        elif skin.newest_ns is not None and stamp_ns <= skin.newest_ns:
+            counters.out_of_order += 1
+        else:
+            skin.newest_ns = stamp_ns
+            skin.waiting.append((stamp_ns, frame))
+
+    def step(self, now_ns: int) -> Aligned[F]:
+        """All skins at the common time, which is not after `now_ns` by more than stamps may be."""
+        self._look_at_clock(now_ns)
+        fresh = [
+            skin.newest_ns
+            for skin in self._skins.values()
+            if skin.newest_ns is not None and now_ns - skin.newest_ns <= self._stale_ns
+        ]
+        # Where there is nothing fresh, what is still held is told at the present.
+        time_ns = max(min(fresh), max(fresh) - self._align_ns) if fresh else now_ns
+        self._time_ns = max(self._time_ns, time_ns)
+        return Aligned(self._time_ns, tuple(self._aligned(name, skin, now_ns) for name, skin in self._skins.items()))
+
+    def _aligned(self, name: str, skin: _Skin[F], now_ns: int) -> AlignedSkin[F]:
+        while skin.waiting and skin.waiting[0][0] <= self._time_ns:
+            skin.chosen = skin.waiting.popleft()
+        if skin.newest_ns is None:
+            return AlignedSkin(name, SkinState.LOST, None, 0.0, None, None)
+        silent_ns = max(now_ns - skin.newest_ns, 0)
+        silent_s = silent_ns / _NS_PER_S
+        if silent_ns > self._lost_ns:
+            skin.chosen = None
+            return AlignedSkin(name, SkinState.LOST, None, 0.0, None, silent_s)
+        state = SkinState.FRESH if silent_ns <= self._stale_ns else SkinState.STALE
+        if skin.chosen is None:
+            return AlignedSkin(name, state, None, 0.0, None, silent_s)
+        stamp_ns, frame = skin.chosen
+        return AlignedSkin(name, state, stamp_ns, max(now_ns - stamp_ns, 0) / _NS_PER_S, frame, silent_s)
+
+    def _look_at_clock(self, now_ns: int) -> None:
+        """Forget everything where the clock was set back: all stamps would lie in the future."""
+        if self._now_ns is not None and now_ns < self._now_ns - self._future_ns:
+            self._skins = {name: _Skin() for name in self._skins}
+            self._time_ns = 0
+            self.clock_resets += 1
+        self._now_ns = now_ns

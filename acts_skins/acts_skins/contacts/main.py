@@ -1,0 +1,25 @@
+"""`skin_contacts`: the node of this name, and those of `skin_overview`, in one process."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+
+from acts_core.stop_signals import StopSignals
+from acts_ros.composition import parameters_from
+from acts_ros.executor import run
+from acts_skins.contacts.node import SkinContactsNode, SkinContactsSettings
+from acts_skins.overview import main as overview
+
+_DESCRIPTION = "The contacts of the skins of a file merged, where the skins are, and an aggregate of their diagnostics."
+
+
+def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
+    """Run the nodes; the exit code."""
+    words = list(sys.argv if args is None else args)
+    given = parameters_from(words, _DESCRIPTION, {**overview.SETTINGS, "skin_contacts": SkinContactsSettings})
+    return run(
+        [*overview.factories(given), lambda: SkinContactsNode(parameter_overrides=given["skin_contacts"])],
+        words,
+        signals,
+    )

@@ -1,0 +1,176 @@
+"""The node `skin_contacts`: the contacts of every skin of a file in; all of them in one frame and one message out."""
+
+from __future__ import annotations
+
+import time
+from collections import Counter
+from dataclasses import dataclass
+from math import ceil
+from pathlib import Path
+from typing import Any
+
+from rclpy.serialization import deserialize_message
+
+from acts_core.errors import ActsError, ArrayError, SettingsError
+from acts_core.settings import setting
+from acts_msgs.msg import SkinContact, SkinContacts
+from acts_msgs.msg import SkinState as StateMessage
+from acts_ros import qos
+from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
+from acts_ros.parameters import declare, node_options
+from acts_ros.polled import PollingNode
+from acts_skins.contacts.alignment import Aligned, AlignedSkin, Aligner, AlignmentConfig, SkinState
+from acts_skins.contacts.cycle import Cycle
+from acts_skins.contacts.messages import CONTACT_TYPES, header_of, skin_contact, touches
+from acts_skins.contacts.placing import Placement
+from acts_skins.skins_file import read_skins
+
+_NS_PER_S = 1_000_000_000
+_FRAMES_HZ = 1000.0
+# How many cycles the node may be held up before frames of a skin are lost; at least so many frames are kept.
+_CYCLES_KEPT = 4
+_FRAMES_KEPT = 64
+
+
+@dataclass(frozen=True)
+class SkinContactsSettings(AlignmentConfig):
+    """Parameters of the node."""
+
+    skins_file: str = setting("", "YAML file that describes the skins; needed")
+    base_frame: str = setting("", "frame of the merged contacts; empty or none: base_frame of the skins file")
+    rate_hz: float = setting(100.0, "how often the merged contacts are published [Hz]", minimum=1.0, maximum=1000.0)
+    topic: str = setting(
+        "contacts",
+        "topic of each skin that is merged: contacts, told apart and numbered, or contact, all that presses as one",
+        choices=tuple(CONTACT_TYPES),
+    )
+
+
+class SkinContactsNode(PollingNode):
+    """Translates between topics, `Aligner` and `Placement`.
+
+    Reads ``SKIN/contacts`` (acts_msgs/Contacts) of every skin when a cycle is due, and publishes ``skin_contacts``
+    (acts_msgs/SkinContacts).
+    """
+
+    def __init__(self, **options: Any) -> None:
+        super().__init__("skin_contacts", **node_options(), **options)
+        settings = declare(self, SkinContactsSettings)
+        if not settings.skins_file:
+            raise SettingsError("skins_file is missing: the YAML file that describes the skins (docs/skins.md)")
+        skins_file = read_skins(Path(settings.skins_file))
+        base_frame = settings.base_frame if settings.base_frame not in ("", "none") else skins_file.base_frame
+        self._base_frame = base_frame
+        self._links = {skin.name: skin.pose.parent for skin in skins_file.skins}
+        self._placements = {name: Placement(pose) for name, pose in skins_file.in_base(base_frame).items()}
+        self._aligner: Aligner[bytes] = Aligner(list(self._placements), settings)
+        depth = max(_FRAMES_KEPT, ceil(_CYCLES_KEPT * _FRAMES_HZ / settings.rate_hz))
+        self._kind = CONTACT_TYPES[settings.topic]
+        self._subscriptions_of = {
+            name: self.create_raw_polled_subscription(self._kind, f"{name}/{settings.topic}", qos.STREAM, depth=depth)
+            for name in self._placements
+        }
+        self._publisher = self.create_publisher(SkinContacts, "skin_contacts", **qos.overridable(qos.STREAM))
+        self._clock = self.get_clock()
+        self._there: set[str] = set()
+        self._refused: Counter[tuple[str, str]] = Counter()
+        self._aligned: Aligned[bytes] | None = None
+        self._cycle = Cycle(settings.rate_hz, self._step)
+        self._reported: tuple[float, int, int, Counter[tuple[str, str]]] = (time.monotonic(), 0, 0, Counter())
+        self._diagnostics = DiagnosticsReporter(self, str(skins_file.path), self._report)
+
+    def begin(self) -> None:
+        """Start merging."""
+        self._cycle.start()
+
+    def close(self) -> None:
+        """End it."""
+        self._cycle.stop()
+
+    def _step(self) -> None:
+        now_ns = self._clock.now().nanoseconds
+        for name, subscription in self._subscriptions_of.items():
+            for data, _ in subscription.take_all():
+                try:
+                    stamp_ns, frame_id = header_of(data)
+                except ArrayError:
+                    self._refused[name, "without a header"] += 1
+                    continue
+                if frame_id != name:
+                    # Its pose is not in the file.
+                    self._refused[name, f"in the frame {frame_id!r}"] += 1
+                    continue
+                self._aligner.take(name, stamp_ns, data, now_ns)
+        aligned = self._aligner.step(now_ns)
+        self._publisher.publish(self._message(aligned))
+        self._aligned = aligned
+        self._tell_changes(aligned)
+
+    def _message(self, aligned: Aligned[bytes]) -> SkinContacts:
+        message = SkinContacts()
+        message.header.frame_id = self._base_frame
+        message.header.stamp.sec, message.header.stamp.nanosec = divmod(aligned.time_ns, _NS_PER_S)
+        skins: list[StateMessage] = []
+        contacts: list[SkinContact] = []
+        for skin in aligned.skins:
+            state = StateMessage(name=skin.name, state=skin.state.value, age=skin.age_s)
+            if skin.frame is not None and skin.stamp_ns is not None:
+                state.stamp.sec, state.stamp.nanosec = divmod(skin.stamp_ns, _NS_PER_S)
+                for touch in touches(deserialize_message(skin.frame, self._kind)):
+                    if not touch.is_finite():
+                        self._refused[skin.name, "with numbers that are none"] += 1
+                        continue
+                    placed = self._placements[skin.name].place(touch)
+                    contacts.append(skin_contact(skin.name, self._links[skin.name], placed))
+                    state.contacts += 1
+            skins.append(state)
+        message.skins, message.contacts = skins, contacts
+        return message
+
+    def _tell_changes(self, aligned: Aligned[bytes]) -> None:
+        for skin in aligned.skins:
+            if skin.state is SkinState.LOST and skin.name in self._there:
+                self._there.remove(skin.name)
+                self.get_logger().warning(f"skin {skin.name}: lost")
+            elif skin.state is SkinState.FRESH and skin.name not in self._there:
+                self._there.add(skin.name)
+                self.get_logger().info(f"skin {skin.name}: there")
+
+    def _report(self) -> Report:
+        if self._cycle.failure is not None:
+            raise ActsError(f"merging has stopped: {self._cycle.failure!r}")
+        now_s, refused = time.monotonic(), Counter(self._refused)
+        before_s, cycles_before, missed_before, refused_before = self._reported
+        cycles, missed = self._cycle.cycles, self._cycle.missed
+        self._reported = (now_s, cycles, missed, refused)
+        values: dict[str, object] = {
+            "rate_hz": (cycles - cycles_before) / max(now_s - before_s, 1e-9),
+            "missed_cycles": missed,
+            "clock_resets": self._aligner.clock_resets,
+        }
+        troubles = []
+        aligned = self._aligned
+        for skin in aligned.skins if aligned is not None else ():
+            counters = self._aligner.counters[skin.name]
+            values[f"{skin.name}.state"] = skin.state.name.lower()
+            values[f"{skin.name}.age_s"] = skin.age_s
+            values[f"{skin.name}.frames"] = counters.frames
+            values[f"{skin.name}.future"] = counters.future
+            values[f"{skin.name}.out_of_order"] = counters.out_of_order
+            if skin.state is not SkinState.FRESH:
+                ahead = f", stamps lie {counters.ahead_s:.3g} s ahead of this clock" if counters.future else ""
+                troubles.append(f"{skin.name} is {_silence(skin)}{ahead}")
+        troubles += [
+            f"{number} contacts of {name} {why} dropped" for (name, why), number in (refused - refused_before).items()
+        ]
+        if missed > missed_before:
+            troubles.append(f"{missed - missed_before} cycles missed")
+        if troubles:
+            return WARN, "; ".join(troubles), values
+        return OK, f"{len(self._placements)} skins in {self._base_frame}", values
+
+
+def _silence(skin: AlignedSkin[bytes]) -> str:
+    if skin.silent_s is None:
+        return "lost: no contacts yet"
+    return f"{skin.state.name.lower()}: no contacts for {skin.silent_s:.3g} s"

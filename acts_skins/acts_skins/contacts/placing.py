@@ -1,0 +1,98 @@
+"""Contacts of a skin, from the skin's frame into the robot's. Knows no ROS."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import astuple, dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_skins.transforms import Transform, Vector
+
+
+@dataclass(frozen=True)
+class Touch:
+    """One contact in the skin's frame; the fields are those of acts_msgs/TrackedContact, in SI units."""
+
+    number: int
+    age_s: float
+    position_m: Vector
+    velocity_m_s: Vector
+    force_n: float
+    peak_counts: float
+    area_m2: float
+    active_taxels: int
+    spread_m: float
+    position_sd_m: Vector
+    velocity_sd_m_s: Vector
+    force_sd_n: float
+    area_sd_m2: float
+    spread_sd_m: float
+
+    def is_finite(self) -> bool:
+        """Whether no number in it is NaN or infinite."""
+        numbers = (number for value in astuple(self) for number in (value if isinstance(value, tuple) else (value,)))
+        return all(math.isfinite(number) for number in numbers)
+
+
+@dataclass(frozen=True)
+class PlacedTouch:
+    """Where and how a contact acts on the robot.
+
+    Attributes
+    ----------
+    position_m, velocity_m_s : tuple of float
+        Centre of pressure and its velocity along the skin, in the robot's frame.
+    normal : tuple of float
+        Out of the skin, of length 1.
+    force_n : tuple of float
+        Of what presses on the robot [N].
+    position_sd_m, velocity_sd_m_s : tuple of float
+        Standard deviations along the axes of the robot's frame.
+    touch : Touch
+        The rest.
+    """
+
+    position_m: Vector
+    velocity_m_s: Vector
+    normal: Vector
+    force_n: Vector
+    position_sd_m: Vector
+    velocity_sd_m_s: Vector
+    touch: Touch
+
+
+class Placement:
+    """Where a skin is on the robot.
+
+    Parameters
+    ----------
+    transform : Transform
+        From the skin's frame to the robot's.
+    """
+
+    def __init__(self, transform: Transform) -> None:
+        self._rotation = transform.rotation()
+        self._squares = self._rotation**2
+        self._origin_m = np.asarray(transform.position_m)
+        self.normal = _vector(self._rotation[:, 2])
+
+    def place(self, touch: Touch) -> PlacedTouch:
+        """A contact of the skin in the robot's frame."""
+        # Errors along the skin's axes are independent, so their variances add up along others.
+        deviations = np.sqrt(np.array([touch.position_sd_m, touch.velocity_sd_m_s]) ** 2 @ self._squares.T)
+        return PlacedTouch(
+            position_m=_vector(self._rotation @ np.asarray(touch.position_m) + self._origin_m),
+            velocity_m_s=_vector(self._rotation @ np.asarray(touch.velocity_m_s)),
+            normal=self.normal,
+            force_n=_vector(-touch.force_n * self._rotation[:, 2]),
+            position_sd_m=_vector(deviations[0]),
+            velocity_sd_m_s=_vector(deviations[1]),
+            touch=touch,
+        )
+
+
+def _vector(values: NDArray[np.float64]) -> Vector:
+    x, y, z = values.tolist()
+    return x, y, z

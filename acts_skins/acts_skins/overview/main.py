@@ -1,0 +1,34 @@
+"""`skin_overview`: the nodes `skin_frames` and `skin_diagnostics` in one process."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Mapping, Sequence
+
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+
+from acts_core.stop_signals import StopSignals
+from acts_ros.composition import parameters_from
+from acts_ros.executor import run
+from acts_skins.overview.diagnostics_node import SkinDiagnosticsNode, SkinDiagnosticsSettings
+from acts_skins.overview.frames_node import SkinFramesNode, SkinFramesSettings
+
+_DESCRIPTION = "Where the skins of a file are, and one aggregate of their diagnostics."
+
+SETTINGS: dict[str, type] = {"skin_frames": SkinFramesSettings, "skin_diagnostics": SkinDiagnosticsSettings}
+"""The settings classes of the nodes, by name."""
+
+
+def factories(given: Mapping[str, list[Parameter]]) -> list[Callable[[], Node]]:
+    """What makes the two nodes with their parameters."""
+    return [
+        lambda: SkinFramesNode(parameter_overrides=given["skin_frames"]),
+        lambda: SkinDiagnosticsNode(parameter_overrides=given["skin_diagnostics"]),
+    ]
+
+
+def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
+    """Run both nodes; the exit code."""
+    words = list(sys.argv if args is None else args)
+    return run(factories(parameters_from(words, _DESCRIPTION, SETTINGS)), words, signals)

@@ -1,0 +1,117 @@
+"""The processes that a file of skins comes to. Nothing is started here."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from acts_driver.settings import DriverSettings
+from acts_ros.processes import packages
+from acts_ros.processes.process import Process
+from acts_skins.skins_file import Skin, SkinsFile
+from acts_skins.tactile_parameters import TactileParameters, tactile_parameters
+
+_RESPAWN_DELAY_S = 2.0
+_BOARD_RATE_HZ = 1000.0
+_FIRST_BOARD_ID = 0x4143_5453_0000_0001
+
+
+class SkinProcesses:
+    """Plans the processes of skins.
+
+    Parameters
+    ----------
+    skins_file : SkinsFile
+        The skins.
+    simulated : bool
+        Whether skins without a recording to replay get a simulated board instead of the one at their port.
+    run_dir : Path
+        For what simulated processes share: each skin has a folder of its name in it.
+    namespace : str
+        What the skins' namespaces begin with; empty or like ``/robot``.
+    environment : mapping of str to str
+        Of the processes.
+    """
+
+    def __init__(
+        self, skins_file: SkinsFile, *, simulated: bool, run_dir: Path, namespace: str, environment: Mapping[str, str]
+    ) -> None:
+        self._skins_file = skins_file
+        self._simulated = simulated
+        self._run_dir = run_dir
+        self._namespace = namespace
+        self._environment = dict(environment)
+
+    def plan(self) -> list[Process]:
+        """The processes of all skins, in the order in which they are to be started.
+
+        Raises
+        ------
+        SettingsError
+            For what is wrong in the file, with file, line and skin.
+        LaunchError
+            When a package is not installed.
+        """
+        return [process for number, skin in enumerate(self._skins_file.skins) for process in self._of(skin, number)]
+
+    def _of(self, skin: Skin, number: int) -> list[Process]:
+        has_board = self._simulated and skin.replay is None
+        folder = self._run_dir / skin.name
+        if not self._simulated and skin.port is None and skin.replay is None:
+            raise skin.section.error("port or replay is missing: without simulation samples come from one of them")
+        port = str(folder / "board") if has_board else skin.port or "auto"
+        parameters = tactile_parameters(skin, port)
+        processes = self._simulation(skin, number, parameters, folder) if has_board else []
+        processes.append(
+            self._process(skin, "acts_skins", "tactile", *parameters.words, "--ros-args", *self._remaps(skin))
+        )
+        return processes
+
+    def _simulation(self, skin: Skin, number: int, parameters: TactileParameters, folder: Path) -> list[Process]:
+        driver = parameters.driver
+        words = ["--link", f"{folder}/board", *_board_options(driver), "--seed", f"{number + 1}"]
+        words += ["--board-id", f"{_FIRST_BOARD_ID + number}"]
+        if skin.recording is not None:
+            if not skin.recording.is_file():
+                raise skin.section.error(f"recording = {skin.recording}: there is no such file", "recording")
+            words += ["--recording", f"{skin.recording}", "--recording-rate-hz", f"{skin.recording_rate_hz}", "--loop"]
+            return [self._process(skin, "acts_firmware", "virtual_board", *words)]
+        ring = f"{folder}/field.ring"
+        world: dict[str, object] = {"field_ring": ring, "joint_ring": "none", "seed": number + 1}
+        world.update(rows=driver.rows, cols=driver.cols)
+        if parameters.reconstruction.pitch_m:
+            world["pitch_m"] = parameters.reconstruction.pitch_m
+        pushes = packages.share("acts_config", self._environment) / "params" / "tactile.yaml"
+        given = [word for name, value in world.items() for word in ("-p", f"{name}:={value}")]
+        ball_words = ["--ros-args", *self._remaps(skin), "--params-file", f"{pushes}", *given]
+        return [
+            self._process(skin, "acts_firmware", "virtual_board", *words, "--field-ring", ring),
+            self._process(skin, "acts_sim", "ball_world", *ball_words),
+        ]
+
+    def _remaps(self, skin: Skin) -> tuple[str, str]:
+        return "-r", f"__ns:={self._namespace}/{skin.name}"
+
+    def _process(self, skin: Skin, package: str, executable: str, *words: str) -> Process:
+        program = packages.executable(package, executable, self._environment)
+        return Process(
+            label=f"{skin.name}/{executable}",
+            command=(str(program), *words),
+            environment=self._environment,
+            output="screen",
+            respawn=True,
+            respawn_delay_s=_RESPAWN_DELAY_S,
+        )
+
+
+def _board_options(driver: DriverSettings) -> list[str]:
+    """What a simulated board is to be like, so that the driver finds it as it wants it."""
+    words = ["--rows", f"{driver.rows}", "--cols", f"{driver.cols}", "--protocol", driver.protocol]
+    words += ["--rate-hz", f"{driver.rate_cap_hz or _BOARD_RATE_HZ}"]
+    if driver.scheme:
+        words += ["--scheme", driver.scheme]
+    if driver.m:
+        words += ["--m", f"{driver.m}"]
+    if driver.threshold_counts >= 0:
+        words += ["--threshold", f"{driver.threshold_counts}"]
+    return words

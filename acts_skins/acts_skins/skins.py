@@ -1,0 +1,75 @@
+"""`skins`: a process `tactile` for every skin of a file, in simulation with a board to it; one that dies comes again.
+
+What happens to one skin leaves the others alone. The processes end with this one, also where it is killed.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from acts_core.errors import SettingsError
+from acts_core.stop_signals import StopSignals
+from acts_ros.processes.console import Console
+from acts_ros.processes.launcher import Launcher
+from acts_skins.skin_processes import SkinProcesses
+from acts_skins.skins_file import read_skins
+
+# Together less than the 5 s after which a launch takes further steps.
+_SIGTERM_AFTER_S = 3.0
+_SIGKILL_AFTER_S = 1.5
+
+_TRUTHS = {"true": True, "1": True, "false": False, "0": False}
+
+
+def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
+    """Run the skins until told to stop; the exit code."""
+    signals = StopSignals() if signals is None else signals
+    # The launcher takes the signals over when it begins; until then one breaks off the start.
+    with signals.interrupting():
+        words = list(sys.argv if args is None else args)[1:]
+        own, ros_words = _split(words)
+        options = _parser().parse_args(own)
+        plan = SkinProcesses(
+            read_skins(options.skins_file),
+            simulated=_TRUTHS[options.sim],
+            run_dir=options.run_dir.absolute(),
+            namespace=_namespace(ros_words),
+            environment=os.environ,
+        ).plan()
+        return Launcher(Console(None), _SIGTERM_AFTER_S, _SIGKILL_AFTER_S, name="skins").run(plan)
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="skins", description="A process for every skin of a file (docs/skins.md).")
+    parser.add_argument("--skins-file", type=Path, required=True, help="YAML file that describes the skins")
+    parser.add_argument("--sim", choices=_TRUTHS, default="true", help="whether boards are simulated")
+    parser.add_argument("--run-dir", type=Path, default=Path("/dev/shm/acts"), help="for what simulated boards share")
+    return parser
+
+
+def _split(words: list[str]) -> tuple[list[str], list[str]]:
+    """Our words, and those that stand between ``--ros-args`` and ``--``."""
+    own: list[str] = []
+    ros: list[str] = []
+    target = own
+    for word in words:
+        if word == "--ros-args":
+            target = ros
+        elif word == "--" and target is ros:
+            target = own
+        else:
+            target.append(word)
+    return own, ros
+
+
+def _namespace(ros_words: list[str]) -> str:
+    """The namespace that a launch file pushed; empty for none."""
+    rules = [word.removeprefix("__ns:=") for word in ros_words if word.startswith("__ns:=")]
+    namespace = rules[-1].rstrip("/") if rules else ""
+    if namespace and not namespace.startswith("/"):
+        raise SettingsError(f"__ns:={rules[-1]}: a namespace begins with /")
+    return namespace

@@ -1,0 +1,265 @@
+"""The file that describes the skins of a robot: where their samples come from, and where they are. Knows no ROS.
+
+`docs/skins.md` describes it key by key. The parameters of driver and reconstruction are only gathered here;
+`acts_skins.tactile_parameters` checks them, for who starts the processes.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from acts_core.errors import SettingsError
+from acts_skins.frame_tree import FrameTree, Pose
+from acts_skins.transforms import Quaternion, Transform, Vector
+from acts_skins.yaml_places import Section, read_yaml
+
+_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,63}")
+_FRAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*")
+
+_NODES_OF: dict[str, tuple[str, ...]] = {
+    "rows": ("driver", "reconstruction"),
+    "cols": ("driver", "reconstruction"),
+    "scheme": ("driver",),
+    "m": ("driver",),
+    "threshold_counts": ("driver",),
+    "layout": ("reconstruction",),
+    "pitch_m": ("reconstruction",),
+    "row_pitch_m": ("reconstruction",),
+}
+"""Parameters with a key of their own, and the nodes they go to."""
+
+# As of tactile.launch.xml: the board's own are for the paper's scheme.
+_DEFAULTS: dict[str, Any] = {"scheme": "tracking", "m": 55, "threshold_counts": 60}
+
+_FILE_KEYS = ("base_frame", "frames", "skins")
+_SOURCE_KEYS = ("port", "replay", "recording", "recording_rate_hz")
+_SKIN_KEYS = (*_SOURCE_KEYS, *_NODES_OF, "pose", "driver", "reconstruction")
+_POSE_KEYS = ("parent", "position_m", "rpy_rad", "quaternion_xyzw")
+
+
+@dataclass(frozen=True)
+class Skin:
+    """One skin.
+
+    Attributes
+    ----------
+    name : str
+        Its namespace and its frame.
+    pose : Pose
+        Where its frame lies.
+    port : str or None
+        Of its board, as the driver's parameter.
+    replay : Path or None
+        Recording that the driver replays in place of a board.
+    recording : Path or None
+        What a simulated board feels.
+    recording_rate_hz : float
+        Frames per second of that.
+    driver, reconstruction : mapping
+        Parameters that the file gives to the two nodes, not yet checked.
+    section : Section
+        Where the skin stands in the file.
+    """
+
+    name: str
+    pose: Pose
+    port: str | None
+    replay: Path | None
+    recording: Path | None
+    recording_rate_hz: float
+    driver: Mapping[str, Any]
+    reconstruction: Mapping[str, Any]
+    section: Section = field(repr=False, compare=False)
+
+
+@dataclass(frozen=True)
+class SkinsFile:
+    """The skins of a robot.
+
+    Attributes
+    ----------
+    path : Path
+        The file.
+    base_frame : str
+        Frame of the merged contacts.
+    skins : tuple of Skin
+        In the file's order; at least one.
+    frames : mapping of str to Pose
+        Further fixed frames that the file names.
+    """
+
+    path: Path
+    base_frame: str
+    skins: tuple[Skin, ...]
+    frames: Mapping[str, Pose]
+
+    def poses(self) -> dict[str, Pose]:
+        """Every frame that the file places: its own, then the skins."""
+        return {**self.frames, **{skin.name: skin.pose for skin in self.skins}}
+
+    def in_base(self, base_frame: str = "") -> dict[str, Transform]:
+        """Where each skin lies in `base_frame`, or in the file's.
+
+        Raises
+        ------
+        SettingsError
+            When one is not fixed to it.
+        """
+        tree = FrameTree(self.poses())
+        placed = {}
+        for skin in self.skins:
+            try:
+                placed[skin.name] = tree.between(base_frame or self.base_frame, skin.name)
+            except SettingsError as error:
+                raise skin.section.error(str(error), "pose") from None
+        return placed
+
+
+def read_skins(path: Path) -> SkinsFile:
+    """Read a file of skins.
+
+    Raises
+    ------
+    SettingsError
+        For anything wrong in it, with file, line, skin and key, and what is allowed.
+    """
+    path = path.expanduser()
+    top = read_yaml(path)
+    top.check_keys(_FILE_KEYS)
+    frames_section = top.section("frames", "")
+    frames = {
+        name: _pose(frames_section.section(name, f"frame {name}")) for name in _names(frames_section, _FRAME, "frame")
+    }
+    skins_section = top.section("skins", "")
+    names = _names(skins_section, _NAME, "skin")
+    if not names:
+        raise top.error("skins: there has to be at least one", "skins")
+    skins = tuple(_skin(name, skins_section.section(name, f"skin {name}")) for name in names)
+    for skin in skins:
+        if skin.name in frames:
+            raise skin.section.error("a frame of this file has the same name")
+    _check_ports(skins)
+    base_frame = top.text("base_frame", "base_link")
+    assert base_frame is not None
+    if _FRAME.fullmatch(base_frame) is None:
+        raise top.error(f"base_frame = {base_frame!r}: {_allowed_name('frame')}", "base_frame")
+    read = SkinsFile(path, base_frame, skins, frames)
+    try:
+        FrameTree(read.poses())
+    except SettingsError as error:
+        raise top.error(str(error), "skins") from None
+    return read
+
+
+def _allowed_name(what: str) -> str:
+    return f"the name of a {what} consists of letters, digits and _, and does not begin with a digit"
+
+
+def _names(section: Section, allowed: re.Pattern[str], what: str) -> list[str]:
+    for name in section.values:
+        if not isinstance(name, str) or allowed.fullmatch(name) is None:
+            raise section.error(f"{what} {name!r}: {_allowed_name(what)} (no, yes, on and off in quotes)", str(name))
+    return list(section.values)
+
+
+def _skin(name: str, section: Section) -> Skin:
+    section.check_keys(_SKIN_KEYS)
+    port = section.text("port")
+    if port is not None and "replay" in section.values:
+        raise section.error("port and replay: samples come either from a board or from a recording", "replay")
+    rate_hz = section.values.get("recording_rate_hz", 1000.0)
+    if not _is_number(rate_hz) or not 0.0 < rate_hz <= 1e6:
+        raise section.error(
+            f"recording_rate_hz = {rate_hz!r}: allowed is a number above 0 to 1000000", "recording_rate_hz"
+        )
+    if "pose" not in section.values:
+        raise section.error("pose is missing: parent, position_m and rpy_rad or quaternion_xyzw of the skin's frame")
+    return Skin(
+        name,
+        _pose(section.section("pose", f"skin {name}: pose")),
+        port,
+        _file(section, "replay"),
+        _file(section, "recording"),
+        float(rate_hz),
+        _parameters(section, "driver"),
+        _parameters(section, "reconstruction"),
+        section,
+    )
+
+
+def _file(section: Section, key: str) -> Path | None:
+    """A path, which if relative begins at the file's folder."""
+    text = section.text(key)
+    return None if text is None else section.path.absolute().parent / Path(text).expanduser()
+
+
+def _parameters(section: Section, node: str) -> dict[str, Any]:
+    further = section.section(node, f"{section.what}: {node}")
+    for key in further.values:
+        if not isinstance(key, str):
+            raise further.error(f"the name of a parameter is text, not {key!r}", str(key))
+        if key in _NODES_OF or key in _SOURCE_KEYS:
+            raise further.error(f"{key} is given at the skin itself, beside pose", key)
+        if key == "frame_id":
+            raise further.error("frame_id is the skin's name", key)
+    own = {key: section.values.get(key, _DEFAULTS.get(key)) for key, nodes in _NODES_OF.items() if node in nodes}
+    return {**{key: value for key, value in own.items() if value is not None}, **further.values}
+
+
+def _pose(section: Section) -> Pose:
+    section.check_keys(_POSE_KEYS)
+    parent = section.text("parent")
+    if parent is None or _FRAME.fullmatch(parent) is None:
+        raise section.error(f"parent = {parent!r}: needed is the name of a frame; {_allowed_name('frame')}", "parent")
+    if "rpy_rad" in section.values and "quaternion_xyzw" in section.values:
+        raise section.error("rpy_rad and quaternion_xyzw: give one of them", "quaternion_xyzw")
+    x, y, z = _numbers(section, "position_m", (0.0, 0.0, 0.0))
+    try:
+        if "quaternion_xyzw" in section.values:
+            quaternion: Quaternion = _numbers(section, "quaternion_xyzw", (0.0, 0.0, 0.0, 1.0))  # type: ignore[assignment]
+            return Pose(parent, Transform((x, y, z), quaternion))
+        rpy_rad: Vector = _numbers(section, "rpy_rad", (0.0, 0.0, 0.0))  # type: ignore[assignment]
+        return Pose(parent, Transform.from_rpy((x, y, z), rpy_rad))
+    except SettingsError as error:
+        key = "quaternion_xyzw" if "quaternion_xyzw" in section.values else None
+        raise section.error(str(error), key) from None
+
+
+def _numbers(section: Section, key: str, default: tuple[float, ...]) -> tuple[float, ...]:
+    given = section.values.get(key, default)
+    if not isinstance(given, (list, tuple)) or len(given) != len(default) or not all(map(_is_number, given)):
+        raise section.error(
+            f"{key} = {given!r}: allowed are {len(default)} finite numbers, such as [0.1, 0, -1.5e-3] (1e-3 is "
+            "text in YAML, write 1.0e-3)",
+            key,
+        )
+    return tuple(float(number) for number in given)
+
+
+def _is_number(value: object) -> bool:
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        return False
+    # One of 400 digits is no float.
+    return abs(value) < 1e300 and math.isfinite(value)
+
+
+def _check_ports(skins: tuple[Skin, ...]) -> None:
+    users: dict[str, Skin] = {}
+    for skin in skins:
+        if skin.port is None:
+            continue
+        # Two names of one device, such as those in /dev/serial/by-id, are one port.
+        port = str(Path(skin.port).resolve()) if skin.port.startswith("/") else skin.port
+        if port in users:
+            raise skin.section.error(f"port = {skin.port}: skin {users[port].name} has this port already", "port")
+        users[port] = skin
+    if len(users) > 1 and "auto" in users:
+        raise users["auto"].section.error(
+            f"port = auto: the only board there is, but {len(users)} skins have one; give serial:NUMBER or a path",
+            "port",
+        )

@@ -1,0 +1,100 @@
+"""The parameters that a file of skins gives to driver and reconstruction, checked by their own settings classes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, TypeVar
+
+import yaml
+
+from acts_core.errors import ActsError
+from acts_core.layouts import layout
+from acts_core.settings import checked, default_of, describe, unknown_key_message
+from acts_driver.settings import DriverSettings
+from acts_recon.reconstruction_settings import ReconstructionSettings
+from acts_skins.skins_file import Skin
+from acts_skins.yaml_places import Section
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class TactileParameters:
+    """What the two nodes of a skin are given.
+
+    Attributes
+    ----------
+    driver, reconstruction
+        Their settings as they will be.
+    words : tuple of str
+        Command line of `tactile` that makes them so.
+    """
+
+    driver: DriverSettings
+    reconstruction: ReconstructionSettings
+    words: tuple[str, ...]
+
+
+def tactile_parameters(skin: Skin, port: str) -> TactileParameters:
+    """Check what the file gives.
+
+    Parameters
+    ----------
+    skin : Skin
+        Of the file.
+    port : str
+        Of its board, real or simulated; of no effect where the skin has a recording to replay.
+
+    Raises
+    ------
+    SettingsError
+        For an unknown parameter or one out of range, with file, line, skin and key.
+    """
+    driver: dict[str, Any] = {**skin.driver, "frame_id": skin.name, "port": port}
+    if skin.replay is not None:
+        driver["replay"] = str(skin.replay)
+    given = {"driver": driver, "reconstruction": dict(skin.reconstruction)}
+    driver_settings = _settings(DriverSettings, skin, "driver", driver)
+    reconstruction = _settings(ReconstructionSettings, skin, "reconstruction", skin.reconstruction)
+    try:
+        layout(reconstruction.layout, reconstruction.rows, reconstruction.cols)
+    except ActsError as error:
+        raise skin.section.error(str(error), "layout") from None
+    words: list[str] = []
+    for node, values in given.items():
+        for name, value in values.items():
+            words += ["--set", f"{node}.{name}={_text(value)}"]
+    return TactileParameters(driver_settings, reconstruction, tuple(words))
+
+
+def _settings(settings_class: type[T], skin: Skin, node: str, values: Mapping[str, Any]) -> T:
+    """As `acts_core.settings.from_mapping`, with the place in the file of what is wrong."""
+    infos = describe(settings_class)
+    arguments = {}
+    for name, value in values.items():
+        section, key = _place(skin, node, name)
+        if name not in infos:
+            raise section.error(unknown_key_message(name, list(infos), f"parameters of {node}"), key)
+        try:
+            arguments[name] = checked(name, value, default_of(settings_class, name), infos[name])
+        except ActsError as error:
+            raise section.error(str(error), key) from None
+    try:
+        return settings_class(**arguments)
+    except ActsError as error:
+        raise skin.section.error(str(error)) from None
+
+
+def _place(skin: Skin, node: str, name: str) -> tuple[Section, str]:
+    further = skin.section.section(node, f"{skin.section.what}: {node}")
+    return (further, name) if name in further.values else (skin.section, name)
+
+
+def _text(value: object) -> str:
+    """A value as `acts_core.settings.from_text` reads it: text as it stands, everything else as in YAML."""
+    if isinstance(value, str):
+        return value
+    # In a list, since YAML ends a lone value with a line of its own.
+    return yaml.safe_dump([value], default_flow_style=True, width=math.inf).strip()[1:-1]

@@ -1,0 +1,119 @@
+"""YAML files with the line of every key, so that an error can name the place; a key given twice is an error."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from acts_core.errors import SettingsError
+from acts_core.settings import unknown_key_message
+
+# Deeper than any file that is read by this; what lies below goes by the line of what holds it.
+_MAX_DEPTH = 5
+
+Keys = tuple[object, ...]
+
+
+@dataclass(frozen=True)
+class Section:
+    """A mapping in a YAML file, and where it stands.
+
+    Attributes
+    ----------
+    path : Path
+        The file.
+    values : mapping
+        As in the file.
+    what : str
+        What it is about, for error messages, such as ``skin left_arm``.
+    """
+
+    path: Path
+    values: Mapping[str, Any]
+    what: str
+    _keys: Keys
+    _lines: Mapping[Keys, int]
+
+    def error(self, message: str, key: str | None = None) -> SettingsError:
+        """An error that begins with file, line and what the section is about; `key`: the key whose line it is."""
+        keys = self._keys if key is None else (*self._keys, key)
+        line = self._lines.get(keys, self._lines.get(self._keys, 1))
+        about = f"{self.what}: " if self.what else ""
+        return SettingsError(f"{self.path}:{line}: {about}{message}")
+
+    def check_keys(self, known: Sequence[str]) -> None:
+        """Refuse keys that are not known, with the nearest one that is."""
+        for key in self.values:
+            if key not in known:
+                # YAML 1.1 reads on, off, yes and no as true and false.
+                text = str(key) if isinstance(key, str) else f"{key}"
+                raise self.error(unknown_key_message(text, list(known), "keys"), key)
+
+    def section(self, key: str, what: str) -> Section:
+        """The mapping below a key; empty where the key is missing or has no value."""
+        values = self.values.get(key)
+        inner = Section(self.path, {} if values is None else values, what, (*self._keys, key), self._lines)
+        if not isinstance(inner.values, Mapping):
+            raise self.error(f"{key} = {values!r}: needed is a mapping of names to values", key)
+        return inner
+
+    def text(self, key: str, default: str | None = None) -> str | None:
+        """The text at a key."""
+        value = self.values.get(key)
+        if value is None:
+            return default
+        if not isinstance(value, str) or not value.strip():
+            raise self.error(f"{key} = {value!r}: allowed is text; put it in quotes", key)
+        return value.strip()
+
+
+def read_yaml(path: Path) -> Section:
+    """Read a YAML file whose top level is a mapping.
+
+    Raises
+    ------
+    SettingsError
+        When it cannot be read, is not YAML, gives a key twice, or is no mapping; with file and line.
+    """
+    try:
+        text = path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise SettingsError(f"{path}: cannot be read ({error.strerror}); give an existing YAML file") from error
+    except UnicodeDecodeError as error:
+        raise SettingsError(f"{path}: not valid YAML: {error}") from error
+    lines: dict[Keys, int] = {}
+    try:
+        loader = yaml.SafeLoader(text)
+        try:
+            node = loader.get_single_node()
+            if node is not None:
+                _note_lines(path, node, (), lines)
+            values = None if node is None else loader.construct_document(node)
+        finally:
+            loader.dispose()
+    except (yaml.YAMLError, RecursionError, ValueError) as error:
+        # ValueError: a time stamp such as 2024-13-45.
+        raise SettingsError(f"{path}: not valid YAML: {error}") from error
+    if not isinstance(values, dict):
+        raise SettingsError(f"{path}: the top level must be a mapping of names to values")
+    return Section(path, values, "", (), lines)
+
+
+def _note_lines(path: Path, node: yaml.Node, keys: Keys, lines: dict[Keys, int]) -> None:
+    lines.setdefault(keys, node.start_mark.line + 1)
+    if not isinstance(node, yaml.MappingNode) or len(keys) >= _MAX_DEPTH:
+        return
+    given: set[str] = set()
+    for key_node, value_node in node.value:
+        if not isinstance(key_node, yaml.ScalarNode):
+            continue
+        key, line = str(key_node.value), key_node.start_mark.line + 1
+        if key in given:
+            raise SettingsError(f"{path}:{line}: the key {key!r} is given twice")
+        given.add(key)
+        lines[(*keys, key)] = line
+        _note_lines(path, value_node, (*keys, key), lines)

@@ -1,0 +1,159 @@
+"""Frames of several skins at one common time: slow, late, lost and returning skins, and wrong clocks."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from acts_core.errors import SettingsError
+from acts_skins.contacts.alignment import Aligned, AlignedSkin, Aligner, AlignmentConfig, SkinState
+
+MS = 1_000_000
+NOW = 1_000_000 * MS
+CONFIG = AlignmentConfig(align_s=0.02, stale_after_s=0.1, lost_after_s=0.5, future_s=0.05)
+
+
+def make() -> Aligner[str]:
+    return Aligner(["left", "right"], CONFIG)
+
+
+def by_name(aligned: Aligned[str]) -> dict[str, AlignedSkin[str]]:
+    return {skin.name: skin for skin in aligned.skins}
+
+
+def stream(aligner: Aligner[str], name: str, first_ms: int, end_ms: int, step_ms: int = 1) -> None:
+    """Frames by their time after NOW [ms], all of them taken at the end."""
+    for time_ms in range(first_ms, end_ms, step_ms):
+        aligner.take(name, NOW + time_ms * MS, f"{name} {time_ms}", NOW + end_ms * MS)
+
+
+def test_skins_of_one_rate_meet_at_the_newest_time_that_all_have() -> None:
+    aligner = make()
+    stream(aligner, "left", 0, 10)
+    stream(aligner, "right", 0, 8)
+    aligned = aligner.step(NOW + 10 * MS)
+    assert aligned.time_ns == NOW + 7 * MS
+    skins = by_name(aligned)
+    assert skins["left"].frame == "left 7"
+    assert skins["right"].frame == "right 7"
+    assert skins["left"].age_s == pytest.approx(0.003)
+    # What was newer waits for its time.
+    stream(aligner, "right", 8, 12)
+    assert by_name(aligner.step(NOW + 12 * MS))["left"].frame == "left 9"
+
+
+def test_a_slow_skin_holds_the_others_up_by_no_more_than_is_allowed() -> None:
+    aligner = make()
+    stream(aligner, "left", 0, 60)
+    stream(aligner, "right", 0, 60, 50)
+    aligned = aligner.step(NOW + 60 * MS)
+    assert by_name(aligned)["left"].stamp_ns == aligned.time_ns == NOW + 50 * MS
+    stream(aligner, "left", 60, 90)
+    aligned = aligner.step(NOW + 90 * MS)
+    assert aligned.time_ns == NOW + (89 - 20) * MS
+    skins = by_name(aligned)
+    assert skins["right"].frame == "right 50"
+    assert skins["right"].state is SkinState.FRESH
+    assert skins["right"].age_s == pytest.approx(0.040)
+
+
+def test_a_silent_skin_is_first_stale_then_lost_and_the_other_goes_on() -> None:
+    aligner = make()
+    stream(aligner, "right", 0, 10)
+    states = []
+    for before_ms, time_ms in ((0, 50), (50, 200), (200, 700)):
+        stream(aligner, "left", before_ms, time_ms)
+        aligned = aligner.step(NOW + time_ms * MS)
+        skin = by_name(aligned)["right"]
+        states.append((skin.state, skin.frame))
+    assert states == [(SkinState.FRESH, "right 9"), (SkinState.STALE, "right 9"), (SkinState.LOST, None)]
+    assert by_name(aligned)["left"].frame == "left 699"
+    # It comes again.
+    stream(aligner, "right", 1000, 1003)
+    stream(aligner, "left", 1000, 1003)
+    skin = by_name(aligner.step(NOW + 1003 * MS))["right"]
+    assert (skin.state, skin.frame) == (SkinState.FRESH, "right 1002")
+
+
+def test_a_skin_that_never_came_is_lost() -> None:
+    aligner = make()
+    stream(aligner, "left", 0, 3)
+    skin = by_name(aligner.step(NOW + 3 * MS))["right"]
+    assert (skin.state, skin.frame, skin.stamp_ns, skin.silent_s) == (SkinState.LOST, None, None, None)
+
+
+def test_with_nothing_there_time_is_the_present() -> None:
+    assert make().step(NOW).time_ns == NOW
+
+
+def test_stamps_of_the_future_are_dropped_and_disturb_nobody() -> None:
+    aligner = make()
+    for time_ms in range(10):
+        aligner.take("right", NOW + (time_ms + 5000) * MS, "future", NOW + time_ms * MS)
+    stream(aligner, "left", 0, 10)
+    aligned = aligner.step(NOW + 10 * MS)
+    assert aligned.time_ns == NOW + 9 * MS
+    assert by_name(aligned)["right"].state is SkinState.LOST
+    assert (aligner.counters["right"].future, aligner.counters["right"].ahead_s) == (10, 5.0)
+
+
+def test_a_frame_that_comes_twice_or_late_is_dropped() -> None:
+    aligner = make()
+    stream(aligner, "left", 0, 5)
+    stream(aligner, "left", 3, 5)
+    assert aligner.counters["left"].out_of_order == 2
+    assert by_name(aligner.step(NOW + 5 * MS))["left"].frame == "left 4"
+
+
+def test_after_the_clock_was_set_back_everything_begins_anew() -> None:
+    aligner = make()
+    stream(aligner, "left", 0, 10)
+    stream(aligner, "right", 0, 10)
+    assert aligner.step(NOW + 10 * MS).time_ns == NOW + 9 * MS
+    stream(aligner, "left", -60_000, -59_990)
+    aligned = aligner.step(NOW - 59_990 * MS)
+    assert aligner.clock_resets == 1
+    assert aligned.time_ns == NOW - 59_991 * MS
+    assert by_name(aligned)["left"].frame == "left -59991"
+    assert by_name(aligned)["right"].state is SkinState.LOST
+
+
+def test_limits_in_the_wrong_order_are_refused() -> None:
+    with pytest.raises(SettingsError, match="lost_after_s"):
+        AlignmentConfig(stale_after_s=1.0, lost_after_s=0.5)
+
+
+EVENTS = st.lists(
+    st.tuples(
+        st.sampled_from(["left", "right"]),
+        st.integers(-700, 200),  # stamp relative to the present [ms]
+        st.integers(-200, 700),  # how the clock goes on [ms]
+        st.booleans(),
+    ),
+    max_size=60,
+)
+
+
+@given(EVENTS)
+def test_whatever_comes_nothing_old_or_from_after_the_common_time_is_given(
+    events: list[tuple[str, int, int, bool]],
+) -> None:
+    aligner, now_ns, before_ns = make(), NOW, 0
+    for name, offset_ms, passed_ms, is_step in events:
+        now_ns += passed_ms * MS
+        aligner.take(name, now_ns + offset_ms * MS, "x", now_ns)
+        if not is_step:
+            continue
+        resets = aligner.clock_resets
+        aligned = aligner.step(now_ns)
+        assert aligned.time_ns <= now_ns + 50 * MS + 50 * MS  # a stamp may be ahead, and the clock go back unnoticed
+        if resets == aligner.clock_resets and passed_ms >= -50:
+            assert aligned.time_ns >= before_ns or resets
+        before_ns = aligned.time_ns
+        for skin in aligned.skins:
+            assert (skin.frame is None) == (skin.stamp_ns is None)
+            if skin.stamp_ns is not None:
+                assert skin.stamp_ns <= aligned.time_ns
+                assert skin.state is not SkinState.LOST
+                assert skin.age_s >= 0.0

@@ -1,0 +1,210 @@
+"""The program `skins` with its real processes: one skin's faults leave the other alone. ROS_DOMAIN_IDs 160 to 162."""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import psutil
+import pytest
+import rclpy
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+
+from acts_core.errors import SettingsError
+from acts_msgs.msg import Contact
+from acts_ros import qos
+from acts_skins.skin_processes import SkinProcesses
+from acts_skins.skins_file import read_skins
+
+DEADLINE_S = 120.0
+TWO = """
+skins:
+  left: {port: "serial:1", pose: {parent: base_link}}
+  right: {port: "serial:2", m: 64, pose: {parent: base_link}}
+"""
+
+
+def skins_yaml(folder: Path, text: str = TWO) -> Path:
+    path = folder / "skins.yaml"
+    path.write_text(text)
+    return path
+
+
+def stamp_ns(contact: Contact) -> int:
+    return int(contact.header.stamp.sec * 10**9 + contact.header.stamp.nanosec)
+
+
+class Skins:
+    """The running program."""
+
+    def __init__(self, process: subprocess.Popen[bytes], output: Path) -> None:
+        self.process = process
+        self._output = output
+
+    @property
+    def output(self) -> str:
+        return self._output.read_text(errors="replace")
+
+    def child(self, label: str) -> psutil.Process:
+        """A process such as left/tactile that runs now, by what the program has said of it."""
+        pids = re.findall(rf"\[{label}\]: process started with pid \[(\d+)\]", self.output)
+        return psutil.Process(int(pids[-1]))
+
+    def until(self, condition: Callable[[], bool], step: Callable[[], Any] = lambda: time.sleep(0.02)) -> None:
+        deadline_s = time.monotonic() + DEADLINE_S
+        while not condition():
+            assert time.monotonic() < deadline_s, self.output
+            step()
+
+
+@contextmanager
+def running(folder: Path, path: Path, domain_id: int, *words: str) -> Iterator[Skins]:
+    environment = {**os.environ, "ROS_DOMAIN_ID": str(domain_id), "ROS_PYTHON_CHECK_FIELDS": "1"}
+    command = [sys.executable, "-m", "acts_ros.program", "acts_skins.skins", "--skins-file", str(path)]
+    command += ["--run-dir", str(folder / "run"), *words]
+    log = folder / "output.txt"
+    with (
+        log.open("wb") as output,
+        subprocess.Popen(
+            command, env=environment, stdout=output, stderr=subprocess.STDOUT, start_new_session=True
+        ) as process,
+    ):
+        try:
+            yield Skins(process, log)
+        finally:
+            if process.poll() is None:
+                process.send_signal(signal.SIGINT)
+                try:
+                    process.wait(20.0)
+                except subprocess.TimeoutExpired:
+                    process.kill()
+
+
+class Listener:
+    """Counts the contacts of skins."""
+
+    def __init__(self, domain_id: int, *topics: str) -> None:
+        self.context = Context()
+        rclpy.init(context=self.context, domain_id=domain_id)
+        self.node = Node("listener", context=self.context)
+        self.executor = SingleThreadedExecutor(context=self.context)
+        self.executor.add_node(self.node)
+        self.messages: dict[str, list[Contact]] = {topic: [] for topic in topics}
+        for topic, messages in self.messages.items():
+            self.node.create_subscription(Contact, topic, messages.append, qos.STREAM)
+
+    def step(self) -> None:
+        self.executor.spin_once(timeout_sec=0.05)
+
+    def close(self) -> None:
+        self.executor.shutdown()
+        self.node.destroy_node()
+        rclpy.try_shutdown(context=self.context)
+
+
+@pytest.fixture
+def listener(request: pytest.FixtureRequest) -> Iterator[Listener]:
+    made = Listener(*request.param)
+    yield made
+    made.close()
+
+
+@pytest.mark.parametrize("listener", [(160, "/robot/left/contact", "/robot/right/contact")], indirect=True)
+def test_a_skin_that_is_killed_comes_again_and_the_other_notices_nothing(listener: Listener, tmp_path: Path) -> None:
+    left, right = listener.messages.values()
+    with running(tmp_path, skins_yaml(tmp_path), 160, "--ros-args", "-r", "__ns:=/robot") as skins:
+        skins.until(lambda: len(left) > 100 and len(right) > 100, listener.step)
+        assert {left[-1].header.frame_id, right[-1].header.frame_id} == {"left", "right"}
+        other = skins.child("right/tactile")
+        skins.child("left/tactile").kill()
+        skins.until(lambda: "[left/tactile]: process has died" in skins.output, listener.step)
+        # Contacts of before may still wait for this test.
+        died_ns = time.time_ns()
+        skins.until(lambda: len(left) > 0 and stamp_ns(left[-1]) > died_ns, listener.step)
+        assert sum(stamp_ns(contact) > died_ns for contact in right) > 100
+        assert other.is_running()
+        children = psutil.Process(skins.process.pid).children(recursive=True)
+        assert len(children) >= 6
+        skins.process.send_signal(signal.SIGINT)
+        assert skins.process.wait(30.0) == 0, skins.output
+        assert not any(child.is_running() for child in children)
+        assert skins.output.count("sending signal 'SIGINT'") == 6
+        assert "sending signal 'SIGTERM'" not in skins.output
+        assert "Traceback" not in skins.output
+        assert not list((tmp_path / "run").rglob("*"))[2:], list((tmp_path / "run").rglob("*"))
+
+
+@pytest.mark.parametrize("listener", [(161, "/left/contact")], indirect=True)
+def test_nothing_is_left_when_the_program_is_killed(listener: Listener, tmp_path: Path) -> None:
+    with running(tmp_path, skins_yaml(tmp_path), 161) as skins:
+        skins.until(lambda: bool(listener.messages["/left/contact"]), listener.step)
+        children = psutil.Process(skins.process.pid).children(recursive=True)
+        assert children
+        skins.process.kill()
+        skins.process.wait()
+        skins.until(lambda: not any(child.is_running() and child.status() != "zombie" for child in children))
+
+
+def test_a_wrong_file_is_told_in_one_line_before_anything_starts(tmp_path: Path) -> None:
+    path = skins_yaml(tmp_path, TWO.replace("m: 64", "scheme: rastr"))
+    with running(tmp_path, path, 162) as skins:
+        assert skins.process.wait(DEADLINE_S) == 1
+        assert skins.output.startswith(f"error: {path}:4: skin right: scheme = 'rastr': allowed is")
+        assert skins.output.count("\n") == 1
+
+
+def plan(path: Path, *, simulated: bool) -> dict[str, str]:
+    processes = SkinProcesses(
+        read_skins(path), simulated=simulated, run_dir=Path("/run"), namespace="", environment=os.environ
+    ).plan()
+    return {process.label: " ".join(process.command) for process in processes}
+
+
+def test_without_simulation_a_skin_is_one_process_at_its_port(tmp_path: Path) -> None:
+    commands = plan(skins_yaml(tmp_path), simulated=False)
+    assert list(commands) == ["left/tactile", "right/tactile"]
+    assert "--set driver.port=serial:1" in commands["left/tactile"]
+    assert "--set driver.m=64" in commands["right/tactile"]
+    assert commands["right/tactile"].endswith("--ros-args -r __ns:=/right")
+
+
+def test_a_recording_stands_in_for_the_ball_and_a_replay_for_the_board(tmp_path: Path) -> None:
+    (tmp_path / "press.npy").touch()
+    text = TWO.replace('port: "serial:1"', "recording: press.npy").replace('port: "serial:2"', "replay: touch.npz")
+    commands = plan(skins_yaml(tmp_path, text), simulated=True)
+    assert list(commands) == ["left/virtual_board", "left/tactile", "right/tactile"]
+    assert f"--recording {tmp_path}/press.npy" in commands["left/virtual_board"]
+    assert f"driver.replay={tmp_path}/touch.npz" in commands["right/tactile"]
+
+
+def test_the_boards_of_simulated_skins_are_as_the_file_says(tmp_path: Path) -> None:
+    commands = plan(skins_yaml(tmp_path, TWO.replace("m: 64", "m: 64, rows: 16, cols: 24")), simulated=True)
+    assert "--link /run/right/board --rows 16 --cols 24" in commands["right/virtual_board"]
+    assert "--seed 2" in commands["right/virtual_board"]
+    assert "rows:=16" in commands["right/ball_world"]
+    assert "driver.port=/run/right/board" in commands["right/tactile"]
+
+
+@pytest.mark.parametrize(
+    ("change", "simulated", "words"),
+    [
+        (("port: ", "recording: "), True, "skins.yaml:3: skin left: recording = "),
+        (('port: "serial:1", ', ""), False, "skins.yaml:3: skin left: port or replay is missing"),
+    ],
+)
+def test_a_skin_without_its_source_is_refused(
+    tmp_path: Path, change: tuple[str, str], simulated: bool, words: str
+) -> None:
+    with pytest.raises(SettingsError) as caught:
+        plan(skins_yaml(tmp_path, TWO.replace(*change)), simulated=simulated)
+    assert words in str(caught.value)
