@@ -9,11 +9,13 @@ from typing import Any
 
 from geometry_msgs.msg import Vector3Stamped
 
+from acts_control.contact_bytes import read_contact
 from acts_control.controller import BallReport
-from acts_control.estimator import BallEstimator, ContactMeasurement, EstimatorConfig
+from acts_control.estimator import BallEstimator, EstimatorConfig
 from acts_control.names import CONTACT_TOPIC, STATE_TOPIC, STATISTICS_TOPIC, TILT_TOPIC, set_stamp, to_ns
 from acts_control.pid import Ball
 from acts_control.stream_statistics import StreamCounter
+from acts_core.errors import PacketError
 from acts_core.settings import setting
 from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import BallState, Contact, StreamStatistics
@@ -68,7 +70,7 @@ class BallStateNode(PollingNode):
         self._reported = 0
         self._state_publisher = self.create_publisher(BallState, STATE_TOPIC, STATE)
         self._statistics_publisher = self.create_publisher(StreamStatistics, STATISTICS_TOPIC, STATE)
-        self._contacts = self.create_polled_subscription(Contact, CONTACT_TOPIC, STREAM, depth=_CONTACTS)
+        self._contacts = self.create_raw_polled_subscription(Contact, CONTACT_TOPIC, STREAM, depth=_CONTACTS)
         if is_driven:
             self.create_timer(_UNDRIVEN_S, self._update_undriven)
         else:
@@ -85,8 +87,8 @@ class BallStateNode(PollingNode):
         with self._lock:
             self._updated_s = time.monotonic()
             is_heard = self._state_publisher.get_subscription_count() > 0
-            for message, received_ns in self._contacts.take_all():
-                self._take(message, received_ns, is_heard)
+            for data, received_ns in self._contacts.take_all():
+                self._take(data, received_ns, is_heard)
             state = self._estimator.state
             if not state.received:
                 return None
@@ -104,19 +106,22 @@ class BallStateNode(PollingNode):
     def _on_tilt(self, message: Vector3Stamped) -> None:
         self.set_tilt(to_ns(message.header.stamp), (message.vector.x, message.vector.y))
 
-    def _take(self, message: Contact, received_ns: int, is_heard: bool) -> None:
+    def _take(self, data: bytes, received_ns: int, is_heard: bool) -> None:
         # A thousand times a second: nothing here that is not needed.
-        stamp_ns = to_ns(message.header.stamp)
-        self._counter.step(message.sequence, (received_ns - stamp_ns) * 1e-9)
-        centre = message.centre_of_pressure
-        self._estimator.step(ContactMeasurement(stamp_ns, message.in_contact, centre.x, centre.y, message.force))
+        try:
+            sequence, frame_id, measurement = read_contact(data)
+        except PacketError as error:
+            self.get_logger().warning(f"contact dropped: {error}", throttle_duration_sec=5.0)
+            return
+        self._counter.step(sequence, (received_ns - measurement.stamp_ns) * 1e-9)
+        self._estimator.step(measurement)
         state_ns = self._estimator.state.stamp_ns
         if state_ns >= self._due_ns or state_ns < self._due_ns - 2 * self._period_ns:
             # Kept on a grid, so that the rate is right on average whatever the contacts' own rate.
             late = state_ns - self._due_ns
             self._due_ns += self._period_ns if 0 <= late < self._period_ns else late + self._period_ns
             if is_heard:
-                self._publish_state(message.header.frame_id)
+                self._publish_state(frame_id)
 
     def _publish_state(self, frame_id: str) -> None:
         state, message = self._estimator.state, self._message
