@@ -30,7 +30,7 @@ _STATISTICS_PERIOD_S = 1.0
 # At 1 kHz: how long a reader may be held up before contacts are lost [ms].
 _CONTACTS = 128
 # While the control loop does not ask, since it is connecting or stopped, the node itself takes contacts so often [s].
-_UNDRIVEN_S = 0.03
+_UNDRIVEN_S = 0.1
 
 
 @dataclass(frozen=True)

@@ -26,7 +26,7 @@ _STATUS_STALE_NS = 500_000_000
 _FROM_THE_START = (Phase.CONNECTING, Phase.HOMING, Phase.STOPPED)
 
 # How often the reference is published while the control loop does not ask, since it is connecting or stopped [s].
-_UNDRIVEN_S = 0.03
+_UNDRIVEN_S = 0.1
 
 
 @dataclass(frozen=True)

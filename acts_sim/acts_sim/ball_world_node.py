@@ -12,7 +12,6 @@ from pathlib import Path
 
 from geometry_msgs.msg import PointStamped
 from rclpy.node import Node
-from rclpy.time import Time
 
 from acts_core.errors import ActsError
 from acts_core.realtime import RealtimeConfig, enter_realtime
@@ -29,6 +28,7 @@ from acts_sim.world import Phase, World, WorldConfig, WorldState
 from acts_sim.world_loop import STEP_NS, LoopStatistics, WorldLoop
 
 _NS_PER_MS = 1_000_000
+_NS_PER_S = 1_000_000_000
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ class BallWorldSettings(RealtimeConfig, WorldConfig):
     )
     frame_id: str = setting("", "frame of the skin; empty: the namespace of the node")
     truth_every: int = setting(
-        4, "the ball's true position is published every so many milliseconds, even ones", minimum=2, maximum=1000
+        8, "the ball's true position is published every so many milliseconds, even ones", minimum=2, maximum=1000
     )
 
     def __post_init__(self) -> None:
@@ -89,9 +89,11 @@ class BallWorld(Node):
         every_steps = self._settings.truth_every * _NS_PER_MS // STEP_NS
         if state.phase is not Phase.ROLLING or self._steps % every_steps:
             return
+        if not self._truth.get_subscription_count():
+            return
         stamp_ns = self.get_clock().now().nanoseconds + time_ns - time.monotonic_ns()
         message = self._message
-        message.header.stamp = Time(nanoseconds=stamp_ns).to_msg()
+        message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp_ns, _NS_PER_S)
         message.point.x = state.ball.x_m
         message.point.y = state.ball.y_m
         self._truth.publish(message)

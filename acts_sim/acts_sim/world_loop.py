@@ -14,9 +14,12 @@ from acts_sim.world import World, WorldState
 STEP_NS = 2_000_000
 """As long as the simulated robot's own cycle; between two steps the board interpolates the field."""
 
-LEAD_NS = 2 * STEP_NS
-"""How far the world is ahead of the clock [ns]. One step would do if every step came in time; with two, the board still
-finds a field beyond its own time when a step comes up to two milliseconds late."""
+WAKE_NS = 2 * STEP_NS
+"""How often the process wakes [ns]: to be woken takes several times as long as a step."""
+
+LEAD_NS = WAKE_NS + STEP_NS
+"""How far the world is ahead of the clock after it was woken [ns]: until it is woken again, and two milliseconds more,
+so that the board still finds a field beyond its own time when that is late."""
 
 LONGEST_CATCH_UP_STEPS = 25
 """A world that is further behind than this leaves out the rest: the ball stands still meanwhile."""
@@ -107,8 +110,8 @@ class WorldLoop:
             When to call again [ns].
         """
         before = self._statistics
-        late_ns = now_ns + LEAD_NS - STEP_NS - self._world_ns
-        behind = max(late_ns // STEP_NS + 1, 0)
+        late_ns = now_ns - self._due_ns()
+        behind = max((now_ns + LEAD_NS - self._world_ns) // STEP_NS, 0)
         skipped = max(behind - LONGEST_CATCH_UP_STEPS, 0)
         self._world_ns += skipped * STEP_NS
         for _ in range(behind - skipped):
@@ -123,7 +126,10 @@ class WorldLoop:
             latest_s=max(before.latest_s, 0.0 if first else late_ns / 1e9),
             skipped=before.skipped + (0 if first else skipped),
         )
-        return self._world_ns + STEP_NS - LEAD_NS
+        return self._due_ns()
+
+    def _due_ns(self) -> int:
+        return self._world_ns + WAKE_NS - LEAD_NS
 
     def start(self) -> None:
         """Begin, in a thread of its own."""

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from rclpy.node import Node
 from sensor_msgs.msg import Image
 
-from acts_msgs.msg import BalanceStatus, BallReference, BallState, StreamStatistics
+from acts_msgs.msg import BalanceStatus, BallReference, StreamStatistics
 from acts_ros import qos
 from acts_tools.demo.recording import Recording
 from acts_tools.driver_status import driver_values
@@ -47,7 +47,6 @@ class Collector(Node):
         subscribe = self.create_subscription
         subscribe(BalanceStatus, "ball/status", self._on_status, qos.STATE)
         subscribe(BallReference, "ball/reference", self._on_reference, qos.STATE)
-        subscribe(BallState, "ball/state", self._on_state, qos.STATE)
         subscribe(PointStamped, "ball/truth", self._on_truth, qos.STATE)
         subscribe(StreamStatistics, "contact_statistics", self._on_statistics, qos.STATE)
         subscribe(DiagnosticArray, "/diagnostics", self._on_diagnostics, 10)
@@ -74,12 +73,8 @@ class Collector(Node):
         self.recording.segments.extend([message.segment] * (len(track.time_s) - before))
         self.recording.finished = message.finished
 
-    def _on_state(self, message: BallState) -> None:
-        if message.valid:
-            self.ball_m = (message.position.x, message.position.y)
-            self.recording.estimate.add(seconds(message.header.stamp), *self.ball_m)
-
     def _on_truth(self, message: PointStamped) -> None:
+        self.ball_m = (message.point.x, message.point.y)
         self.recording.truth.add(seconds(message.header.stamp), message.point.x, message.point.y)
 
     def _on_statistics(self, message: StreamStatistics) -> None:
