@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from acts_tools.launch.packages import executable
+from acts_ros.processes.packages import executable
 
 CORE = min(os.sched_getaffinity(0))
 PARAMETERS = ("realtime_priority:=20", f"cpu_affinity:={CORE},")

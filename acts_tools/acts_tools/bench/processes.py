@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from acts_core.errors import LaunchError
-from acts_tools.launch.packages import executable
-from acts_tools.launch.processes import leave_with_parent
+from acts_ros.processes.launcher import leave_with_parent
+from acts_ros.processes.packages import executable
 
 NAMESPACE = "/plate"
 M = 55

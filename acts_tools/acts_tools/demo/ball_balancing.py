@@ -25,12 +25,12 @@ from acts_core.array import ArrayGeometry
 from acts_core.errors import ActsError, LaunchError
 from acts_msgs.msg import BalanceStatus
 from acts_ros.executor import make_executor
+from acts_ros.processes.launcher import leave_with_parent
 from acts_tools.bags.stopping import StopFlag
 from acts_tools.demo.collector import Collector
 from acts_tools.demo.picture import draw
 from acts_tools.demo.recording import Recording
 from acts_tools.demo.score import score, table
-from acts_tools.launch.processes import leave_with_parent
 from acts_tools.process_load import LoadMeter
 from acts_tools.ros_domain import use_free_domain
 from acts_tools.run_folder import shared_memory

@@ -30,7 +30,7 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
-from acts_tools.launch.processes import leave_with_parent
+from acts_ros.processes.launcher import leave_with_parent
 from acts_tools.two_machines.conditions import Conditions, Traffic
 
 INTERFACE = "cable0"

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from acts_core.errors import LaunchError
-from acts_tools.launch.processes import leave_with_parent
+from acts_ros.processes.launcher import leave_with_parent
 from acts_tools.two_machines.conditions import Conditions, Traffic
 
 _TOOLS = {"ip": "iproute2", "mount": "mount", "nsenter": "util-linux", "unshare": "util-linux"}
