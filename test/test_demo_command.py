@@ -34,7 +34,7 @@ def test_the_demo_leaves_figures_and_a_picture(tmp_path: Path) -> None:
         assert results["rms_mm"]["hold"] is not None, said
         assert results["rms_mm"]["hold"] < 10
     assert results["rms_mm"]["N"] is None
-    assert {"driver", "reconstruction", "virtual_board", "ur_controller"} <= set(results["cpu_percent"]), said
+    assert {"tactile", "virtual_board", "ur_controller"} <= set(results["cpu_percent"]), said
     assert (tmp_path / "ball_balancing.png").read_bytes().startswith(b"\x89PNG")
     assert "contacts received by the control node" in finished.stdout
 

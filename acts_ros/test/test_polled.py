@@ -1,4 +1,4 @@
-"""Subscriptions that are read when their reader is due; ROS_DOMAIN_ID 133."""
+"""Subscriptions that are read when their reader is due; ROS_DOMAIN_ID 134."""
 
 import time
 from collections.abc import Callable, Iterator
@@ -22,7 +22,7 @@ class Pair:
 
     def __init__(self, make_executor: Callable[[Context], Executor]) -> None:
         self.context = Context()
-        rclpy.init(context=self.context, domain_id=133)
+        rclpy.init(context=self.context, domain_id=134)
         self.node = PollingNode("asked", context=self.context)
         self.called: list[int] = []
         self.node.create_subscription(Int32, "called", lambda message: self.called.append(message.data), STREAM)

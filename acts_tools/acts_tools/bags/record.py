@@ -70,9 +70,8 @@ def record(path: Path, topics: list[str] | None, duration_s: float | None) -> in
     # Late: they take time that the other commands need not spend.
     import rclpy
     from rclpy.signals import SignalHandlerOptions
-    from rclpy.task import Future
 
-    from acts_ros.executor import make_executor
+    from acts_ros.executor import make_executor, spin_for
     from acts_tools.bags.recorder import Recorder
     from acts_tools.bags.stopping import StopFlag
     from acts_tools.bags.writing import BagWriter
@@ -91,7 +90,7 @@ def record(path: Path, topics: list[str] | None, duration_s: float | None) -> in
             with closing(bag), closing(recorder):
                 while not stop.is_set and (duration_s is None or time.monotonic() - started_s < duration_s):
                     recorder.discover()
-                    executor.spin_until_future_complete(Future(), timeout_sec=_TURN_S)
+                    spin_for(executor, _TURN_S)
                     bag.flush()
         finally:
             executor.shutdown()

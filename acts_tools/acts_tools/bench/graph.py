@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 import time
 from collections.abc import Callable
 from types import TracebackType
@@ -11,15 +10,13 @@ import rclpy
 from rclpy.executors import Executor
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
-from rclpy.task import Future
 
 from acts_core.errors import LaunchError
-from acts_ros.executor import make_executor
+from acts_ros.executor import make_executor, spin_for
 from acts_tools.bench.processes import NAMESPACE
 from acts_tools.bench.workbench import Workbench
 
 _SLICE_S = 0.05
-_LATE_S = 0.5
 
 
 class Graph:
@@ -41,8 +38,6 @@ class Graph:
     def __init__(self, workbench: Workbench, make: Callable[[], Executor] = make_executor) -> None:
         self._workbench = workbench
         self._make = make
-        self._left = threading.Event()
-        self._slice: tuple[float, Future[None]] | None = None
 
     def __enter__(self) -> Graph:
         """Join the graph."""
@@ -50,14 +45,12 @@ class Graph:
         self.node = Node("bench", namespace=NAMESPACE)
         self._executor = self._make()
         self._executor.add_node(self.node)
-        threading.Thread(target=self._end_late_slices, name="acts_slices", daemon=True).start()
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         """Leave it."""
-        self._left.set()
         self._executor.shutdown()
         self.node.destroy_node()
         rclpy.try_shutdown()
@@ -94,20 +87,9 @@ class Graph:
 
     def spin_slice(self, seconds: float) -> None:
         """Run callbacks for a while [s] and look at nothing meanwhile, not even at the wish to stop."""
-        ended: Future[None] = Future()
-        self._slice = (time.monotonic() + seconds + _LATE_S, ended)
-        self._executor.spin_until_future_complete(ended, timeout_sec=seconds)
-        self._slice = None
+        spin_for(self._executor, seconds)
 
     def spin_for(self, seconds: float) -> None:
         """Run callbacks for a while [s]."""
         end_s = time.monotonic() + seconds
         self.spin_until(lambda: time.monotonic() >= end_s, seconds + 60.0, "time to pass")
-
-    def _end_late_slices(self) -> None:
-        # The events executor looks at the time only when it has nothing to do. Where more comes in than this process
-        # has CPU for, as beside a busy load, it would never return, and no Ctrl-C would be heard.
-        while not self._left.wait(_LATE_S):
-            late = self._slice
-            if late is not None and time.monotonic() > late[0] and not late[1].done():
-                late[1].set_result(None)

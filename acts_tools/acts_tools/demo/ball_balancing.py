@@ -18,13 +18,12 @@ from pathlib import Path
 import rclpy
 from rclpy.executors import Executor
 from rclpy.signals import SignalHandlerOptions
-from rclpy.task import Future
 
 from acts_control.trajectory import Trajectory, TrajectoryConfig
 from acts_core.array import ArrayGeometry
 from acts_core.errors import ActsError, LaunchError
 from acts_msgs.msg import BalanceStatus
-from acts_ros.executor import make_executor
+from acts_ros.executor import make_executor, spin_for
 from acts_ros.processes.launcher import leave_with_parent
 from acts_tools.bags.stopping import StopFlag
 from acts_tools.demo.collector import Collector
@@ -154,7 +153,7 @@ class Watcher:
             print()
 
     def _step(self) -> None:
-        self._executor.spin_until_future_complete(Future(), timeout_sec=0.1)
+        spin_for(self._executor, 0.1)
         if self._stop.is_set:
             self.end()
             raise KeyboardInterrupt

@@ -51,9 +51,8 @@ def run(arguments: argparse.Namespace) -> int:
     # Late: they take time that the other commands need not spend.
     import rclpy
     from rclpy.signals import SignalHandlerOptions
-    from rclpy.task import Future
 
-    from acts_ros.executor import make_executor
+    from acts_ros.executor import make_executor, spin_for
     from acts_tools.bags.stopping import StopFlag
     from acts_tools.listen.listener import Listener
 
@@ -71,7 +70,7 @@ def run(arguments: argparse.Namespace) -> int:
             while not stop.is_set and (end_s is None or time.monotonic() < end_s):
                 listener.discover()
                 turn_s = min(report_s - time.monotonic(), 0.1)
-                executor.spin_until_future_complete(Future(), timeout_sec=max(turn_s, 0.001))
+                spin_for(executor, max(turn_s, 0.001))
                 now_s = time.monotonic()
                 if now_s >= report_s:
                     report_s += arguments.every
