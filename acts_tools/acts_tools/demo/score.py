@@ -85,8 +85,8 @@ def failures(recording: Recording, results: dict[str, Any]) -> list[str]:
         found.append("the trajectory did not come to its end")
     if results["contact_rate_hz"] < LIMITS["contact_rate_hz"]:
         found.append(
-            f"{results['contact_rate_hz']} contacts/s received, at least {LIMITS['contact_rate_hz']:g} are wanted: this "
-            "machine was too slow for 1 kHz, or other programs took its CPU (acts doctor tells)"
+            f"{results['contact_rate_hz']} contacts/s received, at least {LIMITS['contact_rate_hz']:g} are wanted: "
+            "this machine was too slow for 1 kHz, or other programs took its CPU (acts doctor tells)"
         )
     if results["frames_lost"] > LIMITS["frames_lost"]:
         found.append(f"{results['frames_lost']} frames lost between board and driver")
