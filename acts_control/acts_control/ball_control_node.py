@@ -99,8 +99,11 @@ class BallControlNode(Node):
         self._state_node = state
         trajectory.phase = lambda: self._loop.status.phase
 
-        def look(now_ns: int, phase: Phase) -> None:
+        clock = self.get_clock()
+
+        def look(phase: Phase) -> None:
             self._loop.ball = state.update()
+            now_ns = clock.now().nanoseconds
             reference = trajectory.advance(now_ns, phase)
             self._loop.reference = ReferenceReport(now_ns, self._jerk.step(now_ns, reference))
 

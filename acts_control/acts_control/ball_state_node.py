@@ -58,7 +58,6 @@ class BallStateNode(PollingNode):
         super().__init__("ball_state", **node_options(), **node_arguments)
         settings = declare(self, BallStateSettings)
         self._lock = threading.Lock()
-        self._is_driven = is_driven
         self._updated_s = 0.0
         self._estimator = BallEstimator(settings)
         self._counter = StreamCounter()

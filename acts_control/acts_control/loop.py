@@ -89,7 +89,7 @@ class ControlLoop:
     Attributes
     ----------
     look : callable
-        Called at the begin of every control step with the time [ns] and the phase; may renew `ball` and `reference`.
+        Called at the begin of every control step with the phase; may renew `ball` and `reference`.
     ball : BallReport or None
         Newest estimate, to be set by `look` or by whoever receives it.
     reference : ReferenceReport or None
@@ -105,7 +105,7 @@ class ControlLoop:
         now_ns: Callable[[], int],
         on_step: Callable[[int, tuple[float, float]], None] = lambda _now_ns, _tilt: None,
     ) -> None:
-        self.look: Callable[[int, Phase], None] = lambda _now_ns, _phase: None
+        self.look: Callable[[Phase], None] = lambda _phase: None
         self.ball: BallReport | None = None
         self.reference: ReferenceReport | None = None
         self.status = LoopStatus()
@@ -244,11 +244,12 @@ class ControlLoop:
             late += now - last > 1.5 * period
             dt = min(max(now - last, _MIN_STEP_S), _MAX_PERIODS * period)
             last = now
+            # Before the robot is read and the time taken: it may have a whole queue of contacts to work on.
+            self.look(controller.state.phase)
             reading = self._checked(watch, dt)
             if self._stop_reason:
                 controller.end(self._stop_reason)
             now_ns = self._now_ns()
-            self.look(now_ns, controller.state.phase)
             measured = tilt_of(reading.q_rad, config.mount_yaw_rad)
             tilt = controller.step(ControlInput(now_ns, self.ball, self.reference, measured), dt)
             fault = self._aim(joints, tilt) or gate.fault(joints)

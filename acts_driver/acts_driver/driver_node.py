@@ -22,11 +22,13 @@ from acts_driver.source import Source
 from acts_msgs.msg import TactileSamples
 from acts_ros.diagnostics import ERROR, OK, DiagnosticsReporter, Report
 from acts_ros.executor import run
+from acts_ros.log import log_of
 from acts_ros.parameters import declare, node_options
 from acts_ros.qos import STREAM, overridable
 from acts_ros.sample_messages import SamplesMessage
 
 FrameConsumer = Callable[[list[tuple[SampleFrame, int]], str], None]
+"""See `DriverNode.consumers`."""
 
 SUCCESS = TransitionCallbackReturn.SUCCESS
 FAILURE = TransitionCallbackReturn.FAILURE
@@ -45,9 +47,9 @@ class DriverNode(LifecycleNode):
     intake : Intake or None
         What it reads with; None while it is unconfigured.
     consumers : list of callable
-        Each takes the frames that were read together, with their stamps [ns], and the frame of the skin, on the
-        reader's thread: nodes of the same process, to which no message has to be sent. To be filled before the node is
-        spun.
+        Each takes the frames that were read together, at least one, with their stamps [ns], and the frame of the skin,
+        on the reader's thread: nodes of the same process, to which no message has to be sent. To be filled before the
+        node is spun.
     """
 
     def __init__(self, **node_arguments: object) -> None:
@@ -88,7 +90,7 @@ class DriverNode(LifecycleNode):
             return FAILURE
         self._problem = ""
         self._source = source
-        self.intake = Intake(settings, source, self._publish, log=self._log, on_board=self._board.publish)
+        self.intake = Intake(settings, source, self._publish, log=log_of(self), on_board=self._board.publish)
         self._board.session = self.intake.session
         self.intake.start()
         self.get_logger().info(f"reading {source.name}" + ("" if settings.is_replay else f" ({settings.protocol})"))
@@ -136,14 +138,18 @@ class DriverNode(LifecycleNode):
         self._baseline.observe(frames)
         if not self.active:
             return
-        is_heard = self._publisher.get_subscription_count() > 0
-        for consume in self.consumers:
-            consume(frames, self._frame_id)
-        if is_heard:
-            for frame, stamp_ns in frames:
-                self._publisher.publish(self._message.fill(frame, stamp_ns))
-        for result, stamp_ns in results:
-            self._topics.publish(result, stamp_ns)
+        try:
+            # There are none where the board has sent results only.
+            if frames:
+                for consume in self.consumers:
+                    consume(frames, self._frame_id)
+        finally:
+            # What goes wrong in another node of the process is told by the reader, and keeps nothing back.
+            if self._publisher.get_subscription_count():
+                for frame, stamp_ns in frames:
+                    self._publisher.publish(self._message.fill(frame, stamp_ns))
+            for result, stamp_ns in results:
+                self._topics.publish(result, stamp_ns)
 
     def _on_changed_parameters(self, settings: DriverSettings) -> str:
         """Tell the board; why it cannot be, or nothing."""
@@ -161,15 +167,6 @@ class DriverNode(LifecycleNode):
             return level, message, {**values, **self._baseline.values()}
         values = {"port": self._what, "state": "unconfigured"}
         return (ERROR, self._problem, values) if self._problem else (OK, "unconfigured", values)
-
-    def _log(self, level: str, message: str) -> None:
-        # A line each: rclpy refuses a line that changes its severity.
-        if level == "error":
-            self.get_logger().error(message)
-        elif level == "warning":
-            self.get_logger().warning(message)
-        else:
-            self.get_logger().info(message)
 
 
 def main(signals: StopSignals | None = None) -> int:

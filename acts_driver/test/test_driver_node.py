@@ -218,3 +218,25 @@ def test_a_wrong_parameter_ends_the_process_with_the_reason(argument: str, words
 def test_quality_of_service_can_be_overridden(board: PtyBoard, rig: Rig) -> None:
     driver = rig.start_driver(port=board.path, **{"qos_overrides./plate/samples.publisher.depth": 17})
     assert driver._publisher.qos_profile.depth == 17
+
+
+def test_a_node_of_the_same_process_gets_frames_and_what_fails_in_it_keeps_nothing_back(
+    board: PtyBoard, rig: Rig
+) -> None:
+    driver = rig.start_driver(port=board.path, frame_id="plate")
+    taken: list[tuple[list[int], str]] = []
+
+    def consume(frames: list, frame_id: str) -> None:
+        taken.append(([one.sequence for one, _ in frames], frame_id))
+        if taken[-1][0] == [1]:
+            raise ZeroDivisionError("by mistake")
+
+    driver.consumers.append(consume)
+    rig.wait_until_active()
+    for number in range(3):
+        board.write_frames(frame(number, m=55))
+        rig.spin_until(lambda number=number: len(rig.samples) == number + 1, "the message")
+    # A board may have sent results without a frame.
+    driver._publish([], [])
+    assert taken == [([0], "plate"), ([1], "plate"), ([2], "plate")]
+    rig.status_until(lambda status: status["consumer_errors"] == "1", "the failure in the diagnostics")

@@ -134,7 +134,7 @@ class ReconstructionNode(Node):
         Parameters
         ----------
         frames : sequence of (SampleFrame, int)
-            Each with the ROS time at the end of its last measurement [ns].
+            At least one, each with the ROS time at the end of its last measurement [ns].
         frame_id : str
             Frame of the skin.
         """
@@ -146,6 +146,7 @@ class ReconstructionNode(Node):
                 self._untold += late_ns > _LATE_NS
                 if late_ns > _VERY_LATE_NS:
                     self._unused += 1
+                    self._begin_anew_with(frame.sequence)
                     self._follow(frame.sequence)
                 else:
                     self._step(frame, stamp_ns, frame_id, is_told=late_ns <= _LATE_NS)
@@ -161,10 +162,7 @@ class ReconstructionNode(Node):
                 f"{settings.rows} x {settings.cols}",
             )
             return
-        if self._began_anew(frame.sequence):
-            self._recovery.reset()
-            if self._objects is not None:
-                self._objects.reset()
+        self._begin_anew_with(frame.sequence)
         counts = self._baseline.apply(frame.indices, frame.counts)
         end_s, duration_s = stamp_ns * 1e-9, frame.duration_us * 1e-6
         try:
@@ -253,6 +251,13 @@ class ReconstructionNode(Node):
         )
         self._view.data = array("B", pixels)
         self._view_publisher.publish(self._view)
+
+    def _begin_anew_with(self, sequence: int) -> None:
+        """Forget all frames where this one is of a board that counts from the start again."""
+        if self._began_anew(sequence):
+            self._recovery.reset()
+            if self._objects is not None:
+                self._objects.reset()
 
     def _began_anew(self, sequence: int) -> bool:
         """Whether the board counts from the start again: half the range back is no gap."""

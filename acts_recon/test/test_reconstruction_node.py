@@ -305,3 +305,21 @@ def test_of_late_frames_only_the_newest_is_published_and_of_very_late_ones_only_
         return (values["not_published"], values["not_used"], values["frames"], values["lost"]) == ("6", "3", "9", "0")
 
     bench.diagnostics(told)
+
+
+def test_a_board_that_begins_anew_among_very_late_frames_is_noticed(make_bench: Callable[..., Bench]) -> None:
+    bench = make_bench(44, method="fusion")
+    pressed = np.array([500], dtype=np.uint16)
+    now_ns = time.time_ns()
+
+    def frame(sequence: int, cell: int, age_ms: float) -> tuple[SampleFrame, int]:
+        cells = np.array([cell], dtype=np.uint16)
+        measured = SampleFrame(sequence, 0, 900, Scheme.TRACKING, 32, 32, 0, cells, pressed)
+        return measured, now_ns - round(age_ms * 1e6)
+
+    bench.node.take([frame(7000, 100, 110.0)], "plate")
+    image = bench.node._recovery.image.ravel()
+    assert image[100] == 500
+    bench.node.take([frame(0, 140, 105.0), frame(1, 180, 100.0), frame(2, 220, 95.0)], "plate")
+    # Of the life before nothing is known any more, nor of what was left out.
+    assert image[[100, 140, 180, 220]].tolist() == [0, 0, 0, 500]
