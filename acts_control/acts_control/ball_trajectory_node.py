@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -13,6 +14,7 @@ from acts_control.controller import Phase
 from acts_control.names import REFERENCE_TOPIC, STATUS_TOPIC, frame_of, set_stamp
 from acts_control.pid import Reference
 from acts_control.trajectory import TimedReference, Trajectory, TrajectoryConfig
+from acts_core.rate_limit import RateLimit
 from acts_core.settings import setting
 from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import BalanceStatus, BallReference
@@ -58,6 +60,8 @@ class BallTrajectoryNode(Node):
         self._trajectory = Trajectory(settings)
         self.phase: Callable[[], Phase] = self._told_phase
         self._lock = threading.Lock()
+        # A controller may ask more often; a timer of our own is not held up by being a little early.
+        self._limit = RateLimit(settings.publish_rate_hz if is_driven else 0.0)
         self._is_driven = is_driven
         self._elapsed_s = 0.0
         self._told = Phase.CONNECTING
@@ -89,7 +93,7 @@ class BallTrajectoryNode(Node):
                 self._elapsed_s += max(now_ns - self._last_ns, 0) * 1e-9
             self._last_ns = now_ns
             timed = self._trajectory.at(self._elapsed_s)
-            if self._publisher.get_subscription_count():
+            if self._publisher.get_subscription_count() and self._limit.due(time.monotonic()):
                 self._publish(now_ns, timed)
             if timed.finished and not self._finished:
                 self._finished = True

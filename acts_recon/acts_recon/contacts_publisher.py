@@ -13,11 +13,11 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 from acts_core.array import ArrayGeometry
 from acts_core.force import ForceResponse, MeasuredForceResponse
+from acts_core.rate_limit import RateLimit
 from acts_msgs.msg import Contacts, TrackedContact
 from acts_recon.blob_kernels import MAX_BLOBS
 from acts_recon.blob_tracker import BlobTracker
 from acts_recon.blobs import BlobConfig, TrackedBlob
-from acts_recon.rate_limit import RateLimit
 from acts_ros import qos
 
 _VIEW_RATE_HZ = 30.0

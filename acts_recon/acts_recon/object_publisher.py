@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from rclpy.node import Node
 from std_msgs.msg import Header
 
+from acts_core.rate_limit import RateLimit
 from acts_msgs.msg import ObjectClass
 from acts_recon.object_recognition import ObjectRecogniser
-from acts_recon.rate_limit import RateLimit
 from acts_ros import qos
 
 

@@ -16,6 +16,7 @@ from std_msgs.msg import Header
 
 from acts_core.errors import ArrayError
 from acts_core.frames import SampleFrame
+from acts_core.rate_limit import RateLimit
 from acts_core.realtime import enter_realtime
 from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import Baseline, TactileSamples
@@ -25,7 +26,6 @@ from acts_recon.contact import Contact
 from acts_recon.contacts_publisher import ContactsPublisher
 from acts_recon.image import mono16, rgb8
 from acts_recon.object_publisher import ObjectPublisher
-from acts_recon.rate_limit import RateLimit
 from acts_recon.reconstruction_settings import ReconstructionSettings
 from acts_ros import qos
 from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report

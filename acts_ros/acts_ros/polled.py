@@ -32,11 +32,6 @@ class PolledSubscription(Generic[M]):
         """Full name of the topic."""
         return str(self._subscription.topic_name)
 
-    @property
-    def publisher_count(self) -> int:
-        """How many publishers it is matched with."""
-        return int(self._subscription.get_publisher_count())
-
     def take_all(self) -> list[tuple[M, int]]:
         """What has arrived since the last call, oldest first; from any thread, one at a time.
 

@@ -83,7 +83,6 @@ def test_messages_wait_until_they_are_asked_for(pair: Pair) -> None:
     assert pair.take_until(3) == [1, 2, 3]
     assert pair.polled.take_all() == []
     assert pair.polled.topic_name == "/polled"
-    assert pair.polled.publisher_count == 1
 
 
 def test_of_too_many_the_newest_are_kept(pair: Pair) -> None:

@@ -13,7 +13,7 @@ from pathlib import Path
 from geometry_msgs.msg import PointStamped
 from rclpy.node import Node
 
-from acts_core.errors import ActsError
+from acts_core.errors import ActsError, SettingsError
 from acts_core.realtime import RealtimeConfig, enter_realtime
 from acts_core.settings import setting
 from acts_core.stop_signals import StopSignals
@@ -47,6 +47,8 @@ class BallWorldSettings(RealtimeConfig, WorldConfig):
 
     def __post_init__(self) -> None:
         RealtimeConfig.__post_init__(self)
+        if self.truth_every % 2:
+            raise SettingsError(f"truth_every = {self.truth_every}: allowed is an even number, a step takes 2 ms")
 
 
 class BallWorld(Node):
@@ -70,11 +72,14 @@ class BallWorld(Node):
         self._ring = TimedRingWriter(field_ring, settings.rows * settings.cols)
         self._loop = WorldLoop(self._world, self._joints, self._ring, self._publish, on_running=self._enter_realtime)
         self._diagnostics = DiagnosticsReporter(self, settings.field_ring, self._report)
-        self._loop.start()
         self.get_logger().info(
             f"ball of {settings.diameter_m * 1000:g} mm, {settings.mass_kg:.3f} kg; field in {field_ring}, "
             f"joints from {settings.joint_ring}"
         )
+
+    def begin(self) -> None:
+        """Let the world go."""
+        self._loop.start()
 
     def close(self) -> None:
         """Stop the world and remove its ring."""

@@ -49,9 +49,7 @@ class Section:
         """Refuse keys that are not known, with the nearest one that is."""
         for key in self.values:
             if key not in known:
-                # YAML 1.1 reads on, off, yes and no as true and false.
-                text = str(key) if isinstance(key, str) else f"{key}"
-                raise self.error(unknown_key_message(text, list(known), "keys"), key)
+                raise self.error(unknown_key_message(str(key), list(known), "keys"), key)
 
     def section(self, key: str, what: str) -> Section:
         """The mapping below a key; empty where the key is missing or has no value."""
