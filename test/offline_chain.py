@@ -65,7 +65,7 @@ def run(chain: Chain, limit_s: float = 60.0) -> Recording:
     Returns
     -------
     Recording
-        Truth, reference and estimate over time; `stop_reason` where it did not come to its end.
+        Truth and reference over time; `stop_reason` where it did not come to its end.
     """
     rng = np.random.default_rng(chain.seed)
     geometry = ArrayGeometry()
@@ -132,8 +132,6 @@ def run(chain: Chain, limit_s: float = 60.0) -> Recording:
             break
         seconds = now_ms * STEP_S
         recording.truth.add(seconds, state.ball.x_m, state.ball.y_m)
-        if estimate.valid:
-            recording.estimate.add(seconds, estimate.x_m, estimate.y_m)
         recording.reference.add(seconds, wanted.reference.x_m, wanted.reference.y_m)
         recording.segments.append(wanted.segment)
         if wanted.finished:

@@ -58,6 +58,7 @@ class Collector(Node):
             self._balancing = True
             recording = self.recording
             recording.tilt_time_s.append(seconds(message.header.stamp))
+            recording.touch_age_s.append(message.touch_age)
             recording.tilt_commanded_rad.append((message.tilt_commanded.x, message.tilt_commanded.y))
             recording.tilt_measured_rad.append((message.tilt_measured.x, message.tilt_measured.y))
         elif message.state == BalanceStatus.STATE_STOPPED and self._balancing:

@@ -48,12 +48,12 @@ class Recording:
         Where it should have been, only while the control loop was closed.
     segments : list of str
         Name of the reference's segment, one per sample of `reference`.
-    estimate : Track
-        Where the controller believed it to be.
     tilt_time_s, tilt_commanded_rad, tilt_measured_rad : lists
         Tilt about the skin's x and y axes.
     latencies_s : list of arrays
-        From the last measurement of a frame to the reception of its contact by the control node.
+        From the last measurement of a frame to the reception of its contact by the process of the control node.
+    touch_age_s : list of float
+        How old the newest contact was when a control step used it, 50 times a second.
     contacts_received, contacts_lost : int
         Counted by the control node.
     contact_rate_hz : float
@@ -75,11 +75,11 @@ class Recording:
     truth: Track = field(default_factory=Track)
     reference: Track = field(default_factory=Track)
     segments: list[str] = field(default_factory=list)
-    estimate: Track = field(default_factory=Track)
     tilt_time_s: list[float] = field(default_factory=list)
     tilt_commanded_rad: list[tuple[float, float]] = field(default_factory=list)
     tilt_measured_rad: list[tuple[float, float]] = field(default_factory=list)
     latencies_s: list[NDArray[np.float32]] = field(default_factory=list)
+    touch_age_s: list[float] = field(default_factory=list)
     contacts_received: int = 0
     contacts_lost: int = 0
     contact_rate_hz: float = 0.0

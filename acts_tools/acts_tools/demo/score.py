@@ -68,6 +68,7 @@ def score(recording: Recording) -> dict[str, Any]:
         "frames_lost": recording.frames_lost,
         "crc_errors": recording.crc_errors,
         "latency_ms": percentiles(latencies_ms),
+        "touch_age_ms": percentiles(np.array(recording.touch_age_s) * 1000),
         "rms_mm": {name: None if value is None else round(value, 3) for name, value in rms_mm.items()},
         "cpu_percent": {name: round(value, 1) for name, value in sorted(recording.cpu_percent.items())},
     }
@@ -110,9 +111,12 @@ def table(results: dict[str, Any]) -> str:
     row("frames lost, board to driver", results["frames_lost"], "", "0")
     row("contacts lost, driver to control node", results["contacts_lost"], "")
     latency = results["latency_ms"]
-    row("latency, last measurement to control node, median", latency["median"], "ms")
+    row("latency, last measurement to the control node's process, median", latency["median"], "ms")
     row("    99 % of all within", latency["p99"], "ms")
     row("    99.9 % within", latency["p99_9"], "ms")
+    age = results["touch_age_ms"]
+    row("newest touch when a control step used it, median", age["median"], "ms")
+    row("    99 % of all within", age["p99"], "ms")
     row("ball held at the centre, rms error", results["rms_mm"]["hold"], "mm", "<= 3")
     for letter in LETTERS:
         row(f"{letter} traced, rms error", results["rms_mm"][letter], "mm", "<= 5")
