@@ -9,9 +9,8 @@ from typing import Any
 
 from geometry_msgs.msg import Vector3Stamped
 
-from acts_control.contact_bytes import read_contact
 from acts_control.controller import BallReport
-from acts_control.estimator import BallEstimator, EstimatorConfig
+from acts_control.estimator import BallEstimator, ContactMeasurement, EstimatorConfig
 from acts_control.names import CONTACT_TOPIC, STATE_TOPIC, STATISTICS_TOPIC, TILT_TOPIC, set_stamp, to_ns
 from acts_control.pid import Ball
 from acts_control.stream_statistics import StreamCounter
@@ -19,6 +18,7 @@ from acts_core.errors import PacketError
 from acts_core.settings import setting
 from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import BallState, Contact, StreamStatistics
+from acts_ros.cdr import read_contact
 from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
 from acts_ros.parameters import declare, node_options
@@ -108,19 +108,21 @@ class BallStateNode(PollingNode):
     def _take(self, data: bytes, received_ns: int, is_heard: bool) -> None:
         # A thousand times a second: nothing here that is not needed.
         try:
-            sequence, frame_id, measurement = read_contact(data)
+            contact = read_contact(data)
         except PacketError as error:
             self.get_logger().warning(f"contact dropped: {error}", throttle_duration_sec=5.0)
             return
-        self._counter.step(sequence, (received_ns - measurement.stamp_ns) * 1e-9)
-        self._estimator.step(measurement)
+        self._counter.step(contact.sequence, (received_ns - contact.stamp_ns) * 1e-9)
+        self._estimator.step(
+            ContactMeasurement(contact.stamp_ns, contact.in_contact, contact.x_m, contact.y_m, contact.force_n)
+        )
         state_ns = self._estimator.state.stamp_ns
         if state_ns >= self._due_ns or state_ns < self._due_ns - 2 * self._period_ns:
             # Kept on a grid, so that the rate is right on average whatever the contacts' own rate.
             late = state_ns - self._due_ns
             self._due_ns += self._period_ns if 0 <= late < self._period_ns else late + self._period_ns
             if is_heard:
-                self._publish_state(frame_id)
+                self._publish_state(contact.frame_id)
 
     def _publish_state(self, frame_id: str) -> None:
         state, message = self._estimator.state, self._message

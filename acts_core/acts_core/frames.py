@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import IntEnum
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,8 +21,7 @@ class Scheme(IntEnum):
     TRACKING = 6
 
 
-@dataclass(frozen=True)
-class SampleFrame:
+class SampleFrame(NamedTuple):
     """One subsampled frame as the board sent it.
 
     Attributes

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from acts_core.errors import PacketError, PortError, RecordingError
 from acts_core.frames import SampleFrame
@@ -118,7 +118,7 @@ class ReplaySource:
             # The board's clock has gone on meanwhile.
             self._offset_us -= wait_us
             self._board_us -= wait_us
-            self._next = _Next.of(replace(coming.frame, board_us=self._board_us))
+            self._next = _Next.of(coming.frame._replace(board_us=self._board_us))
         data: list[bytes] = []
         now_us = _now_us() - zero_us
         while self._next is not None and self._next.frame.board_us <= now_us and len(data) < _TOGETHER_MAX:
@@ -171,8 +171,7 @@ class ReplaySource:
         self._board_us = board_us
         self._sequence = frame.sequence + self._sequence_offset
         return _Next.of(
-            replace(
-                frame,
+            frame._replace(
                 sequence=self._sequence,
                 board_us=board_us,
                 duration_us=round(frame.duration_us / self._speed),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import signal
 import subprocess
 import time
@@ -55,7 +54,7 @@ class Skin:
             frame = frame_of(message)
             stamp_ns = message.header.stamp.sec * 10**9 + message.header.stamp.nanosec
             # Without pauses of the board, its frames begin on whole milliseconds.
-            on_board = dataclasses.replace(frame, board_us=1000 * frame.sequence + frame.duration_us)
+            on_board = frame._replace(board_us=1000 * frame.sequence + frame.duration_us)
             measured_ns = known_field.measured_at_ns(on_board, self.board.field_epoch_ns, self.board.epochs_ns)
             assert measured_ns is not None, f"wrong samples: {message}"
             assert measured_ns not in seen

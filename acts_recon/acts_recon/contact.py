@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,8 +13,7 @@ from acts_core.force import ForceResponse, MeasuredForceResponse
 from acts_recon.uncertainty import ERR_TOGETHER, NOISE_COUNTS, Variances, root_deviation, variances
 
 
-@dataclass(frozen=True)
-class Contact:
+class Contact(NamedTuple):
     """A contact. Without one every number is 0; none is ever NaN.
 
     Positions are in the skin's frame (see `ArrayGeometry`). Standard deviations (``_sd_``) are 0 where the uncertainty

@@ -28,6 +28,7 @@ from acts_recon.image import mono16, rgb8
 from acts_recon.object_publisher import ObjectPublisher
 from acts_recon.reconstruction_settings import ReconstructionSettings
 from acts_ros import qos
+from acts_ros.cdr import ContactFields, write_contact
 from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
 from acts_ros.log import log_of
@@ -71,7 +72,6 @@ class ReconstructionNode(Node):
         self._view_publisher = self.create_publisher(Image, "image", **qos.overridable(qos.VIEW))
         # Filled anew for every frame: making messages costs more than sending them.
         self._header = Header()
-        self._contact = ContactMessage()
         self._cop = PointStamped()
         rows, cols = self._recovery.image.shape
         self._raw = _empty_image(rows, cols, "mono16", 2)
@@ -177,7 +177,7 @@ class ReconstructionNode(Node):
         header = self._header
         header.frame_id = frame_id
         header.stamp.sec, header.stamp.nanosec = divmod(stamp_ns, _NS_PER_S)
-        self._publish_contact(frame.sequence, contact)
+        self._publish_contact(stamp_ns, frame_id, frame.sequence, contact)
         self._publish_images()
         self._contacts.publish(header, frame.sequence, self._recovery.image, self._recovery.sigma)
         if self._objects is not None:
@@ -209,27 +209,11 @@ class ReconstructionNode(Node):
             self._rejected["bad_baseline"] += 1
             self.get_logger().warning(f"baseline not used: {error}")
 
-    def _publish_contact(self, sequence: int, contact: Contact) -> None:
-        message = self._contact
-        message.header = self._header
-        message.sequence = sequence
-        message.in_contact = contact.in_contact
-        message.centre_of_pressure.x = contact.x_m
-        message.centre_of_pressure.y = contact.y_m
-        message.force = contact.force_n
-        message.peak = contact.peak_counts
-        message.area = contact.area_m2
-        message.active_taxels = contact.active_taxels
-        message.spread = contact.spread_m
-        message.centre_of_pressure_sigma.x = contact.x_sd_m
-        message.centre_of_pressure_sigma.y = contact.y_sd_m
-        message.force_sigma = contact.force_sd_n
-        message.area_sigma = contact.area_sd_m2
-        message.spread_sigma = contact.spread_sd_m
-        self._contact_publisher.publish(message)
+    def _publish_contact(self, stamp_ns: int, frame_id: str, sequence: int, contact: Contact) -> None:
+        self._contact_publisher.publish(write_contact(ContactFields(stamp_ns, frame_id, sequence, *contact)))
         if self._send_cop and contact.in_contact:
             self._cop.header = self._header
-            self._cop.point = message.centre_of_pressure
+            self._cop.point.x, self._cop.point.y = contact.x_m, contact.y_m
             self._cop_publisher.publish(self._cop)
 
     def _publish_confidence(self) -> None:

@@ -1,39 +1,14 @@
-"""Headers of serialised messages, and contacts out of and into messages."""
+"""Contacts out of and into messages."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
-from rclpy.serialization import serialize_message
 
-from acts_core.errors import ArrayError
 from acts_msgs.msg import Contact, Contacts, TrackedContact
-from acts_skins.contacts.messages import header_of, skin_contact, touches
+from acts_skins.contacts.messages import skin_contact, touches
 from acts_skins.contacts.placing import Placement
 from acts_skins.transforms import Transform
-
-
-@given(
-    st.integers(-(2**31), 2**31 - 1),
-    st.integers(0, 10**9 - 1),
-    st.text(st.characters(exclude_characters="\0", codec="utf-8"), max_size=20),
-    st.sampled_from([Contact, Contacts]),
-)
-def test_the_header_of_serialised_data_is_the_message_s(sec: int, nanosec: int, frame_id: str, kind: type) -> None:
-    message = kind()
-    message.header.stamp.sec, message.header.stamp.nanosec, message.header.frame_id = sec, nanosec, frame_id
-    assert header_of(serialize_message(message)) == (sec * 10**9 + nanosec, frame_id)
-
-
-@given(st.binary(max_size=40))
-def test_any_bytes_are_a_header_or_refused(data: bytes) -> None:
-    try:
-        stamp_ns, _ = header_of(data)
-    except ArrayError:
-        return
-    assert isinstance(stamp_ns, int)
 
 
 def test_every_number_of_a_contact_arrives() -> None:

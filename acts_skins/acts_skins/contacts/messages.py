@@ -2,43 +2,14 @@
 
 from __future__ import annotations
 
-import struct
-
 from geometry_msgs.msg import Point, Vector3
 
-from acts_core.errors import ArrayError
 from acts_msgs.msg import Contact, Contacts, SkinContact, TrackedContact
 from acts_skins.contacts.placing import PlacedTouch, Touch
 from acts_skins.transforms import Vector
 
 CONTACT_TYPES = {"contacts": Contacts, "contact": Contact}
 """Topics of a skin that contacts can be taken from: told apart and numbered, or all that presses as one."""
-
-
-_NS_PER_S = 1_000_000_000
-# By the second byte of serialised data: seconds, nanoseconds and length of frame_id with its closing zero.
-_HEADERS = {0: struct.Struct(">iII"), 1: struct.Struct("<iII")}
-_ENCAPSULATION_BYTES = 4
-
-
-def header_of(data: bytes) -> tuple[int, str]:
-    """Stamp [ns] and frame of a message that begins with a header, as it was sent (CDR).
-
-    Of a thousand messages a second only those that are merged need to be taken apart as a whole.
-
-    Raises
-    ------
-    ArrayError
-        When the bytes are no such message.
-    """
-    try:
-        header = _HEADERS[data[1]]
-        sec, nanosec, length = header.unpack_from(data, _ENCAPSULATION_BYTES)
-        begin = _ENCAPSULATION_BYTES + header.size
-        frame_id = data[begin : begin + length - 1].decode()
-    except (IndexError, KeyError, struct.error, UnicodeDecodeError) as error:
-        raise ArrayError(f"{len(data)} bytes are no message with a header: {error!r}") from error
-    return sec * _NS_PER_S + nanosec, frame_id
 
 
 def touches(message: Contacts | Contact) -> list[Touch]:

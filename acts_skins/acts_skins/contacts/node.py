@@ -11,17 +11,18 @@ from typing import Any
 
 from rclpy.serialization import deserialize_message
 
-from acts_core.errors import ActsError, ArrayError, SettingsError
+from acts_core.errors import ActsError, PacketError, SettingsError
 from acts_core.settings import setting
 from acts_msgs.msg import SkinContact, SkinContacts
 from acts_msgs.msg import SkinState as StateMessage
 from acts_ros import qos
+from acts_ros.cdr import header_of
 from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
 from acts_ros.parameters import declare, node_options
 from acts_ros.polled import PollingNode
 from acts_skins.contacts.alignment import Aligned, AlignedSkin, Aligner, AlignmentConfig, SkinState
 from acts_skins.contacts.cycle import Cycle
-from acts_skins.contacts.messages import CONTACT_TYPES, header_of, skin_contact, touches
+from acts_skins.contacts.messages import CONTACT_TYPES, skin_contact, touches
 from acts_skins.contacts.placing import Placement
 from acts_skins.skins_file import read_skins
 
@@ -93,7 +94,7 @@ class SkinContactsNode(PollingNode):
             for data, _ in subscription.take_all():
                 try:
                     stamp_ns, frame_id = header_of(data)
-                except ArrayError:
+                except PacketError:
                     self._refused[name, "without a header"] += 1
                     continue
                 if frame_id != name:
