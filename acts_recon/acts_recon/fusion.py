@@ -32,7 +32,7 @@ from acts_core.settings import setting, validate
 from acts_recon import fusion_kernels as kernels
 from acts_recon.fastomp_kernels import OK
 from acts_recon.frame_check import place_table, require_samples, why_refused
-from acts_recon.fusion_state import Tuning, forget, new_state
+from acts_recon.fusion_state import Tuning, forget, new_memory, state_of
 
 
 @dataclass(frozen=True)
@@ -102,7 +102,8 @@ class FusionEstimator:
         if layout is not None:
             self._places = place_table(layout, geometry)
             self._matrix_size = (layout.matrix_rows, layout.matrix_cols)
-        self._state = new_state(geometry.rows, geometry.cols)
+        self._memory = new_memory(geometry.rows, geometry.cols)
+        self._state = state_of(self._memory)
         self._confidence = np.zeros(geometry.size, dtype=np.uint8)
         self._end_s: float | None = None
         shape = (geometry.rows, geometry.cols)
@@ -119,7 +120,7 @@ class FusionEstimator:
 
     def reset(self) -> None:
         """Forget everything."""
-        forget(self._state)
+        forget(self._memory)
         self._end_s = None
 
     def step(
@@ -166,7 +167,7 @@ class FusionEstimator:
                 period_s = duration_s
         self._end_s = end_s
         geometry = self.geometry
-        kernels.fuse(self._state, places, counts, period_s, duration_s, geometry.rows, geometry.cols, self._tuning)
+        kernels.fuse(self._memory, places, counts, period_s, duration_s, geometry.rows, geometry.cols, self._tuning)
         return self.image
 
     def confidence(self) -> NDArray[np.uint8]:

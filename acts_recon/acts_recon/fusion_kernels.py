@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX
 from acts_recon.fastomp_kernels import COUNT_OUT_OF_RANGE, INDEX_OUT_OF_RANGE, INDEX_TWICE, OK
-from acts_recon.fusion_state import TILE, UNKNOWN_COUNTS, State, Tuning
+from acts_recon.fusion_state import TILE, UNKNOWN_COUNTS, Memory, State, Tuning, state_of
 
 AROUND = 2
 """A tile's velocity is found from so many tiles on every side of it."""
@@ -47,6 +47,19 @@ _OPTIONS = {"cache": True, "nogil": True, "fastmath": {"nsz", "contract", "reass
 _F = np.float32
 _TOP = np.float32(COUNT_MAX)
 _TINY = np.float32(1e-20)
+
+
+def _weights_around() -> NDArray[np.float32]:
+    """What a sample's innovation counts for the taxels around it: 1 over the fourth power of their distance."""
+    away = np.arange(-REACH, REACH + 1, dtype=np.float32)
+    square = away[:, None] ** 2 + away[None, :] ** 2
+    square[REACH, REACH] = np.inf
+    return np.asarray(1.0 / square**2, dtype=np.float32)
+
+
+_NEAR = _weights_around()
+
+_state_of = numba.njit(**_OPTIONS)(state_of)
 
 
 @numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
@@ -254,6 +267,7 @@ def _spread(state: State, indices: NDArray[np.uint16], rows: int, cols: int, tun
     """Correct the taxels around the samples by the samples' innovations, the near ones most."""
     m = indices.shape[0]
     total, unrest_total, weight = state.total, state.unrest_total, state.weight
+    image, unrest, fresh = state.image, state.unrest, state.fresh
     for k in range(m):
         i = int(np.int64(indices[k]))
         row = i // cols
@@ -264,46 +278,52 @@ def _spread(state: State, indices: NDArray[np.uint16], rows: int, cols: int, tun
         for r in range(max(row - REACH, 0), min(row + REACH + 1, rows)):
             for c in range(max(col - REACH, 0), min(col + REACH + 1, cols)):
                 j = r * cols + c
-                if not state.fresh[j]:
-                    square = (r - row) * (r - row) + (c - col) * (c - col)
-                    near = _F(1) / _F(square * square)
-                    total[j] += near * innovation
-                    unrest_total[j] += near * state.unrest[i]
-                    weight[j] += near
+                near = _F(0) if fresh[j] else _NEAR[r - row + REACH, c - col + REACH]
+                total[j] += near * innovation
+                unrest_total[j] += near * unrest[i]
+                weight[j] += near
+    gain = _F(tuning.spread_gain)
+    # All taxels, without a branch, so that the compiler takes several at once: what nothing has reached is left as it is.
+    for j in range(image.shape[0]):
+        shrunk = weight[j] + _F(SPREAD_PRIOR)
+        image[j] = min(max(image[j] + gain * total[j] / shrunk, _F(0)), _TOP)
+        unrest[j] += _F(UNREST_SHARE) * (unrest_total[j] - weight[j] * unrest[j]) / shrunk
+        total[j], unrest_total[j], weight[j] = _F(0), _F(0), _F(0)
     for k in range(m):
         i = int(np.int64(indices[k]))
-        row = i // cols
-        col = i - row * cols
-        for r in range(max(row - REACH, 0), min(row + REACH + 1, rows)):
-            for c in range(max(col - REACH, 0), min(col + REACH + 1, cols)):
-                j = r * cols + c
-                if weight[j] > _F(0):
-                    shrunk = weight[j] + _F(SPREAD_PRIOR)
-                    state.image[j] += _F(tuning.spread_gain) * total[j] / shrunk
-                    state.image[j] = min(max(state.image[j], _F(0)), _TOP)
-                    share = _F(UNREST_SHARE) * weight[j] / shrunk
-                    state.unrest[j] += share * (unrest_total[j] / weight[j] - state.unrest[j])
-                    total[j], unrest_total[j], weight[j] = _F(0), _F(0), _F(0)
-        state.image[i] = state.value[i]
+        image[i] = state.value[i]
+
+
+@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+def _look_around(state: State, values: NDArray[np.float32], rows: int, cols: int) -> NDArray[np.float32]:
+    """The largest of every taxel and the eight around it; overwritten by the next call."""
+    in_row, around = state.in_row, state.around
+    for row in range(rows):
+        first, last = row * cols, (row + 1) * cols - 1
+        in_row[first] = max(values[first], values[min(first + 1, last)])
+        for i in range(first + 1, last):
+            in_row[i] = max(values[i], values[i - 1], values[i + 1])
+        in_row[last] = max(values[last], values[max(last - 1, first)])
+    for row in range(rows):
+        # Slices, so that the compiler sees that no index is negative, and takes several taxels at once.
+        here = in_row[row * cols : (row + 1) * cols]
+        above = in_row[max(row - 1, 0) * cols : (max(row - 1, 0) + 1) * cols]
+        below = in_row[min(row + 1, rows - 1) * cols : (min(row + 1, rows - 1) + 1) * cols]
+        largest = around[row * cols : (row + 1) * cols]
+        for c in range(cols):
+            largest[c] = max(here[c], above[c], below[c])
+    return around
 
 
 @numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
 def _keep_quiet(state: State, rows: int, cols: int, tuning: Tuning) -> None:
     """A taxel measured untouched, with none beside it pressed, is 0: lately, or as long as nothing was added."""
-    image, value, quiet = state.image, state.value, _F(tuning.quiet_counts)
+    image, age, fresh = state.image, state.age, state.fresh
+    quiet, quiet_s = _F(tuning.quiet_counts), _F(tuning.quiet_s)
+    around = _look_around(state, state.value, rows, cols)
     for i in range(image.shape[0]):
-        if state.fresh[i] or not (image[i] > _F(0) and value[i] <= quiet):
-            continue
-        if image[i] > quiet and not state.age[i] < _F(tuning.quiet_s):
-            continue
-        row = i // cols
-        col = i - row * cols
-        pressed = False
-        for r in range(max(row - 1, 0), min(row + 2, rows)):
-            for c in range(max(col - 1, 0), min(col + 2, cols)):
-                pressed = pressed or value[r * cols + c] > quiet
-        if not pressed:
-            image[i] = _F(0)
+        is_settled = image[i] <= quiet or age[i] < quiet_s
+        image[i] = _F(0) if around[i] <= quiet and is_settled and not fresh[i] else image[i]
 
 
 @numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
@@ -317,35 +337,22 @@ def _doubt(state: State, rows: int, cols: int, tuning: Tuning) -> None:
     idle, horizon = _F(IDLE_COUNTS_PER_S), _F(tuning.horizon_s)
     noise_variance = _F(tuning.noise_counts) ** 2
     limit = _F(UNKNOWN_COUNTS)
-    unrest, in_row = state.unrest, state.before
-    for row in range(rows):
-        first, last = row * cols, (row + 1) * cols - 1
-        in_row[first] = max(unrest[first], unrest[min(first + 1, last)])
-        for i in range(first + 1, last):
-            in_row[i] = max(unrest[i], unrest[i - 1], unrest[i + 1])
-        in_row[last] = max(unrest[last], unrest[max(last - 1, first)])
-    for row in range(rows):
-        # Slices, so that the compiler sees that no index is negative, and takes several taxels at once.
-        here = slice(row * cols, (row + 1) * cols)
-        above = in_row[max(row - 1, 0) * cols : (max(row - 1, 0) + 1) * cols]
-        below = in_row[min(row + 1, rows - 1) * cols : (min(row + 1, rows - 1) + 1) * cols]
-        beside, own, ages = in_row[here], unrest[here], state.age[here]
-        rates, is_fresh, sigma = state.rate[here], state.fresh[here], state.sigma[here]
-        for c in range(cols):
-            # A fresh taxel's value is kept as measured, though it has been changing since.
-            fresh, age = is_fresh[c], ages[c]
-            around = max(beside[c], above[c], below[c])
-            gathers = own[c] if fresh else _F(0.5) * (own[c] + around)
-            lag_error = rates[c] * age if fresh else _F(0)
-            gathering = min(age, horizon)
-            idled = idle * min(age, _F(1e3))
-            variance = noise_variance + idled * idled + scale * gathers * gathering * gathering + lag_error * lag_error
-            sigma[c] = min(_F(math.sqrt(variance)), limit)
+    unrest, rate, sigma = state.unrest, state.rate, state.sigma
+    around = _look_around(state, unrest, rows, cols)
+    for i in range(sigma.shape[0]):
+        # A fresh taxel's value is kept as measured, though it has been changing since.
+        fresh, age = state.fresh[i], state.age[i]
+        gathers = unrest[i] if fresh else _F(0.5) * (unrest[i] + around[i])
+        lag_error = rate[i] * age if fresh else _F(0)
+        gathering = min(age, horizon)
+        idled = idle * min(age, _F(1e3))
+        variance = noise_variance + idled * idled + scale * gathers * gathering * gathering + lag_error * lag_error
+        sigma[i] = min(_F(math.sqrt(variance)), limit)
 
 
 @numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
 def fuse(
-    state: State,
+    memory: Memory,
     indices: NDArray[np.uint16],
     counts: NDArray[np.uint16],
     period_s: float,
@@ -358,7 +365,7 @@ def fuse(
 
     Parameters
     ----------
-    state : State
+    memory : Memory
         Written.
     indices, counts : np.ndarray [shape=(m,), dtype=uint16]
         Samples in the order of measurement, at least one.
@@ -369,6 +376,7 @@ def fuse(
     rows, cols : int
     tuning : Tuning
     """
+    state = _state_of(memory)
     lag_step_s = duration_s / indices.shape[0]
     _observe_motion(state, indices, counts, period_s, lag_step_s, rows, cols, tuning)
     _find_velocities(state, tuning)

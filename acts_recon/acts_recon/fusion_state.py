@@ -51,7 +51,7 @@ class State(NamedTuple):
         Logarithm of what all error variances are multiplied by, from how well predictions have held.
     frame_scale : np.ndarray [shape=(1,), dtype=float32]
         What they are multiplied by besides, for the surprise of the last frame; at least 1.
-    before, elapsed, rate, innovation, total, unrest_total, weight, seen
+    before, elapsed, rate, innovation, total, unrest_total, weight, in_row, around, seen
         Scratch.
     """
 
@@ -75,46 +75,78 @@ class State(NamedTuple):
     total: NDArray[np.float32]
     unrest_total: NDArray[np.float32]
     weight: NDArray[np.float32]
+    in_row: NDArray[np.float32]
+    around: NDArray[np.float32]
     seen: NDArray[np.bool_]
 
 
-def new_state(rows: int, cols: int) -> State:
+class Memory(NamedTuple):
+    """What `State` is a view of: few arrays, since a kernel that is called from Python takes time for each.
+
+    Attributes
+    ----------
+    taxels : np.ndarray [shape=(16, taxels), dtype=float32]
+    flags : np.ndarray [shape=(2, taxels), dtype=bool]
+    tiles : np.ndarray [shape=(2, tile_rows, tile_cols, 6), dtype=float32]
+    velocity : np.ndarray [shape=(tile_rows, tile_cols, 3), dtype=float32]
+    scales : np.ndarray [shape=(2,), dtype=float32]
+    """
+
+    taxels: NDArray[np.float32]
+    flags: NDArray[np.bool_]
+    tiles: NDArray[np.float32]
+    velocity: NDArray[np.float32]
+    scales: NDArray[np.float32]
+
+
+def new_memory(rows: int, cols: int) -> Memory:
     """Allocate everything for an array of which nothing is known yet."""
     tiles = (-(-rows // TILE), -(-cols // TILE))
-
-    def taxels() -> NDArray[np.float32]:
-        return np.zeros(rows * cols, dtype=np.float32)
-
-    state = State(
-        image=taxels(),
-        sigma=taxels(),
-        value=taxels(),
-        slope=taxels(),
-        age=taxels(),
-        unrest=taxels(),
-        fade=taxels(),
-        fresh=np.zeros(rows * cols, dtype=np.bool_),
-        evidence=np.zeros((*tiles, 6), dtype=np.float32),
-        row_sums=np.zeros((*tiles, 6), dtype=np.float32),
+    memory = Memory(
+        taxels=np.zeros((16, rows * cols), dtype=np.float32),
+        flags=np.zeros((2, rows * cols), dtype=np.bool_),
+        tiles=np.zeros((2, *tiles, 6), dtype=np.float32),
         velocity=np.zeros((*tiles, 3), dtype=np.float32),
-        log_scale=np.zeros(1, dtype=np.float32),
-        frame_scale=np.zeros(1, dtype=np.float32),
-        before=taxels(),
-        elapsed=taxels(),
-        rate=taxels(),
-        innovation=taxels(),
-        total=taxels(),
-        unrest_total=taxels(),
-        weight=taxels(),
-        seen=np.zeros(rows * cols, dtype=np.bool_),
+        scales=np.zeros(2, dtype=np.float32),
     )
-    forget(state)
-    return state
+    forget(memory)
+    return memory
 
 
-def forget(state: State) -> None:
-    """Make a state as good as new."""
-    for array in state:
+def state_of(memory: Memory) -> State:
+    """The state in a memory; also compiled, see `acts_recon.fusion_kernels`."""
+    taxels, flags, tiles, scales = memory.taxels, memory.flags, memory.tiles, memory.scales
+    return State(
+        image=taxels[0],
+        sigma=taxels[1],
+        value=taxels[2],
+        slope=taxels[3],
+        age=taxels[4],
+        unrest=taxels[5],
+        fade=taxels[6],
+        fresh=flags[0],
+        evidence=tiles[0],
+        row_sums=tiles[1],
+        velocity=memory.velocity,
+        log_scale=scales[0:1],
+        frame_scale=scales[1:2],
+        before=taxels[7],
+        elapsed=taxels[8],
+        rate=taxels[9],
+        innovation=taxels[10],
+        total=taxels[11],
+        unrest_total=taxels[12],
+        weight=taxels[13],
+        in_row=taxels[14],
+        around=taxels[15],
+        seen=flags[1],
+    )
+
+
+def forget(memory: Memory) -> None:
+    """Make a memory as good as new."""
+    for array in memory:
         array.fill(0)
+    state = state_of(memory)
     state.age.fill(np.inf)
     state.sigma.fill(UNKNOWN_COUNTS)

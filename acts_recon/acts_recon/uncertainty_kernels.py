@@ -51,11 +51,13 @@ def taxel_variances(
     """
     deviation = min(deviation, float(COUNT_MAX))
     value = min(value, float(COUNT_MAX))
-    if not pressed and value + FAR * deviation < least:
+    square = wrong = 0.0
+    if abs(value - least) <= FAR * deviation:
+        wrong = 0.5 * math.erfc(abs(value - least) / (math.sqrt(2.0) * deviation))
+        weight = force_of(value if pressed else least, force_n)
+        square = weight * weight * wrong
+    elif not pressed:
         return 0.0, 0.0
-    wrong = 0.5 * math.erfc(abs(value - least) / (math.sqrt(2.0) * deviation))
-    weight = force_of(value if pressed else least, force_n)
-    square = weight * weight * wrong
     if pressed:
         slope = slope_n[int(value)]
         square += slope * slope * deviation * deviation

@@ -17,7 +17,7 @@ from acts_recon.contact_finder import ContactFinder
 from acts_recon.dictionary import Dictionary
 from acts_recon.fastomp_model import PatchModel, Workspace
 from acts_recon.fusion import FusionEstimator
-from acts_recon.fusion_state import State
+from acts_recon.fusion_state import Memory
 from acts_recon.patches import patch_layout
 
 GEOMETRY = ArrayGeometry()
@@ -59,7 +59,7 @@ def test_an_allocation_would_be_counted(allocations: Count) -> None:
 def test_the_fusion_allocates_nothing(allocations: Count) -> None:
     estimator = FusionEstimator(GEOMETRY)
     indices, counts = sample(bump(GEOMETRY, 12, 14), 700)
-    checked, fused = 3, len(State._fields) + 2
+    checked, fused = 3, len(Memory._fields) + 2
     assert allocations(lambda k: estimator.step(indices, counts, 1e-3 * k, 1e-3)) == checked + fused
     assert allocations(lambda k: estimator.confidence()) == 2
 
