@@ -283,7 +283,7 @@ def _spread(state: State, indices: NDArray[np.uint16], rows: int, cols: int, tun
                 unrest_total[j] += near * unrest[i]
                 weight[j] += near
     gain = _F(tuning.spread_gain)
-    # All taxels, without a branch, so that the compiler takes several at once: what nothing has reached is left as it is.
+    # All taxels without a branch, so that the compiler takes several at once; what nothing has reached stays as it is.
     for j in range(image.shape[0]):
         shrunk = weight[j] + _F(SPREAD_PRIOR)
         image[j] = min(max(image[j] + gain * total[j] / shrunk, _F(0)), _TOP)

@@ -84,22 +84,9 @@ def driver(folder: Path, link: Path, *parameters: str) -> Iterator[subprocess.Po
     *parameters : str
         More parameters, as ``name:=value``.
     """
-    with _node(folder, "acts_driver", "driver", f"port:={link}", *parameters) as process:
-        yield process
-
-
-@contextmanager
-def reconstruction(folder: Path, *parameters: str) -> Iterator[subprocess.Popen[bytes]]:
-    """Run the reconstruction node, see `driver`; its log goes to ``folder/reconstruction.log``."""
-    with _node(folder, "acts_recon", "reconstruction", *parameters) as process:
-        yield process
-
-
-@contextmanager
-def _node(folder: Path, package: str, name: str, *parameters: str) -> Iterator[subprocess.Popen[bytes]]:
-    command = [str(executable(package, name, os.environ)), "--ros-args", "-r", f"__ns:={NAMESPACE}"]
-    command += [word for parameter in parameters for word in ("-p", parameter)]
-    with _running(command, folder / f"{name}.log") as process:
+    command = [str(executable("acts_driver", "driver", os.environ)), "--ros-args", "-r", f"__ns:={NAMESPACE}"]
+    command += [word for parameter in (f"port:={link}", *parameters) for word in ("-p", parameter)]
+    with _running(command, folder / "driver.log") as process:
         yield process
 
 

@@ -56,6 +56,5 @@ MEASUREMENTS = {
     "recovery": Entry("acts_tools.bench.recovery", "FastOMP, one frame, M = 55, 1000 atoms", 10.0),
     "train": Entry("acts_tools.bench.train", "learning a dictionary from 15,000 patches", 60.0, only_by_name=True),
     "link": Entry("acts_tools.bench.link", "a skin across a cable between two machines", 3.0, only_by_name=True),
-    "busy": Entry("acts_tools.bench.busy", "contacts beside busy loops, M = 55", 30.0, only_by_name=True),
     "soak": Entry("acts_tools.bench.soak", "a long run at 1 kHz, M = 55", 600.0, only_by_name=True),
 }

@@ -1,0 +1,29 @@
+"""What the tests of launch files share."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+
+from acts_tools.testing.launch_runner import Launched
+
+PACKAGE = "acts_bringup"
+# Numba compiles in the first process that needs a kernel; on a busy machine that takes its time.
+START_S = 90.0
+LONG_S = 60.0
+
+
+def pid_of(launched: Launched, name: str) -> int:
+    """Process id of a node that was started last, from the launch's own words."""
+    found = re.findall(rf"\[{name}(?:-\d+)?\]: process started with pid \[(\d+)\]", launched.output)
+    assert found, f"{name} was not started"
+    return int(found[-1])
+
+
+def disc_recording(folder: Path) -> Path:
+    """A recording of a disc of 21 taxels pressed at rest, off the centre, where 55 samples see all of it."""
+    rows, cols = np.mgrid[:32, :32]
+    disc = np.where(np.hypot(rows - 8, cols - 24) < 2.6, 700, 0).astype(np.uint16)
+    path = folder / "disc.npy"
+    np.save(path, np.repeat(disc[np.newaxis], 4, axis=0))
+    return path
