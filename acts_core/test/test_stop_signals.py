@@ -1,5 +1,6 @@
 """Signals in processes of their own: one request to stop, undisturbed by more, with a last resort."""
 
+import select
 import signal
 import subprocess
 import sys
@@ -8,8 +9,12 @@ from contextlib import contextmanager
 
 import pytest
 
+DEADLINE_S = 60.0
+
 HEAD = """
-import sys, threading, time
+import signal, sys, threading, time
+# Ignored where the tests themselves run under nohup.
+signal.signal(signal.SIGHUP, signal.SIG_DFL)
 from acts_core.stop_signals import StopSignals
 signals = StopSignals(last_resort_s=float(sys.argv[1]))
 asked = threading.Event()
@@ -58,19 +63,20 @@ def program(code: str, last_resort_s: float) -> Iterator[subprocess.Popen[str]]:
 
 def line(process: subprocess.Popen[str]) -> str:
     assert process.stdout is not None
+    assert select.select([process.stdout], [], [], DEADLINE_S)[0], "the program says nothing"
     return process.stdout.readline().strip()
 
 
 @pytest.mark.parametrize("code", [ENDS, STARTS], ids=["running", "starting"])
 @pytest.mark.parametrize("first", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_further_signals_do_not_disturb_the_way_out(code: str, first: signal.Signals) -> None:
-    with program(code, 60.0) as process:
+    with program(code, DEADLINE_S) as process:
         assert line(process) == "running"
         process.send_signal(first)
         assert line(process) == "ending"
         for again in (signal.SIGINT, signal.SIGTERM, signal.SIGINT):
             process.send_signal(again)
-        output, errors = process.communicate("go on\n", timeout=60)
+        output, errors = process.communicate("go on\n", timeout=DEADLINE_S)
     assert (output, errors) == ("ended\n", "")
     assert process.returncode == 0
 
@@ -79,7 +85,7 @@ def test_what_does_not_end_is_ended_and_tells_where_it_hangs() -> None:
     with program(ENDS, 0.2) as process:
         assert line(process) == "running"
         process.send_signal(signal.SIGINT)
-        assert process.wait(60) == 1
+        assert process.wait(DEADLINE_S) == 1
         assert process.stderr is not None
         errors = process.stderr.read()
     assert "Timeout" in errors
