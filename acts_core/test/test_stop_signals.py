@@ -12,9 +12,7 @@ import pytest
 DEADLINE_S = 60.0
 
 HEAD = """
-import signal, sys, threading, time
-# Ignored where the tests themselves run under nohup.
-signal.signal(signal.SIGHUP, signal.SIG_DFL)
+import sys, threading, time
 from acts_core.stop_signals import StopSignals
 signals = StopSignals(last_resort_s=float(sys.argv[1]))
 asked = threading.Event()
