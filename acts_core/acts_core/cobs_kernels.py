@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.kernels import kernel
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+
+@kernel
 def decode_into(encoded: bytes, decoded: NDArray[np.uint8]) -> int:
     """Undo the stuffing of one packet.
 
@@ -44,7 +45,7 @@ def decode_into(encoded: bytes, decoded: NDArray[np.uint8]) -> int:
     return written
 
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@kernel
 def encode_into(data: bytes, encoded: NDArray[np.uint8]) -> int:
     """Stuff one packet, without a delimiter.
 

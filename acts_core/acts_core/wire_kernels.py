@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX
+from acts_core.kernels import kernel
 
 INDEX_RANGE = 1
 INDEX_REPEATED = 2
 COUNT_RANGE = 3
 
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@kernel
 def first_fault(
     indices: NDArray[np.uint16], counts: NDArray[np.uint16], size: int, seen: NDArray[np.uint32], mark: int
 ) -> tuple[int, int]:

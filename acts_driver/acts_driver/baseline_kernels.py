@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.kernels import kernel
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+
+@kernel
 def observe(
     indices: NDArray[np.uint16],
     counts: NDArray[np.uint16],

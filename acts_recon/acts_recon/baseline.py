@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import ArrayError
+from acts_core.kernels import kernel
 
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@kernel
 def _subtract(
     indices: NDArray[np.uint16], counts: NDArray[np.uint16], baseline: NDArray[np.float32], result: NDArray[np.uint16]
 ) -> None:

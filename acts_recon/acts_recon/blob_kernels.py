@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX
+from acts_core.kernels import kernel
 from acts_recon.uncertainty_kernels import force_of, taxel_variances
 
 MAX_BLOBS = 16
@@ -41,7 +41,7 @@ BLOB = np.dtype(
 _TINY_N = 1e-30
 
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@kernel
 def find_blobs(
     image: NDArray[np.float32],
     sigma: NDArray[np.float32],
@@ -157,7 +157,7 @@ def find_blobs(
     return kept, dropped
 
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@kernel
 def _describe(
     image: NDArray[np.float32],
     rows: int,
@@ -207,7 +207,7 @@ def _describe(
     blob.yy_m2 = yy / max(total, _TINY_N)
 
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@kernel
 def _propagate(
     image: NDArray[np.float32],
     sigma: NDArray[np.float32],

@@ -2,9 +2,6 @@
 
 A merged track stands at an offset from its host's own part. The host's position is that of the whole contact: its own
 part, and the parts of its guests by their shares in the force.
-
-Numba's caches of those who call these do not notice changes in this file: save `blob_motion_kernels.py` and
-`blob_track_kernels.py` too.
 """
 
 from __future__ import annotations
@@ -12,14 +9,14 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.kernels import kernel
 from acts_recon.blob_tracks import ACTIVE, MAX_TRACKS, MERGED, NONE
 
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@kernel
 def own_part(t: int, tracks: NDArray[Any]) -> tuple[float, float]:
     """Where a track itself is, without those merged with it."""
     x, y = tracks[t].x, tracks[t].y
@@ -30,7 +27,7 @@ def own_part(t: int, tracks: NDArray[Any]) -> tuple[float, float]:
     return x, y
 
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@kernel
 def count_merged(t: int, tracks: NDArray[Any]) -> int:
     """How many tracks are merged with this one."""
     count = 0
@@ -40,7 +37,7 @@ def count_merged(t: int, tracks: NDArray[Any]) -> int:
     return count
 
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@kernel
 def leave(t: int, tracks: NDArray[Any]) -> None:
     """Share the force anew among those that stay with the host of `t`."""
     rest = max(1.0 - tracks[t].share, 1e-3)
@@ -49,7 +46,7 @@ def leave(t: int, tracks: NDArray[Any]) -> None:
             tracks[other].share = min(tracks[other].share / rest, 1.0)
 
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@kernel
 def part(tracks: NDArray[Any]) -> None:
     """Make active what was merged and has a contact of its own again."""
     for t in range(MAX_TRACKS):
@@ -72,7 +69,7 @@ def part(tracks: NDArray[Any]) -> None:
         track.host = NONE
 
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@kernel
 def covering(n: int, t: int, overlap: NDArray[np.int32], track_of: NDArray[np.int64]) -> int:
     """The track whose contact covers most of what was `t`'s."""
     host = NONE
@@ -84,7 +81,7 @@ def covering(n: int, t: int, overlap: NDArray[np.int32], track_of: NDArray[np.in
     return host
 
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@kernel
 def merge(time_s: float, t: int, h: int, blobs: NDArray[Any], tracks: NDArray[Any]) -> None:
     """Make track `t` part of `h`, whose contact covers what was its own."""
     track, host = tracks[t], tracks[h]

@@ -1,16 +1,13 @@
-"""Where contacts with numbers are and where they go, in numba, without allocation; see `acts_recon.blob_track_kernels`.
-
-Numba's cache of `follow` does not notice changes in this file: save `blob_track_kernels.py` too.
-"""
+"""Where contacts with numbers are and where they go, in numba, without allocation; for `blob_track_kernels`."""
 
 from __future__ import annotations
 
 import math
 from typing import Any
 
-import numba
 from numpy.typing import NDArray
 
+from acts_core.kernels import kernel
 from acts_recon.blob_merge_kernels import count_merged, leave
 from acts_recon.blob_tracks import ACTIVE, AWAY, FREE, MAX_TRACKS, MERGED, NONE
 
@@ -29,7 +26,7 @@ OFFSET_RATE_GAIN = 0.03
 OFFSET_RATE_DECAY_S = 0.3
 
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@kernel
 def predict(time_s: float, dt_s: float, bridge_s: float, memory_s: float, tracks: NDArray[Any]) -> None:
     """Move every track on to the time of the frame, and forget those away or merged for too long."""
     variance = (ACCELERATION_M_S2 * dt_s) ** 2
@@ -63,7 +60,7 @@ def predict(time_s: float, dt_s: float, bridge_s: float, memory_s: float, tracks
             track.y_vv += variance
 
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@kernel
 def update(
     time_s: float,
     dt_s: float,
@@ -116,7 +113,7 @@ def update(
         _follow_offset(dt_s, blob, pitch_m, t, tracks)
 
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@kernel
 def _follow_offset(dt_s: float, blob: Any, pitch_m: float, t: int, tracks: NDArray[Any]) -> None:
     """Where in a contact of two the two are.
 

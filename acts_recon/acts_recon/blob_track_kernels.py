@@ -16,10 +16,10 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.kernels import kernel
 from acts_recon.blob_merge_kernels import count_merged, covering, leave, merge, own_part, part
 from acts_recon.blob_motion_kernels import predict, update
 from acts_recon.blob_tracks import ACTIVE, AWAY, FREE, MAX_TRACKS, MERGED, NONE
@@ -61,7 +61,7 @@ LEAST_SHARE = 0.25
 _ROUNDING = 1e-9
 
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@kernel
 def follow(
     time_s: float,
     dt_s: float,
@@ -150,7 +150,7 @@ def follow(
     return n
 
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@kernel
 def _weigh(
     time_s: float,
     bridge_s: float,
@@ -196,7 +196,7 @@ def _weigh(
                     cost[b, other] = math.hypot(blobs[b].x_m - x - guest.dx, blobs[b].y_m - y - guest.dy)
 
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@kernel
 def _assign(n: int, tracks: NDArray[Any], cost: NDArray[np.float64], track_of: NDArray[np.int64]) -> None:
     while True:
         best = math.inf
@@ -216,7 +216,7 @@ def _assign(n: int, tracks: NDArray[Any], cost: NDArray[np.float64], track_of: N
         track_of[best_b] = best_t
 
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@kernel
 def _prefer_the_stronger(
     n: int, blobs: NDArray[Any], tracks: NDArray[Any], overlap: NDArray[np.int32], track_of: NDArray[np.int64]
 ) -> None:
@@ -247,7 +247,7 @@ def _prefer_the_stronger(
                     track_of[b] = t
 
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@kernel
 def _begin(time_s: float, b: int, blobs: NDArray[Any], tracks: NDArray[Any], next_number: NDArray[np.int64]) -> int:
     place = NONE
     for t in range(MAX_TRACKS):
@@ -279,7 +279,7 @@ def _begin(time_s: float, b: int, blobs: NDArray[Any], tracks: NDArray[Any], nex
     return place
 
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@kernel
 def direction(xx_m2: float, xy_m2: float, yy_m2: float, taxel_area_m2: float) -> float:
     """Direction of the longest extent, above -pi/2 to pi/2 [rad]; 0 where what differs is the arithmetic's rounding."""
     rounding = _ROUNDING * (xx_m2 + yy_m2 + taxel_area_m2)
@@ -289,7 +289,7 @@ def direction(xx_m2: float, xy_m2: float, yy_m2: float, taxel_area_m2: float) ->
     return 0.5 * math.atan2(2.0 * xy_m2 if abs(xy_m2) > rounding else 0.0, xx_m2 - yy_m2)
 
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@kernel
 def _report(
     time_s: float,
     n: int,

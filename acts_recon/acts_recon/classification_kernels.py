@@ -5,17 +5,17 @@ And what all classifiers share: sorting by class, and deciding.
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.kernels import kernel
 from acts_recon.fastomp_kernels import pursue, solve
 from acts_recon.fastomp_model import ALLOWED, CHOSEN, MEASURED, N_CHOSEN, ORDER, PRESSED, RESIDUAL_ROWS, Y_ROWS
 
-_OPTIONS = {"cache": True, "nogil": True, "fastmath": {"nnan", "ninf", "nsz", "contract", "reassoc", "arcp"}}
+_FASTMATH = {"nnan", "ninf", "nsz", "contract", "reassoc", "arcp"}
 
 
-@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+@kernel(fastmath=_FASTMATH)
 def class_residuals(
     blocks: NDArray[np.float32],
     groups: NDArray[np.float32],
@@ -90,7 +90,7 @@ def class_residuals(
     return True
 
 
-@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+@kernel(fastmath=_FASTMATH)
 def decide(residuals: NDArray[np.float32]) -> tuple[int, float]:
     """Class of the smallest residual, the first of equal ones, and `acts_core.residuals.confidence_of` all."""
     best = 0

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.kernels import kernel
 from acts_recon.uncertainty import FAR
 from acts_recon.uncertainty_kernels import force_of, taxel_variances
 
@@ -15,7 +15,7 @@ RESULTS = 11
 _TINY_N = 1e-30
 
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@kernel
 def find_contact(
     image: NDArray[np.float32],
     sigma: NDArray[np.float32],
@@ -112,7 +112,7 @@ def find_contact(
     results[10] /= total * total
 
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@kernel
 def _beside(image: NDArray[np.float32], rows: int, cols: int, row: int, col: int, touch_counts: float) -> bool:
     """Whether a taxel around this one is pressed."""
     for r in range(max(row - 1, 0), min(row + 2, rows)):

@@ -11,6 +11,7 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.kernels import kernel
 from acts_recon.fastomp import REGULARISATION
 from acts_recon.fastomp_choice import best_by_bounds, best_columns
 from acts_recon.fastomp_model import (
@@ -35,11 +36,11 @@ INDEX_TWICE = 2
 COUNT_OUT_OF_RANGE = 3
 
 _REGULARISATION = np.float32(REGULARISATION)
-_OPTIONS = {"cache": True, "nogil": True, "fastmath": {"nnan", "ninf", "nsz", "contract", "reassoc", "arcp"}}
+_FASTMATH = {"nnan", "ninf", "nsz", "contract", "reassoc", "arcp"}
 _padded = numba.njit(inline="always")(padded)
 
 
-@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+@kernel(fastmath=_FASTMATH)
 def pursue(
     blocks: NDArray[np.float32],
     groups: NDArray[np.float32],
@@ -87,7 +88,7 @@ def pursue(
 # A call with arrays costs as much as a patch of few pixels: the loops over problems are in the functions below.
 
 
-@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+@kernel(fastmath=_FASTMATH)
 def _take_atoms(
     i: int,
     active: int,
@@ -131,7 +132,7 @@ def _take_atoms(
     return going_on
 
 
-@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+@kernel(fastmath=_FASTMATH)
 def _use_atoms(
     i: int, active: int, table: NDArray[np.int32], rows: NDArray[np.float32], systems: NDArray[np.float32]
 ) -> int:
@@ -162,7 +163,7 @@ def _use_atoms(
     return going_on
 
 
-@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+@kernel(fastmath=_FASTMATH)
 def solve(problem: int, s: int, systems: NDArray[np.float32]) -> None:
     """From projections onto `s` orthogonalised atoms to the coefficients of the atoms, both in the last column."""
     last = systems.shape[1]
@@ -173,7 +174,7 @@ def solve(problem: int, s: int, systems: NDArray[np.float32]) -> None:
         systems[problem, i, last] = value / systems[problem, i, i]
 
 
-@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+@kernel(fastmath=_FASTMATH)
 def recover_image(
     blocks: NDArray[np.float32],
     groups: NDArray[np.float32],
@@ -260,7 +261,7 @@ def recover_image(
     return OK
 
 
-@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+@kernel(fastmath=_FASTMATH)
 def _hand_out(
     pressed: bool,
     touch_counts: int,

@@ -9,11 +9,11 @@ from __future__ import annotations
 
 import math
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX
+from acts_core.kernels import kernel
 from acts_recon.fastomp_kernels import COUNT_OUT_OF_RANGE, INDEX_OUT_OF_RANGE, INDEX_TWICE, OK
 from acts_recon.fusion_state import TILE, UNKNOWN_COUNTS, Memory, State, Tuning, state_of
 
@@ -43,7 +43,7 @@ OUTLIER = 25.0
 # What a sample says about the others is halved where their weights sum up to this.
 SPREAD_PRIOR = 0.5
 
-_OPTIONS = {"cache": True, "nogil": True, "fastmath": {"nsz", "contract", "reassoc", "arcp"}}
+_FASTMATH = {"nsz", "contract", "reassoc", "arcp"}
 _F = np.float32
 _TOP = np.float32(COUNT_MAX)
 _TINY = np.float32(1e-20)
@@ -59,10 +59,10 @@ def _weights_around() -> NDArray[np.float32]:
 
 _NEAR = _weights_around()
 
-_state_of = numba.njit(**_OPTIONS)(state_of)
+_state_of = kernel(fastmath=_FASTMATH)(state_of)
 
 
-@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+@kernel(fastmath=_FASTMATH)
 def check(indices: NDArray[np.uint16], counts: NDArray[np.uint16], seen: NDArray[np.bool_]) -> int:
     """Return whether a frame fits the array: one of the codes of `acts_recon.fastomp_kernels`."""
     code = OK
@@ -83,7 +83,7 @@ def check(indices: NDArray[np.uint16], counts: NDArray[np.uint16], seen: NDArray
     return code
 
 
-@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+@kernel(fastmath=_FASTMATH)
 def _observe_motion(
     state: State,
     indices: NDArray[np.uint16],
@@ -124,7 +124,7 @@ def _observe_motion(
         tile[5] += change * change
 
 
-@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+@kernel(fastmath=_FASTMATH)
 def _find_velocities(state: State, tuning: Tuning) -> None:
     """Solve for the velocity of every tile that explains most of the changes around it."""
     evidence, row_sums = state.evidence, state.row_sums
@@ -163,7 +163,7 @@ def _find_velocities(state: State, tuning: Tuning) -> None:
                 velocity[0], velocity[1], velocity[2] = by_cols, by_rows, min(share, _F(1))
 
 
-@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+@kernel(fastmath=_FASTMATH)
 def _moved(
     before: NDArray[np.float32], row: int, col: int, back_rows: np.float32, back_cols: np.float32, rows: int, cols: int
 ) -> np.float32:
@@ -179,7 +179,7 @@ def _moved(
     return above * (_F(1) - r) + below * r
 
 
-@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+@kernel(fastmath=_FASTMATH)
 def _predict(state: State, period_s: float, rows: int, cols: int, tuning: Tuning) -> None:
     """Carry the image on to the end of the frame by motion and, for the share it does not explain, by slopes.
 
@@ -215,7 +215,7 @@ def _predict(state: State, period_s: float, rows: int, cols: int, tuning: Tuning
                     image[i] = min(max(before[i] + change, _F(0)), _TOP)
 
 
-@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+@kernel(fastmath=_FASTMATH)
 def _take(
     state: State, indices: NDArray[np.uint16], counts: NDArray[np.uint16], lag_step_s: float, tuning: Tuning
 ) -> None:
@@ -255,14 +255,14 @@ def _take(
     state.frame_scale[0] = max(_F(1) + surprise / (compared + _F(CALM_SAMPLES)), _F(1))
 
 
-@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+@kernel(fastmath=_FASTMATH)
 def _excess(innovation: np.float32, since: np.float32, noise_variance: np.float32) -> np.float32:
     """Squared error per squared second of a prediction that noise does not account for."""
     time = since + _F(SHORTEST_S)
     return max(innovation * innovation - _F(2) * noise_variance, _F(0)) / (time * time)
 
 
-@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+@kernel(fastmath=_FASTMATH)
 def _spread(state: State, indices: NDArray[np.uint16], rows: int, cols: int, tuning: Tuning) -> None:
     """Correct the taxels around the samples by the samples' innovations, the near ones most."""
     m = indices.shape[0]
@@ -294,7 +294,7 @@ def _spread(state: State, indices: NDArray[np.uint16], rows: int, cols: int, tun
         image[i] = state.value[i]
 
 
-@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+@kernel(fastmath=_FASTMATH)
 def _look_around(state: State, values: NDArray[np.float32], rows: int, cols: int) -> NDArray[np.float32]:
     """The largest of every taxel and the eight around it; overwritten by the next call."""
     in_row, around = state.in_row, state.around
@@ -315,7 +315,7 @@ def _look_around(state: State, values: NDArray[np.float32], rows: int, cols: int
     return around
 
 
-@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+@kernel(fastmath=_FASTMATH)
 def _keep_quiet(state: State, rows: int, cols: int, tuning: Tuning) -> None:
     """A taxel measured untouched, with none beside it pressed, is 0: lately, or as long as nothing was added."""
     image, age, fresh = state.image, state.age, state.fresh
@@ -326,7 +326,7 @@ def _keep_quiet(state: State, rows: int, cols: int, tuning: Tuning) -> None:
         image[i] = _F(0) if around[i] <= quiet and is_settled and not fresh[i] else image[i]
 
 
-@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+@kernel(fastmath=_FASTMATH)
 def _doubt(state: State, rows: int, cols: int, tuning: Tuning) -> None:
     """Standard deviations from noise, age, what predictions of the taxel gathered, and how well all have held.
 
@@ -350,7 +350,7 @@ def _doubt(state: State, rows: int, cols: int, tuning: Tuning) -> None:
         sigma[i] = min(_F(math.sqrt(variance)), limit)
 
 
-@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+@kernel(fastmath=_FASTMATH)
 def fuse(
     memory: Memory,
     indices: NDArray[np.uint16],
@@ -387,7 +387,7 @@ def fuse(
     _doubt(state, rows, cols, tuning)
 
 
-@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+@kernel(fastmath=_FASTMATH)
 def confidence(sigma: NDArray[np.float32], half_counts: float, out: NDArray[np.uint8]) -> None:
     """Write 255 where nothing is in doubt, half of it where sigma is `half_counts`, towards 0 beyond."""
     for i in range(sigma.shape[0]):

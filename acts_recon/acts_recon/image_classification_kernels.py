@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.kernels import kernel
 from acts_recon.classification_kernels import by_class
 
-_OPTIONS = {"cache": True, "nogil": True, "fastmath": {"nnan", "ninf", "nsz", "contract", "reassoc", "arcp"}}
+_FASTMATH = {"nnan", "ninf", "nsz", "contract", "reassoc", "arcp"}
 _ROUNDS = 40
 """Rounds of coordinate descent for a mixture; it stops earlier once nothing changes."""
 
@@ -16,7 +16,7 @@ _SETTLED = np.float32(1e-4)
 _TINY = np.float32(1e-12)
 
 
-@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+@kernel(fastmath=_FASTMATH)
 def _mixture_explains(
     dense: NDArray[np.float32],
     norms_counts: NDArray[np.float32],
@@ -71,7 +71,7 @@ def _mixture_explains(
     return float(explained - square * np.float32(force_weight * np.log(force)) ** 2)
 
 
-@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+@kernel(fastmath=_FASTMATH)
 def class_residuals(
     dense: NDArray[np.float32],
     column_first: NDArray[np.int64],
@@ -176,7 +176,7 @@ def class_residuals(
     return True
 
 
-@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+@kernel(fastmath=_FASTMATH)
 def weigh(residuals: NDArray[np.float32], others: NDArray[np.float32], weight: float) -> None:
     """Put the geometric mean of two judges' residuals, the other one's weighted, into `residuals`.
 

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.kernels import kernel
 from acts_recon.classification_kernels import by_class
 from acts_recon.fastomp import REGULARISATION
 from acts_recon.object_library import ObjectLibrary
 
-_OPTIONS = {"cache": True, "nogil": True, "fastmath": {"nnan", "ninf", "nsz", "contract", "reassoc", "arcp"}}
+_FASTMATH = {"nnan", "ninf", "nsz", "contract", "reassoc", "arcp"}
 
 
-@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+@kernel(fastmath=_FASTMATH)
 def _propose(
     residuals: NDArray[np.float32],
     explained: NDArray[np.float32],
@@ -49,7 +49,7 @@ def _propose(
     return n
 
 
-@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+@kernel(fastmath=_FASTMATH)
 def _solve(
     n: int,
     gram: NDArray[np.float64],
@@ -77,7 +77,7 @@ def _solve(
         share[i] = total / factor[i, i]
 
 
-@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+@kernel(fastmath=_FASTMATH)
 def class_residuals(
     columns: NDArray[np.float32],
     products: NDArray[np.float64],

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
+
+from acts_core.kernels import kernel
 
 _TINY = np.float32(1e-7)
 
 
-@numba.njit(cache=True, nogil=True, fastmath={"nnan", "ninf", "nsz", "contract", "reassoc"})  # type: ignore[untyped-decorator]
+@kernel(fastmath={"nnan", "ninf", "nsz", "contract", "reassoc"})
 def code_patches(
     projections: NDArray[np.float32],
     gram: NDArray[np.float32],
@@ -89,7 +90,7 @@ def code_patches(
             coefficients[p, i] = np.float32(0.0)
 
 
-@numba.njit(cache=True, nogil=True, fastmath={"nnan", "ninf", "nsz", "contract", "reassoc"})  # type: ignore[untyped-decorator]
+@kernel(fastmath={"nnan", "ninf", "nsz", "contract", "reassoc"})
 def update_atoms(
     D: NDArray[np.float32],
     residual: NDArray[np.float32],

@@ -1,21 +1,18 @@
-"""What the uncertainty of a taxel adds to that of its contact, in numba; `acts_recon.uncertainty` has the formulae.
-
-Numba's caches of those who call it do not notice changes in this file: save them, too.
-"""
+"""What the uncertainty of a taxel adds to that of its contact, in numba; `acts_recon.uncertainty` has the formulae."""
 
 from __future__ import annotations
 
 import math
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX
+from acts_core.kernels import kernel
 from acts_recon.uncertainty import FAR
 
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@kernel
 def force_of(value: float, force_n: NDArray[np.float64]) -> float:
     """Force of a taxel of so many counts [N]; between two entries of the table it is interpolated."""
     value = min(value, float(COUNT_MAX))
@@ -23,7 +20,7 @@ def force_of(value: float, force_n: NDArray[np.float64]) -> float:
     return force_n[whole] + (value - whole) * (force_n[whole + 1] - force_n[whole])
 
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@kernel
 def taxel_variances(
     value: float,
     deviation: float,

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.kernels import kernel
+
+
 # Not the fast arithmetic of other kernels: it would not tell NaN.
-_OPTIONS = {"cache": True, "nogil": True}
-
-
-@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+@kernel
 def possible(image: NDArray[np.float32], sigma: NDArray[np.float32], age_s: NDArray[np.float32]) -> bool:
     """Whether all counts and deviations are finite, and all deviations and ages 0 or more; flat arrays."""
     wrong = 0
@@ -20,7 +19,7 @@ def possible(image: NDArray[np.float32], sigma: NDArray[np.float32], age_s: NDAr
     return wrong == 0
 
 
-@numba.njit(**_OPTIONS)  # type: ignore[untyped-decorator]
+@kernel
 def follow(
     image: NDArray[np.float32],
     sigma: NDArray[np.float32],

@@ -8,8 +8,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from acts_core.kernels import kernel
 
 STANDARD_GRAVITY_M_S2 = 9.80665
 
@@ -21,7 +22,7 @@ SPREAD_OFFSETS = (-math.sqrt(3.0), 0.0, math.sqrt(3.0))
 SPREAD_WEIGHTS = (1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0)
 
 
-@njit(cache=True)  # type: ignore[untyped-decorator]
+@kernel
 def plate_pose(
     q_rad: NDArray[np.float64], dh: NDArray[np.float64], yaw_rad: float, height_m: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -67,7 +68,7 @@ def plate_pose(
     return rotation, origin
 
 
-@njit(cache=True)  # type: ignore[untyped-decorator]
+@kernel
 def _small_turn(start: NDArray[np.float64], end: NDArray[np.float64], turn: NDArray[np.float64]) -> None:
     # Rotation vector of start' end for a small angle: the antisymmetric part. The axis is the same in both frames.
     turn[0] = turn[1] = turn[2] = 0.0
@@ -77,7 +78,7 @@ def _small_turn(start: NDArray[np.float64], end: NDArray[np.float64], turn: NDAr
         turn[2] += 0.5 * (start[k, 1] * end[k, 0] - start[k, 0] * end[k, 1])
 
 
-@njit(cache=True)  # type: ignore[untyped-decorator]
+@kernel
 def plate_motion(
     q_rad: NDArray[np.float64],
     qd_rad_s: NDArray[np.float64],
@@ -116,7 +117,7 @@ def plate_motion(
     return motion
 
 
-@njit(cache=True)  # type: ignore[untyped-decorator]
+@kernel
 def roll(
     x: float, y: float, vx: float, vy: float, motion: NDArray[np.float64], radius: float, resistance: float, dt: float
 ) -> tuple[float, float, float, float, float]:
@@ -169,7 +170,7 @@ def roll(
     return x + 0.5 * (vx + new_vx) * dt, y + 0.5 * (vy + new_vy) * dt, new_vx, new_vy, load
 
 
-@njit(cache=True)  # type: ignore[untyped-decorator]
+@kernel
 def press(
     counts: NDArray[np.float64],
     pitch: float,

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import time
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
+
+from acts_core.kernels import kernel
 
 _CHAINS = 4
 _STEPS = 8
 _ELEMENTS = 256
 
 
-@numba.njit(cache=True, nogil=True, fastmath={"contract", "nsz"})  # type: ignore[untyped-decorator]
+@kernel(fastmath={"contract", "nsz"})
 def _work(times: int, x: NDArray[np.float32], a: float, b: float) -> None:
     """Four chains of eight multiply-adds for every element, unrolled: enough of them in flight for any processor."""
     for _ in range(times):

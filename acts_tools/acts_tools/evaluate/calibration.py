@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
 from acts_core.force import ForceResponse
+from acts_core.kernels import kernel
 from acts_recon.contact_finder import ContactFinder
 
 ROWS = ("touched", "untouched", "x", "y", "force", "area", "spread")
@@ -73,7 +73,7 @@ class Calibration:
         return sums
 
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@kernel
 def _add(error: float, deviation: float, sums: NDArray[np.float64]) -> None:
     sums[0] += 1
     # An error of next to 0 is 0 deviations, however small these are.
@@ -83,7 +83,7 @@ def _add(error: float, deviation: float, sums: NDArray[np.float64]) -> None:
     sums[3] += error <= max(2.0 * deviation, _TINY)
 
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@kernel
 def add_errors(
     image: NDArray[np.float32],
     sigma: NDArray[np.float32],

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import Delaunay, QhullError
 
 from acts_core.array import COUNT_MAX, ArrayGeometry
+from acts_core.kernels import kernel
 
 _LENGTH_TAXELS = 2.0
 _NOISE = 0.05
@@ -59,7 +59,7 @@ class Linear:
         return image.ravel()
 
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@kernel
 def _fill(
     image: NDArray[np.float64],
     known: NDArray[np.float64],

@@ -5,16 +5,17 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
+
+from acts_core.kernels import kernel
 
 _ERROR, _SUPPORT, _COP, _TOUCH_COP, INVENTED = range(5)
 FRAME_SCORES = 5
 """Numbers that `score_image` writes."""
 
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+@kernel
 def score_image(
     image: NDArray[np.float32],
     truth: NDArray[np.float32],

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
+from acts_core.kernels import kernel
 
-@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator]
+
+@kernel
 def interpolate(frames: NDArray[np.uint16], position: float, out: NDArray[np.float32]) -> None:
     """Write the image that an ADC would read at one instant.
 

@@ -1,0 +1,151 @@
+"""`kernel`: numba's `njit` with a cache on disk that notices changes of all that a kernel is made of.
+
+Numba's own cache looks at the file of a function alone. What the function calls, and the constants it reads, are
+compiled into it, so that after a change of another file it goes on with the old ones. Here a kernel is cached in a
+folder named by the content of its file and of all files of ours that it imports, directly or not::
+
+    @kernel
+    def total(values): ...
+
+    @kernel(fastmath={"nsz"})
+    def quick_total(values): ...
+"""
+
+from __future__ import annotations
+
+import ast
+import hashlib
+import importlib.util
+import os
+import shutil
+import sys
+import tempfile
+from collections.abc import Callable, Iterator
+from functools import lru_cache
+from pathlib import Path
+from typing import Any, TypeVar, cast, overload
+
+import numba
+
+R = TypeVar("R")
+
+_OURS = "acts_"
+_CACHES = "kernels"
+
+
+@overload
+def kernel(function: Callable[..., R], /) -> Callable[..., R]: ...
+
+
+@overload
+def kernel(**options: Any) -> Callable[[Callable[..., R]], Callable[..., R]]: ...
+
+
+def kernel(
+    function: Callable[..., R] | None = None, /, **options: Any
+) -> Callable[..., R] | Callable[[Callable[..., R]], Callable[..., R]]:
+    """Compile a function at its first call, without Python objects, and without the interpreter's lock held.
+
+    Parameters
+    ----------
+    function : callable, optional
+        What is decorated; left out where there are options.
+    **options
+        More of `numba.njit`. ``cache`` and ``nogil`` are on.
+
+    Returns
+    -------
+    callable
+        Type checkers know what it returns, not what it takes: numba converts arguments where it can.
+    """
+    if function is None:
+        return lambda decorated: _compiled(decorated, options)
+    return _compiled(function, options)
+
+
+def _compiled(function: Callable[..., R], options: dict[str, Any]) -> Callable[..., R]:
+    before = numba.config.CACHE_DIR
+    # Read while a function is decorated, and at no other time.
+    numba.config.CACHE_DIR = str(cache_folder(function))
+    try:
+        return cast(Callable[..., R], numba.njit(cache=True, nogil=True, **options)(function))
+    finally:
+        numba.config.CACHE_DIR = before
+
+
+def cache_folder(function: Callable[..., Any]) -> Path:
+    """Where a kernel is cached: beside its file, or in the user's cache where that cannot be written.
+
+    The environment variable NUMBA_CACHE_DIR has its usual meaning. Folders of former contents are removed.
+    """
+    name, file = function.__module__, function.__code__.co_filename
+    folder = _root(Path(file).parent) / f"{name}-{fingerprint(file)}"
+    if not folder.is_dir():
+        for former in folder.parent.glob(f"{name}-*"):
+            shutil.rmtree(former, ignore_errors=True)
+    return folder
+
+
+@lru_cache(None)
+def _root(package: Path) -> Path:
+    root = os.environ.get("NUMBA_CACHE_DIR", "")
+    beside = package / "__pycache__"
+    if not root:
+        try:
+            beside.mkdir(exist_ok=True)
+            tempfile.TemporaryFile(dir=beside).close()
+            root = str(beside)
+        except OSError:
+            root = os.environ.get("XDG_CACHE_HOME", "") or str(Path.home() / ".cache")
+    return Path(root) / _CACHES / hashlib.sha256(bytes(package)).hexdigest()[:12]
+
+
+def fingerprint(file: str) -> str:
+    """Hash of a file and of all files of ours that it imports, and they.
+
+    Parameters
+    ----------
+    file : str
+        Path of a Python file.
+    """
+    known: set[str] = set()
+    waiting = [file]
+    while waiting:
+        path = waiting.pop()
+        if path not in known:
+            known.add(path)
+            waiting += _source(path)[1]
+    digests = sorted(_source(path)[0] for path in known)
+    return hashlib.sha256(b"".join(digests)).hexdigest()[:16]
+
+
+@lru_cache(None)
+def _source(path: str) -> tuple[bytes, tuple[str, ...]]:
+    """Hash of a file, and the files of ours that it imports."""
+    content = Path(path).read_bytes()
+    files = (_file_of(name) for name in _imported(ast.parse(content)))
+    return hashlib.sha256(content).digest(), tuple(sorted({file for file in files if file}))
+
+
+def _imported(tree: ast.Module) -> Iterator[str]:
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
+            yield node.module
+            # Either names within the module, or modules within the package.
+            yield from (f"{node.module}.{alias.name}" for alias in node.names)
+
+
+def _file_of(name: str) -> str:
+    """Path of a module of ours; empty for others, and for what is no module."""
+    if not name.startswith(_OURS):
+        return ""
+    module = sys.modules.get(name)
+    if module is not None:
+        return module.__file__ or ""
+    try:
+        spec = importlib.util.find_spec(name)
+    except ModuleNotFoundError:
+        return ""
+    return spec.origin or "" if spec is not None else ""
