@@ -48,6 +48,7 @@ def lint() -> bool:
         run("mypy", ["mypy", *python_packages(), "scripts"]),
         run("clang-format", ["clang-format", "--dry-run", "--Werror", *tracked(*CXX_PATTERNS)]),
         run("g++: warnings", ["g++", *CXX_WARNINGS, *firmware, *on_host]),
+        run("package.xml: what is imported is declared", [sys.executable, "scripts/dependencies.py"]),
     ]
     return all(passed)
 
