@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import time
 from array import array
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 from rclpy.node import Node
 from std_srvs.srv import Trigger
 
-from acts_core.errors import ActsError
+from acts_core.errors import ActsError, CalibrationError
 from acts_core.frames import SampleFrame
 from acts_driver.baseline import Baseline
 from acts_driver.baseline_parameters import BaselineParameters
@@ -22,6 +22,8 @@ from acts_ros.qos import LATCHED, overridable
 _NS_PER_S = 1_000_000_000
 _PUBLISH_PERIOD_S = 1.0
 _MOVED_COUNTS = 0.5
+# Without a frame for so long, nothing is known of the skin of now [s].
+_FRESH_S = 0.5
 
 
 class BaselineServices:
@@ -52,8 +54,7 @@ class BaselineServices:
         self._path = None if file in ("", "none") else Path(file).expanduser()
         self._tracker = BaselineTracker(rows, cols, parameters.baseline_config())
         self._published: Baseline | None = None
-        self.observe: Callable[[Sequence[tuple[SampleFrame, int]]], None] = self._tracker.observe
-        """Takes frames with their stamps [ns], on the reader's thread."""
+        self._heard_s: float | None = None
         self._publisher = node.create_publisher(BaselineMessage, "baseline", **overridable(LATCHED))
         node.create_service(Trigger, "~/calibrate", self._calibrate)
         node.create_service(Trigger, "~/tare", self._tare)
@@ -65,6 +66,12 @@ class BaselineServices:
         elif self._path is not None:
             node.get_logger().info(f"no baseline yet: {self._path} is not there, the service ~/calibrate writes it")
         self._timer = node.create_timer(_PUBLISH_PERIOD_S, self._publish_where_moved)
+
+    def observe(self, frames: Sequence[tuple[SampleFrame, int]]) -> None:
+        """Take frames with their stamps [ns], on the reader's thread."""
+        if frames:
+            self._heard_s = time.monotonic()
+            self._tracker.observe(frames)
 
     def values(self) -> dict[str, object]:
         """What the driver's diagnostics say of the baseline."""
@@ -79,6 +86,7 @@ class BaselineServices:
 
     def _calibrate(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         try:
+            self._require_frames()
             baseline = self._tracker.calibrate()
             # In force even where the file cannot be written.
             self._publish(baseline)
@@ -97,11 +105,22 @@ class BaselineServices:
 
     def _tare(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         try:
+            self._require_frames()
             baseline = self._tracker.tare()
         except ActsError as error:
             return self._answer(response, False, str(error))
         self._publish(baseline)
         return self._answer(response, True, f"tared {int(baseline.valid.sum())} of {baseline.valid.size} taxels")
+
+    def _require_frames(self) -> None:
+        """Raise where there are none: what is remembered says nothing about the skin of now."""
+        if self._heard_s is None:
+            raise CalibrationError("no frames so far: is the driver configured, and does the board send?")
+        silent_s = time.monotonic() - self._heard_s
+        if silent_s > _FRESH_S:
+            raise CalibrationError(
+                f"no frames for {silent_s:.1f} s: the driver's diagnostics tell why; call again when they are back"
+            )
 
     def _answer(self, response: Trigger.Response, success: bool, message: str) -> Trigger.Response:
         if success:

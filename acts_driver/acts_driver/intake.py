@@ -82,7 +82,7 @@ class Intake:
             log=log,
             on_reconnect=self._on_reconnect,
         )
-        self._report = DriverReport(source, self.reader, decoder, self.stream, size, self.session)
+        self._report = DriverReport(source, self.reader, decoder, self.stream, size, self.session, log)
         self._restarts_told = 0
         self._wrong_size_told = (0, 0)
 

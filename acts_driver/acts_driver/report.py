@@ -6,7 +6,7 @@ from dataclasses import dataclass, fields
 
 from acts_core.delimited import DelimitedDecoder
 from acts_driver.board_session import BoardSession, BoardStatus, settings_in_words, version_in_words
-from acts_driver.reader import Reader
+from acts_driver.reader import LogCallback, Reader
 from acts_driver.source import Source
 from acts_driver.stream import FrameStream
 from acts_ros.diagnostics import ERROR, OK, WARN, Report
@@ -50,6 +50,8 @@ _TROUBLES = {
     "consumer_errors": "{} failures to publish",
     "clock_resets": "{} jumps of a clock",
 }
+# The first report may come before the first frame.
+_SILENT_REPORTS = 2
 
 
 class DriverReport:
@@ -63,6 +65,8 @@ class DriverReport:
         Rows and columns that frames must have.
     session : BoardSession or None
         The dialogue with the board, where there is one.
+    log : callable
+        Is told once that an open port gives no frames, and why, and once that it does again.
     """
 
     def __init__(
@@ -73,7 +77,10 @@ class DriverReport:
         stream: FrameStream,
         expected_size: tuple[int, int],
         session: BoardSession | None = None,
+        log: LogCallback = lambda level, message: None,
     ) -> None:
+        self._log = log
+        self._silent_reports = 0
         self._session = session
         self._source = source
         self._reader = reader
@@ -116,6 +123,7 @@ class DriverReport:
         self._before = totals
         rate_hz = self._stream.statistics.rate_hz(now_ns)
         level, message = self._judge(added, f"{rate_hz:.1f} frames/s, {state}")
+        self._tell_silence(added, message)
         board = BoardStatus() if self._session is None else self._session.status
         if self._session is not None and self._reader.connected:
             level, message = _with_board(level, message, board, is_needed=self._session.asks_for_something)
@@ -131,6 +139,17 @@ class DriverReport:
         values["port"] = self._source.name
         values["state"] = state
         return level, message, values
+
+    def _tell_silence(self, added: Totals, message: str) -> None:
+        """On the screen: who starts a driver does not look at its diagnostics first."""
+        if added.frames or not self._reader.connected:
+            if added.frames and self._silent_reports >= _SILENT_REPORTS:
+                self._log("info", f"frames again: {message}")
+            self._silent_reports = 0
+            return
+        self._silent_reports += 1
+        if self._silent_reports == _SILENT_REPORTS:
+            self._log("info" if self._source.silence else "error", message)
 
     def _judge(self, added: Totals, fine: str) -> tuple[int, str]:
         if not self._reader.connected:

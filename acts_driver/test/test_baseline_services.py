@@ -1,4 +1,4 @@
-"""Calibrate and tare on the driver, over real DDS and a pseudo-terminal; ROS_DOMAIN_IDs 57 to 59."""
+"""Calibrate and tare on the driver, over real DDS and a pseudo-terminal; ROS_DOMAIN_IDs 57 to 59, 146 and 147."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def stream(tmp_path: Path) -> Iterator[Stream]:
             stream.join()
 
 
-_domains = itertools.count(57)
+_domains = itertools.cycle([57, 58, 59, 146, 147])
 
 
 @pytest.fixture
@@ -86,7 +86,7 @@ def test_calibrate_and_tare(rig: Rig, stream: Stream, tmp_path: Path) -> None:
     baselines = start(rig, stream, path)
     answer = ask(rig, "calibrate")
     assert not answer.success
-    assert "wait and call again" in answer.message
+    assert "no frames so far" in answer.message
     stream.start()
     rig.spin_until(lambda: ask(rig, "calibrate").success, "a calibration")
     rig.spin_until(lambda: bool(baselines), "the baseline")
@@ -117,6 +117,22 @@ def test_calibrate_and_tare(rig: Rig, stream: Stream, tmp_path: Path) -> None:
     status = rig.status_until(lambda status: status.get("baseline") == "tare", "the report")
     assert status["baseline_taxels"] == str(SIZE)
     assert {"baseline_below", "baseline_drift_per_min.median", "baseline_drift_per_min.largest"} <= status.keys()
+
+
+@pytest.mark.parametrize("service", ["calibrate", "tare"])
+def test_without_frames_the_past_is_not_taken_for_the_present(
+    rig: Rig, stream: Stream, tmp_path: Path, service: str
+) -> None:
+    start(rig, stream, tmp_path / "skin.npz")
+    stream.start()
+    rig.spin_until(lambda: ask(rig, "calibrate").success, "a calibration")
+    stream.ended.set()
+
+    def refused() -> bool:
+        answer = ask(rig, service)
+        return not answer.success and "no frames for" in answer.message
+
+    rig.spin_until(refused, "a refusal")
 
 
 def test_the_file_is_read_at_the_start(rig: Rig, stream: Stream, tmp_path: Path) -> None:

@@ -1,5 +1,6 @@
-"""The node over real DDS: samples, drops, diagnostics, life cycle, parameters."""
+"""The node over real DDS: samples, drops, diagnostics, life cycle, parameters. One process on ROS_DOMAIN_ID 149."""
 
+import threading
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -196,6 +197,28 @@ def test_the_raster_sketch(board: PtyBoard, rig: Rig) -> None:
     assert [list(message.counts) for message in rig.samples] == [[1, 2, 3, 4, 5, 1023], [6, 5, 4, 3, 2, 0]]
     assert [message.scheme for message in rig.samples] == [4, 4]
     assert before_ns < stamp_ns(rig.samples[0]) < stamp_ns(rig.samples[1]) <= time.time_ns()
+
+
+def test_a_driver_that_gets_nothing_it_can_use_says_so_and_why(board: PtyBoard) -> None:
+    # A sketch that prints all values, but not how long they took.
+    line, ended = [b"1,2,3,4,5,1023\r\n"], threading.Event()
+
+    def send() -> None:
+        while not ended.wait(0.02):
+            board.write(line[0])
+
+    words = [f"port:={board.path}", "protocol:=raster_ascii", "rows:=2", "cols:=3"]
+    process = start_process(149, *(part for word in words for part in ("-p", word)))
+    sender = threading.Thread(target=send, daemon=True)
+    sender.start()
+    told = read_until(process, "no frames from").splitlines()[-1]
+    assert "[ERROR]" in told
+    assert "malformed packets, last: " in told
+    line[0] = b"1,2,3,4,5,1023,120\r\n"
+    read_until(process, "frames again: ")
+    ended.set()
+    sender.join()
+    end_process(process)
 
 
 @pytest.mark.parametrize(
