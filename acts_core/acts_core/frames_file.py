@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX
 from acts_core.errors import RecordingError
-from acts_core.npz_file import read_npz
+from acts_core.npz_file import half_of_memory_bytes, read_npz
 
 _CHUNK = 4096
 """Frames rounded at a time."""
@@ -65,7 +65,7 @@ def load_frames(path: Path, *, labels: bool = False) -> FramesFile:
     """
     needed = "needed is an npz file with an array `frames` (n, rows, cols)"
     names = ["frames", "live", "start", "length", "rate_hz", *(["label"] if labels else [])]
-    content = read_npz(path, names, error=RecordingError, hint=needed)
+    content = read_npz(path, names, error=RecordingError, hint=needed, limit_bytes=half_of_memory_bytes())
     if "frames" not in content:
         raise RecordingError(f"{path}: no array `frames`; {needed}")
     frames = _frames(path, content["frames"])
@@ -93,7 +93,7 @@ def _frames(path: Path, given: NDArray) -> NDArray[np.uint16]:
     if not 0 <= given.min() <= given.max() <= COUNT_MAX:
         raise RecordingError(
             f"{path}: frames hold {given.min()} to {given.max()}; they must lie between 0 and {COUNT_MAX} ADC counts, "
-            f"without NaN"
+            f"without NaN (divide counts of 12 bits by 4)"
         )
     if given.dtype.kind != "f":
         return np.ascontiguousarray(given, dtype=np.uint16)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import stat
 import struct
 import tokenize
 import zipfile
@@ -33,9 +35,22 @@ _DAMAGED = (
     RuntimeError,
 )
 
+UNPACKED_BYTES_MAX = 1 << 30
+"""Arrays of a model, a baseline or a table take at most so much; those of recordings see `half_of_memory_bytes`."""
+
+
+def half_of_memory_bytes() -> int:
+    """Half of the memory of this machine [bytes]."""
+    return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // 2
+
 
 def read_npz(
-    path: Path, names: Collection[str] | None = None, *, error: type[ActsError], hint: str = ""
+    path: Path,
+    names: Collection[str] | None = None,
+    *,
+    error: type[ActsError],
+    hint: str = "",
+    limit_bytes: int = UNPACKED_BYTES_MAX,
 ) -> dict[str, NDArray[Any]]:
     """Read arrays of an npz file; pickled ones are refused.
 
@@ -49,21 +64,31 @@ def read_npz(
         What to raise.
     hint : str
         What to do, for the message.
+    limit_bytes : int
+        How much the arrays may take unpacked; a small file may hold very large ones.
 
     Raises
     ------
     error
-        The file is missing, is no npz file, or is damaged.
+        The file is missing, is no npz file, is damaged, or holds more than is allowed.
     """
     tail = f"; {hint}" if hint else ""
     try:
+        # A device may have no end, and a pipe no beginning.
+        if not stat.S_ISREG(path.stat().st_mode):
+            raise error(f"{path}: not a regular file{tail}")
         with path.open("rb") as file:
             is_npz = zipfile.is_zipfile(file)
         # NumPy would take anything else for a pickle, and say so.
         if not is_npz:
             raise error(f"{path}: not an npz file, or a part of one{tail}")
-        with np.load(path, allow_pickle=False) as archive:
-            return {name: archive[name] for name in archive.files if names is None or name in names}
+        with zipfile.ZipFile(path) as archive:
+            wanted = [entry for entry in archive.infolist() if names is None or entry.filename[:-4] in names]
+        unpacked = sum(entry.file_size for entry in wanted)
+        if unpacked > limit_bytes:
+            raise error(f"{path}: unpacks to {unpacked / 1e6:.0f} MB; allowed are {limit_bytes / 1e6:.0f} MB{tail}")
+        with np.load(path, allow_pickle=False) as arrays:
+            return {name: arrays[name] for name in arrays.files if names is None or name in names}
     except OSError as failure:
         raise error(f"{path}: cannot be read ({failure.strerror or failure}){tail}") from failure
     except _DAMAGED as failure:

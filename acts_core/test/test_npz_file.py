@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import io
+import os
 import tempfile
 from pathlib import Path
 
@@ -31,6 +32,24 @@ def test_arrays_are_read_by_name(tmp_path: Path) -> None:
     found = read_npz(tmp_path / "x.npz", ("a", "c"), error=ActsError)
     assert found.keys() == {"a"}
     np.testing.assert_array_equal(found["a"], np.arange(300))
+
+
+@pytest.mark.parametrize("path", ["/dev/zero", "/dev", "pipe"])
+def test_only_regular_files_are_read(path: str, tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    with pytest.raises(ActsError, match="not a regular file; make it anew"):
+        # A path from the root stays itself.
+        read_npz(tmp_path / path, error=ActsError, hint="make it anew")
+
+
+def test_what_unpacks_to_more_than_is_allowed_is_not_unpacked(tmp_path: Path) -> None:
+    path = tmp_path / "x.npz"
+    np.savez_compressed(path, large=np.zeros(10**6, dtype=np.uint8), small=np.zeros(10))
+    assert path.stat().st_size < 10_000
+    with pytest.raises(ActsError, match="unpacks to 1 MB; allowed are 0 MB"):
+        read_npz(path, error=ActsError, limit_bytes=400_000)
+    # Only what is asked for counts.
+    assert read_npz(path, ("small",), error=ActsError, limit_bytes=1000).keys() == {"small"}
 
 
 @pytest.mark.parametrize(

@@ -17,6 +17,8 @@ from acts_core.errors import PortError
 from acts_driver.port_choice import Lister, ports_present
 
 _LINK_TOLERANCE_NS = 100_000_000
+# /dev/ptmx, under whatever name (Documentation/admin-guide/devices.txt of Linux).
+_MULTIPLEXER = os.makedev(5, 2)
 
 
 def open_port(path: str, baud: int, lister: Lister = list_ports.comports) -> serial.Serial:
@@ -41,6 +43,10 @@ def open_port(path: str, baud: int, lister: Lister = list_ports.comports) -> ser
         raise PortError(
             f"port {_shown(path)} is not there: the link is older than that terminal, so its board is gone and another "
             "program has the terminal; start the board again"
+        )
+    if is_multiplexer(path):
+        raise PortError(
+            f"{_shown(path)} makes a new terminal each time it is opened and is no port. {ports_present(lister)}"
         )
     try:
         return serial.Serial(path, baudrate=baud, timeout=0, exclusive=True)
@@ -88,6 +94,15 @@ def is_stale_link(path: str) -> bool:
         return Path(target).stat().st_ctime_ns > Path(path).lstat().st_mtime_ns + _LINK_TOLERANCE_NS
     except OSError:
         # Gone by now; opening tells.
+        return False
+
+
+def is_multiplexer(path: str) -> bool:
+    """Whether opening a path would make a new pseudo-terminal, on which nobody ever writes."""
+    try:
+        return Path(path).stat().st_rdev == _MULTIPLEXER
+    except OSError:
+        # Opening tells.
         return False
 
 

@@ -15,7 +15,7 @@ from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import RecordingError
 from acts_core.frames import SampleFrame, Scheme
 from acts_core.frames_file import FramesFile, load_frames
-from acts_core.npz_file import read_npz
+from acts_core.npz_file import half_of_memory_bytes, read_npz
 from acts_core.sampling import SCHEMES, Sampler, SamplingConfig, measure_in
 
 MEASUREMENT_US = 17.877
@@ -183,7 +183,7 @@ class RecordedSamples:
         RecordingError
             It cannot be read, or its arrays do not fit together.
         """
-        content = read_npz(path, error=RecordingError)
+        content = read_npz(path, error=RecordingError, limit_bytes=half_of_memory_bytes())
         for name in ("indices", "counts"):
             if name not in content or content[name].ndim != 2 or content[name].dtype.kind not in "iu":
                 raise RecordingError(f"{path}: needed are whole numbers indices (n, m) and counts (n, m)")

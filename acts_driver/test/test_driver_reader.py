@@ -164,6 +164,12 @@ def test_a_stopped_reader_has_closed_its_port(board: PtyBoard, collector: Collec
     open_port(str(board.path), 115200).close()
 
 
+def test_the_terminal_multiplexer_is_no_port(tmp_path: Path) -> None:
+    (tmp_path / "board").symlink_to("/dev/ptmx")
+    with pytest.raises(PortError, match="makes a new terminal each time"):
+        open_port(str(tmp_path / "board"), 115200)
+
+
 def test_a_busy_port_names_its_holder(board: PtyBoard) -> None:
     first = open_port(str(board.path), 115200)
     with pytest.raises(PortError, match=r"board.*is held .*(process|lsof).*stop that program"):

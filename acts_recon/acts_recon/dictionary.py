@@ -93,12 +93,12 @@ def save_dictionary(dictionary: Dictionary, path: Path) -> None:
     )
 
 
-def load_dictionary(path: Path, *, patch_size: int | None = None) -> Dictionary:
+def load_dictionary(path: Path | str, *, patch_size: int | None = None) -> Dictionary:
     """Read a dictionary file and check that it is whole.
 
     Parameters
     ----------
-    path : Path
+    path : Path or str
     patch_size : int or None
         The side of the patches that the caller works with; None accepts any.
 
@@ -107,6 +107,7 @@ def load_dictionary(path: Path, *, patch_size: int | None = None) -> Dictionary:
     DictionaryError
         When the file is missing, is no dictionary file, is damaged, or is for other patches.
     """
+    path = Path(path)
     content = _FILE.read(path)
     try:
         dictionary = Dictionary(

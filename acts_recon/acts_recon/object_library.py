@@ -208,12 +208,12 @@ def save_object_library(library: ObjectLibrary, path: Path) -> None:
     )
 
 
-def load_object_library(path: Path, *, shape: tuple[int, int] | None = None) -> ObjectLibrary:
+def load_object_library(path: Path | str, *, shape: tuple[int, int] | None = None) -> ObjectLibrary:
     """Read a library file and check that it is whole.
 
     Parameters
     ----------
-    path : Path
+    path : Path or str
     shape : (int, int) or None
         Rows and columns of the array that it is for; None accepts any.
 
@@ -222,6 +222,7 @@ def load_object_library(path: Path, *, shape: tuple[int, int] | None = None) -> 
     ObjectLibraryError
         When the file is missing, is no library, is damaged, or is for another array.
     """
+    path = Path(path)
     content = _FILE.read(path)
     try:
         library = ObjectLibrary(
