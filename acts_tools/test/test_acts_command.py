@@ -83,19 +83,30 @@ def test_a_package_without_the_file_says_which_files_it_has(prefix: Prefix, caps
     assert "was found more than once" in capsys.readouterr().err
 
 
-def test_printing_shows_the_commands_with_their_parameters_and_warns_of_unknown_arguments(
-    prefix: Prefix, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_printing_shows_the_commands_with_their_parameters(prefix: Prefix, capsys: pytest.CaptureFixture[str]) -> None:
     node = prefix.script("node", "#!/bin/sh\nexit 1\n")
     prefix.launch(
         "it.launch.xml",
         '<arg name="a" default="1"/><node pkg="fake" exec="node"><param name="p" value="$(var a)"/></node>',
     )
-    assert main(["launch", "--own", "--print", "fake", "it.launch.xml", "a:=7", "typo:=1"]) == 0
+    assert main(["launch", "--own", "--print", "fake", "it.launch.xml", "a:=7"]) == 0
     printed = capsys.readouterr()
     assert f"[node-1] {node} --ros-args --params-file /" in printed.out
     assert "        p: 7\n" in printed.out
-    assert printed.err == "warning: the launch file declares no argument 'typo' (declared: a)\n"
+    assert printed.err == ""
+
+
+@pytest.mark.parametrize("options", [[], ["--print"]])
+def test_an_argument_that_no_file_declares_starts_nothing(
+    options: list[str], prefix: Prefix, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    prefix.script("node", f"#!/bin/sh\ntouch {tmp_path}/started\n")
+    prefix.launch("it.launch.xml", '<arg name="trajectory" default="1"/><node pkg="fake" exec="node"/>')
+    assert main(["launch", "--own", *options, "fake", "it.launch.xml", "trajectry:=N"]) == 1
+    printed = capsys.readouterr()
+    assert "no argument 'trajectry'; did you mean 'trajectory'? declared: trajectory" in printed.err
+    assert printed.out == ""
+    assert not (tmp_path / "started").exists()
 
 
 def test_the_real_launch_takes_over_where_it_is_installed(prefix: Prefix, monkeypatch: pytest.MonkeyPatch) -> None:

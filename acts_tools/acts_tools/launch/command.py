@@ -9,6 +9,7 @@ import shlex
 import shutil
 import sys
 import tempfile
+from difflib import get_close_matches
 from pathlib import Path
 
 from acts_core.errors import LaunchError
@@ -114,9 +115,7 @@ def _launch(file: Path, values: dict[str, str], only_print: bool) -> int:
     timeouts_s = [_seconds(name, values.get(name, "5")) for name in _TIMEOUTS]
     with tempfile.TemporaryDirectory(prefix="acts_launch_") as folder:
         plan = evaluate(file, values, os.environ, Path(folder))
-        for name in sorted(set(values) - plan.declared - set(_TIMEOUTS)):
-            known = ", ".join(sorted(plan.declared)) or "none"
-            plan.warnings.append(f"the launch file declares no argument '{name}' (declared: {known})")
+        _require_declared(set(values) - set(_TIMEOUTS), plan.declared)
         if only_print:
             for text in plan.warnings:
                 print(f"warning: {text}", file=sys.stderr)
@@ -134,6 +133,15 @@ def _launch(file: Path, values: dict[str, str], only_print: bool) -> int:
             return Launcher(console, *timeouts_s).run(plan.processes)
         finally:
             console.close()
+
+
+def _require_declared(given: set[str], declared: set[str]) -> None:
+    """Raise where an argument is misspelt: what it was to change would silently stay as it is."""
+    for name in sorted(given - declared):
+        nearest = get_close_matches(name, sorted(declared), n=1)
+        hint = f"did you mean '{nearest[0]}'? " if nearest else ""
+        known = ", ".join(sorted(declared)) or "none"
+        raise LaunchError(f"the launch file declares no argument '{name}'; {hint}declared: {known}")
 
 
 def _seconds(name: str, text: str) -> float:
