@@ -243,6 +243,7 @@ def test_the_model_is_pressed_where_there_is_no_file(capsys: pytest.CaptureFixtu
         ({"start": [0], "length": [9]}, "start and length"),
         ({"frames": np.full((5, 32, 32), np.nan)}, "without NaN"),
         ({"frames": np.full((5, 32, 32), 2000)}, "1023"),
+        ({"frames": np.full((5, 32, 32), 4095)}, "divide counts of 12 bits by 4"),
         ({"frames": np.zeros((5, 32))}, r"\(n, rows, cols\)"),
     ],
 )
@@ -250,6 +251,12 @@ def test_bad_files_are_refused(tmp_path: Path, arrays: dict, message: str, capsy
     np.savez(tmp_path / "bad.npz", **{"frames": still(5, []), "rate_hz": 10.0, **arrays})
     assert main(["evaluate", "recovery", "--frames", str(tmp_path / "bad.npz")]) == 1
     assert message.replace("\\", "") in capsys.readouterr().err
+
+
+def test_frames_in_volts_are_told_from_counts(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    np.savez(tmp_path / "volts.npz", frames=np.full((30, 32, 32), 3.3), rate_hz=1000.0)
+    assert main(["evaluate", "recovery", "--frames", str(tmp_path / "volts.npz")]) == 0
+    assert "the largest count is 3, and only what is above 50 is a contact" in capsys.readouterr().err
 
 
 def test_files_without_what_is_needed_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from acts_core.array import COUNT_MAX
 from acts_core.errors import RecordingError
 from acts_core.frames_file import load_frames
 from acts_sim.objects import OBJECTS
@@ -44,6 +46,8 @@ def add_parser(commands: Any) -> None:
 def _run(arguments: argparse.Namespace) -> int:
     recordings = _recordings(arguments)
     tasks = options.tasks(arguments, recordings[0].frames.shape[1:])
+    if arguments.frames:
+        _tell_without_contact(arguments.frames, recordings, tasks[0].touch_counts)
     dictionary = options.dictionary(arguments)
     source = arguments.frames.name if arguments.frames else f"{arguments.presses} presses"
     about = {"frames_file": source, **options.as_report(arguments)}
@@ -64,3 +68,15 @@ def _recordings(arguments: argparse.Namespace) -> Sequence[Recording]:
         return [Recording(frame[None], rate_hz, recorded.live) for frame in recorded.peak_frames()][:: arguments.every]
     parts = list(zip(recorded.start, recorded.length, strict=True))[:: arguments.every]
     return [Recording(recorded.frames[start : start + n], rate_hz, recorded.live) for start, n in parts]
+
+
+def _tell_without_contact(path: Path, recordings: Sequence[Recording], touch_counts: int) -> None:
+    """Say so where nothing is ever pressed: scored is then only what is invented, mostly by mistake."""
+    largest = max(int(recording.frames.max(axis=0)[recording.live].max(initial=0)) for recording in recordings)
+    if largest <= touch_counts:
+        print(
+            f"warning: {path}: the largest count is {largest}, and only what is above {touch_counts} is a contact, so "
+            f"there is none; needed are ADC counts of 10 bits, 0 to {COUNT_MAX} (multiply volts by {COUNT_MAX} / full "
+            "scale), or a lower --touch-counts",
+            file=sys.stderr,
+        )
