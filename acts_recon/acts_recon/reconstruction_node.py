@@ -42,6 +42,8 @@ _NS_PER_S = 1_000_000_000
 _LATE_NS = 20_000_000
 # And those older than this are not recovered.
 _VERY_LATE_NS = 60_000_000
+# Stalls so far apart are no lack of CPU: what they have held up is caught up with.
+_STALLS_APART_NS = 1_000_000_000
 
 
 class ReconstructionNode(Node):
@@ -92,6 +94,7 @@ class ReconstructionNode(Node):
         self._lost = 0
         self._untold = 0
         self._unused = 0
+        self._stalled_ns = -_STALLS_APART_NS
         self._rejected: Counter[str] = Counter()
         self._last_sequence: int | None = None
         self._durations_s: deque[float] = deque(maxlen=1000)
@@ -127,9 +130,9 @@ class ReconstructionNode(Node):
     def take(self, frames: Sequence[tuple[SampleFrame, int]], frame_id: str) -> None:
         """Recover frames that have come together, and publish what is in them; always from the same thread.
 
-        Where they are late already, as after a stall or where there is too little CPU, only what is in the newest is
-        published, though the image is made of all; and of very late ones only the newest is used at all. Touch may
-        become rare, but it does not become old.
+        Where they are late already again and again, as with too little CPU, only what is in the newest is published,
+        though the image is made of all; and of very late ones only the newest is used at all. Touch may become rare,
+        but it does not become old. What a single stall has held up is published.
 
         Parameters
         ----------
@@ -141,16 +144,25 @@ class ReconstructionNode(Node):
         *older, newest = frames
         if older:
             now_ns = time.time_ns()
+            told_ns = self._told_ns(now_ns - older[0][1])
             for frame, stamp_ns in older:
                 late_ns = now_ns - stamp_ns
-                self._untold += late_ns > _LATE_NS
+                self._untold += late_ns > told_ns
                 if late_ns > _VERY_LATE_NS:
                     self._unused += 1
                     self._begin_anew_with(frame.sequence)
                     self._follow(frame.sequence)
                 else:
-                    self._step(frame, stamp_ns, frame_id, is_told=late_ns <= _LATE_NS)
+                    self._step(frame, stamp_ns, frame_id, is_told=late_ns <= told_ns)
         self._step(*newest, frame_id, is_told=True)
+
+    def _told_ns(self, late_ns: int) -> int:
+        """Age up to which frames that have come together are published, where the oldest is so late [ns]."""
+        if late_ns <= _LATE_NS:
+            return _LATE_NS
+        now_ns = time.monotonic_ns()
+        is_single, self._stalled_ns = now_ns - self._stalled_ns > _STALLS_APART_NS, now_ns
+        return _VERY_LATE_NS if is_single else _LATE_NS
 
     def _step(self, frame: SampleFrame, stamp_ns: int, frame_id: str, *, is_told: bool) -> None:
         began_s = time.perf_counter()

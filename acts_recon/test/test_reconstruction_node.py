@@ -300,9 +300,14 @@ def test_of_late_frames_only_the_newest_is_published_and_of_very_late_ones_only_
     bench.node.take(frames(8, age_ms=5.0), "plate")
     bench.contact(11)
     assert [message.sequence for message in bench.received["contact"]] == [3, 7, 8, 9, 10, 11]
+    # A stall by itself, long after the one before, costs nothing.
+    bench.node._stalled_ns -= 2_000_000_000
+    bench.node.take(frames(12, age_ms=40.0), "plate")
+    bench.contact(15)
+    assert [message.sequence for message in bench.received["contact"]][6:] == [12, 13, 14, 15]
 
     def told(status: object, values: dict[str, str]) -> bool:
-        return (values["not_published"], values["not_used"], values["frames"], values["lost"]) == ("6", "3", "9", "0")
+        return (values["not_published"], values["not_used"], values["frames"], values["lost"]) == ("6", "3", "13", "0")
 
     bench.diagnostics(told)
 
