@@ -78,7 +78,7 @@ def chest(tmp_path: Path) -> LaunchFile:
     arguments = {
         "run_dir": str(tmp_path / "run"),
         "recording": str(disc_recording(tmp_path)),
-        "namespace": "chest_left",
+        "namespace": "chest/left",
         "ball": "false",
         "protocol": "raster_ascii",
     }
@@ -87,10 +87,13 @@ def chest(tmp_path: Path) -> LaunchFile:
 
 @launch_test(chest)
 def test_the_published_raster_sketch_on_another_skin(chest: Launched) -> None:
-    samples = chest.wait_for_messages("/chest_left/samples", TactileSamples, 5, START_S)
+    samples = chest.wait_for_messages("/chest/left/samples", TactileSamples, 5, START_S)
     assert {message.scheme for message in samples} == {int(Scheme.RASTER)}
     assert {len(message.counts) for message in samples} == {1024}
-    assert chest.wait_for_message("/chest_left/contact", Contact).in_contact
+    contact = chest.wait_for_message("/chest/left/contact", Contact)
+    assert contact.in_contact
+    # A frame of tf2 does not begin with a slash, and this one has none at all.
+    assert {contact.header.frame_id, samples[0].header.frame_id} == {"chest_left"}
     assert chest.stop() == 0
 
 

@@ -19,7 +19,6 @@ from acts_control.names import (
     STATE_TOPIC,
     STATUS_TOPIC,
     TILT_TOPIC,
-    frame_of,
     set_stamp,
     to_ns,
 )
@@ -31,6 +30,7 @@ from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import BalanceStatus, BallReference, BallState
 from acts_ros.diagnostics import ERROR, OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
+from acts_ros.frames import skin_frame
 from acts_ros.log import log_of
 from acts_ros.parameters import declare, node_options
 from acts_ros.qos import STATE, STREAM
@@ -46,7 +46,7 @@ class BallControlSettings(RealtimeConfig, LoopConfig):
     """Parameters of the node."""
 
     status_rate_hz: float = setting(50.0, "how often the status is published", minimum=1.0, maximum=500.0)
-    frame_id: str = setting("", "frame of the skin; empty: the name of the namespace")
+    frame_id: str = setting("", "frame of the skin; empty or none: the name of the namespace, with _ for /")
 
     def __post_init__(self) -> None:
         LoopConfig.__post_init__(self)
@@ -76,7 +76,7 @@ class BallControlNode(Node):
         self._settings = settings
         self._jerk = JerkFinder()
         self._told = LoopStatus()
-        frame_id = frame_of(self, settings.frame_id)
+        frame_id = skin_frame(self, settings.frame_id)
         self._status = BalanceStatus()
         self._status.header.frame_id = frame_id
         self._tilt = Vector3Stamped()

@@ -11,7 +11,7 @@ from typing import Any
 from rclpy.node import Node
 
 from acts_control.controller import Phase
-from acts_control.names import REFERENCE_TOPIC, STATUS_TOPIC, frame_of, set_stamp
+from acts_control.names import REFERENCE_TOPIC, STATUS_TOPIC, set_stamp
 from acts_control.pid import Reference
 from acts_control.trajectory import TimedReference, Trajectory, TrajectoryConfig
 from acts_core.rate_limit import RateLimit
@@ -19,6 +19,7 @@ from acts_core.settings import setting
 from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import BalanceStatus, BallReference
 from acts_ros.executor import run
+from acts_ros.frames import skin_frame
 from acts_ros.parameters import declare, node_options
 from acts_ros.qos import STATE
 
@@ -36,7 +37,7 @@ class BallTrajectorySettings(TrajectoryConfig):
     """Parameters of the node."""
 
     publish_rate_hz: float = setting(125.0, "how often the reference is published", minimum=10.0, maximum=500.0)
-    frame_id: str = setting("", "frame of the skin; empty: the name of the namespace")
+    frame_id: str = setting("", "frame of the skin; empty or none: the name of the namespace, with _ for /")
 
 
 class BallTrajectoryNode(Node):
@@ -68,7 +69,7 @@ class BallTrajectoryNode(Node):
         self._told_ns = self._last_ns = self.get_clock().now().nanoseconds
         self._finished = False
         self._message = BallReference()
-        self._message.header.frame_id = frame_of(self, settings.frame_id)
+        self._message.header.frame_id = skin_frame(self, settings.frame_id)
         self._publisher = self.create_publisher(BallReference, REFERENCE_TOPIC, STATE)
         if not is_driven:
             self.create_subscription(BalanceStatus, STATUS_TOPIC, self._on_status, STATE)

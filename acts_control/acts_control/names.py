@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-from rclpy.node import Node
-
 STATE_TOPIC = "ball/state"
 REFERENCE_TOPIC = "ball/reference"
 STATUS_TOPIC = "ball/status"
@@ -24,8 +22,3 @@ def to_ns(stamp: Any) -> int:
 def set_stamp(stamp: Any, time_ns: int) -> None:
     """Write nanoseconds into a builtin_interfaces/Time."""
     stamp.sec, stamp.nanosec = divmod(time_ns, _NS_PER_S)
-
-
-def frame_of(node: Node, frame_id: str) -> str:
-    """The skin's frame: as set, or else the node's namespace."""
-    return frame_id or node.get_namespace().strip("/").replace("/", "_") or "skin"

@@ -22,6 +22,7 @@ from acts_driver.source import Source
 from acts_msgs.msg import TactileSamples
 from acts_ros.diagnostics import ERROR, OK, DiagnosticsReporter, Report
 from acts_ros.executor import run
+from acts_ros.frames import skin_frame
 from acts_ros.log import log_of
 from acts_ros.parameters import declare, node_options
 from acts_ros.qos import STREAM, overridable
@@ -63,9 +64,7 @@ class DriverNode(LifecycleNode):
         self.consumers: list[FrameConsumer] = []
         self._source: Source | None = None
         self._problem = ""
-        self._frame_id = frame_id = (
-            self._settings.frame_id or self.get_namespace().strip("/").replace("/", "_") or "skin"
-        )
+        self._frame_id = frame_id = skin_frame(self, self._settings.frame_id)
         self._message = SamplesMessage(frame_id)
         self._baseline = BaselineServices(self, self._settings, self._settings.rows, self._settings.cols, frame_id)
         self._board = BoardInterface(self, frame_id)

@@ -36,7 +36,9 @@ class SourceParameters:
         "what the board speaks: binary (ACTS) or raster_ascii (the published raster sketch)",
         choices=("binary", "raster_ascii"),
     )
-    frame_id: str = setting("", "frame of the skin in the messages' headers; empty for the node's namespace")
+    frame_id: str = setting(
+        "", "frame of the skin in all messages; empty or none: the name of the namespace, with _ for /"
+    )
     rows: int = setting(32, "rows of the array; frames of another size are dropped", minimum=1, maximum=MAX_SIDE)
     cols: int = setting(32, "columns of the array; frames of another size are dropped", minimum=1, maximum=MAX_SIDE)
     # Below 1200 some boards take the speed as the order to enter their boot loader (134 on a Teensy).

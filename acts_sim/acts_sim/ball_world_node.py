@@ -20,6 +20,7 @@ from acts_core.stop_signals import StopSignals
 from acts_ros import qos
 from acts_ros.diagnostics import ERROR, OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
+from acts_ros.frames import skin_frame
 from acts_ros.log import log_of
 from acts_ros.parameters import declare, node_options
 from acts_sim.joint_follower import JointFollower, JointSource
@@ -40,7 +41,7 @@ class BallWorldSettings(RealtimeConfig, WorldConfig):
         "/dev/shm/acts/joints.ring",
         "shared file the simulated robot writes its joints to; none: no robot, the plate lies still",
     )
-    frame_id: str = setting("", "frame of the skin; empty: the namespace of the node")
+    frame_id: str = setting("", "frame of the skin; empty or none: the name of the namespace, with _ for /")
     truth_every: int = setting(
         8, "the ball's true position is published every so many milliseconds, even ones", minimum=2, maximum=1000
     )
@@ -58,7 +59,7 @@ class BallWorld(Node):
         super().__init__("ball_world", **node_options())
         settings = declare(self, BallWorldSettings)
         self._settings = settings
-        self._frame_id = settings.frame_id or self.get_namespace().strip("/") or "plate"
+        self._frame_id = skin_frame(self, settings.frame_id)
         self._truth = self.create_publisher(PointStamped, "ball/truth", qos.STATE)
         self._message = PointStamped()
         self._message.header.frame_id = self._frame_id
