@@ -12,7 +12,9 @@ FILES = {
     "constants.py": "STEP = 1\n",
     "inner.py": """
 from acts_core.kernels import kernel
-from acts_kerneltest.constants import STEP
+from acts_kerneltest.constants import (
+    STEP,
+)
 
 @kernel
 def stepped(value):
