@@ -82,7 +82,8 @@ def cache_folder(function: Callable[..., Any]) -> Path:
     name, file = function.__module__, function.__code__.co_filename
     folder = _root(Path(file).parent) / f"{name}-{fingerprint(file)}"
     if not folder.is_dir():
-        for former in folder.parent.glob(f"{name}-*"):
+        # Another process may have made ours meanwhile.
+        for former in set(folder.parent.glob(f"{name}-*")) - {folder}:
             shutil.rmtree(former, ignore_errors=True)
     return folder
 
