@@ -30,10 +30,10 @@ from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import BalanceStatus, BallReference, BallState
 from acts_ros.diagnostics import ERROR, OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
-from acts_ros.frames import skin_frame
 from acts_ros.log import log_of
 from acts_ros.parameters import declare, node_options
 from acts_ros.qos import STATE, STREAM
+from acts_ros.skin_frame import skin_frame
 
 # Nothing older than this means anything; it stands for "never" in the status.
 _LONG_AGO_S = 1e6

@@ -19,9 +19,9 @@ from acts_core.settings import setting
 from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import BalanceStatus, BallReference
 from acts_ros.executor import run
-from acts_ros.frames import skin_frame
 from acts_ros.parameters import declare, node_options
 from acts_ros.qos import STATE
+from acts_ros.skin_frame import skin_frame
 
 # A status older than this says nothing any more.
 _STATUS_STALE_NS = 500_000_000

@@ -22,11 +22,11 @@ from acts_driver.source import Source
 from acts_msgs.msg import TactileSamples
 from acts_ros.diagnostics import ERROR, OK, DiagnosticsReporter, Report
 from acts_ros.executor import run
-from acts_ros.frames import skin_frame
 from acts_ros.log import log_of
 from acts_ros.parameters import declare, node_options
 from acts_ros.qos import STREAM, overridable
 from acts_ros.sample_messages import SamplesMessage
+from acts_ros.skin_frame import skin_frame
 
 FrameConsumer = Callable[[list[tuple[SampleFrame, int]], str], None]
 """See `DriverNode.consumers`."""

@@ -23,7 +23,8 @@ _STAMP_BYTES = struct.calcsize(f"<{_STAMP}")
 _STAMPS = {order: struct.Struct(order + _STAMP) for order in _ORDERS.values()}
 # Of acts_msgs/Contact, after frame_id: each field as struct calls it, and its size.
 _CONTACT_FIELDS = [(kind, struct.calcsize(f"<{kind}")) for kind in "I?dddfffHfdddfff"]
-_FRAME_ID_MAX = 256
+# One for every length of a frame_id that occurs.
+_LAYOUTS_KEPT = 64
 
 
 class ContactFields(NamedTuple):
@@ -117,7 +118,7 @@ def _header(data: bytes) -> tuple[int, str, str, int]:
     return sec * _NS_PER_S + nanosec, frame_id, order, length
 
 
-@lru_cache(_FRAME_ID_MAX)
+@lru_cache(_LAYOUTS_KEPT)
 def _contact(order: str, length: int) -> struct.Struct:
     """Layout of what follows a frame_id of so many bytes."""
     layout = order

@@ -20,9 +20,9 @@ from acts_core.stop_signals import StopSignals
 from acts_ros import qos
 from acts_ros.diagnostics import ERROR, OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
-from acts_ros.frames import skin_frame
 from acts_ros.log import log_of
 from acts_ros.parameters import declare, node_options
+from acts_ros.skin_frame import skin_frame
 from acts_sim.joint_follower import JointFollower, JointSource
 from acts_sim.timed_ring import TimedRingWriter
 from acts_sim.world import Phase, World, WorldConfig, WorldState
