@@ -41,7 +41,10 @@ class SafetyConfig:
         0.2, "when no contact message is younger, the plate is levelled [s]", minimum=0.005, maximum=1.0
     )
     touch_stop_after_s: float = setting(
-        1.0, "and when that has lasted for longer, motion ends: STOPPED [s]", minimum=0.005, maximum=10.0
+        3.0,
+        "and when that has lasted for longer, motion ends: STOPPED; where touch returns before, balancing goes on [s]",
+        minimum=0.005,
+        maximum=10.0,
     )
     ball_lost_after_s: float = setting(
         0.25,

@@ -96,7 +96,7 @@ def test_when_touch_falls_silent_the_plate_is_levelled_and_motion_ends() -> None
     def silent(time_s: float, measured: ContactMeasurement) -> ContactMeasurement | None:
         return None if time_s > 0.3 else measured
 
-    result = run(seconds=3.0, touch=silent)
+    result = run(seconds=5.0, touch=silent)
     assert result.tilt_deg[:400].max() > 1.0
     assert result.phases[-1] is Phase.STOPPED
     assert result.tilt_deg[1000:].max() < 0.01
@@ -111,11 +111,35 @@ def test_a_short_silence_is_survived() -> None:
     assert result.rms_mm(result.time_s > 4.0) < HOLD_MM
 
 
+@pytest.mark.parametrize("from_s", [3.0, 7.2, 8.1, 9.0])
+def test_where_touch_returns_soon_balancing_goes_on_by_itself(from_s: float) -> None:
+    # As long as the process that feels takes to come back after a crash, in a hold and in the middle of strokes.
+    until_s = from_s + 1.5
+
+    def silent(time_s: float, measured: ContactMeasurement) -> ContactMeasurement | None:
+        return None if from_s < time_s < until_s else measured
+
+    where_m: list[float] = []
+    result = run(
+        trajectory="hold,N",
+        seconds=until_s + 2.5,
+        touch=silent,
+        at=lambda time_s, plant: where_m.append(max(abs(plant.x), abs(plant.y))),
+    )
+    assert result.phases[-1] is Phase.BALANCING
+    levelled = (result.time_s > from_s + 0.6) & (result.time_s < until_s)
+    assert result.tilt_deg[levelled].max() < 0.05
+    assert max(where_m) < 0.060  # of 0.070 to the edge
+    # No jump when it returns: the limits on the tilt's rate hold throughout.
+    assert np.abs(np.diff(result.tilt_deg)).max() < np.rad2deg(1.05 * 0.001)
+    assert result.rms_mm(result.time_s > until_s + 2.0) < 2 * TRACE_MM
+
+
 def test_contacts_that_are_all_nan_end_motion_like_silence() -> None:
     def poisoned(time_s: float, measured: ContactMeasurement) -> ContactMeasurement:
         return measured._replace(x_m=float("nan")) if time_s > 0.4 else measured
 
-    result = run(PlantConfig(no_contact=0.0), seconds=3.0, touch=poisoned)
+    result = run(PlantConfig(no_contact=0.0), seconds=5.0, touch=poisoned)
     assert result.phases[-1] is Phase.STOPPED
     assert np.all(np.isfinite(result.tilt_deg))
 
