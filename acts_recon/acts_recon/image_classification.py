@@ -25,7 +25,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import nnls
 
 from acts_core.array import COUNT_MAX
 from acts_core.errors import ArrayError
@@ -139,6 +138,9 @@ def classify_image(
     response: ForceResponse | MeasuredForceResponse | None = None,
 ) -> Classification:
     """Classify one image of a resting skin, plainly, without memory; see `ImageClassifier.step`."""
+    # Here: half the time a node takes to start would go by importing it, and nodes use the kernels.
+    from scipy.optimize import nnls
+
     config = config or ImageClassifierConfig()
     patterns, norms_counts, classes = less_deep(library, response)
     x = np.asarray(image, dtype=np.float64).ravel()

@@ -19,7 +19,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import special
 
 from acts_core.array import COUNT_MAX, ArrayGeometry
 from acts_core.force import ForceResponse, MeasuredForceResponse, force_table
@@ -72,6 +71,9 @@ def variances(
     noise_counts, err_together : float
         See above.
     """
+    # Here: half the time a node takes to start would go by importing it, and nodes use the kernels.
+    from scipy import special
+
     counts = np.clip(image, 0, COUNT_MAX).astype(np.float64)
     sigma = sigma.astype(np.float64)
     table = force_table(response)
