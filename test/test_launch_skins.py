@@ -64,9 +64,14 @@ def test_skins_are_merged_and_a_lost_one_leaves_the_other_alone(two_skins: Launc
     pose = two_skins.wait_for_message("/high/pose", TransformStamped)
     assert (pose.header.frame_id, pose.child_frame_id, pose.transform.translation.z) == ("torso", "high", 1.0)
 
-    # Its board vanishes, and is there again.
-    os.kill(pid_of(two_skins, "high/virtual_board"), signal.SIGKILL)
+    # Its board stands still, and goes on; then it dies, and is there again.
+    board = pid_of(two_skins, "high/virtual_board")
+    os.kill(board, signal.SIGSTOP)
     assert merged(two_skins, fresh, lost).header.frame_id == "torso"
+    os.kill(board, signal.SIGCONT)
+    merged(two_skins, fresh, fresh)
+    os.kill(board, signal.SIGKILL)
+    two_skins.wait_for(lambda: pid_of(two_skins, "high/virtual_board") != board, START_S, "another board")
     merged(two_skins, fresh, fresh)
     # The whole skin does.
     os.kill(pid_of(two_skins, "low/tactile"), signal.SIGKILL)

@@ -12,6 +12,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from acts_ros.processes.respawn import LONGEST_WAIT_S, SOON_S, RespawnWait
+
 DEADLINE_S = 30.0
 
 PROGRAM = '''
@@ -86,6 +88,20 @@ def test_what_dies_is_started_again_and_the_other_goes_on(tmp_path: Path) -> Non
         assert run.process.wait(DEADLINE_S) == 0
         assert all(is_gone(pid) for pid in run.pids)
         assert "[WARNING] [someone]: user interrupted with ctrl-c (SIGINT)" in run.output
+
+
+def test_waits_double_while_a_process_cannot_live_and_are_short_again_once_it_has() -> None:
+    wait = RespawnWait(0.1)
+    waits = [wait.next_s(0.5) for _ in range(20)]
+    assert waits[:4] == [0.1, 0.2, 0.4, 0.8]
+    assert waits[-1] == LONGEST_WAIT_S
+    assert wait.next_s(SOON_S + 1.0) == 0.1
+    assert wait.next_s(0.5) == 0.2
+
+
+def test_a_wait_that_was_asked_for_is_never_made_shorter() -> None:
+    wait = RespawnWait(3 * LONGEST_WAIT_S)
+    assert {wait.next_s(0.5) for _ in range(5)} == {3 * LONGEST_WAIT_S}
 
 
 def test_what_was_started_ends_when_its_program_is_killed(tmp_path: Path) -> None:

@@ -18,6 +18,7 @@ from typing import IO
 
 from acts_ros.processes.console import Console
 from acts_ros.processes.process import Process
+from acts_ros.processes.respawn import RespawnWait
 
 _STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT)
 # How a process may end once it has been asked to; shells report a signal as 128 + its number.
@@ -32,10 +33,15 @@ class _Child:
 
     process: Process
     popen: subprocess.Popen[bytes] | None = None
+    started_s: float = 0.0
+    wait: RespawnWait = field(init=False)
     restart_at_s: float | None = None
     escalations: list[tuple[float, signal.Signals, str]] = field(default_factory=list)
     killed: bool = False
     failure: str | None = None
+
+    def __post_init__(self) -> None:
+        self.wait = RespawnWait(self.process.respawn_delay_s)
 
     @property
     def pending(self) -> bool:
@@ -177,6 +183,7 @@ class Launcher:
             child.failure = f"could not be started: {error}"
             self._console.say("ERROR", child.process.label, f"exception occurred while executing process: {error}")
             return
+        child.started_s = time.monotonic()
         self._groups.add(child.popen.pid)
         self._console.say("INFO", child.process.label, f"process started with pid [{child.popen.pid}]")
         for pipe, is_error in ((child.popen.stdout, False), (child.popen.stderr, True)):
@@ -233,7 +240,7 @@ class Launcher:
         child.escalations.clear()
         self._tell_end(child, popen.pid, code)
         if child.process.respawn and not self._stopping:
-            child.restart_at_s = now_s + child.process.respawn_delay_s
+            child.restart_at_s = now_s + child.wait.next_s(now_s - child.started_s)
 
     def _tell_end(self, child: _Child, pid: int, code: int) -> None:
         if code == 0:

@@ -23,7 +23,7 @@ class Process:
     respawn : bool
         Start it again whenever it ends.
     respawn_delay_s : float
-        Pause before that [s].
+        Pause before that [s]; longer where it ends again and again (`acts_ros.processes.respawn`).
     parameter_files : tuple of Path
         Files among the arguments that were written for it.
     """
