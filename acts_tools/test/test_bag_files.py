@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import tempfile
 from collections.abc import Sequence
 from pathlib import Path
@@ -20,6 +21,7 @@ from acts_core.errors import RecordingError
 from acts_ros.bags.reading import open_bag
 from acts_tools.bags import qos, writing
 from acts_tools.bags.message_types import Definitions, message_class
+from acts_tools.bags.rosbag2_format import McapFile
 from acts_tools.bags.writing import BagWriter
 
 PER_CHUNK = 5
@@ -119,20 +121,30 @@ def test_stamps_do_not_go_back_with_the_clock(tmp_path: Path, monkeypatch: pytes
         assert [stamp for _, stamp, _ in bag.messages(["/word"])] == [1_000, 3_000, 3_000, 4_000]
 
 
-def test_a_disk_that_is_full_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_disk_that_is_full_is_reported_once_and_nothing_more_is_tried(tmp_path: Path) -> None:
     bag = BagWriter(tmp_path / "bag")
     definition, type_hash = Definitions().describe("std_msgs/msg/String")
     topic = bag.add_topic("/word", "std_msgs/msg/String", definition, type_hash, [])
-    bag.write(topic, b"1234")
     storage = bag._writer.storage
-    assert storage is not None
-
-    def fail() -> None:
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(storage, "close_chunk", fail)
-    with pytest.raises(RecordingError, match=r"cannot write to the bag .*: No space left on device"):
+    assert isinstance(storage, McapFile)
+    bag.write(topic, b"1234")
+    bag.flush()
+    kept = (tmp_path / "bag/bag.mcap").read_bytes()
+    full = os.open("/dev/full", os.O_WRONLY)
+    os.dup2(full, storage.bio.fileno())
+    os.close(full)
+    bag.write(topic, b"5678")
+    with pytest.raises(RecordingError, match=r"cannot write to the bag .*: No space left on device") as first:
         bag.flush()
+    # A message that comes on the way out.
+    with pytest.raises(RecordingError) as second:
+        bag.write(topic, b"9")
+    assert second.value is first.value
+    bag.close()
+    # Otherwise Python writes the rest of it at its own end, and tells on standard error that it could not.
+    assert storage.bio.closed
+    assert (tmp_path / "bag/bag.mcap").read_bytes() == kept
+    assert read(tmp_path / "bag") == [b"1234"]
 
 
 def test_what_was_flushed_is_read_from_a_bag_that_was_never_closed(tmp_path: Path) -> None:

@@ -129,7 +129,7 @@ def test_a_killed_recorder_leaves_what_it_had(tmp_path: Path) -> None:
     with acts("play", str(path), "--delay", "0", "--rate", "100", domain_id=85) as player:
         output, _ = player.communicate(timeout=TIMEOUT_S)
     assert player.returncode == 0
-    assert "was never closed, its recorder was killed" in output
+    assert "was never closed" in output
     assert "50 messages" in output
 
 

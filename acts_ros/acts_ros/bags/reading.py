@@ -99,7 +99,7 @@ def open_bag(path: Path) -> Iterator[Bag]:
 def _open_reader(path: Path) -> tuple[Reader | McapReader, str | None]:
     if path.is_dir() and not (path / "metadata.yaml").exists():
         return _salvage(path, "no metadata.yaml"), (
-            f"the bag '{path}' was never closed, its recorder was killed; what is whole of it is read"
+            f"the bag '{path}' was never closed (recorder killed, or disk full); what is whole of it is read"
         )
     try:
         return _open_complete(path), None

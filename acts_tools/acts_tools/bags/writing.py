@@ -3,23 +3,20 @@
 from __future__ import annotations
 
 import time
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 from rosbags.interfaces import Qos
-from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.rosbag2.errors import WriterError
-from rosbags.rosbag2.storage_mcap import McapWriter
 
 from acts_core.errors import RecordingError
 from acts_tools import __version__
-
-# The newest rosbag2 metadata; the MCAP file itself is the same in all versions.
-_METADATA_VERSION = 9
+from acts_tools.bags.rosbag2_format import McapFile, Rosbag2Writer
 
 
 class BagWriter:
-    """An MCAP bag in rosbag2's layout.
+    """An MCAP bag in rosbag2's layout. Once it could not be written, `write` and `flush` say so again.
 
     Parameters
     ----------
@@ -37,8 +34,9 @@ class BagWriter:
             raise RecordingError(f"'{path}' exists already and is not overwritten: choose another folder with -o")
         self.path = path
         self._last_stamp_ns = 0
+        self._failure: RecordingError | None = None
         try:
-            self._writer = Writer(path, version=_METADATA_VERSION, storage_plugin=StoragePlugin.MCAP)
+            self._writer = Rosbag2Writer(path)
             # rosbags writes null where rosbag2 expects a map when there is none.
             self._writer.set_custom_data("recorder", f"acts record {__version__}")
             self._writer.open()
@@ -53,37 +51,46 @@ class BagWriter:
 
     def write(self, topic: Any, data: bytes) -> None:
         """Write one serialised message, stamped now. Stamps never go back, also when the clock does."""
+        if self._failure is not None:
+            raise self._failure
         self._last_stamp_ns = max(time.time_ns(), self._last_stamp_ns)
         try:
             self._writer.write(topic, self._last_stamp_ns, data)
         except OSError as error:
-            raise self._write_error(error) from error
+            raise self._give_up(error) from error
 
     def flush(self) -> None:
         """Hand everything so far to the operating system: from then on it survives the end of this process."""
+        if self._failure is not None:
+            raise self._failure
         storage = self._writer.storage
-        assert isinstance(storage, McapWriter)
+        assert isinstance(storage, McapFile)
         try:
             # A chunk is whole or lost; one without messages would have no valid times.
             if storage.chunk.msgs:
                 storage.close_chunk()
             storage.bio.flush()
         except OSError as error:
-            raise self._write_error(error) from error
+            raise self._give_up(error) from error
 
     def close(self) -> None:
-        """Finish the bag with its index and ``metadata.yaml``."""
-        if sum(self._writer.counts.values()) == 0:
-            # Otherwise the metadata say that it starts in the year 2262.
-            self._writer.min_timestamp = self._writer.max_timestamp = 0
+        """Finish the bag with its index and ``metadata.yaml``, unless it could not be written."""
+        if self._failure is not None:
+            return
         try:
             self._writer.close()
         except OSError as error:
-            raise self._write_error(error) from error
+            raise self._give_up(error) from error
 
     def size_bytes(self) -> int:
         """Size of its files."""
         return sum(path.stat().st_size for path in self.path.iterdir())
 
-    def _write_error(self, error: OSError) -> RecordingError:
-        return RecordingError(f"cannot write to the bag '{self.path}': {error.strerror}. What is in it can be played.")
+    def _give_up(self, error: OSError) -> RecordingError:
+        """Leave the file as it is: writing the rest would fail again, at the latest when Python ends."""
+        with suppress(OSError):
+            self._writer.abort()
+        self._failure = RecordingError(
+            f"cannot write to the bag '{self.path}': {error.strerror}. What is in it can be played."
+        )
+        return self._failure
