@@ -12,7 +12,7 @@ setup(
         (f"share/{PACKAGE}", ["package.xml"]),
         (f"share/{PACKAGE}/udev", ["udev/60-acts-teensy.rules"]),
     ],
-    install_requires=["setuptools"],
+    install_requires=["acts_core", "numpy", "pyserial"],
     extras_require={"test": ["pytest"]},
     zip_safe=False,
     maintainer="ACTS maintainers",

@@ -45,7 +45,7 @@ def lint() -> bool:
     passed = [
         run("ruff: rules", ["ruff", "check", "."]),
         run("ruff: format", ["ruff", "format", "--check", "--quiet", "."]),
-        run("mypy", ["mypy", *python_packages(), "scripts"]),
+        run("mypy", ["mypy", *python_packages(), "scripts", "examples"]),
         run("clang-format", ["clang-format", "--dry-run", "--Werror", *tracked(*CXX_PATTERNS)]),
         run("g++: warnings", ["g++", *CXX_WARNINGS, *firmware, *on_host]),
         run("package.xml: what is imported is declared", [sys.executable, "scripts/dependencies.py"]),

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from ament_index_python.packages import get_package_share_directory
 from driver_rig import Rig
 from sensor_msgs.msg import Image
 from virtual_board import VirtualBoard
@@ -19,6 +18,7 @@ from acts_recon.classification import BOARD_COLUMNS, Classifier, ClassifierConfi
 from acts_recon.dictionary import Dictionary, load_dictionary, save_dictionary
 from acts_recon.object_library import build_object_library, save_object_library
 from acts_recon.reconstructor import Reconstructor
+from acts_recon.shipped import shipped_dictionary_path
 from acts_ros.qos import STREAM
 
 
@@ -57,7 +57,7 @@ def together(rig: Rig, results: list[Any], wanted: int) -> list[tuple[TactileSam
 
 
 def test_images_of_the_board_are_those_of_acts_recon(board: VirtualBoard, rig: Rig, tmp_path: Path) -> None:
-    shipped = load_dictionary(Path(get_package_share_directory("acts_config")) / "dictionaries/patch8_k1000.npz")
+    shipped = load_dictionary(shipped_dictionary_path())
     dictionary = Dictionary(shipped.atoms[:, ::20], 8)
     save_dictionary(dictionary, tmp_path / "small.npz")
     images: list[Image] = []

@@ -1,0 +1,43 @@
+"""Go through a recording and estimate at every frame the image out of all samples so far, and how sure it is.
+
+    python3 examples/fuse_recording.py FILE.npz
+
+The file holds samples (`indices`, `counts`, `stamp_ns` or `rate_hz`) or full frames (`frames`, `rate_hz`), which are
+sampled as a board would: docs/driver.md, "Replaying a recording". The size of the array is that of the file.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from acts_core.array import ArrayGeometry
+from acts_core.force import ForceResponse
+from acts_core.sampling import SamplingConfig
+from acts_driver.recordings import ReplayOptions, open_recording
+from acts_recon.fusion import FusionEstimator
+from acts_recon.recovery import FusedRecovery
+
+
+def sampling(rows: int, cols: int) -> SamplingConfig:
+    """How full frames are sampled."""
+    return SamplingConfig(scheme="tracking", rows=rows, cols=cols, m=min(55, rows * cols), threshold_counts=15)
+
+
+def main() -> None:
+    recovery: FusedRecovery | None = None
+    for frame in open_recording(ReplayOptions(Path(sys.argv[1]), sampling=sampling)).frames():
+        if recovery is None:
+            geometry = ArrayGeometry(frame.rows, frame.cols)
+            recovery = FusedRecovery(FusionEstimator(geometry), ForceResponse(), touch_counts=60)
+        end_s, duration_s = frame.board_us * 1e-6, frame.duration_us * 1e-6
+        contact = recovery.step(frame.indices, frame.counts, end_s, duration_s)
+        # recovery.image and recovery.sigma are (rows, cols) float32 [counts]; overwritten by the next step.
+        if contact.in_contact and frame.sequence % 50 == 0:
+            x_mm, y_mm = 1000 * contact.x_m, 1000 * contact.y_m
+            print(f"{end_s:7.3f} s: x {x_mm:6.2f} mm, y {y_mm:6.2f} mm, {contact.force_n:5.2f} N, ", end="")
+            print(f"x uncertain by {1000 * contact.x_sd_m:.2f} mm")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,45 @@
+"""Learn a dictionary from full frames of your own.
+
+    python3 examples/learn_dictionary.py FILE.npz DICTIONARY.npz [ATOMS]
+
+FILE.npz holds `frames` (n, rows, cols), 0 to 1023 counts. `acts train` does the same with more choice.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from acts_core.frames_file import load_frames
+from acts_recon.dictionary import Dictionary, save_dictionary
+from acts_recon.ksvd import KsvdConfig, learn_dictionary
+from acts_recon.training_patches import prune_coherent, random_patches
+
+PATCH_SIZE = 8
+
+
+def main() -> None:
+    recorded, output = Path(sys.argv[1]), Path(sys.argv[2])
+    config = KsvdConfig(atoms=int(sys.argv[3]) if len(sys.argv) > 3 else 1000)
+    rng = np.random.default_rng(0)
+
+    frames = load_frames(recorded).frames
+    # 8 x 8 taxels from anywhere, with at least 4 of them pressed, and no two alike.
+    patches = random_patches(frames, 40 * config.atoms, size=PATCH_SIZE, min_active=4, rng=rng)
+    patches = patches[prune_coherent(patches, 0.99)]
+    print(f"{len(patches)} patches out of {len(frames)} frames")
+
+    atoms = learn_dictionary(
+        patches,
+        config,
+        rng=rng,
+        progress=lambda state: print(f"iteration {state.iteration}: {100 * state.relative_error:.1f} % unexplained"),
+    )
+    save_dictionary(Dictionary(atoms, PATCH_SIZE, provenance=f"learnt from {recorded.name}"), output)
+    print(f"{output}: {config.atoms} atoms, for Reconstructor, and for the node's parameter `dictionary`")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,65 @@
+"""Read a board over its serial port, and tell once a second what it sends and what presses.
+
+python3 examples/read_board.py auto                                # the only Teensy that is plugged in
+python3 examples/read_board.py /dev/ttyUSB0 --ascii 16 16          # lines of text from an array of 16 x 16
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+
+from acts_core.array import ArrayGeometry
+from acts_core.force import ForceResponse
+from acts_core.raster_ascii import RasterDecoder
+from acts_core.wire import StreamDecoder
+from acts_driver.source import SerialSource
+from acts_recon.fusion import FusionEstimator
+from acts_recon.recovery import FusedRecovery
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("port", help="a path, auto, or serial:NUMBER")
+    parser.add_argument("--ascii", nargs=2, type=int, metavar=("ROWS", "COLS"), help="text lines (docs/own_array.md)")
+    parser.add_argument("--baud", type=int, default=115200, help="of no effect on boards with USB of their own")
+    parser.add_argument("--seconds", type=float, default=float("inf"))
+    arguments = parser.parse_args()
+
+    source = SerialSource(arguments.port, arguments.baud)
+    decoder = RasterDecoder(*arguments.ascii) if arguments.ascii else StreamDecoder()
+    source.open()
+    try:
+        read(source, decoder, arguments.seconds)
+    except KeyboardInterrupt:
+        pass
+    finally:
+        source.close()
+
+
+def read(source: SerialSource, decoder: RasterDecoder | StreamDecoder, seconds: float) -> None:
+    recovery: FusedRecovery | None = None
+    begin_s = told_s = time.monotonic()
+    frames = 0
+    while (now_s := time.monotonic()) < begin_s + seconds:
+        # At most 0.1 s, then empty. PortError, should the board be unplugged; open() may then be tried again.
+        for frame in decoder.feed(source.read()):
+            if recovery is None:
+                estimator = FusionEstimator(ArrayGeometry(frame.rows, frame.cols))
+                recovery = FusedRecovery(estimator, ForceResponse(), touch_counts=60)
+                begin_s = told_s = time.monotonic()  # to compile it the first time has taken a while
+            frames += 1
+            end_s = frame.board_us * 1e-6
+            contact = recovery.step(frame.indices, frame.counts, end_s, frame.duration_us * 1e-6)
+        if now_s >= told_s + 1.0:
+            told_s = now_s
+            print(f"{frames} frames, {decoder.crc_errors + decoder.malformed} packets damaged", end="")
+            if decoder.last_error:
+                print(f" (the last: {decoder.last_error})", end="")
+            if recovery is not None and contact.in_contact:
+                print(f"; touched at x {1000 * contact.x_m:.1f} mm, y {1000 * contact.y_m:.1f} mm", end="")
+            print(flush=True)
+
+
+if __name__ == "__main__":
+    main()
