@@ -10,6 +10,8 @@ setup(
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
         (f"share/{PACKAGE}", ["package.xml"]),
+        # On PATH; what entry points make is for `ros2 run` and is not.
+        ("bin", ["bin/acts"]),
     ],
     install_requires=["setuptools"],
     extras_require={"test": ["pytest"]},

@@ -46,6 +46,11 @@ def test_the_version_is_the_package_s(capsys: pytest.CaptureFixture[str]) -> Non
     assert f'version="{__version__}"' in (PACKAGE / "setup.py").read_text()
 
 
+def test_it_is_on_the_path_of_the_environment() -> None:
+    said = subprocess.run(["acts", "--version"], capture_output=True, text=True, check=True).stdout
+    assert said == f"acts {__version__}\n"
+
+
 def test_errors_are_one_line_on_standard_error(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["launch", "--own", "/no/such.launch.xml"]) == 1
     assert capsys.readouterr().err == "error: the launch file '/no/such.launch.xml' does not exist\n"

@@ -48,6 +48,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     )
     parser.add_argument("--rows", type=_side, default=32, help="of the array, with raster_ascii and --sim (32)")
     parser.add_argument("--cols", type=_side, default=32, help="of the array, with raster_ascii and --sim (32)")
+    parser.add_argument("--baud", type=_baud, default=115200, help="of no effect on USB boards (115200)")
     parser.add_argument("--untouched-s", type=_seconds, default=4.0, metavar="S", help="time untouched (4)")
     parser.add_argument("--touch-s", type=_seconds, metavar="S", help="time to roll a hand over the skin (20; --sim 6)")
     parser.add_argument("--no-touch", action="store_true", help="leave that out: nothing is said of the wiring")
@@ -103,7 +104,7 @@ def _test(arguments: argparse.Namespace, skin: SimulatedSkin | None) -> SelfTest
     from acts_tools.selftest.session import BoardReader
 
     port = arguments.port if skin is None else skin.port
-    with BoardReader(port, arguments.protocol, arguments.rows, arguments.cols) as board:
+    with BoardReader(port, arguments.protocol, arguments.rows, arguments.cols, arguments.baud) as board:
         state = board.query()
         if state is None:
             print("the board takes no commands: it is tested with the frames that it sends", file=sys.stderr)
@@ -185,6 +186,12 @@ def _side(text: str) -> int:
     if text.isdecimal() and 1 <= int(text) <= MAX_SIDE:
         return int(text)
     raise argparse.ArgumentTypeError(f"{text}: allowed is a whole number from 1 to {MAX_SIDE}")
+
+
+def _baud(text: str) -> int:
+    if text.isdecimal() and 2400 <= int(text) <= 12_000_000:
+        return int(text)
+    raise argparse.ArgumentTypeError(f"{text}: allowed is a whole number from 2400 to 12000000")
 
 
 def _seconds(text: str) -> float:

@@ -37,10 +37,12 @@ class BoardReader:
         ``binary`` or ``raster_ascii``.
     rows, cols : int
         Size of the array, for ``raster_ascii``, which does not tell it.
+    baud : int
+        Bits per second; of no effect on USB boards.
     """
 
-    def __init__(self, port: str, protocol: str, rows: int, cols: int) -> None:
-        self._source = SerialSource(port)
+    def __init__(self, port: str, protocol: str, rows: int, cols: int, baud: int = 115200) -> None:
+        self._source = SerialSource(port, baud)
         self._is_binary = protocol == "binary"
         # More patient than the driver: full frames come slowly, and nothing else waits.
         self._link = BoardLink(self._source.write, reply_timeout_s=_REPLY_S, tries=_TRIES)
