@@ -1,4 +1,4 @@
-"""The UR5e through `ur_rtde`: the only module that knows it.
+"""The UR5e through `ur_rtde`, which no other module of this package imports.
 
 What is particular about that library: the constructors hold Python's global lock, so an address is tried with plain
 sockets first; ``servoJ`` returns True whether or not anybody listens, so every loss is found by `RobotWatch` from what
