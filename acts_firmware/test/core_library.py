@@ -18,13 +18,19 @@ NEIGHBOUR_ORDERS = {"columns": 0, "rows": 1}
 U16 = np.dtype("<u2")
 
 
+FOLDERS = ("lib/acts_firmware", "libexec/acts_firmware/test")
+"""Programs of this package, and those of its tests."""
+
+
 def installed(name: str) -> Path:
     """A file of this package in the first prefix that has it."""
     prefixes = [Path(prefix) for prefix in os.environ.get("AMENT_PREFIX_PATH", "").split(":") if prefix]
     for prefix in prefixes:
-        path = prefix / "lib/acts_firmware" / name
-        if path.exists():
-            return path
+        # Those of the tests first: an earlier release installed them beside the others.
+        for folder in reversed(FOLDERS):
+            path = prefix / folder / name
+            if path.exists():
+                return path
     raise FileNotFoundError(f"{name} of acts_firmware is in none of {prefixes}; build the workspace first")
 
 

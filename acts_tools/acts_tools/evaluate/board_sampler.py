@@ -19,7 +19,7 @@ _LIBRARY = "libacts_sampler.so"
 @lru_cache(maxsize=1)
 def _library() -> ctypes.CDLL:
     prefixes = [Path(prefix) for prefix in os.environ.get("AMENT_PREFIX_PATH", "").split(":") if prefix]
-    path = next((p for prefix in prefixes if (p := prefix / "lib/acts_firmware" / _LIBRARY).is_file()), None)
+    path = next((p for prefix in prefixes if (p := prefix / "lib" / _LIBRARY).is_file()), None)
     if path is None:
         raise SettingsError(f"{_LIBRARY} of package acts_firmware is in none of {prefixes}: build the workspace")
     library = ctypes.CDLL(str(path))
