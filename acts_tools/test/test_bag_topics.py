@@ -137,8 +137,28 @@ def test_a_topic_that_never_appears_is_named_and_the_exit_code_tells(tmp_path: P
     with acts("record", "-o", str(tmp_path / "bag"), "-d", "0.5", "/never", domain_id=86) as process:
         output, _ = process.communicate(timeout=TIMEOUT_S)
     assert process.returncode == 1
-    assert "never appeared: /never" in output
+    assert "never appeared: /never, nobody published it" in output
+    assert "nothing was recorded; the bag is empty" in output
     assert contents(tmp_path / "bag") == []
+
+
+def test_a_topic_of_which_nothing_came_is_named_and_the_exit_code_tells(tmp_path: Path) -> None:
+    with Probe(190) as probe:
+        silent = probe.node.create_publisher(Contact, "/silent", STREAM)
+        with acts("record", "-o", str(tmp_path / "bag"), "/silent", domain_id=190) as process:
+            subscribed(probe, [silent])
+            process.send_signal(signal.SIGINT)
+            output, _ = process.communicate(timeout=TIMEOUT_S)
+    assert process.returncode == 1
+    assert "no message: /silent had a publisher, but nothing came" in output
+    assert "nothing was recorded; the bag is empty" in output
+
+
+def test_a_recording_of_all_topics_without_any_message_is_no_success(tmp_path: Path) -> None:
+    with acts("record", "-o", str(tmp_path / "bag"), "-d", "0.5", "-a", domain_id=190) as process:
+        output, _ = process.communicate(timeout=TIMEOUT_S)
+    assert process.returncode == 1
+    assert "nothing was recorded; the bag is empty" in output
 
 
 @pytest.mark.parametrize(

@@ -51,10 +51,8 @@ class SkinDiagnosticsNode(Node):
 
     def _take(self, array: DiagnosticArray) -> None:
         now_s = time.monotonic()
-        for status in array.status:
-            values = {value.key: value.value for value in status.values}
-            level = int.from_bytes(status.level, "little")
-            self._aggregate.take(Status(status.name, level, status.message, status.hardware_id, values), now_s)
+        for message in array.status:
+            self._aggregate.take(status_of(message), now_s)
 
     def _publish(self) -> None:
         messages = [_message(status) for status in self._aggregate.step(time.monotonic())]
@@ -65,6 +63,12 @@ class SkinDiagnosticsNode(Node):
         self._state_publisher.publish(
             DiagnosticStatus(name="toplevel_state", level=whole.level, message=whole.message, values=whole.values)
         )
+
+
+def status_of(message: DiagnosticStatus) -> Status:
+    """A status as it came in a message."""
+    values = {value.key: value.value for value in message.values}
+    return Status(message.name, int.from_bytes(message.level, "little"), message.message, message.hardware_id, values)
 
 
 def _message(status: Status) -> DiagnosticStatus:

@@ -34,7 +34,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Run ``acts record``; 0 when every topic that was asked for has been recorded."""
+    """Run ``acts record``; 0 when something of every topic that was asked for has been recorded."""
     if bool(arguments.topics) == arguments.all:
         raise RecordingError("say which topics to record: either their names, or -a for all")
     if arguments.duration is not None and not 0 < arguments.duration < float("inf"):
@@ -59,7 +59,7 @@ def record(path: Path, topics: list[str] | None, duration_s: float | None) -> in
     Returns
     -------
     int
-        0 when every topic of the list has been recorded, 1 otherwise.
+        0 when there are messages of every topic of the list, or with None any at all; 1 otherwise.
 
     Raises
     ------
@@ -97,7 +97,7 @@ def record(path: Path, topics: list[str] | None, duration_s: float | None) -> in
             node.destroy_node()
             rclpy.try_shutdown()
     _summarise(recorder, bag, time.monotonic() - started_s)
-    return 1 if topics is not None and (recorder.missing() or recorder.refused()) else 0
+    return 0 if recorder.is_complete else 1
 
 
 def _summarise(recorder: Recorder, bag: BagWriter, elapsed_s: float) -> None:
@@ -107,8 +107,12 @@ def _summarise(recorder: Recorder, bag: BagWriter, elapsed_s: float) -> None:
         lost = "loss not known" if record.lost is None else f"{record.lost} lost"
         _say(f"{record.topic:{width}}  {record.received:8d} messages  {lost}")
     for topic in recorder.missing():
-        _say(f"never appeared: {topic}")
+        _say(f"never appeared: {topic}, nobody published it")
+    for topic in recorder.silent():
+        _say(f"no message: {topic} had a publisher, but nothing came")
     total = sum(record.received for record in records)
+    if not total:
+        _say("nothing was recorded; the bag is empty")
     _say(f"{total} messages in {elapsed_s:.1f} s, {bag.size_bytes() / 1e6:.1f} MB in {bag.path}")
 
 

@@ -96,6 +96,17 @@ class Recorder:
         """Topics that were asked for and have not appeared."""
         return [topic for topic in self._topics or () if topic not in self.records and topic not in self._refused]
 
+    def silent(self) -> list[str]:
+        """Topics that have appeared, and of which no message has come."""
+        return sorted(topic for topic, record in self.records.items() if not record.received)
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether there are messages of every topic that was asked for; of any at all where all were."""
+        if self._topics is None:
+            return any(record.received for record in self.records.values())
+        return not (self.missing() or self.refused() or self.silent())
+
     def refused(self) -> list[str]:
         """Topics that have appeared and cannot be recorded."""
         return sorted(self._refused)

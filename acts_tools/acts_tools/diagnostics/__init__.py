@@ -1,0 +1,1 @@
+"""`acts diagnostics`: what the nodes say of themselves."""

@@ -1,0 +1,113 @@
+"""`acts diagnostics`: print what /diagnostics and its aggregate hold now; the exit code is the worst level."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+import time
+from functools import partial
+from typing import TYPE_CHECKING
+
+from acts_core.errors import SettingsError
+from acts_tools.diagnostics.statuses import Statuses
+
+if TYPE_CHECKING:
+    from diagnostic_msgs.msg import DiagnosticArray
+
+_TOPICS = ("/diagnostics", "/diagnostics_agg")
+# Nodes report once a second: after this time from the first one on, each has.
+_ALL_S = 2.2
+_TURN_S = 0.1
+_DEPTH = 100
+_NOBODY = 3
+
+_EPILOG = """\
+exit codes: 0 all is OK, 1 a warning, 2 an error, 3 something is stale or nobody reports
+
+examples:
+  acts diagnostics                  every node with all it says
+  acts diagnostics --brief          a line for each
+  acts diagnostics --json | jq .    for programs
+
+docs/driver.md explains the values of the driver.
+"""
+
+
+def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add ``diagnostics`` to the acts command."""
+    parser = subparsers.add_parser(
+        "diagnostics",
+        help="print what the running nodes say of themselves",
+        description="Listen to /diagnostics and /diagnostics_agg for some seconds and print the newest report of each "
+        "node: level, message, values.",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("-b", "--brief", action="store_true", help="without the values")
+    parser.add_argument("--json", action="store_true", help="as one JSON object: a list of reports for each topic")
+    parser.add_argument(
+        "-t", "--timeout", type=float, default=10.0, metavar="SECONDS", help="how long to wait for a first report (10)"
+    )
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Listen and print; the worst level, or 3 where nobody reports."""
+    if not 0 < arguments.timeout < float("inf"):
+        raise SettingsError(f"--timeout {arguments.timeout:g} is not a positive time in seconds")
+    statuses = _heard(arguments.timeout)
+    if statuses.is_empty:
+        print(
+            f"nobody has reported on {' or '.join(_TOPICS)} within {arguments.timeout:g} s: are nodes running, and "
+            "with this ROS_DOMAIN_ID?",
+            file=sys.stderr,
+        )
+        return _NOBODY
+    if arguments.json:
+        print(json.dumps(statuses.as_json(), indent=2))
+    else:
+        print("\n".join(statuses.lines(with_values=not arguments.brief)))
+    return statuses.worst
+
+
+def _heard(timeout_s: float) -> Statuses:
+    """What was reported: nothing within the time, or everything of some seconds from the first report on."""
+    # Late: they take time that the other commands need not spend.
+    import rclpy
+    from diagnostic_msgs.msg import DiagnosticArray
+    from rclpy.context import Context
+    from rclpy.executors import SingleThreadedExecutor
+    from rclpy.node import Node
+
+    from acts_ros.executor import spin_for
+    from acts_tools.bags.stopping import StopFlag
+
+    statuses = Statuses(_TOPICS)
+    with StopFlag() as stop:
+        # Signals are left alone where the context is one's own.
+        context = Context()
+        rclpy.init(args=[], context=context)
+        node = Node("acts_diagnostics", context=context, start_parameter_services=False, enable_rosout=False)
+        executor = SingleThreadedExecutor(context=context)
+        executor.add_node(node)
+        for topic in _TOPICS:
+            node.create_subscription(DiagnosticArray, topic, partial(_take, statuses, topic), _DEPTH)
+        end_s = time.monotonic() + timeout_s
+        is_first = True
+        try:
+            while not stop.is_set and time.monotonic() < end_s:
+                spin_for(executor, _TURN_S)
+                if is_first and not statuses.is_empty:
+                    is_first, end_s = False, time.monotonic() + _ALL_S
+        finally:
+            executor.shutdown()
+            node.destroy_node()
+            rclpy.try_shutdown(context=context)
+    return statuses
+
+
+def _take(statuses: Statuses, topic: str, array: DiagnosticArray) -> None:
+    from acts_skins.overview.diagnostics_node import status_of
+
+    for message in array.status:
+        statuses.take(topic, status_of(message))

@@ -1,0 +1,77 @@
+"""What was heard on the topics of diagnostics: as a table, as JSON, as an exit code. Knows no ROS."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from acts_skins.overview.aggregate import Status
+
+WORDS = ("OK", "WARN", "ERROR", "STALE")
+"""Words of the levels, by their number; the exit code of a level is its number."""
+
+
+class Statuses:
+    """The newest status of every name, for each topic.
+
+    Parameters
+    ----------
+    topics : sequence of str
+        In the order in which they are shown.
+    """
+
+    def __init__(self, topics: Sequence[str]) -> None:
+        self._heard: dict[str, dict[str, Status]] = {topic: {} for topic in topics}
+
+    def take(self, topic: str, status: Status) -> None:
+        """Take a status that came on a topic."""
+        self._heard[topic][status.name] = status
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether nothing was heard."""
+        return not any(self._heard.values())
+
+    @property
+    def worst(self) -> int:
+        """The worst level, 0 to 3; 0 where nothing was heard."""
+        return max((_level(status) for heard in self._heard.values() for status in heard.values()), default=0)
+
+    def lines(self, *, with_values: bool) -> Iterator[str]:
+        """A table for a person: level, name and message, below them the named values."""
+        for topic, heard in self._heard.items():
+            if not heard:
+                continue
+            yield topic
+            width = max(map(len, heard))
+            for name in sorted(heard):
+                status = heard[name]
+                about = f" [{status.hardware_id}]" if status.hardware_id else ""
+                yield f"  {WORDS[_level(status)]:5}  {name:{width}}  {status.message}{about}".rstrip()
+                key_width = max(map(len, status.values), default=0)
+                if with_values:
+                    yield from (
+                        f"           {key:{key_width}}  {value}".rstrip() for key, value in status.values.items()
+                    )
+
+    def as_json(self) -> dict[str, Any]:
+        """The same for programs: for each topic that was heard, a list of statuses."""
+        return {
+            topic: [
+                {
+                    "name": name,
+                    "level": WORDS[_level(status)],
+                    "message": status.message,
+                    "hardware_id": status.hardware_id,
+                    "values": dict(status.values),
+                }
+                for name, status in sorted(heard.items())
+            ]
+            for topic, heard in self._heard.items()
+            if heard
+        }
+
+
+def _level(status: Status) -> int:
+    """The level; one that is none is taken for an error."""
+    return status.level if 0 <= status.level < len(WORDS) else WORDS.index("ERROR")
