@@ -17,17 +17,18 @@ from acts_core.stop_signals import StopSignals
 from acts_ros.composition import parameters_from
 from acts_ros.executor import run
 
-_NODES = {
+SETTINGS: dict[str, type] = {
     "ball_state": BallStateSettings,
     "ball_trajectory": BallTrajectorySettings,
     "ball_control": BallControlSettings,
 }
+"""The settings classes of the nodes, by name."""
 
 
 def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
     """Run the three nodes; the exit code."""
     words = list(sys.argv if args is None else args)
-    given = parameters_from(words, "State, trajectory and control of ball balancing in one process.", _NODES)
+    given = parameters_from(words, SETTINGS)
     states: list[BallStateNode] = []
     trajectories: list[BallTrajectoryNode] = []
 

@@ -1,5 +1,7 @@
-"""docs/driver.md names every parameter and every diagnostic value."""
+"""docs/driver.md names every parameter and every diagnostic value; --help every parameter."""
 
+import subprocess
+import sys
 from dataclasses import fields
 from pathlib import Path
 
@@ -15,3 +17,12 @@ PAGE = (Path(__file__).resolve().parents[2] / "docs" / "driver.md").read_text(en
 @pytest.mark.parametrize("name", [*describe(DriverSettings), *(field.name for field in fields(Totals))])
 def test_it_is_documented(name: str) -> None:
     assert f"`{name}`" in PAGE
+
+
+def test_help_tells_every_parameter_and_starts_nothing() -> None:
+    program = [sys.executable, "-m", "acts_ros.program", "acts_driver.driver_node"]
+    result = subprocess.run([*program, "--help"], capture_output=True, text=True, timeout=60, check=False)
+    assert (result.returncode, result.stderr) == (0, "")
+    assert "board bytes in" in result.stdout
+    for name in describe(DriverSettings):
+        assert f"    {name} (default " in result.stdout

@@ -17,15 +17,13 @@ from acts_core.settings import describe, from_text, unknown_key_message
 from acts_ros.parameters import ros_value
 
 
-def parameters_from(words: Sequence[str], description: str, nodes: Mapping[str, type]) -> dict[str, list[Parameter]]:
+def parameters_from(words: Sequence[str], nodes: Mapping[str, type]) -> dict[str, list[Parameter]]:
     """The parameters that a command line gives to the nodes of a process.
 
     Parameters
     ----------
     words : sequence of str
         The command line, the program's name first; what ROS takes of it is left out.
-    description : str
-        One sentence for ``--help``.
     nodes : mapping of str to type
         Name of each node, and the settings class its parameters are declared from.
 
@@ -39,18 +37,9 @@ def parameters_from(words: Sequence[str], description: str, nodes: Mapping[str, 
     SettingsError
         For an unknown node or parameter, with the nearest known name, or a value of the wrong type.
     """
-    parser = argparse.ArgumentParser(
-        description=description,
-        epilog="Nodes: " + ", ".join(nodes) + ". Their parameters are in docs/reference.md. ROS arguments follow "
-        "--ros-args; a parameter given there (-p) goes to all nodes.",
-    )
-    parser.add_argument(
-        "--set",
-        metavar="NODE.PARAMETER=VALUE",
-        action="append",
-        default=[],
-        help="parameter of one node; may be given again",
-    )
+    # --help is answered before, see acts_ros.program.
+    parser = argparse.ArgumentParser(add_help=False)
+    parser.add_argument("--set", metavar="NODE.PARAMETER=VALUE", action="append", default=[])
     options = parser.parse_args(remove_ros_args(list(words))[1:])
     given: dict[str, dict[str, Parameter]] = {node: {} for node in nodes}
     for text in options.set:

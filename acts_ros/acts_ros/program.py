@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Sequence
 from importlib import import_module
+from pathlib import Path
 
 from acts_core.errors import ActsError
 from acts_core.stop_signals import StopSignals
@@ -15,7 +17,9 @@ class Program:
     Parameters
     ----------
     module : str
-        Name of the module; it has a function ``main(signals: StopSignals) -> int``.
+        Name of the module; it has a function ``main(signals: StopSignals) -> int``. Where it has ``SETTINGS``, the
+        settings class of each of its nodes by the node's name, ``--help`` prints what it does and its parameters; else
+        ``main`` answers that itself.
     """
 
     def __init__(self, module: str) -> None:
@@ -27,6 +31,10 @@ class Program:
         try:
             with signals.interrupting():
                 module = import_module(self._module)
+                if hasattr(module, "SETTINGS") and _asks_for_help(sys.argv[1:]):
+                    help_page = import_module("acts_ros.program_help")
+                    print(help_page.program_help(Path(sys.argv[0]).name, module.__doc__ or "", module.SETTINGS))
+                    return 0
             return int(module.main(signals))
         except ActsError as error:
             print(f"error: {error}", file=sys.stderr, flush=True)
@@ -36,6 +44,12 @@ class Program:
             return 0
         finally:
             signals.ended()
+
+
+def _asks_for_help(words: Sequence[str]) -> bool:
+    """Whether the words of a command line ask for help; what is ROS's is not looked at."""
+    own = words[: words.index("--ros-args")] if "--ros-args" in words else words
+    return "-h" in own or "--help" in own
 
 
 if __name__ == "__main__":

@@ -26,7 +26,7 @@ NODES = {"left": LeftSettings, "right": RightSettings}
 
 
 def given(*words: str) -> dict[str, dict[str, object]]:
-    parameters = parameters_from(["program", *words], "A test.", NODES)
+    parameters = parameters_from(["program", *words], NODES)
     return {node: {one.name: one.value for one in values} for node, values in parameters.items()}
 
 

@@ -149,6 +149,10 @@ def _make_folder(folder: Path) -> None:
         ) from error
 
 
+SETTINGS: dict[str, type] = {"ball_world": BallWorldSettings}
+"""The settings class of the node, by name."""
+
+
 def main(signals: StopSignals | None = None) -> int:
     """Run the node; the exit code."""
     return run([BallWorld], signals=signals)

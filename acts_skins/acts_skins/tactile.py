@@ -17,13 +17,14 @@ from acts_recon.reconstruction_settings import ReconstructionSettings
 from acts_ros.composition import parameters_from
 from acts_ros.executor import run
 
-_DESCRIPTION = "Driver and reconstruction of one skin in one process."
+SETTINGS: dict[str, type] = {"driver": DriverSettings, "reconstruction": ReconstructionSettings}
+"""The settings classes of the nodes, by name."""
 
 
 def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
     """Run both nodes; the exit code."""
     words = list(sys.argv if args is None else args)
-    given = parameters_from(words, _DESCRIPTION, {"driver": DriverSettings, "reconstruction": ReconstructionSettings})
+    given = parameters_from(words, SETTINGS)
     reconstructions: list[ReconstructionNode] = []
 
     def make_reconstruction() -> ReconstructionNode:

@@ -1,4 +1,8 @@
-"""`skin_contacts`: the node of this name, and those of `skin_overview`, in one process."""
+"""`skin_contacts`: the contacts of the skins of a file merged.
+
+The node of this name, and those of `skin_overview` (where the skins are, and an aggregate of their diagnostics), in one
+process.
+"""
 
 from __future__ import annotations
 
@@ -11,13 +15,14 @@ from acts_ros.executor import run
 from acts_skins.contacts.node import SkinContactsNode, SkinContactsSettings
 from acts_skins.overview import main as overview
 
-_DESCRIPTION = "The contacts of the skins of a file merged, where the skins are, and an aggregate of their diagnostics."
+SETTINGS: dict[str, type] = {**overview.SETTINGS, "skin_contacts": SkinContactsSettings}
+"""The settings classes of the nodes, by name."""
 
 
 def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
     """Run the nodes; the exit code."""
     words = list(sys.argv if args is None else args)
-    given = parameters_from(words, _DESCRIPTION, {**overview.SETTINGS, "skin_contacts": SkinContactsSettings})
+    given = parameters_from(words, SETTINGS)
     return run(
         [*overview.factories(given), lambda: SkinContactsNode(parameter_overrides=given["skin_contacts"])],
         words,

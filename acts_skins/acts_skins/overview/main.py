@@ -1,4 +1,7 @@
-"""`skin_overview`: the nodes `skin_frames` and `skin_diagnostics` in one process."""
+"""`skin_overview`: where the skins of a file are, and one aggregate of their diagnostics.
+
+The nodes `skin_frames` and `skin_diagnostics` in one process.
+"""
 
 from __future__ import annotations
 
@@ -13,8 +16,6 @@ from acts_ros.composition import parameters_from
 from acts_ros.executor import run
 from acts_skins.overview.diagnostics_node import SkinDiagnosticsNode, SkinDiagnosticsSettings
 from acts_skins.overview.frames_node import SkinFramesNode, SkinFramesSettings
-
-_DESCRIPTION = "Where the skins of a file are, and one aggregate of their diagnostics."
 
 SETTINGS: dict[str, type] = {"skin_frames": SkinFramesSettings, "skin_diagnostics": SkinDiagnosticsSettings}
 """The settings classes of the nodes, by name."""
@@ -31,4 +32,4 @@ def factories(given: Mapping[str, list[Parameter]]) -> list[Callable[[], Node]]:
 def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
     """Run both nodes; the exit code."""
     words = list(sys.argv if args is None else args)
-    return run(factories(parameters_from(words, _DESCRIPTION, SETTINGS)), words, signals)
+    return run(factories(parameters_from(words, SETTINGS)), words, signals)
