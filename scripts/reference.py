@@ -8,7 +8,7 @@ import sys
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
-from acts_core.settings import default_of, describe
+from acts_core.settings import Changeable, default_of, describe
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs" / "reference.md"
@@ -29,6 +29,15 @@ NODES = (
 HEAD = """# Reference: launch arguments and parameters
 
 Written by `./acts run python3 scripts/reference.py` from the launch files and settings classes; a test compares them.
+"""
+
+
+CHANGE = {Changeable.AT_START: "", Changeable.UNCONFIGURED: "unconfigured", Changeable.RUNNING: "running"}
+
+CHANGE_IN_WORDS = """\
+The column *change* says when a parameter can be set with `ros2 param set`: *running*: at any time, in force from the
+next step or frame on; *unconfigured*: while the node's life cycle is in that state, before it is configured or after
+cleanup; empty: only at the node's start. What cannot be is refused with the reason, and nothing changes then.
 """
 
 
@@ -59,10 +68,11 @@ def shown_default(value: object) -> str:
 
 def node_section(package: str, executable: str, module: str, class_name: str) -> list[str]:
     settings_class = getattr(importlib.import_module(module), class_name)
-    lines = [f"### {package} {executable}", "", "| parameter | default | allowed | |", "|---|---|---|---|"]
+    lines = [f"### {package} {executable}", "", "| parameter | default | allowed | change | |", "|---|---|---|---|---|"]
     for name, info in describe(settings_class).items():
         default = shown_default(default_of(settings_class, name))
-        lines.append(f"| `{name}` | {cell(default)} | {cell(info.allowed)} | {cell(info.description)} |")
+        cells = (f"`{name}`", default, info.allowed, CHANGE[info.changeable], info.description)
+        lines.append(f"| {' | '.join(map(cell, cells))} |")
     return [*lines, ""]
 
 
@@ -70,7 +80,7 @@ def page() -> str:
     lines = [HEAD, "## Launch files of acts_bringup", ""]
     for path in sorted((ROOT / "launch").glob("*.launch.xml")):
         lines += launch_section(path)
-    lines += ["## Parameters of the nodes", ""]
+    lines += ["## Parameters of the nodes", "", CHANGE_IN_WORDS]
     for node in NODES:
         lines += node_section(*node)
     return "\n".join(lines).rstrip() + "\n"

@@ -1,4 +1,7 @@
-"""The node `ball_control`: estimate and reference in, joint angles to the UR5e out."""
+"""The node `ball_control`: estimate and reference in, joint angles to the UR5e out.
+
+Topics: ball/state and ball/reference in; ball/status and ball/tilt out. Services: ~/start, ~/stop.
+"""
 
 from __future__ import annotations
 
@@ -25,13 +28,13 @@ from acts_control.names import (
 from acts_control.pid import Ball, JerkFinder, Reference
 from acts_control.robot import Robot, UrRobot
 from acts_core.realtime import RealtimeConfig, enter_realtime
-from acts_core.settings import setting
+from acts_core.settings import Changeable, setting
 from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import BalanceStatus, BallReference, BallState
 from acts_ros.diagnostics import ERROR, OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
 from acts_ros.log import log_of
-from acts_ros.parameters import declare, node_options
+from acts_ros.parameters import declare, node_options, set_rate
 from acts_ros.qos import STATE, STREAM
 from acts_ros.skin_frame import skin_frame
 
@@ -45,7 +48,9 @@ _LEVELS = {Phase.CONNECTING: WARN, Phase.STOPPED: ERROR}
 class BallControlSettings(RealtimeConfig, LoopConfig):
     """Parameters of the node."""
 
-    status_rate_hz: float = setting(50.0, "how often the status is published", minimum=1.0, maximum=500.0)
+    status_rate_hz: float = setting(
+        50.0, "how often the status is published", minimum=1.0, maximum=500.0, changeable=Changeable.RUNNING
+    )
     frame_id: str = setting("", "frame of the skin; empty or none: the name of the namespace, with _ for /")
 
     def __post_init__(self) -> None:
@@ -72,7 +77,7 @@ class BallControlNode(Node):
         **node_arguments: Any,
     ) -> None:
         super().__init__("ball_control", **node_options(), **node_arguments)
-        settings = declare(self, BallControlSettings)
+        settings = declare(self, BallControlSettings, self._change)
         self._settings = settings
         self._jerk = JerkFinder()
         self._told = LoopStatus()
@@ -91,7 +96,7 @@ class BallControlNode(Node):
             self.create_subscription(BallReference, REFERENCE_TOPIC, self._on_reference, STATE)
         self.create_service(Trigger, "~/start", self._on_start)
         self.create_service(Trigger, "~/stop", self._on_stop)
-        self.create_timer(1.0 / settings.status_rate_hz, self._publish_status)
+        self._status_timer = self.create_timer(1.0 / settings.status_rate_hz, self._publish_status)
         self._diagnostics = DiagnosticsReporter(self, settings.robot_ip, self._report)
 
     def follow(self, state: BallStateNode, trajectory: BallTrajectoryNode) -> None:
@@ -118,6 +123,12 @@ class BallControlNode(Node):
         """Stop the robot in order, and say so."""
         self._loop.close()
         self._publish_status()
+
+    def _change(self, settings: BallControlSettings) -> str:
+        """Put changed parameters in force."""
+        self._loop.change(settings)
+        set_rate(self._status_timer, settings.status_rate_hz)
+        return ""
 
     def _on_state(self, message: BallState) -> None:
         position, velocity = message.position, message.velocity
@@ -186,6 +197,10 @@ class BallControlNode(Node):
             "late_steps": status.late_steps,
         }
         return _LEVELS.get(status.phase, OK), f"{status.phase.name.lower()}: {status.reason}", values
+
+
+SETTINGS: dict[str, type] = {"ball_control": BallControlSettings}
+"""The settings class of the node, by name."""
 
 
 def main(signals: StopSignals | None = None) -> int:

@@ -1,4 +1,7 @@
-"""The node `ball_state`: 1 kHz contacts in, the ball's position and velocity out."""
+"""The node `ball_state`: 1 kHz contacts in, the ball's position and velocity out.
+
+Topics: contact and ball/tilt in; ball/state and contact_statistics out.
+"""
 
 from __future__ import annotations
 
@@ -15,13 +18,13 @@ from acts_control.names import CONTACT_TOPIC, STATE_TOPIC, STATISTICS_TOPIC, TIL
 from acts_control.pid import Ball
 from acts_control.stream_statistics import StreamCounter
 from acts_core.errors import PacketError
-from acts_core.settings import setting
+from acts_core.settings import Changeable, setting
 from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import BallState, Contact, StreamStatistics
 from acts_ros.cdr import read_contact
 from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
-from acts_ros.parameters import declare, node_options
+from acts_ros.parameters import declare, node_options, set_rate
 from acts_ros.polled import PollingNode
 from acts_ros.qos import STATE, STREAM
 
@@ -38,7 +41,11 @@ class BallStateSettings(EstimatorConfig):
     """Parameters of the node."""
 
     publish_rate_hz: float = setting(
-        250.0, "how often the state is published, at most as often as contacts arrive", minimum=1.0, maximum=2000.0
+        250.0,
+        "how often the state is published, at most as often as contacts arrive",
+        minimum=1.0,
+        maximum=2000.0,
+        changeable=Changeable.RUNNING,
     )
 
 
@@ -56,7 +63,8 @@ class BallStateNode(PollingNode):
 
     def __init__(self, *, is_driven: bool = False, **node_arguments: Any) -> None:
         super().__init__("ball_state", **node_options(), **node_arguments)
-        settings = declare(self, BallStateSettings)
+        settings = declare(self, BallStateSettings, self._change)
+        self._is_driven = is_driven
         self._lock = threading.Lock()
         self._updated_s = 0.0
         self._estimator = BallEstimator(settings)
@@ -71,10 +79,10 @@ class BallStateNode(PollingNode):
         self._statistics_publisher = self.create_publisher(StreamStatistics, STATISTICS_TOPIC, STATE)
         self._contacts = self.create_raw_polled_subscription(Contact, CONTACT_TOPIC, STREAM, depth=_CONTACTS)
         if is_driven:
-            self.create_timer(_UNDRIVEN_S, self._update_undriven)
+            self._timer = self.create_timer(_UNDRIVEN_S, self._update_undriven)
         else:
             self.create_subscription(Vector3Stamped, TILT_TOPIC, self._on_tilt, STREAM)
-            self.create_timer(1.0 / settings.publish_rate_hz, self.update)
+            self._timer = self.create_timer(1.0 / settings.publish_rate_hz, self.update)
         self.create_timer(_STATISTICS_PERIOD_S, self._publish_statistics)
         self._diagnostics = DiagnosticsReporter(self, "ball", self._report)
 
@@ -97,6 +105,15 @@ class BallStateNode(PollingNode):
         """Tell the measured tilt of the plate, about x and y. From any thread."""
         with self._lock:
             self._estimator.set_tilt(stamp_ns, *tilt_rad)
+
+    def _change(self, settings: BallStateSettings) -> str:
+        """Put changed parameters in force."""
+        with self._lock:
+            self._estimator.config = settings
+            self._period_ns = round(1e9 / settings.publish_rate_hz)
+        if not self._is_driven:
+            set_rate(self._timer, settings.publish_rate_hz)
+        return ""
 
     def _update_undriven(self) -> None:
         if time.monotonic() - self._updated_s > _UNDRIVEN_S:
@@ -170,6 +187,10 @@ class BallStateNode(PollingNode):
         if state.not_finite:
             return WARN, f"{state.not_finite} contacts were not finite and were left out", values
         return OK, "ball" if state.valid else "no ball", values
+
+
+SETTINGS: dict[str, type] = {"ball_state": BallStateSettings}
+"""The settings class of the node, by name."""
 
 
 def main(signals: StopSignals | None = None) -> int:

@@ -1,4 +1,7 @@
-"""The node `ball_trajectory`: where the ball should be, from the moment the controller balances it."""
+"""The node `ball_trajectory`: where the ball should be, from the moment the controller balances it.
+
+Topics: ball/status in; ball/reference out.
+"""
 
 from __future__ import annotations
 
@@ -15,11 +18,11 @@ from acts_control.names import REFERENCE_TOPIC, STATUS_TOPIC, set_stamp
 from acts_control.pid import Reference
 from acts_control.trajectory import TimedReference, Trajectory, TrajectoryConfig
 from acts_core.rate_limit import RateLimit
-from acts_core.settings import setting
+from acts_core.settings import Changeable, setting
 from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import BalanceStatus, BallReference
 from acts_ros.executor import run
-from acts_ros.parameters import declare, node_options
+from acts_ros.parameters import declare, node_options, set_rate
 from acts_ros.qos import STATE
 from acts_ros.skin_frame import skin_frame
 
@@ -36,7 +39,9 @@ _UNDRIVEN_S = 0.1
 class BallTrajectorySettings(TrajectoryConfig):
     """Parameters of the node."""
 
-    publish_rate_hz: float = setting(125.0, "how often the reference is published", minimum=10.0, maximum=500.0)
+    publish_rate_hz: float = setting(
+        125.0, "how often the reference is published", minimum=10.0, maximum=500.0, changeable=Changeable.RUNNING
+    )
     frame_id: str = setting("", "frame of the skin; empty or none: the name of the namespace, with _ for /")
 
 
@@ -57,7 +62,7 @@ class BallTrajectoryNode(Node):
 
     def __init__(self, *, is_driven: bool = False, **node_arguments: Any) -> None:
         super().__init__("ball_trajectory", **node_options(), **node_arguments)
-        settings = declare(self, BallTrajectorySettings)
+        settings = declare(self, BallTrajectorySettings, self._change)
         self._trajectory = Trajectory(settings)
         self.phase: Callable[[], Phase] = self._told_phase
         self._lock = threading.Lock()
@@ -73,7 +78,7 @@ class BallTrajectoryNode(Node):
         self._publisher = self.create_publisher(BallReference, REFERENCE_TOPIC, STATE)
         if not is_driven:
             self.create_subscription(BalanceStatus, STATUS_TOPIC, self._on_status, STATE)
-        self.create_timer(_UNDRIVEN_S if is_driven else 1.0 / settings.publish_rate_hz, self._on_timer)
+        self._timer = self.create_timer(_UNDRIVEN_S if is_driven else 1.0 / settings.publish_rate_hz, self._on_timer)
         self.get_logger().info(f"{settings.trajectory}: {self._trajectory.duration_s:.1f} s")
 
     def advance(self, now_ns: int, phase: Phase) -> Reference:
@@ -101,6 +106,14 @@ class BallTrajectoryNode(Node):
                 self.get_logger().info("trajectory finished; the ball is held where it ended")
             return timed.reference
 
+    def _change(self, settings: BallTrajectorySettings) -> str:
+        """Put changed parameters in force."""
+        if self._is_driven:
+            self._limit.set_rate(settings.publish_rate_hz)
+        else:
+            set_rate(self._timer, settings.publish_rate_hz)
+        return ""
+
     def _on_status(self, message: BalanceStatus) -> None:
         self._told = Phase(message.state) if message.state in list(Phase) else Phase.WAITING
         self._told_ns = self.get_clock().now().nanoseconds
@@ -125,6 +138,10 @@ class BallTrajectoryNode(Node):
         message.velocity.x, message.velocity.y = reference.vx_m_s, reference.vy_m_s
         message.acceleration.x, message.acceleration.y = reference.ax_m_s2, reference.ay_m_s2
         self._publisher.publish(message)
+
+
+SETTINGS: dict[str, type] = {"ball_trajectory": BallTrajectorySettings}
+"""The settings class of the node, by name."""
 
 
 def main(signals: StopSignals | None = None) -> int:

@@ -12,7 +12,7 @@ from acts_control.pid import Ball, BallPid, PidConfig, Reference
 from acts_control.prediction import TiltHistory
 from acts_control.safety import SafetyConfig, touch_age_s
 from acts_core.errors import SettingsError
-from acts_core.settings import setting, validate
+from acts_core.settings import Changeable, setting, validate
 
 # A reference is carried on to now, but not for longer than this.
 _MAX_ADVANCE_S = 0.05
@@ -33,13 +33,25 @@ class ControllerConfig(PidConfig, LimiterConfig, SafetyConfig):
     """Gains, limits, and when to begin."""
 
     engage_after_s: float = setting(
-        0.1, "how long a ball must have been felt before the loop is closed [s]", minimum=0.0, maximum=10.0
+        0.1,
+        "how long a ball must have been felt before the loop is closed [s]",
+        minimum=0.0,
+        maximum=10.0,
+        changeable=Changeable.RUNNING,
     )
     reference_stale_after_s: float = setting(
-        0.2, "without a reference for longer the ball is held at the last one [s]", minimum=0.01, maximum=10.0
+        0.2,
+        "without a reference for longer the ball is held at the last one [s]",
+        minimum=0.01,
+        maximum=10.0,
+        changeable=Changeable.RUNNING,
     )
     settle_s: float = setting(
-        0.2, "how long the plate is commanded level before a stop counts as done [s]", minimum=0.0, maximum=5.0
+        0.2,
+        "how long the plate is commanded level before a stop counts as done [s]",
+        minimum=0.0,
+        maximum=5.0,
+        changeable=Changeable.RUNNING,
     )
 
     def __post_init__(self) -> None:
@@ -145,6 +157,15 @@ class BallController:
         self._level_s = 0.0
         self._stale_s = 0.0
         self._tilts = TiltHistory(config.lever_arm_m, 2.0 * config.touch_stale_after_s)
+
+    def change(self, config: ControllerConfig) -> None:
+        """Go on with other gains and limits (those that are `Changeable.RUNNING`), between two steps.
+
+        The commanded tilt goes on from where it is, at the limited rate, also where it is beyond the new limit.
+        """
+        self.config = config
+        self._pid.config, self._pid.max_tilt_rad = config, config.max_tilt_rad
+        self._limiter.config = config
 
     def end(self, reason: str) -> None:
         """Bring the plate to level and stop there; the first reason is kept."""

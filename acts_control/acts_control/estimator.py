@@ -23,7 +23,7 @@ from math import hypot, isfinite, sqrt
 from typing import NamedTuple
 
 from acts_control.plate import LEVER_ARM_SETTING, RESISTANCE_SETTING, ROLLING, acceleration_of, resistance_per_speed
-from acts_core.settings import setting, validate
+from acts_core.settings import Changeable, setting, validate
 
 _NS = 1e-9
 
@@ -45,31 +45,45 @@ class EstimatorConfig:
     """How far touch is trusted, and for how long the ball may be unseen."""
 
     measurement_sigma_m: float = setting(
-        0.002, "standard deviation of the centre of pressure of one frame [m]", minimum=1e-5, maximum=0.02
+        0.002,
+        "standard deviation of the centre of pressure of one frame [m]",
+        minimum=1e-5,
+        maximum=0.02,
+        changeable=Changeable.RUNNING,
     )
     acceleration_noise: float = setting(
         0.02,
         "how much the ball accelerates beside the model, square root of the spectral density [m/s^2/sqrt(Hz)]",
         minimum=1e-5,
         maximum=10.0,
+        changeable=Changeable.RUNNING,
     )
     partial_sigma_m: float = setting(
         0.2,
         "the same, added where the samples found nearly nothing of the contact; the less, the more they found [m]",
         minimum=0.0,
         maximum=1.0,
+        changeable=Changeable.RUNNING,
     )
     gate_sigmas: float = setting(
-        6.0, "a centre of pressure farther from the prediction than this many deviations is left out", minimum=1.0
+        6.0,
+        "a centre of pressure farther from the prediction than this many deviations is left out",
+        minimum=1.0,
+        changeable=Changeable.RUNNING,
     )
     gate_reset_s: float = setting(
-        0.05, "when everything was left out for so long, the estimate begins anew [s]", minimum=0.001, maximum=1.0
+        0.05,
+        "when everything was left out for so long, the estimate begins anew [s]",
+        minimum=0.001,
+        maximum=1.0,
+        changeable=Changeable.RUNNING,
     )
     lost_after_s: float = setting(
         0.25,
         "without contact for longer than this the prediction is not trusted any more [s]",
         minimum=0.001,
         maximum=2.0,
+        changeable=Changeable.RUNNING,
     )
     rolling_resistance: float = RESISTANCE_SETTING
     lever_arm_m: float = LEVER_ARM_SETTING
@@ -143,6 +157,7 @@ class BallEstimator:
     Attributes
     ----------
     config : EstimatorConfig
+        May be changed between two steps, but for the lever arm.
     state : EstimatorState
         Changed in place by `step`.
     """

@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import ceil, hypot, isfinite, radians, sqrt
 
-from acts_core.settings import setting, validate
+from acts_core.settings import Changeable, setting, validate
 
 _LEVEL_RAD = 1e-6
 _STILL_RAD_S = 1e-3
+_ROUNDING = 1e-9
 
 
 @dataclass(frozen=True)
@@ -16,10 +17,18 @@ class LimiterConfig:
     """How far, how fast and how hard the plate may be tilted."""
 
     max_tilt_rad: float = setting(
-        round(radians(6.0), 6), "largest angle between plate and level [rad]", minimum=0.001, maximum=0.35
+        round(radians(6.0), 6),
+        "largest angle between plate and level [rad]",
+        minimum=0.001,
+        maximum=0.35,
+        changeable=Changeable.RUNNING,
     )
     max_tilt_rate_rad_s: float = setting(
-        1.0, "largest rate of the tilt about each axis [rad/s]", minimum=0.01, maximum=3.0
+        1.0,
+        "largest rate of the tilt about each axis [rad/s]",
+        minimum=0.01,
+        maximum=3.0,
+        changeable=Changeable.RUNNING,
     )
     max_tilt_acceleration_rad_s2: float = setting(
         20.0, "largest acceleration of the tilt about each axis [rad/s^2]", minimum=0.1, maximum=40.0
@@ -45,6 +54,8 @@ class TiltLimiter:
     Attributes
     ----------
     config : LimiterConfig
+        May be changed between two steps, but for the acceleration: with less of it, a motion that has begun would not
+        end in time.
     state : LimiterState
         Changed in place by `step`; always finite.
     """
@@ -52,6 +63,7 @@ class TiltLimiter:
     def __init__(self, config: LimiterConfig) -> None:
         self.config = config
         self.state = LimiterState()
+        self._farthest_rad = config.max_tilt_rad
 
     @property
     def is_level(self) -> bool:
@@ -84,13 +96,24 @@ class TiltLimiter:
         x, rate_x = self._axis(state.tilt_x_rad, state.rate_x_rad_s, target_x_rad, dt)
         y, rate_y = self._axis(state.tilt_y_rad, state.rate_y_rad_s, target_y_rad, dt)
         # Each axis ends within the circle, but on the way from one target to another both can be far out at once.
-        size = hypot(x, y)
-        if size > self.config.max_tilt_rad:
-            share = self.config.max_tilt_rad / size
+        size, farthest = hypot(x, y), self._bound_rad()
+        if size > farthest:
+            share = farthest / size
             x, y = x * share, y * share
             rate_x, rate_y = (x - state.tilt_x_rad) / dt, (y - state.tilt_y_rad) / dt
         state.tilt_x_rad, state.tilt_y_rad, state.rate_x_rad_s, state.rate_y_rad_s = x, y, rate_x, rate_y
         return x, y
+
+    def _bound_rad(self) -> float:
+        """How far the tilt may be: `max_tilt_rad`; where that has become smaller, the one before until it is kept."""
+        limit, state = self.config.max_tilt_rad, self.state
+        rate = hypot(state.rate_x_rad_s, state.rate_y_rad_s)
+        stops_at = hypot(state.tilt_x_rad, state.tilt_y_rad) + rate**2 / (
+            2.0 * self.config.max_tilt_acceleration_rad_s2
+        )
+        if self._farthest_rad < limit or stops_at <= limit * (1.0 + _ROUNDING):
+            self._farthest_rad = limit
+        return self._farthest_rad
 
     def _axis(self, tilt: float, rate: float, target: float, dt: float) -> tuple[float, float]:
         error = target - tilt

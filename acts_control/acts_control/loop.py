@@ -110,6 +110,7 @@ class ControlLoop:
         self.reference: ReferenceReport | None = None
         self.status = LoopStatus()
         self._config = config
+        self._newest_config = config
         self._robot = robot
         self._now_ns = now_ns
         self._on_step = on_step
@@ -133,6 +134,10 @@ class ControlLoop:
         self._stop_reason = ""
         self._wanted.set()
         return True
+
+    def change(self, config: LoopConfig) -> None:
+        """Use other settings from the next control step on, where they are `Changeable.RUNNING`. From any thread."""
+        self._newest_config = config
 
     def stop(self, reason: str) -> bool:
         """End motion: level the plate, stop the servo, release the robot. False when it is stopped already."""
@@ -249,6 +254,7 @@ class ControlLoop:
             reading = self._checked(watch, dt)
             if self._stop_reason:
                 controller.end(self._stop_reason)
+            self._take_changes(controller)
             now_ns = self._now_ns()
             measured = tilt_of(reading.q_rad, config.mount_yaw_rad)
             tilt = controller.step(ControlInput(now_ns, self.ball, self.reference, measured), dt)
@@ -278,6 +284,11 @@ class ControlLoop:
             self._on_step(now_ns, measured)
         robot.end_servo()
         return controller.state.reason
+
+    def _take_changes(self, controller: BallController) -> None:
+        if self._newest_config is not self._config:
+            self._config = self._newest_config
+            controller.change(self._config)
 
     def _send(self, watch: RobotWatch, joints: list[float]) -> None:
         try:

@@ -25,7 +25,7 @@ from acts_control.plate import (
     resistance_per_speed,
     tilt_for,
 )
-from acts_core.settings import setting, validate
+from acts_core.settings import Changeable, setting, validate
 
 # The adapted coefficient of rolling resistance stays below this.
 _MOST_RESISTANCE = 0.05
@@ -35,14 +35,32 @@ _MOST_RESISTANCE = 0.05
 class PidConfig:
     """Gains; tuned in closed-loop simulation, see docs/ball_balancing.md for how far they may be off."""
 
-    kp: float = setting(18.0, "acceleration per error of position [1/s^2]", minimum=0.0, maximum=200.0)
-    ki: float = setting(15.0, "acceleration per integrated error of position [1/s^3]", minimum=0.0, maximum=200.0)
-    kd: float = setting(7.6, "acceleration per error of velocity [1/s]", minimum=0.0, maximum=50.0)
+    kp: float = setting(
+        18.0, "acceleration per error of position [1/s^2]", minimum=0.0, maximum=200.0, changeable=Changeable.RUNNING
+    )
+    ki: float = setting(
+        15.0,
+        "acceleration per integrated error of position [1/s^3]",
+        minimum=0.0,
+        maximum=200.0,
+        changeable=Changeable.RUNNING,
+    )
+    kd: float = setting(
+        7.6, "acceleration per error of velocity [1/s]", minimum=0.0, maximum=50.0, changeable=Changeable.RUNNING
+    )
     integral_zone_m: float = setting(
-        0.010, "the error is integrated only where it is smaller than this [m]", minimum=0.0, maximum=0.2
+        0.010,
+        "the error is integrated only where it is smaller than this [m]",
+        minimum=0.0,
+        maximum=0.2,
+        changeable=Changeable.RUNNING,
     )
     max_integral_m_s2: float = setting(
-        0.25, "largest acceleration the integral may ask for [m/s^2]", minimum=0.0, maximum=5.0
+        0.25,
+        "largest acceleration the integral may ask for [m/s^2]",
+        minimum=0.0,
+        maximum=5.0,
+        changeable=Changeable.RUNNING,
     )
     rolling_resistance: float = RESISTANCE_SETTING
     resistance_adaptation: float = setting(
@@ -50,6 +68,7 @@ class PidConfig:
         "how quickly the compensated resistance grows while the ball lags behind a moving reference [1/(m s)]",
         minimum=0.0,
         maximum=20.0,
+        changeable=Changeable.RUNNING,
     )
     lever_arm_m: float = LEVER_ARM_SETTING
 

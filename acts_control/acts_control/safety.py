@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from math import isfinite
 from typing import NamedTuple
 
-from acts_core.settings import setting, validate
+from acts_core.settings import Changeable, setting, validate
 from acts_core.ur5e import JOINTS, WRIST_1, WRIST_2
 
 # A stamp this far in the future belongs to another clock; its age would never grow.
@@ -51,6 +51,7 @@ class SafetyConfig:
         "messages but no valid estimate for longer: back to waiting for a ball, level [s]",
         minimum=0.0,
         maximum=10.0,
+        changeable=Changeable.RUNNING,
     )
     robot_stale_after_s: float = setting(
         0.2, "the robot's clock standing still for longer is a lost connection [s]", minimum=0.02, maximum=5.0

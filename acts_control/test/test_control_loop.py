@@ -139,6 +139,30 @@ def test_from_connecting_to_balancing_and_back_to_level(arm: ArmInProcess, make:
     wait_for(lambda: arm.calls.count("begin_move") == 2, "a second start")
 
 
+def test_limits_and_gains_change_while_balancing(arm: ArmInProcess, make: Make) -> None:
+    loop = make()
+    balance(loop)
+    loop.change(LoopConfig(max_tilt_rad=0.01, max_tilt_rate_rad_s=0.2, touch_stale_after_s=1.0, touch_stop_after_s=5.0))
+    changed_at = len(arm.commands)
+
+    def limited() -> bool:
+        feel(loop)
+        return loop.status.tilt_commanded_rad[1] == pytest.approx(-0.01, abs=1e-5)
+
+    wait_for(limited, f"the new limit, {loop.status}")
+    assert loop.status.phase is Phase.BALANCING
+    tilts = [tilt_of(q)[1] for q in arm.commands[changed_at - 1 :]]
+    # 1 rad/s to begin with, in steps of four periods at most.
+    assert max(abs(b - a) for a, b in itertools.pairwise(tilts)) < 0.04
+    loop.change(LoopConfig(kp=0.0, kd=0.0, ki=0.0, touch_stale_after_s=1.0, touch_stop_after_s=5.0))
+
+    def level() -> bool:
+        feel(loop)
+        return loop.status.tilt_commanded_rad == pytest.approx((0.0, 0.0), abs=1e-5)
+
+    wait_for(level, f"a level plate, {loop.status}")
+
+
 def test_a_robot_that_is_not_there_yet_is_tried_again(arm: ArmInProcess, make: Make) -> None:
     arm.connect_errors = [RobotError("no UR controller at 127.0.2.9"), RobotError("no UR controller at 127.0.2.9")]
     loop = make(connect_retry_s=0.2)

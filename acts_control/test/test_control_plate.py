@@ -1,6 +1,7 @@
 """Tilt and acceleration, the PID, and the limits of the tilt's motion."""
 
-from math import hypot, radians
+import itertools
+from math import hypot, radians, sqrt
 
 import pytest
 from hypothesis import given
@@ -147,6 +148,47 @@ def test_a_tilt_that_stays_is_reached_without_overshoot(target: float, dt: float
     for _ in range(round(0.5 / dt)):
         limiter.step(0.0, 0.0, dt)
     assert limiter.is_level
+
+
+LIMITS = st.lists(st.tuples(st.floats(0.001, 0.35), st.floats(0.01, 3.0)), min_size=2, max_size=20)
+
+
+@given(TARGETS, LIMITS, st.integers(1, 40))
+def test_limits_that_change_in_motion_cause_no_jump(
+    targets: list[tuple[float, float]], limits: list[tuple[float, float]], steps: int
+) -> None:
+    dt = 0.004
+    limiter = TiltLimiter(LimiterConfig())
+    last, largest_tilt, largest_rate = (0.0, 0.0), 0.0, 0.0
+    for k, (tilt_limit, rate_limit) in enumerate(limits):
+        limiter.config = LimiterConfig(max_tilt_rad=tilt_limit, max_tilt_rate_rad_s=rate_limit)
+        largest_tilt, largest_rate = max(largest_tilt, tilt_limit), max(largest_rate, rate_limit)
+        for _ in range(steps):
+            tilt = limiter.step(*targets[k % len(targets)], dt)
+            rates = ((tilt[0] - last[0]) / dt, (tilt[1] - last[1]) / dt)
+            # About each axis at most that; where the circle holds the plate, the two share it anew.
+            assert hypot(*rates) <= sqrt(2) * max(largest_rate, 1.0) * (1 + 1e-6)
+            assert hypot(*tilt) <= max(largest_tilt, LIMIT) * (1 + 1e-9)
+            last = tilt
+    # Whatever was before, soon the last limits are kept.
+    for _ in range(round(2 * 0.35 / rate_limit / dt) + 200):
+        tilt = limiter.step(*targets[-1], dt)
+    assert hypot(*tilt) <= tilt_limit * (1 + 1e-9)
+
+
+@pytest.mark.parametrize("at", [0.02, 0.04, 0.0499])
+def test_a_plate_beyond_a_new_limit_brakes_and_comes_back(at: float) -> None:
+    dt = 0.004
+    limiter = TiltLimiter(LimiterConfig())
+    while limiter.state.tilt_x_rad < at:
+        limiter.step(0.1, 0.0, dt)
+    limiter.config = LimiterConfig(max_tilt_rad=0.03)
+    path = [limiter.step(0.1, 0.0, dt)[0] for _ in range(200)]
+    # The way to stop from 1 rad/s with 20 rad/s^2.
+    assert max(path) <= max(at + 1.0 * dt, 0.03) + 1.0**2 / (2 * 20.0)
+    rates = [(b - a) / dt for a, b in itertools.pairwise(path)]
+    assert max(abs(b - a) for a, b in itertools.pairwise(rates)) <= 20.0 * dt * (1 + 1e-6)
+    assert path[-1] == pytest.approx(0.03, abs=1e-6)
 
 
 @pytest.mark.parametrize("bad", [float("nan"), float("inf"), float("-inf")])

@@ -18,6 +18,7 @@ import dataclasses
 import difflib
 import math
 from collections.abc import Mapping, Sequence
+from enum import Enum
 from pathlib import Path
 from typing import Any, TypeVar, cast
 
@@ -30,6 +31,15 @@ T = TypeVar("T")
 SettingValue = bool | int | float | str | tuple[float, ...] | tuple[str, ...]
 
 _METADATA_KEY = "acts_setting"
+
+
+class Changeable(Enum):
+    """When a setting may be changed, as a parameter of a node."""
+
+    AT_START = "at the start"
+    UNCONFIGURED = "unconfigured"
+    """Where the node has a life cycle: while it is unconfigured, before it is configured or after cleanup."""
+    RUNNING = "running"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -46,6 +56,8 @@ class SettingInfo:
         Allowed words; empty for any.
     length : int or None
         Required number of elements of a sequence.
+    changeable : Changeable
+        When it may be changed.
     """
 
     description: str
@@ -53,6 +65,7 @@ class SettingInfo:
     maximum: float | None = None
     choices: tuple[str, ...] = ()
     length: int | None = None
+    changeable: Changeable = Changeable.AT_START
 
     @property
     def allowed(self) -> str:
@@ -84,9 +97,10 @@ def setting(
     maximum: float | None = None,
     choices: Sequence[str] = (),
     length: int | None = None,
+    changeable: Changeable = Changeable.AT_START,
 ) -> Any:
     """Make a dataclass field with a default, a description and constraints (see `SettingInfo`)."""
-    info = SettingInfo(description, minimum, maximum, tuple(choices), length)
+    info = SettingInfo(description, minimum, maximum, tuple(choices), length, changeable)
     return dataclasses.field(default=default, metadata={_METADATA_KEY: info})
 
 

@@ -50,22 +50,35 @@ class BaselineServices:
     def __init__(self, node: Node, parameters: BaselineParameters, rows: int, cols: int, frame_id: str) -> None:
         self._node = node
         self._frame_id = frame_id
-        file = parameters.calibration_file
-        self._path = None if file in ("", "none") else Path(file).expanduser()
-        self._tracker = BaselineTracker(rows, cols, parameters.baseline_config())
+        self._path: Path | None = None
+        self._tracker: BaselineTracker
         self._published: Baseline | None = None
         self._heard_s: float | None = None
         self._publisher = node.create_publisher(BaselineMessage, "baseline", **overridable(LATCHED))
         node.create_service(Trigger, "~/calibrate", self._calibrate)
         node.create_service(Trigger, "~/tare", self._tare)
-        if self._path is not None and self._path.exists():
-            baseline = Baseline.load(self._path, rows, cols)
-            self._tracker.set(baseline)
-            self._publish(baseline)
-            node.get_logger().info(f"baseline of {int(baseline.valid.sum())} taxels from {self._path}")
-        elif self._path is not None:
-            node.get_logger().info(f"no baseline yet: {self._path} is not there, the service ~/calibrate writes it")
+        self.begin(parameters, rows, cols)
         self._timer = node.create_timer(_PUBLISH_PERIOD_S, self._publish_where_moved)
+
+    def begin(self, parameters: BaselineParameters, rows: int, cols: int) -> None:
+        """Begin anew with other parameters, while no frames come.
+
+        Raises
+        ------
+        SettingsError
+            When the file holds no baseline of this array; nothing has changed then.
+        """
+        file = parameters.calibration_file
+        path = None if file in ("", "none") else Path(file).expanduser()
+        tracker = BaselineTracker(rows, cols, parameters.baseline_config())
+        baseline = Baseline.load(path, rows, cols) if path is not None and path.exists() else None
+        self._path, self._tracker, self._published, self._heard_s = path, tracker, None, None
+        if baseline is not None:
+            tracker.set(baseline)
+            self._publish(baseline)
+            self._node.get_logger().info(f"baseline of {int(baseline.valid.sum())} taxels from {path}")
+        elif path is not None:
+            self._node.get_logger().info(f"no baseline yet: {path} is not there, the service ~/calibrate writes it")
 
     def observe(self, frames: Sequence[tuple[SampleFrame, int]]) -> None:
         """Take frames with their stamps [ns], on the reader's thread."""

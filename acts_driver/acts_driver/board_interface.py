@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from rclpy.lifecycle import LifecycleNode
 from std_srvs.srv import Trigger
 
@@ -20,11 +22,14 @@ class BoardInterface:
         The driver.
     frame_id : str
         Of the header.
+    frames : callable
+        Says whether usable frames come, and in words what comes; for the answer to a question.
     """
 
-    def __init__(self, node: LifecycleNode, frame_id: str) -> None:
+    def __init__(self, node: LifecycleNode, frame_id: str, frames: Callable[[], tuple[bool, str]]) -> None:
         self._node = node
         self._frame_id = frame_id
+        self._frames = frames
         self._publisher = node.create_publisher(BoardState, "board", **overridable(LATCHED))
         node.create_service(Trigger, "~/query_board", self._on_query)
         self.session: BoardSession | None = None
@@ -38,19 +43,23 @@ class BoardInterface:
 
     def _on_query(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         session = self.session
+        has_frames, frames = self._frames()
         if session is None:
-            response.message = "no board is asked: the driver is not configured, or its source takes no commands"
+            response.message = f"no board is asked: there is none that takes commands; {frames}"
             return response
         try:
             state = session.ask()
         except ActsError as error:
-            response.message = str(error)
+            response.message = f"{error}; {frames}"
             return response
-        response.success = not session.status.problem
+        # A board that answers and sends nothing of use is no success.
+        response.success = has_frames and not session.status.problem
         response.message = (
             f"board {state.board_id}, firmware {version_in_words(state)}, up {state.uptime_us * 1e-6:.1f} s: "
             f"{settings_in_words(state.settings)}; model {state.model.kind.name.lower()}, {state.overruns} overruns, "
-            f"{state.bad_commands} bad commands" + (f"; {session.status.problem}" if session.status.problem else "")
+            f"{state.bad_commands} bad commands"
+            + (f"; {session.status.problem}" if session.status.problem else "")
+            + f"; {frames}"
         )
         return response
 

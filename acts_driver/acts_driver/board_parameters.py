@@ -10,7 +10,7 @@ from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.board_settings import LEDS, OUTPUTS, BoardSettings
 from acts_core.errors import SettingsError
 from acts_core.sampling import NEIGHBOURS, SCHEMES, SamplingConfig
-from acts_core.settings import setting
+from acts_core.settings import Changeable, setting
 
 RATE_MIN_HZ = 1.0
 """Slowest frame rate that a board can be told."""
@@ -23,39 +23,80 @@ class BoardParameters:
     """Parameters that the board is told. The default of each leaves what the board does by itself."""
 
     scheme: str = setting(
-        "", "how the board chooses the taxels of a frame; empty: the board's own", choices=("", *SCHEMES)
+        "",
+        "how the board chooses the taxels of a frame; empty: the board's own",
+        choices=("", *SCHEMES),
+        changeable=Changeable.RUNNING,
     )
-    m: int = setting(0, "taxels measured per frame; 0: the board's own", minimum=0, maximum=MAX_SIDE**2)
+    m: int = setting(
+        0,
+        "taxels measured per frame; 0: the board's own",
+        minimum=0,
+        maximum=MAX_SIDE**2,
+        changeable=Changeable.RUNNING,
+    )
     threshold_counts: int = setting(
         -1,
         "counts above which a taxel's neighbours are searched, or tracking follows it; -1: the board's own",
         minimum=-1,
         maximum=COUNT_MAX,
+        changeable=Changeable.RUNNING,
     )
     neighbour_order: str = setting(
-        "", "order of the neighbour search; empty: the board's own", choices=("", *NEIGHBOURS)
+        "",
+        "order of the neighbour search; empty: the board's own",
+        choices=("", *NEIGHBOURS),
+        changeable=Changeable.RUNNING,
     )
     search_share: float = setting(
-        0.0, "share of a tracking frame that is kept for the search; 0: the board's own", minimum=0.0, maximum=1.0
+        0.0,
+        "share of a tracking frame that is kept for the search; 0: the board's own",
+        minimum=0.0,
+        maximum=1.0,
+        changeable=Changeable.RUNNING,
     )
     adaptive_share: float = setting(
-        0.0, "share of a hybrid frame that is chosen adaptively; 0: the board's own", minimum=0.0, maximum=1.0
+        0.0,
+        "share of a hybrid frame that is chosen adaptively; 0: the board's own",
+        minimum=0.0,
+        maximum=1.0,
+        changeable=Changeable.RUNNING,
     )
     rate_cap_hz: float = setting(
-        0.0, "largest number of frames per second; 0: the board's own", minimum=0.0, maximum=1e6
+        0.0,
+        "largest number of frames per second; 0: the board's own",
+        minimum=0.0,
+        maximum=1e6,
+        changeable=Changeable.RUNNING,
     )
-    seed: int = setting(-1, "seed of random and hybrid sampling; -1: the board's own", minimum=-1, maximum=2**63 - 1)
+    seed: int = setting(
+        -1,
+        "seed of random and hybrid sampling; -1: the board's own",
+        minimum=-1,
+        maximum=2**63 - 1,
+        changeable=Changeable.RUNNING,
+    )
 
     touch_counts: int = setting(
         -1,
         "counts above which recovery on the board and its LED take a taxel for touched; -1: the board's own",
         minimum=-1,
         maximum=COUNT_MAX,
+        changeable=Changeable.RUNNING,
     )
-    led: str = setting("", "what the board's LED shows; empty: the board's own", choices=("", *LEDS))
-    output: str = setting("", "what the board sends besides samples; empty: the board's own", choices=("", *OUTPUTS))
+    led: str = setting(
+        "", "what the board's LED shows; empty: the board's own", choices=("", *LEDS), changeable=Changeable.RUNNING
+    )
+    output: str = setting(
+        "",
+        "what the board sends besides samples; empty: the board's own",
+        choices=("", *OUTPUTS),
+        changeable=Changeable.RUNNING,
+    )
     model: str = setting(
-        "", "dictionary or object library (.npz) to upload to the board; empty or none: the board keeps what it has"
+        "",
+        "dictionary or object library (.npz) to upload to the board; empty or none: the board keeps what it has",
+        changeable=Changeable.RUNNING,
     )
 
     def check_board_parameters(self) -> None:

@@ -1,4 +1,8 @@
-"""The node `driver`: board bytes in, TactileSamples out."""
+"""The node `driver`: board bytes in, TactileSamples out.
+
+Topics: samples, baseline, board, and board_image, board_object with what the board itself finds. Services:
+~/query_board, ~/calibrate, ~/tare, and those of a life cycle.
+"""
 
 from __future__ import annotations
 
@@ -13,8 +17,8 @@ from acts_core.stop_signals import StopSignals
 from acts_driver.autostart import Autostart
 from acts_driver.baseline_services import BaselineServices
 from acts_driver.board_interface import BoardInterface
-from acts_driver.board_parameters import BOARD_PARAMETERS
 from acts_driver.board_results import BoardResult
+from acts_driver.board_session import BoardStatus
 from acts_driver.board_topics import BoardTopics
 from acts_driver.intake import Intake
 from acts_driver.settings import DriverSettings
@@ -55,25 +59,31 @@ class DriverNode(LifecycleNode):
 
     def __init__(self, **node_arguments: object) -> None:
         super().__init__("driver", **node_options(), **node_arguments)
-        self._settings = declare(
-            self, DriverSettings, changeable=BOARD_PARAMETERS, on_change=self._on_changed_parameters
-        )
-        self._what = self._settings.replay if self._settings.is_replay else self._settings.port
         self.active = False
         self.intake: Intake | None = None
+        self._settings = declare(
+            self, DriverSettings, self._on_changed_parameters, is_unconfigured=lambda: self.intake is None
+        )
         self.consumers: list[FrameConsumer] = []
         self._source: Source | None = None
         self._problem = ""
+        # Of the last report on frames: when [s], level and sentence; None before the first.
+        self._reported: tuple[float, int, str] | None = None
         self._frame_id = frame_id = skin_frame(self, self._settings.frame_id)
         self._message = SamplesMessage(frame_id)
         self._baseline = BaselineServices(self, self._settings, self._settings.rows, self._settings.cols, frame_id)
-        self._board = BoardInterface(self, frame_id)
+        self._board = BoardInterface(self, frame_id, self._frames_in_words)
         # Not made in on_configure: subscribers then are matched before the first frame.
         self._topics = BoardTopics(self, frame_id)
         self._publisher = self.create_publisher(TactileSamples, "samples", **overridable(STREAM))
         self._diagnostics = DiagnosticsReporter(self, self._what, self._make_report)
         is_autostart = self._settings.autostart
         self._autostart = Autostart(self, self._settings.reconnect_s, self._what) if is_autostart else None
+
+    @property
+    def _what(self) -> str:
+        """What frames come from, as it was named."""
+        return self._settings.replay if self._settings.is_replay else self._settings.port
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Open the port and begin to read."""
@@ -129,8 +139,11 @@ class DriverNode(LifecycleNode):
         if self._autostart is not None:
             self._autostart.stop()
         intake, self.intake, self._source, self._board.session = self.intake, None, None, None
+        self._reported = None
         if intake is not None:
             intake.stop()
+            # That topic is kept for late joiners, and what it said of the board is not known any more.
+            self._board.publish(BoardStatus(problem="the driver does not read a board now"))
 
     def _publish(self, frames: list[tuple[SampleFrame, int]], results: list[tuple[BoardResult, int]]) -> None:
         """Publish what may be used; on the reader's thread."""
@@ -151,21 +164,43 @@ class DriverNode(LifecycleNode):
                 self._topics.publish(result, stamp_ns)
 
     def _on_changed_parameters(self, settings: DriverSettings) -> str:
-        """Tell the board; why it cannot be, or nothing."""
-        if self.intake is not None:
-            try:
+        """Tell the board, or take them for when there is one; why it cannot be, or nothing."""
+        try:
+            if self.intake is not None:
                 self.intake.change(settings)
-            except ActsError as error:
-                return str(error)
+            elif _baseline_of(settings) != _baseline_of(self._settings):
+                self._baseline.begin(settings, settings.rows, settings.cols)
+        except ActsError as error:
+            return str(error)
         self._settings = settings
+        self._diagnostics.hardware_id = self._what
         return ""
+
+    def _frames_in_words(self) -> tuple[bool, str]:
+        """Whether nothing is known against the frames that come, and what is known; at most a second old."""
+        if self.intake is None:
+            return False, f"not configured: {self._problem or 'nothing is read'}"
+        if self._reported is None:
+            return True, "frames: not judged yet, reading has just begun"
+        reported_s, level, message = self._reported
+        return level != ERROR, f"frames, {time.monotonic() - reported_s:.1f} s ago: {message}"
 
     def _make_report(self) -> Report:
         if self.intake is not None:
             level, message, values = self.intake.report("active" if self.active else "inactive", time.time_ns())
+            self._reported = (time.monotonic(), level, message)
             return level, message, {**values, **self._baseline.values()}
         values = {"port": self._what, "state": "unconfigured"}
         return (ERROR, self._problem, values) if self._problem else (OK, "unconfigured", values)
+
+
+def _baseline_of(settings: DriverSettings) -> tuple[object, ...]:
+    """All that the baseline depends on."""
+    return settings.rows, settings.cols, settings.calibration_file, settings.baseline_config()
+
+
+SETTINGS: dict[str, type] = {"driver": DriverSettings}
+"""The settings class of the node, by name."""
 
 
 def main(signals: StopSignals | None = None) -> int:

@@ -11,7 +11,7 @@ from acts_core.board_messages import BoardMessage
 from acts_core.delimited import DelimitedDecoder
 from acts_core.raster_ascii import RasterDecoder
 from acts_core.realtime import RealtimeConfig
-from acts_core.settings import setting
+from acts_core.settings import Changeable, setting
 from acts_core.wire import StreamDecoder
 from acts_driver.baseline_parameters import BaselineParameters
 from acts_driver.board_parameters import BoardParameters
@@ -29,20 +29,41 @@ class SourceParameters:
     """Parameters about where frames come from."""
 
     port: str = setting(
-        "auto", "serial port of the board: a path, auto (the only Teensy), or serial:NUMBER (its USB serial number)"
+        "auto",
+        "serial port of the board: a path, auto (the only Teensy), or serial:NUMBER (its USB serial number)",
+        changeable=Changeable.UNCONFIGURED,
     )
     protocol: str = setting(
         "binary",
         "what the board speaks: binary (ACTS) or raster_ascii (the published raster sketch)",
         choices=("binary", "raster_ascii"),
+        changeable=Changeable.UNCONFIGURED,
     )
     frame_id: str = setting(
         "", "frame of the skin in all messages; empty or none: the name of the namespace, with _ for /"
     )
-    rows: int = setting(32, "rows of the array; frames of another size are dropped", minimum=1, maximum=MAX_SIDE)
-    cols: int = setting(32, "columns of the array; frames of another size are dropped", minimum=1, maximum=MAX_SIDE)
+    rows: int = setting(
+        32,
+        "rows of the array; frames of another size are dropped",
+        minimum=1,
+        maximum=MAX_SIDE,
+        changeable=Changeable.UNCONFIGURED,
+    )
+    cols: int = setting(
+        32,
+        "columns of the array; frames of another size are dropped",
+        minimum=1,
+        maximum=MAX_SIDE,
+        changeable=Changeable.UNCONFIGURED,
+    )
     # Below 1200 some boards take the speed as the order to enter their boot loader (134 on a Teensy).
-    baud: int = setting(115200, "bits per second; of no effect on USB boards", minimum=2400, maximum=12_000_000)
+    baud: int = setting(
+        115200,
+        "bits per second; of no effect on USB boards",
+        minimum=2400,
+        maximum=12_000_000,
+        changeable=Changeable.UNCONFIGURED,
+    )
     reconnect_s: float = setting(
         0.5, "longest wait between two attempts to open a missing port [s]", minimum=0.02, maximum=60.0
     )
@@ -50,19 +71,32 @@ class SourceParameters:
         True, "configure and activate without being asked, waiting for the port where it is missing"
     )
     replay: str = setting(
-        "", "recording to replay in place of a board: a bag (folder or .mcap) or an .npz file; empty or none: the port"
+        "",
+        "recording to replay in place of a board: a bag (folder or .mcap) or an .npz file; empty or none: the port",
+        changeable=Changeable.UNCONFIGURED,
     )
-    replay_topic: str = setting("", "topic of the bag; empty for its only one of type TactileSamples")
-    replay_speed: float = setting(1.0, "2 replays twice as fast", minimum=0.001, maximum=1000.0)
-    replay_loop: bool = setting(True, "start the recording over at its end; false: silence follows")
+    replay_topic: str = setting(
+        "", "topic of the bag; empty for its only one of type TactileSamples", changeable=Changeable.UNCONFIGURED
+    )
+    replay_speed: float = setting(
+        1.0, "2 replays twice as fast", minimum=0.001, maximum=1000.0, changeable=Changeable.UNCONFIGURED
+    )
+    replay_loop: bool = setting(
+        True, "start the recording over at its end; false: silence follows", changeable=Changeable.UNCONFIGURED
+    )
     replay_delay_s: float = setting(
         1.0,
         "time from activation to the recording's first frame, for subscribers to come [s]",
         minimum=0.0,
         maximum=60.0,
+        changeable=Changeable.UNCONFIGURED,
     )
     replay_frames_hz: float = setting(
-        0.0, "frames per second of recorded full frames; 0: as the file says", minimum=0.0, maximum=1e6
+        0.0,
+        "frames per second of recorded full frames; 0: as the file says",
+        minimum=0.0,
+        maximum=1e6,
+        changeable=Changeable.UNCONFIGURED,
     )
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from driver_rig import Rig
+from lifecycle_msgs.msg import Transition
 from pty_board import PtyBoard, frame
 from rcl_interfaces.srv import SetParametersAtomically
 from rclpy.parameter import Parameter
@@ -89,8 +90,48 @@ def test_parameters_become_settings_of_the_board(board: VirtualBoard, rig: Board
     assert (rig.boards[-1].output, rig.boards[-1].samples_only, rig.boards[-1].m) == ("image", False, 64)
     succeeded, text = rig.query()
     assert succeeded
-    for words in ("board 77", "firmware 0.1.0", "uniform, M = 64", "patch_dictionary"):
+    for words in ("board 77", "firmware 0.1.0", "uniform, M = 64", "patch_dictionary", "frames/s, active"):
         assert words in text
+
+
+def test_the_port_changes_only_while_nothing_is_read(board: VirtualBoard, rig: BoardRig, tmp_path: Path) -> None:
+    rig.start_driver(port=board.link)
+    rig.listen_to_board()
+    rig.wait_until_active()
+    with VirtualBoard(tmp_path / "other", "--board-id", "78", "--rows", "16") as other:
+        succeeded, reason = rig.set_parameters(port=str(other.link), rows=16)
+        assert not succeeded
+        assert reason.startswith("port can be changed only while /plate/driver is unconfigured")
+        assert rig.change_state(Transition.TRANSITION_DEACTIVATE)
+        assert rig.set_parameters(rows=16)[0] is False
+        assert rig.change_state(Transition.TRANSITION_CLEANUP)
+        rig.spin_until(lambda: rig.boards and not rig.boards[-1].answers, "word that no board is known now")
+        succeeded, reason = rig.query()
+        assert (succeeded, "not configured: nothing is read" in reason) == (False, True)
+        # As at the start, what cannot be is refused: this file holds no baseline.
+        (tmp_path / "no.npz").write_text("nothing")
+        succeeded, reason = rig.set_parameters(calibration_file=str(tmp_path / "no.npz"))
+        assert (succeeded, "no.npz" in reason) == (False, True), reason
+        assert rig.set_parameters(port=str(other.link), rows=16) == (True, "")
+        assert rig.change_state(Transition.TRANSITION_CONFIGURE)
+        assert rig.change_state(Transition.TRANSITION_ACTIVATE)
+        rig.samples.clear()
+        rig.spin_until(lambda: rig.samples and rig.samples[-1].rows == 16, "frames of the other board")
+        assert rig.status_until(lambda status: status.get("board") == "78", "the report")["level"] == "0"
+        rig.driver.close()
+
+
+def test_a_query_tells_that_no_usable_frames_come(rig: BoardRig, tmp_path: Path) -> None:
+    with PtyBoard(tmp_path) as board:
+        rig.start_driver(port=board.path, protocol="raster_ascii", rows=2, cols=3)
+        rig.wait_until_active()
+        board.write(b"1,2,3,4,5,6\n" * 20)
+        rig.status_until(lambda status: "malformed" in status["message"], "the report")
+        succeeded, reason = rig.query()
+        assert not succeeded
+        assert "no frames from" in reason
+        assert "malformed packets, last: " in reason
+        rig.driver.close()
 
 
 def test_a_board_that_forgot_is_told_again(board: VirtualBoard, rig: BoardRig) -> None:

@@ -34,6 +34,10 @@ class ObjectPublisher:
         self._message = ObjectClass()
         self._send = False
 
+    def set_rate(self, rate_hz: float) -> None:
+        """Change the largest rate; 0: every frame."""
+        self._limit.set_rate(rate_hz)
+
     def look_for_subscribers(self) -> None:
         """To be called now and then: whether somebody listens."""
         self._send = self._publisher.get_subscription_count() > 0

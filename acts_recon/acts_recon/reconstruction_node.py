@@ -1,4 +1,7 @@
-"""Node ``reconstruction``: samples in; full images and the contact in them out, as fast as the samples come."""
+"""Node ``reconstruction``: samples in; full images and the contact in them out, as fast as the samples come.
+
+Topics: samples and baseline in; contact, contacts, cop, image_raw, image, confidence and object out.
+"""
 
 from __future__ import annotations
 
@@ -63,7 +66,7 @@ class ReconstructionNode(Node):
 
     def __init__(self, *, subscribes: bool = True, cli_args: Sequence[str] | None = None, **options: object) -> None:
         super().__init__("reconstruction", cli_args=cli_args, **node_options(), **options)
-        self._settings = declare(self, ReconstructionSettings)
+        self._settings = declare(self, ReconstructionSettings, self._change)
         self.get_logger().info("compiling (the first time on a machine takes some seconds)")
         self._recovery = self._settings.recovery()
         self._baseline = BaselineSubtraction(self._settings.rows * self._settings.cols)
@@ -114,6 +117,15 @@ class ReconstructionNode(Node):
     def begin(self) -> None:
         """Let this process be scheduled as the parameters ask."""
         enter_realtime(self._settings, "reconstruction", log_of(self))
+
+    def _change(self, settings: ReconstructionSettings) -> str:
+        """Put changed parameters in force."""
+        self._settings = settings
+        self._raw_limit.set_rate(settings.image_raw_rate_hz)
+        self._view_limit.set_rate(settings.image_rate_hz)
+        if self._objects is not None:
+            self._objects.set_rate(settings.object_rate_hz)
+        return ""
 
     def _look_for_subscribers(self) -> None:
         self._send_cop = self._cop_publisher.get_subscription_count() > 0
@@ -302,6 +314,10 @@ class ReconstructionNode(Node):
 
 def _empty_image(height: int, width: int, encoding: str, bytes_per_pixel: int) -> Image:
     return Image(height=height, width=width, encoding=encoding, is_bigendian=0, step=width * bytes_per_pixel)
+
+
+SETTINGS: dict[str, type] = {"reconstruction": ReconstructionSettings}
+"""The settings class of the node, by name."""
 
 
 def main(signals: StopSignals | None = None) -> int:

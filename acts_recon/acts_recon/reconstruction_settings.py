@@ -9,7 +9,7 @@ from acts_core.array import COUNT_MAX, MAX_SIDE, ArrayGeometry
 from acts_core.force import ForceResponse, MeasuredForceResponse
 from acts_core.layouts import LAYOUTS, layout
 from acts_core.realtime import RealtimeConfig
-from acts_core.settings import default_of, setting
+from acts_core.settings import Changeable, default_of, setting
 from acts_recon.blobs import BlobConfig
 from acts_recon.classification import Classifier, ClassifierConfig
 from acts_recon.dictionary import load_dictionary
@@ -93,12 +93,22 @@ class ReconstructionSettings(RealtimeConfig):
         "path of a measured force response, csv or npz of newtons and counts, used instead of the three force_* values",
     )
     image_raw_rate_hz: float = setting(
-        0.0, "largest rate of the topic image_raw [Hz]; 0: every frame", minimum=0.0, maximum=1000.0
+        0.0,
+        "largest rate of the topic image_raw [Hz]; 0: every frame",
+        minimum=0.0,
+        maximum=1000.0,
+        changeable=Changeable.RUNNING,
     )
-    image_rate_hz: float = setting(30.0, "largest rate of the topic image [Hz]", minimum=0.1, maximum=1000.0)
+    image_rate_hz: float = setting(
+        30.0, "largest rate of the topic image [Hz]", minimum=0.1, maximum=1000.0, changeable=Changeable.RUNNING
+    )
     image_scale: int = setting(10, "pixels along a taxel's side in the topic image", minimum=1, maximum=64)
     image_full_scale_counts: float = setting(
-        float(COUNT_MAX), "counts shown white in the topic image", minimum=1.0, maximum=float(COUNT_MAX)
+        float(COUNT_MAX),
+        "counts shown white in the topic image",
+        minimum=1.0,
+        maximum=float(COUNT_MAX),
+        changeable=Changeable.RUNNING,
     )
     contacts_hysteresis_counts: int = setting(
         default_of(BlobConfig, "hysteresis_counts"),
@@ -142,7 +152,11 @@ class ReconstructionSettings(RealtimeConfig):
         maximum=1024,
     )
     object_rate_hz: float = setting(
-        0.0, "largest rate of the topic object [Hz]; 0: every frame", minimum=0.0, maximum=1000.0
+        0.0,
+        "largest rate of the topic object [Hz]; 0: every frame",
+        minimum=0.0,
+        maximum=1000.0,
+        changeable=Changeable.RUNNING,
     )
 
     def __post_init__(self) -> None:

@@ -1,4 +1,4 @@
-"""The node over real DDS; ROS_DOMAIN_IDs 28, 40 to 44 and 110 to 112."""
+"""The node over real DDS; ROS_DOMAIN_IDs 28, 40 to 44, 110 to 112 and 191."""
 
 import os
 import subprocess
@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from geometry_msgs.msg import PointStamped
 from numpy.typing import NDArray
+from rclpy.parameter import Parameter
 from recon_bench import Bench, timed
 from recon_samples import bump, sample
 from sensor_msgs.msg import Image
@@ -25,6 +26,20 @@ from acts_recon.dictionary import Dictionary
 from acts_recon.fusion import FusionEstimator
 from acts_recon.reconstructor import Reconstructor
 from acts_ros import qos
+
+
+def test_rates_of_images_change_while_it_runs(make_bench: Callable[..., Bench]) -> None:
+    bench = make_bench(191)
+    parameters = {"image_raw_rate_hz": 20.0, "image_rate_hz": 5.0, "image_full_scale_counts": 500.0}
+    results = bench.node.set_parameters([Parameter(name, value=value) for name, value in parameters.items()])
+    assert all(result.successful for result in results)
+    assert [limit.due(0.0) for limit in (bench.node._raw_limit, bench.node._view_limit)] == [True, True]
+    assert not bench.node._raw_limit.due(0.049)
+    assert bench.node._raw_limit.due(0.051)
+    assert not bench.node._view_limit.due(0.199)
+    assert bench.node._view_limit.due(0.201)
+    for refused in (Parameter("image_rate_hz", value=0.0), Parameter("rows", value=16)):
+        assert not bench.node.set_parameters([refused])[0].successful
 
 
 def test_contact_cop_and_images_are_those_of_the_samples(

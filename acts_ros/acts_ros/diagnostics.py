@@ -26,11 +26,16 @@ class DiagnosticsReporter:
         What the status is about, for example the port.
     report : callable
         Returns the present `Report`.
+
+    Attributes
+    ----------
+    hardware_id : str
+        As given; may be changed.
     """
 
     def __init__(self, node: Node, hardware_id: str, report: Callable[[], Report], *, period_s: float = 1.0) -> None:
         self._node = node
-        self._hardware_id = hardware_id
+        self.hardware_id = hardware_id
         self._report = report
         self._publisher = node.create_publisher(DiagnosticArray, "/diagnostics", 10)
         self._timer = node.create_timer(period_s, self.publish)
@@ -42,7 +47,7 @@ class DiagnosticsReporter:
             level=bytes([level]),
             name=self._node.get_fully_qualified_name().lstrip("/"),
             message=message,
-            hardware_id=self._hardware_id,
+            hardware_id=self.hardware_id,
             values=[KeyValue(key=key, value=_text(value)) for key, value in values.items()],
         )
         array = DiagnosticArray(status=[status])

@@ -1,17 +1,28 @@
-"""Settings dataclasses as ROS parameters: declared with description and range, unknown ones refused."""
+"""Settings dataclasses as ROS parameters: declared with description and range, checked when they change."""
 
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Collection
+import sys
+from collections.abc import Callable, Sequence
 from typing import Any, TypeVar
 
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor, SetParametersResult
 from rclpy.node import Node
 from rclpy.parameter import Parameter
+from rclpy.timer import Timer
 
 from acts_core.errors import SettingsError
-from acts_core.settings import SettingInfo, checked, default_of, describe, from_mapping, unknown_key_message
+from acts_core.settings import (
+    Changeable,
+    SettingInfo,
+    checked,
+    default_of,
+    describe,
+    from_mapping,
+    unknown_key_message,
+)
+from acts_ros.params_files import shared_keys
 
 T = TypeVar("T")
 
@@ -31,13 +42,15 @@ def node_options() -> dict[str, Any]:
 def declare(
     node: Node,
     settings_class: type[T],
+    on_change: Callable[[T], str] | None = None,
     *,
-    changeable: Collection[str] = (),
-    on_change: Callable[[T], str] = lambda settings: "",
+    is_unconfigured: Callable[[], bool] = lambda: False,
+    words: Sequence[str] | None = None,
 ) -> T:
     """Declare every setting of a dataclass as a parameter of `node` and return the values given to them.
 
-    Call it once a node. Values come from the params file, the command line or the defaults.
+    Call it once a node. Values come from the params file, the command line or the defaults. What a section of a params
+    file for several nodes (``/**``) holds beside them is left out, and said.
 
     Parameters
     ----------
@@ -45,12 +58,14 @@ def declare(
         Constructed with ``**node_options()``.
     settings_class : type
         Dataclass of `acts_core.settings.setting` fields.
-    changeable : collection of str
-        Parameters that may be set while the node runs; the others only at its start. What is set together is checked
-        like the first values, and as a whole.
-    on_change : callable
+    on_change : callable or None
         Takes settings with the changes, after they were checked, and returns why they cannot be; empty where they
-        are in force now.
+        are in force now. What is set together is checked like the first values, and as a whole. None: all parameters
+        are fixed, also those whose setting says that they may be changed.
+    is_unconfigured : callable
+        Whether the node now is, for what is `Changeable.UNCONFIGURED`.
+    words : sequence of str or None
+        The command line, to look up which section a value came from; None for that of the process.
 
     Raises
     ------
@@ -60,13 +75,16 @@ def declare(
     where = node.get_fully_qualified_name()
     infos = describe(settings_class)
     given: dict[str, Any] = {}
+    unknown: list[str] = []
     for name in [str(name) for name in node.get_parameters_by_prefix("")]:
         if name in _ROS_OWN or name.startswith(_ROS_OWN_PREFIXES):
             continue
-        if name not in infos:
-            raise SettingsError(unknown_key_message(name, list(infos), f"parameters of {where}"))
-        given[name] = node.get_parameter(name).value
+        if name in infos:
+            given[name] = node.get_parameter(name).value
+        else:
+            unknown.append(name)
         node.undeclare_parameter(name)
+    _judge_unknown(node, unknown, list(infos), sys.argv if words is None else words)
     try:
         settings = from_mapping(settings_class, given, where)
     except SettingsError as error:
@@ -74,17 +92,37 @@ def declare(
     for name, info in infos.items():
         default = default_of(settings_class, name)
         value = getattr(settings, name)
-        node.declare_parameter(
-            name, ros_value(value), _descriptor(default, info, name not in changeable), ignore_override=True
-        )
-    if changeable:
-        node.add_on_set_parameters_callback(_Changes(settings, on_change))
+        is_fixed = on_change is None or info.changeable is Changeable.AT_START
+        node.declare_parameter(name, ros_value(value), _descriptor(default, info, is_fixed), ignore_override=True)
+    if on_change is not None:
+        node.add_on_set_parameters_callback(_Changes(where, settings, on_change, is_unconfigured))
     return settings
+
+
+def _judge_unknown(node: Node, unknown: Sequence[str], known: Sequence[str], words: Sequence[str]) -> None:
+    """Refuse what was meant for this node; say what came from a section for several nodes."""
+    where = node.get_fully_qualified_name()
+    if not unknown:
+        return
+    shared = shared_keys(where, words)
+    for name in unknown:
+        if name not in shared:
+            raise SettingsError(unknown_key_message(name, known, f"parameters of {where}"))
+    sections = ", ".join(dict.fromkeys(shared[name] for name in unknown))
+    node.get_logger().warning(
+        f"left out, for {where} has no such parameters: {', '.join(map(repr, unknown))} "
+        f"(given for several nodes, by {sections})"
+    )
 
 
 def ros_value(value: Any) -> Any:
     """A value of a setting as the value of a ROS parameter."""
     return list(value) if isinstance(value, tuple) else value
+
+
+def set_rate(timer: Timer, rate_hz: float) -> None:
+    """Let a node's timer be due so often, from the next time on."""
+    timer.timer_period_ns = round(1e9 / rate_hz)
 
 
 def _descriptor(default: Any, info: SettingInfo, read_only: bool) -> ParameterDescriptor:
@@ -106,11 +144,15 @@ def _descriptor(default: Any, info: SettingInfo, read_only: bool) -> ParameterDe
 class _Changes:
     """Checks changed parameters and hands them on; remembers those in force."""
 
-    def __init__(self, settings: Any, on_change: Callable[[Any], str]) -> None:
+    def __init__(
+        self, where: str, settings: Any, on_change: Callable[[Any], str], is_unconfigured: Callable[[], bool]
+    ) -> None:
+        self._where = where
         self._settings = settings
         self._on_change = on_change
+        self._is_unconfigured = is_unconfigured
 
-    def __call__(self, parameters: list[Parameter]) -> SetParametersResult:
+    def __call__(self, parameters: list[Parameter[Any]]) -> SetParametersResult:
         infos = describe(type(self._settings))
         given = {parameter.name: parameter.value for parameter in parameters if parameter.name in infos}
         if not given:
@@ -125,8 +167,21 @@ class _Changes:
             )
         except SettingsError as error:
             return SetParametersResult(successful=False, reason=str(error))
-        reason = self._on_change(changed)
+        reason = self._too_late(changed) or self._on_change(changed)
         if reason:
             return SetParametersResult(successful=False, reason=reason)
         self._settings = changed
         return SetParametersResult(successful=True)
+
+    def _too_late(self, changed: Any) -> str:
+        """Why a change cannot be made in this state of the node, or nothing."""
+        if self._is_unconfigured():
+            return ""
+        for name, info in describe(type(changed)).items():
+            value = getattr(changed, name)
+            if info.changeable is Changeable.UNCONFIGURED and value != getattr(self._settings, name):
+                return (
+                    f"{name} can be changed only while {self._where} is unconfigured: deactivate it and clean it up "
+                    f"before (ros2 lifecycle set {self._where} cleanup)"
+                )
+        return ""

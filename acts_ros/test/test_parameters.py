@@ -12,14 +12,14 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 from acts_core.errors import SettingsError
-from acts_core.settings import setting, validate
+from acts_core.settings import Changeable, setting, validate
 from acts_ros.parameters import declare, node_options
 
 
 @dataclass(frozen=True)
 class Settings:
-    rate_hz: float = setting(250.0, "how often", minimum=1.0, maximum=1000.0)
-    port: str = setting("", "which port")
+    rate_hz: float = setting(250.0, "how often", minimum=1.0, maximum=1000.0, changeable=Changeable.RUNNING)
+    port: str = setting("", "which port", changeable=Changeable.UNCONFIGURED)
     home_rad: tuple[float, ...] = setting((0.0, 1.0), "where", length=2)
 
     def __post_init__(self) -> None:
@@ -71,11 +71,18 @@ def test_ros_own_parameters_are_let_through(context: Context) -> None:
     assert declare(node, Settings) == Settings()
 
 
-def test_read_only_and_changeable_parameters(context: Context) -> None:
+def test_without_a_handler_nothing_is_changeable(context: Context) -> None:
     node = make_node(context, [])
     declare(node, Settings)
-    assert not node.set_parameters([Parameter("rate_hz", value=10.0)])[0].successful
+    for parameter in (
+        Parameter("rate_hz", value=10.0),
+        Parameter("port", value="a"),
+        Parameter("home_rad", value=[0.0]),
+    ):
+        assert not node.set_parameters([parameter])[0].successful
 
+
+def test_what_changes_is_checked_and_what_is_refused_changes_nothing(context: Context) -> None:
     changes: list[float] = []
 
     def take(settings: Settings) -> str:
@@ -85,10 +92,26 @@ def test_read_only_and_changeable_parameters(context: Context) -> None:
         return ""
 
     node = make_node(context, [])
-    declare(node, Settings, changeable=["rate_hz"], on_change=take)
+    declare(node, Settings, take)
     assert node.set_parameters([Parameter("rate_hz", value=10.0)])[0].successful
-    assert not node.set_parameters([Parameter("rate_hz", value=0.0)])[0].successful
+    refused = node.set_parameters([Parameter("rate_hz", value=0.0)])[0]
+    assert not refused.successful
+    assert "rate_hz" in refused.reason
     refused = node.set_parameters([Parameter("rate_hz", value=11.0)])[0]
     assert (refused.successful, refused.reason) == (False, "not eleven")
+    assert not node.set_parameters([Parameter("home_rad", value=[3.0, 4.0])])[0].successful
     assert node.get_parameter("rate_hz").value == 10.0
     assert changes == [10.0]
+
+
+def test_some_change_only_while_the_node_is_unconfigured(context: Context) -> None:
+    is_unconfigured = False
+    node = make_node(context, [])
+    declare(node, Settings, lambda _settings: "", is_unconfigured=lambda: is_unconfigured)
+    refused = node.set_parameters([Parameter("port", value="a")])[0]
+    assert not refused.successful
+    assert refused.reason.startswith("port can be changed only while /plate/example is unconfigured")
+    # What it has already is no change.
+    assert node.set_parameters([Parameter("port", value="")])[0].successful
+    is_unconfigured = True
+    assert node.set_parameters([Parameter("port", value="a")])[0].successful

@@ -1,0 +1,88 @@
+"""Parameters of the control nodes that change while they run; ROS_DOMAIN_ID 188."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import pytest
+import rclpy
+from rclpy.context import Context
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+
+from acts_control.ball_control_node import BallControlNode
+from acts_control.ball_state_node import BallStateNode
+from acts_control.ball_trajectory_node import BallTrajectoryNode
+from acts_control.safety import RobotReading
+from acts_core.errors import RobotError
+
+
+class NoArm:
+    """Is never there."""
+
+    def connect(self) -> None:
+        raise RobotError("no arm")
+
+    def read(self) -> RobotReading:
+        raise RobotError("no arm")
+
+    def begin_move(self, q_rad: Sequence[float]) -> None:
+        raise RobotError("no arm")
+
+    def end_move(self) -> None: ...
+
+    def servo(self, q_rad: Sequence[float]) -> None:
+        raise RobotError("no arm")
+
+    def end_servo(self) -> None: ...
+
+    def disconnect(self, *, lost: bool) -> None: ...
+
+
+@pytest.fixture
+def context() -> Iterator[Context]:
+    context = Context()
+    rclpy.init(context=context, domain_id=188)
+    yield context
+    rclpy.try_shutdown(context=context)
+
+
+def change(node: Node, **values: object) -> str:
+    """Set parameters together; why not, or nothing."""
+    result = node.set_parameters_atomically([Parameter(name, value=value) for name, value in values.items()])
+    assert result.successful or result.reason
+    return str(result.reason)
+
+
+def test_gains_and_limits_of_control(context: Context) -> None:
+    node = BallControlNode(lambda _settings: NoArm(), context=context)
+    assert change(node, kp=20.0, kd=8.0, max_tilt_rad=0.08, max_tilt_rate_rad_s=0.5, status_rate_hz=100.0) == ""
+    assert "kp" in change(node, kp=-1.0)
+    # What fits alone does not fit together with the rest: the last look at the joints would trip over it.
+    assert "max_wrist_offset_rad = 0.14: allowed is 0.33" in change(node, max_tilt_rad=0.3)
+    # Nothing of it: they are set together.
+    assert "max_tilt_rad" in change(node, ki=1.0, max_tilt_rad=9.0)
+    for fixed in ("robot_ip", "control_rate_hz", "max_wrist_offset_rad", "touch_stale_after_s", "level_q_rad"):
+        assert change(node, **{fixed: node.get_parameter(fixed).value})
+    values = {name: node.get_parameter(name).value for name in ("kp", "ki", "kd", "max_tilt_rad")}
+    assert values == {"kp": 20.0, "ki": 15.0, "kd": 8.0, "max_tilt_rad": 0.08}
+    assert 10_000_000 in [timer.timer_period_ns for timer in node.timers]
+    node.destroy_node()
+
+
+@pytest.mark.parametrize("is_driven", [True, False])
+def test_rates_of_state_and_trajectory(context: Context, is_driven: bool) -> None:
+    for kind in (BallStateNode, BallTrajectoryNode):
+        node = kind(is_driven=is_driven, context=context)
+        assert change(node, publish_rate_hz=50.0) == ""
+        assert (20_000_000 in [timer.timer_period_ns for timer in node.timers]) is not is_driven
+        assert change(node, publish_rate_hz=0.0)
+        node.destroy_node()
+
+
+def test_the_estimator_takes_its_settings_in_force(context: Context) -> None:
+    node = BallStateNode(context=context)
+    assert change(node, measurement_sigma_m=0.004, gate_reset_s=0.1) == ""
+    assert change(node, lever_arm_m=0.1)
+    assert "gate_sigmas = 0.5: allowed is 1 or more" in change(node, gate_sigmas=0.5)
+    node.destroy_node()

@@ -1,0 +1,111 @@
+"""Which section of a params file a parameter came from, beside what ROS itself makes of the file; ROS_DOMAIN_ID 187."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+import rclpy
+from hypothesis import given
+from hypothesis import strategies as st
+from rclpy.context import Context
+from rclpy.node import Node
+
+from acts_core.errors import SettingsError
+from acts_core.settings import setting
+from acts_ros.parameters import declare, node_options
+from acts_ros.params_files import shared_keys
+
+
+@dataclass(frozen=True)
+class Settings:
+    rate_hz: float = setting(250.0, "how often")
+
+
+@pytest.fixture
+def context() -> Iterator[Context]:
+    context = Context()
+    rclpy.init(context=context, domain_id=187)
+    yield context
+    rclpy.try_shutdown(context=context)
+
+
+def declared(context: Context, *arguments: str) -> Settings:
+    words = ["--ros-args", *arguments]
+    node = Node("example", namespace="/plate", context=context, cli_args=words, **node_options())
+    return declare(node, Settings, words=["program", *words])
+
+
+def params_file(tmp_path: Path, text: str) -> tuple[str, str]:
+    path = tmp_path / "params.yaml"
+    path.write_text(text)
+    return "--params-file", str(path)
+
+
+FOREIGN = "{ros__parameters: {rate_hz: 10.0, other.gain: 3, deep: {er: [1, 2]}}}"
+
+
+@pytest.mark.parametrize("section", ["/**", "/plate/*", "/plate/**", "/*/*", "plate: {'*'"])
+def test_a_foreign_key_in_a_section_for_several_nodes_is_only_said(
+    context: Context, tmp_path: Path, capfd: pytest.CaptureFixture[str], section: str
+) -> None:
+    end = "}" if "{" in section else ""
+    text = f"{section}: {FOREIGN}{end}\n" if end else f"'{section}': {FOREIGN}\n"
+    assert declared(context, *params_file(tmp_path, text)) == Settings(rate_hz=10.0)
+    said = capfd.readouterr().err
+    assert said.count("/plate/example has no such parameters: 'other.gain', 'deep.er'") == 1
+    assert "params.yaml, section /" in said
+
+
+@pytest.mark.parametrize("section", ["/plate/example", "/**/example", "/*/example", "plate/example"])
+def test_a_foreign_key_in_a_nodes_own_section_is_refused(context: Context, tmp_path: Path, section: str) -> None:
+    text = f"'{section}': {{ros__parameters: {{rats_hz: 10.0}}}}\n"
+    with pytest.raises(SettingsError, match=r"/plate/example: unknown key 'rats_hz'; did you mean 'rate_hz'"):
+        declared(context, *params_file(tmp_path, text))
+    # Also where a section for several nodes has it, too.
+    with pytest.raises(SettingsError, match="rats_hz"):
+        declared(context, *params_file(tmp_path, text + "/**: {ros__parameters: {rats_hz: 10.0}}\n"))
+
+
+def test_a_nested_section_is_its_own_and_another_nodes_is_nobodys(context: Context, tmp_path: Path) -> None:
+    with pytest.raises(SettingsError, match="rats_hz"):
+        declared(context, *params_file(tmp_path, "plate: {example: {ros__parameters: {rats_hz: 10.0}}}"))
+    text = (
+        "/**: {ros__parameters: {x: 1}}\n/plate/other: {ros__parameters: {x: 1}}\n/example: {ros__parameters: {x: 1}}"
+    )
+    assert declared(context, *params_file(tmp_path, text)) == Settings()
+
+
+def test_a_key_on_the_command_line_is_refused_even_if_a_file_has_it(context: Context, tmp_path: Path) -> None:
+    file = params_file(tmp_path, "/**: {ros__parameters: {rats_hz: 10.0}}")
+    for words in (["-p", "rats_hz:=1.0"], ["--param", "example:rats_hz:=1.0"]):
+        with pytest.raises(SettingsError, match="rats_hz"):
+            declared(context, *file, *words)
+
+
+def test_what_cannot_be_read_shares_nothing(tmp_path: Path) -> None:
+    assert shared_keys("/a", ["x", "--ros-args", "--params-file"]) == {}
+    assert shared_keys("/a", ["x", "--ros-args", "--params-file", str(tmp_path / "none.yaml")]) == {}
+    # Words outside of ROS's own mean something else.
+    file = params_file(tmp_path, "/**: {ros__parameters: {a: 1}}")
+    assert shared_keys("/a", ["x", *file, "--ros-args", "-r", "b:=c", "--", *file]) == {}
+    assert list(shared_keys("/a", ["x", "--ros-args", *file])) == ["a"]
+
+
+def test_a_tag_of_pythons_is_not_carried_out(tmp_path: Path) -> None:
+    file = params_file(tmp_path, "/**: {ros__parameters: {a: !!python/object/apply:os.abort []}}")
+    assert list(shared_keys("/a", ["x", "--ros-args", *file])) == ["a"]
+
+
+@given(st.text(alphabet="/*a:{}[] \n\t-&!'\"ros__parameters", max_size=60))
+def test_any_text_is_a_file(tmp_path_factory: pytest.TempPathFactory, text: str) -> None:
+    path = tmp_path_factory.getbasetemp() / "any.yaml"
+    path.write_text(text)
+    shared_keys("/a/b", ["x", "--ros-args", "--params-file", str(path)])
+
+
+def test_the_settings_of_a_file_for_all_nodes_reach_each(context: Context, tmp_path: Path) -> None:
+    text = "/**: {ros__parameters: {rate_hz: 5.0}}\n/**/example: {ros__parameters: {rate_hz: 6.0}}\n"
+    assert declared(context, *params_file(tmp_path, text)) == Settings(rate_hz=6.0)
