@@ -2,8 +2,6 @@
 
 import os
 import signal
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -29,23 +27,6 @@ def balancing(tmp_path: Path) -> LaunchFile:
     arguments = {"run_dir": str(tmp_path / "run"), "robot_ip": "127.0.6.2", "trajectory": "hold"}
     arguments["params_file"] = patient_parameters(tmp_path)
     return LaunchFile(PACKAGE, "ball_balancing.launch.xml", 96, arguments)
-
-
-def test_without_sim_false_no_robot_of_another_address_is_moved(tmp_path: Path) -> None:
-    def started(*words: str) -> str:
-        command = [sys.executable, "-m", "acts_tools", "launch", "--own", "--print", PACKAGE]
-        return subprocess.run(
-            [*command, "ball_balancing.launch.xml", f"run_dir:={tmp_path}", *words],
-            capture_output=True,
-            text=True,
-            timeout=60,
-            check=True,
-        ).stdout
-
-    for composed in ("true", "false"):
-        assert "acts_control" not in started("robot_ip:=192.168.1.10", f"composed:={composed}")
-        assert "acts_control" in started("robot_ip:=127.0.6.5", f"composed:={composed}")
-        assert "acts_control" in started("robot_ip:=192.168.1.10", f"composed:={composed}", "sim:=false")
 
 
 def wait_for_state(launched: Launched, state: int, timeout_s: float) -> BalanceStatus:

@@ -16,6 +16,7 @@ from math import isfinite
 from typing import Any, Protocol
 
 from acts_control.safety import RUNTIME_PLAYING, RobotReading, safety_stop
+from acts_core.addresses import is_loopback
 from acts_core.errors import RobotError, SettingsError
 from acts_core.settings import setting, validate
 
@@ -37,6 +38,9 @@ class RobotConfig:
     """How the robot is reached and moved."""
 
     robot_ip: str = setting("127.0.0.1", "address of the UR5e's controller")
+    loopback_only: bool = setting(
+        False, "for a simulated skin: refuse a robot_ip that is no numeric address of this machine"
+    )
     control_rate_hz: int = setting(
         125, "control steps and commands a second: 125, 250 or 500", minimum=125, maximum=500
     )
@@ -53,6 +57,13 @@ class RobotConfig:
 
     def __post_init__(self) -> None:
         validate(self)
+        # What a simulated skin feels must not move a real arm.
+        if self.loopback_only and not is_loopback(self.robot_ip):
+            raise SettingsError(
+                f"robot_ip = {self.robot_ip!r}: nothing is controlled, for the skin is simulated and this is no "
+                "numeric address of this machine (127.0.0.1 to 127.255.255.254, ::1); "
+                "with a real skin and robot give sim:=false"
+            )
         if self.control_rate_hz not in _RATES_HZ:
             raise SettingsError(
                 f"control_rate_hz = {self.control_rate_hz}: allowed is {', '.join(map(str, _RATES_HZ))}; "

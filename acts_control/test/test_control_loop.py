@@ -313,3 +313,11 @@ def test_settings_of_the_robot_are_checked() -> None:
         LoopConfig(level_q_rad=(0.0, -1.5708, 1.5708, -1.5708, 0.0, 0.0))
     with pytest.raises(SettingsError, match="6 values"):
         LoopConfig(level_q_rad=(0.0,))
+
+
+@pytest.mark.parametrize("robot_ip", ["192.168.1.10", "127.evil.example.com", "localhost", '127."', ""])
+def test_for_a_simulated_skin_only_a_robot_of_this_machine_is_controlled(robot_ip: str) -> None:
+    with pytest.raises(SettingsError, match=r"nothing is controlled.*sim:=false"):
+        LoopConfig(robot_ip=robot_ip, loopback_only=True)
+    assert LoopConfig(robot_ip="127.0.6.5", loopback_only=True).robot_ip == "127.0.6.5"
+    assert LoopConfig(robot_ip=robot_ip).robot_ip == robot_ip

@@ -23,6 +23,7 @@ SCOPE = Scope({"x": "1", "name": "x", "spaced": "a b"}, {"HOME": "/home/me"}, Pa
         ("a/$(var x)/b", "a/1/b"),
         ("$(var spaced)", "a b"),
         ("$(var $(var name))", "1"),
+        ("$(var is_$(var name) no)", "no"),
         ("$(var nothing fallback)", "fallback"),
         ("$(var nothing '')", ""),
         ("$(var nothing 'two words')", "two words"),
@@ -31,9 +32,6 @@ SCOPE = Scope({"x": "1", "name": "x", "spaced": "a b"}, {"HOME": "/home/me"}, Pa
         ("$(env HOME)", "/home/me"),
         ("$(env NOTHING none)", "none"),
         ("$(dirname)/params.yaml", "/files/params.yaml"),
-        ("$(eval '1 + 2')", "3"),
-        ("$(eval 'cos(0)')", "1.0"),
-        ('$(eval \'"$(var x)" == "1"\')', "True"),
         ("costs $5", "costs $5"),
         ("(round)", "(round)"),
         (r"\$(var x)", "$(var x)"),
@@ -50,6 +48,7 @@ def test_values_are_those_of_the_real_launch(text: str, value: str) -> None:
     [
         ("$(bogus 1)", "Unknown substitution: bogus"),
         ("$(command ls)", "Unknown substitution: command"),
+        ("$(eval '1 + 2')", "Unknown substitution: eval"),
         ("$(var x", "not closed"),
         ("$()", "expected the name"),
         ("$(var  x)", "separated by one space"),
@@ -78,8 +77,6 @@ def test_what_is_not_well_formed_is_refused_with_a_caret_under_the_place(text: s
         ("$(env NOTHING)", "environment variable 'NOTHING' does not exist"),
         ("$(find-pkg-share no_such_package)", "package 'no_such_package' not found"),
         ("$(find-pkg-share a/b)", "'a/b' is not a valid package name"),
-        ("$(eval 'x y')", "cannot evaluate"),
-        ("$(eval '1 / 0')", "division by zero"),
     ],
 )
 def test_what_has_no_value_is_an_error_in_the_real_words(text: str, message: str) -> None:
@@ -91,7 +88,7 @@ def test_defaults_are_described_as_the_real_launch_does() -> None:
     assert describe(parse("$(find-pkg-share acts_config)/params/$(var x).yaml")) == (
         "FindPackageShare(pkg='acts_config') + '/params/' + LaunchConfig('x') + '.yaml'"
     )
-    assert describe(parse("$(env A)$(dirname)$(eval 1)")) == "EnvVar('A') + ThisLaunchFileDir() + PythonExpr('1')"
+    assert describe(parse("$(env A)$(dirname)")) == "EnvVar('A') + ThisLaunchFileDir()"
 
 
 @given(st.text())

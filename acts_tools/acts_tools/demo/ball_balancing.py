@@ -12,7 +12,6 @@ import tempfile
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from ipaddress import AddressValueError, IPv4Address
 from pathlib import Path
 
 import rclpy
@@ -20,6 +19,7 @@ from rclpy.executors import Executor
 from rclpy.signals import SignalHandlerOptions
 
 from acts_control.trajectory import Trajectory, TrajectoryConfig
+from acts_core.addresses import is_loopback
 from acts_core.array import ArrayGeometry
 from acts_core.errors import ActsError, LaunchError
 from acts_msgs.msg import BalanceStatus
@@ -195,11 +195,7 @@ def check_robot_ip(robot_ip: str) -> None:
     LaunchError
         Saying which.
     """
-    try:
-        loopback = IPv4Address(robot_ip).is_loopback
-    except AddressValueError:
-        loopback = False
-    if not loopback:
+    if not is_loopback(robot_ip) or ":" in robot_ip:
         raise LaunchError(
             f"--robot-ip {robot_ip}: the demo moves simulated robots only, at 127.0.0.1 to 127.255.255.254"
         )

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import math
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeAlias
@@ -134,18 +133,6 @@ def _environment(arguments: tuple[Template, ...], scope: Scope) -> str:
     raise LaunchError(f"environment variable '{name}' does not exist")
 
 
-_EXPRESSION_NAMES: Mapping[str, object] = {name: getattr(math, name) for name in dir(math) if not name.startswith("_")}
-
-
-def _evaluate(arguments: tuple[Template, ...], scope: Scope) -> str:
-    expression = perform(arguments[0], scope)
-    # A launch file starts programs of its choice anyway, so an expression of it is no new power.
-    try:
-        return str(eval(expression, {}, dict(_EXPRESSION_NAMES)))
-    except Exception as error:  # whatever the user's expression raises
-        raise LaunchError(f"cannot evaluate the expression `{expression}`: {error}") from error
-
-
 _SUBSTITUTIONS: dict[str, _Kind] = {
     "var": _Kind(
         range(1, 3),
@@ -170,12 +157,6 @@ _SUBSTITUTIONS: dict[str, _Kind] = {
         "dirname substitution doesn't expect arguments",
         lambda arguments, scope: str(scope.file.parent),
         lambda arguments: "ThisLaunchFileDir()",
-    ),
-    "eval": _Kind(
-        range(1, 2),
-        "eval substitution expects 1 argument",
-        _evaluate,
-        lambda arguments: f"PythonExpr({describe(arguments[0])})",
     ),
 }
 
