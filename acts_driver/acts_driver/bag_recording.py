@@ -29,7 +29,8 @@ class BagRecording:
     Raises
     ------
     RecordingError
-        There is no bag, no such topic, several to choose from, or no valid message on it.
+        There is no bag, no such topic, several to choose from, or no message on it that can be read with the installed
+        definition.
     """
 
     def __init__(self, path: Path, topic: str = "") -> None:
@@ -39,18 +40,9 @@ class BagRecording:
         self._open = open_bag
         self._path = path
         with open_bag(path) as bag:
-            types = bag.topics()
             self.note = bag.note
-        fitting = sorted(name for name, kind in types.items() if kind == _TYPE)
-        if topic and topic not in fitting:
-            raise RecordingError(f"the bag '{path}' has no topic {topic} of {_TYPE}; it has {_listed(fitting)}")
-        if not fitting or (len(fitting) > 1 and not topic):
-            raise RecordingError(
-                f"the bag '{path}' has {_listed(fitting)} of {_TYPE}; needed is one: set the parameter replay_topic"
-                if fitting
-                else f"the bag '{path}' has no topic of {_TYPE}, only {_listed(sorted(types))}"
-            )
-        self._topic = topic or fitting[0]
+            self._topic = _choose(path, topic, bag.topics())
+            bag.check_definition(self._topic)
         if next(self.frames(), None) is None:
             raise RecordingError(f"the bag '{path}' has no messages on {self._topic}")
 
@@ -66,6 +58,19 @@ class BagRecording:
                         f"message {number} of {self._topic} in '{self._path}' cannot be read: {error}; was it recorded "
                         "with another version of acts_msgs?"
                     ) from error
+
+
+def _choose(path: Path, topic: str, types: dict[str, str]) -> str:
+    fitting = sorted(name for name, kind in types.items() if kind == _TYPE)
+    if topic and topic not in fitting:
+        raise RecordingError(f"the bag '{path}' has no topic {topic} of {_TYPE}; it has {_listed(fitting)}")
+    if not fitting or (len(fitting) > 1 and not topic):
+        raise RecordingError(
+            f"the bag '{path}' has {_listed(fitting)} of {_TYPE}; needed is one: set the parameter replay_topic"
+            if fitting
+            else f"the bag '{path}' has no topic of {_TYPE}, only {_listed(sorted(types))}"
+        )
+    return topic or fitting[0]
 
 
 def _listed(names: list[str]) -> str:

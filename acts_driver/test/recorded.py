@@ -12,7 +12,7 @@ from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from acts_core.frames import SampleFrame
 from acts_ros.sample_messages import SamplesMessage
 
-_DEFINITION = """
+DEFINITION = """
 std_msgs/Header header
 uint32 sequence
 uint8 scheme
@@ -24,10 +24,10 @@ uint16[] counts
 """
 
 
-def write_bag(path: Path, topics: dict[str, Sequence[tuple[SampleFrame, int]]]) -> Path:
+def write_bag(path: Path, topics: dict[str, Sequence[tuple[SampleFrame, int]]], definition: str = DEFINITION) -> Path:
     """A bag in rosbag2's layout; for each topic frames and their stamps [ns]."""
     store = get_typestore(Stores.ROS2_KILTED if hasattr(Stores, "ROS2_KILTED") else Stores.LATEST)
-    store.register(get_types_from_msg(_DEFINITION, "acts_msgs/msg/TactileSamples"))
+    store.register(get_types_from_msg(definition, "acts_msgs/msg/TactileSamples"))
     message = SamplesMessage("plate")
     with Writer(path, version=9, storage_plugin=StoragePlugin.MCAP) as writer:
         for topic, frames in topics.items():

@@ -12,7 +12,7 @@ from driver_rig import Rig
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from pty_board import frame, wait_for
-from recorded import write_bag
+from recorded import DEFINITION, write_bag
 
 from acts_core.errors import RecordingError, SettingsError
 from acts_core.frames import SampleFrame, Scheme
@@ -161,6 +161,8 @@ def test_files_that_are_no_recordings(tmp_path: Path) -> None:
     refused(two, "has /left/samples, /right/samples .*set the parameter replay_topic")
     refused(two, "has no topic /middle", topic="/middle")
     assert len(list(open_recording(ReplayOptions(two, "/right/samples")).frames())) == 1
+    other = DEFINITION.replace("uint16[] indices", "uint32[] indices")
+    refused(write_bag(tmp_path / "other", {"/plate/samples": one}, other), "recorded with another definition of")
     refused(write_bag(tmp_path / "silent", {"/plate/samples": []}), "no messages on /plate/samples")
     np.savez(tmp_path / "big.npz", frames=np.zeros((1, 65, 2), np.uint16), rate_hz=1.0)
     refused(tmp_path / "big.npz", "65 x 2")

@@ -18,9 +18,9 @@ from rosbags.interfaces import Qos, QosDurability, QosHistory, QosLiveliness, Qo
 from rosbags.rosbag2 import Reader
 
 from acts_core.errors import RecordingError
+from acts_ros.bags.message_types import Definitions, message_class
 from acts_ros.bags.reading import open_bag
 from acts_tools.bags import qos, writing
-from acts_tools.bags.message_types import Definitions, message_class
 from acts_tools.bags.rosbag2_format import McapFile
 from acts_tools.bags.writing import BagWriter
 

@@ -17,7 +17,7 @@ import yaml
 from rosbags.interfaces import Qos, QosDurability, QosHistory, QosLiveliness, QosReliability, QosTime
 from rosbags.rosbag2 import Reader
 
-from acts_tools.bags.message_types import Definitions
+from acts_ros.bags.message_types import Definitions
 from acts_tools.bags.writing import BagWriter
 
 TYPE = "std_msgs/msg/String"

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import os
+import random
 import re
 import signal
 import subprocess
 import sys
+import time
 from array import array
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -16,17 +18,18 @@ from typing import Any
 import pytest
 from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.serialization import deserialize_message
 from rosbags.rosbag2 import Reader
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from std_msgs.msg import String
 
 from acts_core.errors import RecordingError
 from acts_msgs.msg import Contact, TactileSamples
+from acts_ros.bags.message_types import Definitions
 from acts_ros.bags.reading import open_bag
 from acts_ros.qos import LATCHED, STREAM
 from acts_tools.bags import recorder as recorder_module
 from acts_tools.bags import writing
-from acts_tools.bags.message_types import Definitions
 from acts_tools.bags.player import Player
 from acts_tools.bags.recorder import Recorder
 from acts_tools.bags.writing import BagWriter
@@ -114,23 +117,30 @@ def _on_disk(path: Path, count: int) -> bool:
         return False
 
 
-def test_a_killed_recorder_leaves_what_it_had(tmp_path: Path) -> None:
+def test_a_recorder_killed_at_any_moment_leaves_all_but_the_last_second(tmp_path: Path) -> None:
     path = tmp_path / "touch"
+    published_s: list[float] = []
+    reliable = QoSProfile(depth=1000)
     with Probe(85) as probe, acts("record", "-o", str(path), "plate/contact", domain_id=85) as process:
-        publisher = probe.node.create_publisher(Contact, "/plate/contact", STREAM)
+        publisher = probe.node.create_publisher(Contact, "/plate/contact", reliable)
         subscribed(probe, [publisher])
-        for _ in range(50):
-            publisher.publish(Contact())
-        probe.wait_for(lambda: _on_disk(path, 50), TIMEOUT_S, "the messages on the disk while it is recording")
+        end_s = time.monotonic() + random.uniform(1.2, 2.2)  # another moment in every run
+        while time.monotonic() < end_s:
+            publisher.publish(Contact(sequence=len(published_s)))
+            published_s.append(time.monotonic())
+            time.sleep(0.002)
         process.kill()
+        killed_s = time.monotonic()
         process.wait()
     assert not (path / "metadata.yaml").exists()
-    assert len(contents(path)) == 50
+    numbers = [deserialize_message(data, Contact).sequence for _, data in contents(path)]
+    assert numbers == list(range(len(numbers)))
+    assert len(numbers) >= sum(stamp_s < killed_s - 1.0 for stamp_s in published_s) > 0
     with acts("play", str(path), "--delay", "0", "--rate", "100", domain_id=85) as player:
         output, _ = player.communicate(timeout=TIMEOUT_S)
     assert player.returncode == 0
     assert "was never closed" in output
-    assert "50 messages" in output
+    assert f"{len(numbers)} messages" in output
 
 
 def test_a_topic_that_never_appears_is_named_and_the_exit_code_tells(tmp_path: Path) -> None:
@@ -312,6 +322,32 @@ def test_unknown_topics_and_types_are_refused_or_left_out(
         assert player.report.published == 2
     assert len(said) == 1
     assert said[0].startswith("not played: /b: unknown message type 'gone_msgs/msg/Gone'")
+
+
+@pytest.mark.parametrize(
+    ("definition", "message"),
+    [
+        ("string data\nuint32 number", "/a was recorded with another definition of std_msgs/msg/String"),
+        ("no definition at all", "the recorded definition of std_msgs/msg/String cannot be read"),
+        ("", "/a was recorded with another definition of std_msgs/msg/String"),
+    ],
+)
+def test_messages_of_another_definition_are_not_played(
+    probe: Probe, tmp_path: Path, definition: str, message: str
+) -> None:
+    bag = BagWriter(tmp_path / "bag")
+    changed = bag.add_topic("/a", "std_msgs/msg/String", definition, "RIHS01_0", [])
+    same = bag.add_topic("/b", "std_msgs/msg/Empty", *Definitions().describe("std_msgs/msg/Empty"), [])
+    bag.write(changed, b"\0\1\0\0\1\0\0\0\0")
+    bag.write(same, b"\0\1\0\0\0")
+    bag.close()
+    said: list[str] = []
+    with open_bag(tmp_path / "bag") as opened:
+        player = Player(probe.node, opened, None, said.append)
+        assert player.play(1.0, lambda _deadline_s: True)
+        assert player.report.published == 1
+    assert len(said) == 1
+    assert said[0].startswith(f"not played: /a: {message}")
 
 
 def test_playing_in_a_loop_reaches_subscribers_in_order_until_ctrl_c(

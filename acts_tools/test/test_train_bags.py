@@ -16,8 +16,8 @@ from sensor_msgs.msg import Image
 from acts_core.errors import RecordingError
 from acts_msgs.msg import Baseline, Contact, TactileSamples
 from acts_recon.dictionary import load_dictionary
+from acts_ros.bags.message_types import Definitions
 from acts_tools import train
-from acts_tools.bags.message_types import Definitions
 from acts_tools.bags.writing import BagWriter
 from acts_tools.training.bag_frames import bag_frames
 from acts_tools.training.frames import recorded_frames

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, cast
 
@@ -13,6 +13,7 @@ from rosbags.rosbag2 import Reader
 from rosbags.rosbag2.storage_mcap import McapReader
 
 from acts_core.errors import RecordingError
+from acts_ros.bags.message_types import Definitions
 from acts_ros.bags.salvage import WholeRecords
 
 
@@ -32,10 +33,23 @@ class Bag:
     note: str | None
     _reader: Reader | McapReader
     _path: Path
+    _definitions: Definitions = field(default_factory=Definitions)
 
     def topics(self) -> dict[str, str]:
         """Message type by topic."""
         return {connection.topic: connection.msgtype for connection in self.connections}
+
+    def check_definition(self, topic: str) -> None:
+        """Refuse a topic whose messages are of another definition than the one installed; see `Definitions.check`.
+
+        Raises
+        ------
+        RecordingError
+            The definitions differ, or the recorded one cannot be read.
+        """
+        for connection in self.connections:
+            if connection.topic == topic:
+                self._definitions.check(connection)
 
     def recorded_qos(self, topic: str) -> list[Qos]:
         """What the publishers of a topic offered."""

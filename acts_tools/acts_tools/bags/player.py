@@ -11,9 +11,9 @@ from rclpy.node import Node
 from rclpy.publisher import Publisher
 
 from acts_core.errors import RecordingError
+from acts_ros.bags.message_types import message_class
 from acts_ros.bags.reading import Bag
 from acts_tools.bags import qos
-from acts_tools.bags.message_types import message_class
 
 _ACKNOWLEDGE_S = 1.0
 
@@ -64,6 +64,7 @@ class Player:
                 raise RecordingError(f"the bag has no topic '{topic}' (it has: {', '.join(sorted(types)) or 'none'})")
             try:
                 kind = message_class(types[topic])
+                bag.check_definition(topic)
             except RecordingError as error:
                 say(f"not played: {topic}: {error}")
                 continue

@@ -13,8 +13,8 @@ from rclpy.subscription import Subscription
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from acts_core.errors import RecordingError
+from acts_ros.bags.message_types import Definitions, message_class
 from acts_tools.bags import qos
-from acts_tools.bags.message_types import Definitions, message_class
 from acts_tools.bags.writing import BagWriter
 
 try:

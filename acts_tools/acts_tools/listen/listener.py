@@ -10,7 +10,7 @@ from typing import Any
 from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.node import Node
 
-from acts_tools.bags.message_types import message_class
+from acts_ros.bags.message_types import message_class
 from acts_tools.bags.qos import for_subscription
 from acts_tools.listen.arrivals import Arrivals
 

@@ -77,6 +77,7 @@ def bag_frames(path: Path, topic: str = "") -> tuple[NDArray[np.uint16], str]:
                     else f"the bag '{path}' has no topic of full frames, only {_listed(sorted(types))}; {_NEEDED}"
                 )
             topic = fitting[0]
+        bag.check_definition(topic)
         read = _images(bag, path, topic) if types[topic] == _IMAGE else _rasters(bag, path, topic, types)
         frames = list(read)
     if not frames:

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
-from rosbags.interfaces import Nodetype
-from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+from rosbags.interfaces import Connection, MessageDefinitionFormat, Nodetype
+from rosbags.typesys import Stores, get_types_from_idl, get_types_from_msg, get_typestore
 
 from acts_core.errors import RecordingError
 
@@ -67,6 +67,38 @@ class Definitions:
         definition, _ = self._store.generate_msgdef(name, ros_version=2)
         return definition, _installed_hash(name) or self._store.hash_rihs01(name)
 
+    def check(self, recorded: Connection) -> None:
+        """Refuse a topic that was recorded with another definition of its type than the one installed here.
+
+        Messages say nothing of their type: read with another one they are refused at best, and other numbers at worst.
+        A recording without a definition and a type whose ``.msg`` file is not installed are taken as they are.
+
+        Parameters
+        ----------
+        recorded : Connection
+            The topic in the bag.
+
+        Raises
+        ------
+        RecordingError
+            The definitions differ, or the recorded one cannot be read.
+        """
+        name = recorded.msgtype
+        try:
+            installed, type_hash = self.describe(name)
+        except RecordingError:
+            return
+        if recorded.msgdef.format == MessageDefinitionFormat.NONE:
+            same = recorded.digest in ("", type_hash)
+        else:
+            here = _hash(name, installed, MessageDefinitionFormat.MSG)
+            same = _hash(name, recorded.msgdef.data, recorded.msgdef.format) == here
+        if not same:
+            raise RecordingError(
+                f"{recorded.topic} was recorded with another definition of {name} than the one installed here: install "
+                f"or source the version of '{name.split('/', maxsplit=1)[0]}' that it was recorded with"
+            )
+
     def _load(self, name: str) -> None:
         if name in self._known:
             return
@@ -77,6 +109,17 @@ class Definitions:
                 for inner in _names(field):
                     self._load(inner)
         self._store.register({name: value for name, value in types.items() if name not in self._store.fielddefs})
+
+
+def _hash(name: str, definition: str, kind: MessageDefinitionFormat) -> str:
+    """Hash of a definition; for comparison only, since rosbags has another one for types with ``char`` fields."""
+    store = get_typestore(Stores.EMPTY)
+    try:
+        is_msg = kind == MessageDefinitionFormat.MSG
+        store.register(get_types_from_msg(definition, name) if is_msg else get_types_from_idl(definition))
+        return store.hash_rihs01(name)
+    except Exception as error:  # rosbags fails in as many ways as a text can be wrong
+        raise RecordingError(f"the recorded definition of {name} cannot be read: {error}") from error
 
 
 def _split(name: str) -> tuple[str, str, str]:
