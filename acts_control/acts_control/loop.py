@@ -10,6 +10,7 @@ from math import hypot
 
 from acts_control.controller import BallController, BallReport, ControlInput, ControllerConfig, Phase, ReferenceReport
 from acts_control.robot import Robot, RobotConfig, RobotStoppedError
+from acts_control.robot_claim import RobotTakenError
 from acts_control.safety import CommandGate, RobotReading, RobotWatch
 from acts_core.errors import ActsError, ArrayError, RobotError, SettingsError
 from acts_core.settings import setting
@@ -196,7 +197,7 @@ class ControlLoop:
             try:
                 self._robot.connect()
                 return True
-            except RobotStoppedError:
+            except (RobotStoppedError, RobotTakenError):
                 raise
             except RobotError as error:
                 self.status = replace(self.status, reason=str(error))

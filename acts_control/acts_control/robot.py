@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from math import isfinite
 from typing import Any, Protocol
 
+from acts_control.robot_claim import RobotClaim
 from acts_control.safety import RUNTIME_PLAYING, RobotReading, safety_stop
 from acts_core.addresses import is_loopback
 from acts_core.errors import RobotError, SettingsError
@@ -107,6 +108,7 @@ class UrRobot:
         self._config = config
         self._control: Any = None
         self._receive: Any = None
+        self._claim: RobotClaim | None = None
 
     def connect(self) -> None:
         """Connect and upload the control script.
@@ -117,7 +119,11 @@ class UrRobot:
             When a port cannot be reached, or another program controls the robot.
         RobotStoppedError
             When a safety function holds it.
+        RobotTakenError
+            When another program of this machine controls it.
         """
+        if self._claim is None:
+            self._claim = RobotClaim(self._config.robot_ip)
         try:
             import rtde_control
             import rtde_receive
@@ -200,6 +206,10 @@ class UrRobot:
         if receive is not None:
             with suppress(RuntimeError):
                 receive.disconnect()
+        # Last: another program may take the robot from here on.
+        claim, self._claim = self._claim, None
+        if claim is not None:
+            claim.close()
 
     def _call(self, name: str, *arguments: object) -> bool:
         try:

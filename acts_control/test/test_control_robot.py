@@ -196,7 +196,8 @@ def test_homing_from_another_pose_and_a_second_client(tmp_path: Path) -> None:
             assert robot.state()["q_rad"] == pytest.approx(LEVEL_Q_RAD, abs=2e-3)
             # Another program must not take the robot over, and this one tells why it cannot.
             with Process(*node_command("ball_control_node", robot_ip=robot.host), domain=68) as second:
-                wait_for(lambda: "already in use" in second.text(), "the second client's message")
+                has_it = f"robot {robot.host} is controlled by process {process.process.pid} ("
+                wait_for(lambda: has_it in second.text(), "the second client's message")
                 assert second.stop() == 0
             assert process.process.poll() is None
             assert bench.phase == WAITING

@@ -1,0 +1,37 @@
+"""One controller for a robot, among all the programs of a machine."""
+
+import subprocess
+import sys
+
+import pytest
+
+from acts_control.robot_claim import RobotClaim, RobotTakenError
+
+HOLDER = """
+import sys
+from acts_control.robot_claim import RobotClaim
+claim = RobotClaim("127.0.9.1")
+print("claimed", flush=True)
+sys.stdin.read()
+"""
+
+
+def test_a_second_controller_is_refused_with_the_name_of_the_first_until_that_has_gone() -> None:
+    with subprocess.Popen([sys.executable, "-c", HOLDER], stdin=subprocess.PIPE, stdout=subprocess.PIPE) as first:
+        assert first.stdout is not None
+        assert first.stdout.readline() == b"claimed\n"
+        RobotClaim("127.0.9.2").close()
+        for _ in range(3):
+            with pytest.raises(RobotTakenError, match=rf"127.0.9.1 is controlled by process {first.pid} \(.*python"):
+                RobotClaim("127.0.9.1")
+        first.kill()
+        first.wait()
+        RobotClaim("127.0.9.1").close()
+
+
+def test_a_robot_of_two_names_is_one() -> None:
+    claim = RobotClaim("localhost")
+    with pytest.raises(RobotTakenError):
+        RobotClaim("127.0.0.1")
+    claim.close()
+    RobotClaim("127.0.0.1").close()
