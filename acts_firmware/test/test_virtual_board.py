@@ -206,10 +206,41 @@ def test_link_of_a_killed_board_is_replaced(tmp_path: Path) -> None:
         board.read_frames(3)
 
 
-def test_a_board_leaves_the_link_that_another_took_over(tmp_path: Path) -> None:
-    with BoardProcess(tmp_path) as first, BoardProcess(tmp_path) as second:
-        assert first.terminate() == 0
-        assert str(second.link.readlink()) == second.start["port"]
+def refusal(link: Path) -> str:
+    command = [installed("virtual_board"), "--link", link]
+    result = subprocess.run(command, capture_output=True, text=True, timeout=30)
+    assert result.returncode == 1
+    return result.stderr
+
+
+def test_a_link_in_use_is_refused_with_the_name_of_the_board_that_has_it(tmp_path: Path) -> None:
+    with BoardProcess(tmp_path) as first:
+        said = refusal(first.link)
+        assert f"{first.link} is in use by process {first.process.pid} (" in said
+        assert "virtual_board --link" in said
+        assert "run_dir:=" in said
+        assert str(first.link.readlink()) == first.start["port"]
+        first.open_port()
+        first.read_frames(3)
+
+
+def test_the_links_folder_is_made_for_its_user_alone(tmp_path: Path) -> None:
+    with BoardProcess(tmp_path) as board:
+        assert board.link.parent.stat().st_mode & 0o777 == 0o700
+
+
+def test_folders_that_others_have_a_hand_in_are_refused(tmp_path: Path) -> None:
+    folder = tmp_path / "folder"
+    folder.mkdir()
+    (tmp_path / "run").symlink_to(folder)
+    assert "run is a symbolic link" in refusal(tmp_path / "run" / "board")
+    folder.chmod(0o777)
+    assert "anybody may write to the folder" in refusal(folder / "board")
+    folder.chmod(0o755)
+    if os.geteuid() == 0:
+        os.chown(folder, 1, 1)
+        assert "belongs to" in refusal(folder / "board")
+    assert list(folder.iterdir()) == []
 
 
 def test_a_file_in_place_of_the_link_is_kept(tmp_path: Path) -> None:

@@ -60,6 +60,7 @@ Process::Process(const Options& options, const volatile std::sig_atomic_t& stop_
       epoch_(read_epoch()),
       time_(epoch_.monotonic_ns, options.drift_ppm),
       field_(make_field(options, epoch_.monotonic_ns)),
+      claim_(options.link.empty() ? nullptr : std::make_unique<Claim>(options.link)),
       terminal_(options.link),
       link_(options.sampling.seed, options.protocol,
             [this](const Fault& fault, bool is_over) { report(fault, is_over); }) {

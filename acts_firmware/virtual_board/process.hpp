@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "acts_firmware/firmware.hpp"
+#include "claim.hpp"
 #include "control_pipe.hpp"
 #include "faults.hpp"
 #include "faulty_link.hpp"
@@ -60,6 +61,7 @@ class Process {
   std::unique_ptr<VirtualBoard> board_;
   ModelMemory models_{};
   std::unique_ptr<Firmware> firmware_;
+  const std::unique_ptr<Claim> claim_;  // to the link; before the terminal that makes it
   PseudoTerminal terminal_;
   FaultyLink link_;
   std::unique_ptr<ControlPipe> control_;

@@ -70,7 +70,6 @@ void PseudoTerminal::make_terminal() {
 
 void PseudoTerminal::remove_link() const {
   std::error_code ignored;
-  // Another board may have taken the link over.
   if (!link_.empty() && fs::read_symlink(link_, ignored) == port_) {
     fs::remove(link_, ignored);
   }
@@ -79,9 +78,6 @@ void PseudoTerminal::remove_link() const {
 void PseudoTerminal::make_link() const {
   const fs::path path(link_);
   std::error_code error;
-  if (path.has_parent_path()) {
-    fs::create_directories(path.parent_path(), error);
-  }
   const fs::file_status status = fs::symlink_status(path, error);
   if (fs::exists(status) && !fs::is_symlink(status)) {
     throw std::runtime_error("--link " + link_ + ": something else than a symbolic link is there; remove it");

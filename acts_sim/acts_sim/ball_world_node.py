@@ -24,6 +24,7 @@ from acts_ros.log import log_of
 from acts_ros.parameters import declare, node_options
 from acts_ros.skin_frame import skin_frame
 from acts_sim.joint_follower import JointFollower, JointSource
+from acts_sim.run_folder import Claim, default_run_dir
 from acts_sim.timed_ring import TimedRingWriter
 from acts_sim.world import Phase, World, WorldConfig, WorldState
 from acts_sim.world_loop import STEP_NS, LoopStatistics, WorldLoop
@@ -36,10 +37,13 @@ _NS_PER_S = 1_000_000_000
 class BallWorldSettings(RealtimeConfig, WorldConfig):
     """Parameters of the node: the world's, and what it is connected to."""
 
-    field_ring: str = setting("/dev/shm/acts/field.ring", "shared file the pressure field is written to")
+    field_ring: str = setting(
+        "", "shared file the pressure field is written to; empty: field.ring in the folder /dev/shm/acts-USER"
+    )
     joint_ring: str = setting(
-        "/dev/shm/acts/joints.ring",
-        "shared file the simulated robot writes its joints to; none: no robot, the plate lies still",
+        "",
+        "shared file the simulated robot writes its joints to; none: no robot, the plate lies still; empty: "
+        "joints.ring in the folder /dev/shm/acts-USER",
     )
     frame_id: str = setting("", "frame of the skin; empty or none: the name of the namespace, with _ for /")
     truth_every: int = setting(
@@ -66,16 +70,17 @@ class BallWorld(Node):
         self._steps = 0
         self._refused_reported = 0
         self._reported = (time.monotonic(), LoopStatistics())
-        field_ring = Path(settings.field_ring)
-        _make_folder(field_ring.parent)
+        field_ring = Path(settings.field_ring or default_run_dir() / "field.ring")
+        joint_ring = settings.joint_ring or str(default_run_dir() / "joints.ring")
+        self._claim = Claim(field_ring)
         self._world = World(settings)
-        self._joints = JointFollower(None if settings.joint_ring == "none" else Path(settings.joint_ring))
+        self._joints = JointFollower(None if joint_ring == "none" else Path(joint_ring))
         self._ring = TimedRingWriter(field_ring, settings.rows * settings.cols)
         self._loop = WorldLoop(self._world, self._joints, self._ring, self._publish, on_running=self._enter_realtime)
-        self._diagnostics = DiagnosticsReporter(self, settings.field_ring, self._report)
+        self._diagnostics = DiagnosticsReporter(self, str(field_ring), self._report)
         self.get_logger().info(
             f"ball of {settings.diameter_m * 1000:g} mm, {settings.mass_kg:.3f} kg; field in {field_ring}, "
-            f"joints from {settings.joint_ring}"
+            f"joints from {joint_ring}"
         )
 
     def begin(self) -> None:
@@ -86,6 +91,7 @@ class BallWorld(Node):
         """Stop the world and remove its ring."""
         self._loop.stop()
         self._ring.close()
+        self._claim.close()
 
     def _enter_realtime(self) -> None:
         enter_realtime(self._settings, "ball_world", log_of(self))
@@ -138,15 +144,6 @@ class BallWorld(Node):
         if state.phase is Phase.FALLEN:
             return WARN, "the ball has fallen off the plate", values
         return OK, f"the ball is {state.phase.value}", values
-
-
-def _make_folder(folder: Path) -> None:
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise ActsError(
-            f"field_ring: the folder {folder} cannot be made ({error.strerror}); give a path where files may be written"
-        ) from error
 
 
 SETTINGS: dict[str, type] = {"ball_world": BallWorldSettings}

@@ -170,7 +170,7 @@ def test_the_ball_follows_the_joints_and_presses_the_field(observer: Observer, t
         ("diametre_m:=0.05", "unknown key 'diametre_m'; did you mean 'diameter_m'?"),
         ("rows:=0", "rows = 0: allowed is 1 to 64"),
         ("diameter_m:=.nan", "diameter_m = nan: allowed is a finite number"),
-        ("field_ring:=/proc/nothing/field.ring", "field_ring: the folder /proc/nothing cannot be made"),
+        ("field_ring:=/proc/nothing/field.ring", "the folder /proc/nothing cannot be made"),
     ],
 )
 def test_a_wrong_parameter_ends_it_with_one_clear_line(tmp_path: Path, parameter: str, message: str) -> None:

@@ -15,6 +15,7 @@ from acts_core.errors import SettingsError
 from acts_core.stop_signals import StopSignals
 from acts_ros.processes.console import Console
 from acts_ros.processes.launcher import Launcher
+from acts_sim.run_folder import default_run_dir, make_private
 from acts_skins.skin_processes import SkinProcesses
 from acts_skins.skins_file import read_skins
 
@@ -33,6 +34,8 @@ def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) 
         words = list(sys.argv if args is None else args)[1:]
         own, ros_words = _split(words)
         options = _parser().parse_args(own)
+        if _TRUTHS[options.sim]:
+            make_private(options.run_dir.absolute())
         plan = SkinProcesses(
             read_skins(options.skins_file),
             simulated=_TRUTHS[options.sim],
@@ -47,7 +50,7 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="skins", description="A process for every skin of a file (docs/skins.md).")
     parser.add_argument("--skins-file", type=Path, required=True, help="YAML file that describes the skins")
     parser.add_argument("--sim", choices=_TRUTHS, default="true", help="whether boards are simulated")
-    parser.add_argument("--run-dir", type=Path, default=Path("/dev/shm/acts"), help="for what simulated boards share")
+    parser.add_argument("--run-dir", type=Path, default=default_run_dir(), help="for what simulated boards share")
     return parser
 
 

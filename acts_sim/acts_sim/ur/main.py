@@ -17,6 +17,7 @@ from acts_core.errors import ActsError
 from acts_core.realtime import RealtimeConfig, enter_realtime
 from acts_core.settings import default_of, describe, from_mapping
 from acts_core.stop_signals import StopSignals
+from acts_sim.run_folder import Claim
 from acts_sim.timed_ring import TimedRingWriter
 from acts_sim.ur import dashboard, hooks
 from acts_sim.ur.config import ControllerConfig
@@ -133,20 +134,13 @@ def run(options: argparse.Namespace, signals: StopSignals) -> None:
 
         signals.on_stop(server.stop)
         if options.joint_ring is not None:
-            ring = stack.enter_context(_open_ring(options.joint_ring))
+            stack.enter_context(contextlib.closing(Claim(options.joint_ring)))
+            ring = stack.enter_context(TimedRingWriter(options.joint_ring, JOINT_RING_WIDTH))
         # What exists by now lives as long as the process; there is no use in going through it again and again.
         gc.freeze()
         enter_realtime(config, "all of it", lambda _level, sentence: log(sentence))
         print("ready", flush=True)
         server.run()
-
-
-def _open_ring(path: Path) -> TimedRingWriter:
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        return TimedRingWriter(path, JOINT_RING_WIDTH)
-    except OSError as error:
-        raise ActsError(f"{path}: the joint ring cannot be written ({error.strerror}); give another file") from error
 
 
 def main(signals: StopSignals | None = None) -> int:

@@ -1,0 +1,129 @@
+#include "claim.hpp"
+
+#include <fcntl.h>
+#include <pwd.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+namespace acts {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kOther = "give another folder: run_dir:=/dev/shm/NAME";
+constexpr mode_t kOwnerOnly = 0700;
+constexpr std::size_t kLongestCommand = 100;
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw std::runtime_error(what + kOther);
+}
+
+std::string user(uid_t id) {
+  const passwd* entry = getpwuid(id);
+  return entry != nullptr ? entry->pw_name : "user " + std::to_string(id);
+}
+
+std::string process_name(const std::string& pid) {
+  if (pid.empty()) {
+    return "another process";
+  }
+  std::ifstream file("/proc/" + pid + "/cmdline", std::ios::binary);
+  std::string command((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  while (!command.empty() && command.back() == '\0') {
+    command.pop_back();
+  }
+  std::replace(command.begin(), command.end(), '\0', ' ');
+  if (command.size() > kLongestCommand) {
+    command = command.substr(0, kLongestCommand) + "...";
+  }
+  return "process " + pid + (command.empty() ? "" : " (" + command + ")");
+}
+
+void make_private(const fs::path& folder) {
+  fs::path made;
+  for (const fs::path& part : folder) {
+    made /= part;
+    if (mkdir(made.c_str(), kOwnerOnly) != 0 && errno != EEXIST) {
+      refuse("the folder " + folder.string() + " cannot be made (" + std::strerror(errno) + "); ");
+    }
+  }
+  struct stat status{};
+  if (lstat(folder.c_str(), &status) != 0) {
+    refuse("the folder " + folder.string() + " cannot be looked at (" + std::strerror(errno) + "); ");
+  }
+  if (S_ISLNK(status.st_mode)) {
+    refuse("the folder " + folder.string() + " is a symbolic link; name what it leads to, or ");
+  }
+  if (!S_ISDIR(status.st_mode)) {
+    refuse(folder.string() + " is no folder; ");
+  }
+  if ((status.st_mode & S_ISVTX) != 0) {
+    return;
+  }
+  if (status.st_uid != geteuid()) {
+    refuse("the folder " + folder.string() + " belongs to " + user(status.st_uid) + "; ");
+  }
+  if ((status.st_mode & S_IWOTH) != 0) {
+    refuse("anybody may write to the folder " + folder.string() + "; `chmod o-w " + folder.string() + "`, or ");
+  }
+}
+
+}  // namespace
+
+Claim::Claim(const std::string& path) : lock_path_(path + ".lock") {
+  const fs::path parent = fs::path(path).parent_path();
+  make_private(parent.empty() ? fs::path(".") : parent);
+  if (!lock()) {
+    refuse(path + " is in use by " + holder() + "; end that program, or ");
+  }
+  const std::string number = std::to_string(getpid()) + "\n";
+  if (ftruncate(file_, 0) != 0 || pwrite(file_, number.data(), number.size(), 0) < 0) {
+    refuse(lock_path_ + " cannot be written (" + std::strerror(errno) + "); ");
+  }
+}
+
+Claim::~Claim() {
+  // While it is still locked: afterwards it may be another's.
+  unlink(lock_path_.c_str());
+  close(file_);
+}
+
+bool Claim::lock() {
+  while (true) {
+    file_ = open(lock_path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, S_IRUSR | S_IWUSR);
+    if (file_ < 0) {
+      refuse(lock_path_ + " cannot be opened (" + std::strerror(errno) + "); ");
+    }
+    if (flock(file_, LOCK_EX | LOCK_NB) != 0) {
+      close(file_);
+      return false;
+    }
+    struct stat ours{};
+    struct stat present{};
+    if (fstat(file_, &ours) == 0 && lstat(lock_path_.c_str(), &present) == 0 && ours.st_ino == present.st_ino &&
+        ours.st_dev == present.st_dev) {
+      return true;
+    }
+    close(file_);  // the one before us has just given it up, and the file with it
+  }
+}
+
+std::string Claim::holder() const {
+  std::ifstream file(lock_path_);
+  std::string pid;
+  file >> pid;
+  return process_name(pid);
+}
+
+}  // namespace acts

@@ -1,0 +1,27 @@
+// A file as this process's own, in a folder of one user alone; acts_sim/run_folder.py does the same.
+#pragma once
+
+#include <string>
+
+namespace acts {
+
+// From the making on until the end, however the process ends. Makes the folder, for its user alone, where it is
+// missing. Throws std::runtime_error where another process has the file, which is named, or where the folder is a
+// symbolic link, belongs to somebody else, or anybody may write to it; like /tmp it may be.
+class Claim {
+ public:
+  explicit Claim(const std::string& path);
+  Claim(const Claim&) = delete;
+  Claim& operator=(const Claim&) = delete;
+  ~Claim();
+
+ private:
+  // False where another process has it.
+  bool lock();
+  std::string holder() const;
+
+  std::string lock_path_;
+  int file_ = -1;
+};
+
+}  // namespace acts

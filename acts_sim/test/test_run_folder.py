@@ -1,0 +1,108 @@
+"""The folder of simulated processes: one user's alone, and each thing in it one process's alone."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from acts_core.errors import ActsError
+from acts_sim.run_folder import Claim, default_run_dir, make_private
+
+HOLDER = """
+import sys
+from pathlib import Path
+from acts_sim.run_folder import Claim
+claim = Claim(Path(sys.argv[1]))
+print("claimed", flush=True)
+sys.stdin.read()
+"""
+
+
+def mode(folder: Path) -> int:
+    return folder.stat().st_mode & 0o7777
+
+
+def test_a_missing_folder_is_made_for_its_user_alone_with_those_above_it(tmp_path: Path) -> None:
+    folder = tmp_path / "run" / "left"
+    make_private(folder)
+    make_private(folder)
+    assert (mode(folder), mode(folder.parent)) == (0o700, 0o700)
+
+
+def test_the_mode_of_a_folder_that_exists_is_left_alone(tmp_path: Path) -> None:
+    folder = tmp_path / "run"
+    folder.mkdir(mode=0o755)
+    make_private(folder)
+    assert mode(folder) == 0o755
+
+
+def test_each_user_has_a_folder(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("USER", "ann")
+    anns = default_run_dir()
+    monkeypatch.setenv("USER", "bob")
+    assert default_run_dir() != anns
+
+
+def test_a_link_in_place_of_the_folder_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "elsewhere").mkdir()
+    link = tmp_path / "run"
+    link.symlink_to(tmp_path / "elsewhere")
+    with pytest.raises(ActsError, match=f"{link} is a symbolic link.*run_dir:="):
+        make_private(link)
+
+
+def test_a_folder_that_anybody_may_write_to_is_refused_but_not_one_like_tmp(tmp_path: Path) -> None:
+    tmp_path.chmod(0o777)
+    with pytest.raises(ActsError, match="anybody may write to the folder"):
+        make_private(tmp_path)
+    tmp_path.chmod(0o1777)
+    make_private(tmp_path)
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root can give a folder to somebody else")
+def test_somebody_elses_folder_is_refused_by_name(tmp_path: Path) -> None:
+    os.chown(tmp_path, 1, 1)
+    with pytest.raises(ActsError, match=r"belongs to (daemon|bin|user 1);.*run_dir:="):
+        make_private(tmp_path)
+
+
+def test_a_file_in_place_of_the_folder_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "run").write_text("mine")
+    with pytest.raises(ActsError, match="is no folder"):
+        make_private(tmp_path / "run")
+
+
+def test_what_is_claimed_is_refused_to_others_by_the_holders_name_until_it_is_given_up(tmp_path: Path) -> None:
+    ring = tmp_path / "field.ring"
+    claim = Claim(ring)
+    with pytest.raises(ActsError, match=rf"{ring} is in use by process {os.getpid()} \(.*\); end that program"):
+        Claim(ring)
+    Claim(tmp_path / "joints.ring").close()
+    claim.close()
+    claim.close()
+    Claim(ring).close()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_killed_process_has_no_claim_any_more(tmp_path: Path) -> None:
+    ring = tmp_path / "field.ring"
+    command = [sys.executable, "-c", HOLDER, str(ring)]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as holder:
+        assert holder.stdout is not None
+        assert holder.stdout.readline() == b"claimed\n"
+        with pytest.raises(ActsError, match=f"process {holder.pid} "):
+            Claim(ring)
+        holder.kill()
+        holder.wait()
+        Claim(ring).close()
+
+
+def test_a_link_in_place_of_the_lock_is_not_followed(tmp_path: Path) -> None:
+    victim = tmp_path / "victim"
+    victim.write_text("kept")
+    (tmp_path / "field.ring.lock").symlink_to(victim)
+    with pytest.raises(ActsError, match="cannot be locked"):
+        Claim(tmp_path / "field.ring")
+    assert victim.read_text() == "kept"
