@@ -206,7 +206,7 @@ def packages() -> list[Path]:
 
 
 def build_workspace() -> None:
-    """`colcon build` of every package, merged into `.acts/install`, Python modules linked so that edits are live."""
+    """`colcon build` of every package, merged into `.acts/install`; Python modules are linked, not copied."""
     files = [
         path
         for package in packages()

@@ -5,7 +5,13 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from acts_tools.evaluate import classification_command, events_command, objects_command, recovery_command
+from acts_tools.evaluate import (
+    classification_command,
+    convert_command,
+    events_command,
+    objects_command,
+    recovery_command,
+)
 
 
 def add_parser(subparsers: Any) -> None:
@@ -17,7 +23,7 @@ def add_parser(subparsers: Any) -> None:
         "compare with the truth. docs/recovery.md tells what the numbers mean.",
     )
     commands = parser.add_subparsers(title="what to evaluate", metavar="WHAT", required=True)
-    for module in (recovery_command, events_command, objects_command, classification_command):
+    for module in (recovery_command, events_command, objects_command, classification_command, convert_command):
         module.add_parser(commands)
 
 

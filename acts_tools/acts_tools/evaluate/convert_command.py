@@ -1,0 +1,78 @@
+"""`acts evaluate convert`: public recordings in the form that the other commands read."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.errors import RecordingError
+from acts_tools.evaluate.public import insole, weiss
+from acts_tools.output_file import require_writable
+
+_GRASPS = "python/classification/training_grasp_profiles_thesis"
+
+
+def add_parser(commands: Any) -> None:
+    """Add ``acts evaluate convert``."""
+    parser = commands.add_parser(
+        "convert",
+        help="turn public recordings into files that can be evaluated",
+        description="Read the recordings of a repository that others have published, and write them as `frames` with "
+        "`rate_hz`, `live`, `start`, `length` and `label`. docs/recovery.md tells where to have them.",
+    )
+    parser.add_argument("which", choices=tuple(_SETS), help="which recordings")
+    parser.add_argument("source", type=Path, metavar="FOLDER", help="the repository they are published in, cloned")
+    parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help="npz file to write")
+    parser.set_defaults(evaluate=_run)
+
+
+def _run(arguments: argparse.Namespace) -> int:
+    require_writable(arguments.output)
+    recordings, live, rate_hz = _SETS[arguments.which](arguments.source)
+    length = np.array([len(frames) for _, frames in recordings])
+    try:
+        np.savez_compressed(
+            arguments.output,
+            frames=np.concatenate([frames for _, frames in recordings]),
+            rate_hz=rate_hz,
+            live=live,
+            start=np.cumsum(length) - length,
+            length=length,
+            label=np.array([label for label, _ in recordings]),
+        )
+    except OSError as error:
+        raise RecordingError(f"{arguments.output}: cannot be written ({error.strerror})") from error
+    print(f"{arguments.output}: {len(recordings)} recordings, {length.sum()} frames")
+    return 0
+
+
+_Recordings = tuple[list[tuple[str, NDArray[np.uint16]]], NDArray[np.bool_], float]
+"""Label and frames of each, where there is a taxel, frames per second."""
+
+
+def _grasps(source: Path) -> _Recordings:
+    folder = source / _GRASPS
+    found = [(name, path) for name in weiss.OBJECTS for path in sorted((folder / name).glob("*.dsa"))]
+    missing = set(weiss.OBJECTS) - {name for name, _ in found}
+    if missing:
+        raise RecordingError(f"{folder}: no recordings of {', '.join(sorted(missing))}; is {source} the repository?")
+    return [(name, weiss.read(path)) for name, path in found], weiss.live(), weiss.RATE_HZ
+
+
+def _slips(source: Path) -> _Recordings:
+    paths = [source / "pressure_profiles" / name for name in weiss.SLIPS]
+    return [(path.stem, weiss.read(path)) for path in paths], weiss.live(), weiss.RATE_HZ
+
+
+def _insole(source: Path) -> _Recordings:
+    paths = [source / "Experiment_Dataset" / name for name in insole.RECORDINGS]
+    pairs = [(path.stem, insole.read(path)) for path in paths]
+    recordings = [(f"{name}_{foot}", both[foot]) for foot in (0, 1) for name, both in pairs]
+    return recordings, np.ones((insole.ROWS, insole.COLS), dtype=bool), insole.RATE_HZ
+
+
+_SETS = {"grasps": _grasps, "slips": _slips, "insole": _insole}

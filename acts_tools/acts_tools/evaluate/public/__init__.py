@@ -1,0 +1,1 @@
+"""Recordings that others have published, in their own formats."""
