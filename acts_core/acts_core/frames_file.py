@@ -48,6 +48,22 @@ class FramesFile:
         return self.frames[peaks]
 
 
+def without_contact(largest_counts: int, touch_counts: float) -> str:
+    """Words for frames in which nothing is pressed, which mostly have another unit.
+
+    Parameters
+    ----------
+    largest_counts : int
+        Largest count of all frames.
+    touch_counts : float
+        A taxel is pressed above this.
+    """
+    return (
+        f"the largest count is {largest_counts}, and only what is above {touch_counts:g} is a contact, so there is "
+        f"none; needed are ADC counts of 10 bits, 0 to {COUNT_MAX} (multiply volts by {COUNT_MAX} / full scale)"
+    )
+
+
 def load_frames(path: Path, *, labels: bool = False) -> FramesFile:
     """Read a file of frames; recordings of no frames are left out.
 

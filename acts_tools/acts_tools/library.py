@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from acts_core.errors import RecordingError
-from acts_core.frames_file import load_frames
+from acts_core.frames_file import load_frames, without_contact
 from acts_recon.image_classification import ImageClassifierConfig
 from acts_recon.object_library import build_object_library, save_object_library
 from acts_sim.objects import OBJECTS, object_named
@@ -72,7 +72,9 @@ def run(arguments: argparse.Namespace) -> int:
         peaks = recorded.peak_frames() * recorded.live
         touched = [n for n in chosen if peaks[n].max() > arguments.touch_counts]
         if not touched:
-            raise RecordingError(f"{arguments.frames}: no recording has more than {arguments.touch_counts} counts")
+            largest = max((int(peaks[n].max()) for n in chosen), default=0)
+            words = without_contact(largest, arguments.touch_counts)
+            raise RecordingError(f"{arguments.frames}: {words}, or a lower --touch-counts")
         if len(touched) < len(chosen):
             print(f"left out: {len(chosen) - len(touched)} recordings without a touch")
         frames = peaks[touched]

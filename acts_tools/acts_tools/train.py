@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_core.errors import SettingsError
+from acts_core.errors import RecordingError, SettingsError
+from acts_core.frames_file import without_contact
 from acts_core.settings import default_of
 from acts_recon.dictionary import Dictionary, save_dictionary
 from acts_recon.ksvd import KsvdConfig, KsvdProgress, learn_dictionary
@@ -142,7 +143,13 @@ def run(arguments: argparse.Namespace) -> int:
 def _source(arguments: argparse.Namespace) -> tuple[Source, dict[str, Any]]:
     """The frames, and the settings they were made with."""
     if arguments.frames is not None:
-        return recorded_frames(arguments.frames, arguments.topic), {}
+        recorded = recorded_frames(arguments.frames, arguments.topic)
+        largest = int(recorded.frames.max(initial=0))
+        if largest <= arguments.touch_counts:
+            files = ", ".join(map(str, arguments.frames))
+            words = without_contact(largest, arguments.touch_counts)
+            raise RecordingError(f"{files}: {words}, or a lower --touch-counts")
+        return recorded, {}
     objects = [object_named(name) for name in arguments.objects] if arguments.objects else list(OBJECTS.values())
     print(f"pressing {len(objects)} objects into the contact model", flush=True)
     bar = ProgressBar("press", arguments.presses)

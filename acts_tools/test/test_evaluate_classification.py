@@ -124,15 +124,18 @@ def test_recordings_without_a_touch_and_what_no_taxel_reads_stay_out_of_a_librar
     loaded = load_object_library(tmp_path / "o.npz")
     assert loaded.names == ("1", "3")
     assert np.flatnonzero(loaded.columns.sum(axis=1)).tolist() == [2 * 8 + 2, 6 * 8 + 6]
-    with pytest.raises(RecordingError, match="no recording has more than 400 counts"):
+    with pytest.raises(RecordingError, match="the largest count is 300, and only what is above 400 is a contact"):
         make_library("-o", tmp_path / "o.npz", "--frames", tmp_path / "f.npz", "--touch-counts", 400)
 
 
 def test_what_cannot_be_is_refused(grasps: Path, tmp_path: Path) -> None:
     plain = tmp_path / "plain.npz"
     np.savez(plain, frames=np.zeros((2, 4, 4), np.uint16), rate_hz=31.0)
+    volts = tmp_path / "volts.npz"
+    np.savez(volts, frames=np.full((2, 4, 4), 3.3), rate_hz=31.0, label=["a"])
     cases: list[tuple[Callable[[], int], type[ActsError], str]] = [
         (lambda: evaluate("--frames", plain), RecordingError, "no `label` in the file"),
+        (lambda: evaluate("--frames", volts), RecordingError, "the largest count is 3, and only what is above"),
         (lambda: make_library("-o", tmp_path / "o.npz", "--frames", plain), RecordingError, "has no label"),
         (
             lambda: make_library("-o", tmp_path / "o.npz", "--frames", grasps, "--objects", "cat"),

@@ -68,6 +68,14 @@ def test_wrong_arguments_are_refused(words: list[object], error: type[ActsError]
     assert not (tmp_path / "d.npz").exists()
 
 
+def test_frames_of_another_unit_are_told(tmp_path: Path) -> None:
+    np.savez(tmp_path / "volts.npz", frames=np.full((3, 16, 16), 3.3))
+    with pytest.raises(
+        RecordingError, match=r"volts\.npz: the largest count is 3, and only what is above 60 is a contact"
+    ):
+        run("-o", tmp_path / "d.npz", "--frames", tmp_path / "volts.npz")
+
+
 def test_what_cannot_be_written_is_told_before_the_work(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for path in (tmp_path / "no" / "d.npz", tmp_path):
         with pytest.raises(RecordingError, match=f"{path}: cannot be written"):

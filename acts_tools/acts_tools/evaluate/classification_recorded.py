@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from acts_core.errors import RecordingError
-from acts_core.frames_file import FramesFile
+from acts_core.frames_file import FramesFile, without_contact
 from acts_recon.image_classification import ImageClassifierConfig
 from acts_recon.object_library import build_object_library
 from acts_tools.evaluate.classification import (
@@ -56,7 +56,10 @@ def run_recorded(
         int(s + np.argmax(flat[s : s + n].sum(axis=(1, 2), dtype=np.int64)))
         for s, n in zip(recorded.start, recorded.length, strict=True)
     ]
-    known, asked = _split(recorded, [flat[peak].max() > TOUCH_COUNTS for peak in peaks])
+    largest = [int(flat[peak].max()) for peak in peaks]
+    if max(largest) <= TOUCH_COUNTS:
+        raise RecordingError(f"nothing was touched: {without_contact(max(largest), TOUCH_COUNTS)}")
+    known, asked = _split(recorded, [count > TOUCH_COUNTS for count in largest])
     frames = np.stack([flat[peaks[number]] for number in known])
     labels = [recorded.label[number] for number in known]
     coarse = build_object_library(frames, labels, touch_counts=TOUCH_COUNTS)

@@ -10,9 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from acts_core.array import COUNT_MAX
 from acts_core.errors import RecordingError
-from acts_core.frames_file import load_frames
+from acts_core.frames_file import load_frames, without_contact
 from acts_sim.objects import OBJECTS
 from acts_tools.evaluate import options, report
 from acts_tools.evaluate.progress import evaluate_all
@@ -74,9 +73,4 @@ def _tell_without_contact(path: Path, recordings: Sequence[Recording], touch_cou
     """Say so where nothing is ever pressed: scored is then only what is invented, mostly by mistake."""
     largest = max(int(recording.frames.max(axis=0)[recording.live].max(initial=0)) for recording in recordings)
     if largest <= touch_counts:
-        print(
-            f"warning: {path}: the largest count is {largest}, and only what is above {touch_counts} is a contact, so "
-            f"there is none; needed are ADC counts of 10 bits, 0 to {COUNT_MAX} (multiply volts by {COUNT_MAX} / full "
-            "scale), or a lower --touch-counts",
-            file=sys.stderr,
-        )
+        print(f"warning: {path}: {without_contact(largest, touch_counts)}, or a lower --touch-counts", file=sys.stderr)
