@@ -66,6 +66,45 @@ def test_a_node_gets_name_namespace_parameters_and_remaps_in_the_real_order(
     assert yaml.safe_load(written.read_text()) == {"/robot/plate/left/driver": {"ros__parameters": {"rate": 1000}}}
 
 
+def test_an_executable_gets_its_words_and_environment_and_nothing_of_ros(launch: Launch, node: Path) -> None:
+    plan = launch(
+        """
+        <group>
+          <push-ros-namespace namespace="robot"/>
+          <set_env name="GIVEN" value="to all"/>
+          <executable cmd="$(exec-in-pkg node fake) --fast 'two words' --x=$(var x 'a b') --end" name="board"
+                      output="screen" respawn="true" respawn_delay="2.0">
+            <env name="OWN" value="$(var x 7)"/>
+          </executable>
+          <executable cmd="sh"/>
+        </group>
+        """
+    )
+    board, shell = plan.processes
+    assert (board.label, board.output, board.respawn, board.respawn_delay_s) == ("board-1", "screen", True, 2.0)
+    assert list(board.command) == [str(node), "--fast", "two words", "--x=a b", "--end"]
+    assert (board.environment["GIVEN"], board.environment["OWN"]) == ("to all", "7")
+    assert (shell.label, len(shell.command), "OWN" in shell.environment) == ("sh-2", 1, False)
+
+
+@pytest.mark.parametrize(
+    ("body", "words"),
+    [
+        ("<executable/>", "Attribute 'cmd'"),
+        ('<executable cmd=""/>', "cmd is empty|not found on the PATH"),
+        ('<executable cmd="no_such_program_anywhere"/>', "'no_such_program_anywhere' not found on the PATH"),
+        ('<executable cmd="$(exec-in-pkg nothing fake)"/>', "executable 'nothing' not found on the libexec directory"),
+        ('<executable cmd="$(exec-in-pkg node)"/>', "exec-in-package substitution expects 2 arguments"),
+        ('<executable cmd="sh" shell="true"/>', "Unexpected attribute.*'shell'"),
+        ('<executable cmd="sh"><param name="a" value="1"/></executable>', "Unexpected nested tag.*'param'"),
+        ('<executable cmd="sh" respawn_delay="-1"/>', "respawn_delay of Entity executable"),
+    ],
+)
+def test_an_executable_that_cannot_be_is_refused(launch: Launch, body: str, words: str) -> None:
+    with pytest.raises(LaunchError, match=words):
+        launch(body)
+
+
 def test_a_node_without_name_or_namespace_gets_neither_and_its_parameters_match_any_node(launch: Launch) -> None:
     plan = launch('<node pkg="fake" exec="node"><param name="a" value="1"/></node>')
     path = str(plan.processes[0].parameter_files[0])
@@ -194,7 +233,6 @@ def test_respawn_output_and_programs_outside_of_packages(launch: Launch) -> None
     ("body", "message"),
     [
         ("<foo/>", "Unrecognized entity of the type: foo"),
-        ("<executable cmd='ls'/>", "Unrecognized entity of the type: executable"),
         ("<remap from='a' to='b'/>", "Unrecognized entity of the type: remap"),
         ('<node pkg="fake" exec="node" bogus="1"/>', "Unexpected attribute(s) found in `node`: {'bogus'}"),
         ('<node pkg="fake" exec="node"><foo/></node>', "Unexpected nested tag(s) found in `node`: {'foo'}"),

@@ -70,9 +70,7 @@ def test_wrong_arguments_are_refused(words: list[object], error: type[ActsError]
 
 def test_frames_of_another_unit_are_told(tmp_path: Path) -> None:
     np.savez(tmp_path / "volts.npz", frames=np.full((3, 16, 16), 3.3))
-    with pytest.raises(
-        RecordingError, match=r"volts\.npz: the largest count is 3, and only what is above 60 is a contact"
-    ):
+    with pytest.raises(RecordingError, match=r"volts\.npz: the largest count is 3, and only what is above 60"):
         run("-o", tmp_path / "d.npz", "--frames", tmp_path / "volts.npz")
 
 

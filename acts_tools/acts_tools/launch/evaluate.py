@@ -19,6 +19,7 @@ from acts_tools.launch.model import (
     AnyAction,
     Condition,
     DeclareArgument,
+    Executable,
     Group,
     Include,
     Node,
@@ -135,6 +136,8 @@ class _Evaluator:
             self.visit(action.actions, inner, depth)
         elif isinstance(action, Include):
             self._include(action, scope, depth)
+        elif isinstance(action, Executable):
+            self._executable(action, scope)
         else:
             self._node(action, scope)
 
@@ -191,6 +194,22 @@ class _Evaluator:
                 respawn=bool(parameters.coerce(substitutions.perform(node.respawn, scope), "bool")),
                 respawn_delay_s=node.respawn_delay_s,
                 parameter_files=tuple(files),
+            )
+        )
+
+    def _executable(self, action: Executable, scope: Scope) -> None:
+        words = [substitutions.perform(word, scope) for word in action.command]
+        program = _on_path(words[0], scope)
+        name = program.name if action.name is None else substitutions.perform(action.name, scope)
+        added = [tuple(substitutions.perform(part, scope) for part in variable) for variable in action.environment]
+        self.plan.processes.append(
+            Process(
+                label=f"{name}-{len(self.plan.processes) + 1}",
+                command=(str(program), *words[1:]),
+                environment={**scope.environment, **dict(added)},
+                output=_output(action, scope),
+                respawn=bool(parameters.coerce(substitutions.perform(action.respawn, scope), "bool")),
+                respawn_delay_s=action.respawn_delay_s,
             )
         )
 
@@ -277,14 +296,18 @@ def _program(node: Node, scope: Scope) -> Path:
     name = substitutions.perform(node.executable, scope)
     if node.package is not None:
         return packages.executable(substitutions.perform(node.package, scope), name, scope.environment)
+    return _on_path(name, scope)
+
+
+def _on_path(name: str, scope: Scope) -> Path:
     found = shutil.which(name, path=scope.environment.get("PATH"))
     if found is None:
         raise LaunchError(f"executable '{name}' not found on the PATH")
     return Path(found)
 
 
-def _output(node: Node, scope: Scope) -> str:
-    output = os.environ.get("OVERRIDE_LAUNCH_PROCESS_OUTPUT") or substitutions.perform(node.output, scope)
+def _output(action: Node | Executable, scope: Scope) -> str:
+    output = os.environ.get("OVERRIDE_LAUNCH_PROCESS_OUTPUT") or substitutions.perform(action.output, scope)
     if output not in _OUTPUTS:
         raise LaunchError(f'{output} is not a valid standard output config i.e. "screen", "log" or "both"')
     return output

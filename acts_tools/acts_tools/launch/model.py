@@ -126,4 +126,30 @@ class Node(Action):
     remaps: tuple[tuple[Template, Template], ...]
 
 
-AnyAction: TypeAlias = "DeclareArgument | SetVariable | SetEnvironment | PushNamespace | Group | Include | Node"
+@dataclass(frozen=True, kw_only=True)
+class Executable(Action):
+    """`executable`: a process that is no ROS node, and is given nothing of ROS.
+
+    Attributes
+    ----------
+    command : tuple of Template
+        Program and words of the command line, as `Node.arguments`.
+    name : Template or None
+        Label of the process; None for the program's name.
+    environment : tuple of (Template, Template)
+        Names and values of variables that are added to its environment.
+    respawn_delay_s : float
+        From the end of the process to its next start [s].
+    """
+
+    command: tuple[Template, ...]
+    name: Template | None
+    environment: tuple[tuple[Template, Template], ...]
+    output: Template
+    respawn: Template
+    respawn_delay_s: float
+
+
+AnyAction: TypeAlias = (
+    "DeclareArgument | SetVariable | SetEnvironment | PushNamespace | Group | Include | Node | Executable"
+)

@@ -12,6 +12,7 @@ from acts_tools.launch.model import (
     AnyAction,
     Condition,
     DeclareArgument,
+    Executable,
     Group,
     Include,
     Node,
@@ -166,6 +167,28 @@ def _node(element: Element, condition: Condition | None) -> Node:
     )
 
 
+def _executable(element: Element, condition: Condition | None) -> Executable:
+    variables = []
+    for child in element.take("env"):
+        child.take()
+        with located(child.place):
+            variables.append((_required(child, "name"), _required(child, "value")))
+        child.finish()
+    command = _command_line(element.require("cmd"))
+    if not command:
+        raise element.error("cmd is empty: needed is a program and its arguments")
+    return Executable(
+        place=element.place,
+        condition=condition,
+        command=command,
+        name=_optional(element, "name"),
+        environment=tuple(variables),
+        output=_optional(element, "output") or (Text("log"),),
+        respawn=_optional(element, "respawn") or (Text("false"),),
+        respawn_delay_s=_delay(element),
+    )
+
+
 def _delay(element: Element) -> float:
     text = element.get("respawn_delay")
     if text is None:
@@ -176,7 +199,7 @@ def _delay(element: Element) -> float:
         delay_s = float("nan")
     if not 0.0 <= delay_s < float("inf"):
         raise element.error(
-            f"Attribute respawn_delay of Entity node expected to be a non-negative value but got `{text}`"
+            f"Attribute respawn_delay of Entity {element.tag} expected to be a non-negative value but got `{text}`"
         )
     return delay_s
 
@@ -260,4 +283,5 @@ _TAGS: dict[str, Callable[[Element, Condition | None], AnyAction]] = {
     "group": _group,
     "include": _include,
     "node": _node,
+    "executable": _executable,
 }

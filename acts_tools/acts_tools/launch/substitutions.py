@@ -152,6 +152,14 @@ _SUBSTITUTIONS: dict[str, _Kind] = {
         lambda arguments, scope: str(packages.share(perform(arguments[0], scope), scope.environment)),
         lambda arguments: f"FindPackageShare(pkg={describe(arguments[0])})",
     ),
+    "exec-in-pkg": _Kind(
+        range(2, 3),
+        "exec-in-package substitution expects 2 arguments",
+        lambda arguments, scope: str(
+            packages.executable(perform(arguments[1], scope), perform(arguments[0], scope), scope.environment)
+        ),
+        lambda arguments: f"ExecInPkg(pkg={describe(arguments[1])}, exec={describe(arguments[0])})",
+    ),
     "dirname": _Kind(
         range(1),
         "dirname substitution doesn't expect arguments",
