@@ -291,6 +291,8 @@ class ReconstructionNode(Node):
         new_frames, new_rejected = self._frames - frames, rejected - rejected_before
         new_lost = self._lost - lost_before
         rate_hz = new_frames / max(now_s - before_s, 1e-9)
+        durations_s = list(self._durations_s)
+        self._durations_s.clear()
         values = {
             "rate_hz": rate_hz,
             "frames": self._frames,
@@ -301,7 +303,7 @@ class ReconstructionNode(Node):
             "not_published": self._untold,
             "not_used": self._unused,
             "baseline": "subtracted" if self._baseline.is_set else "none",
-            "frame_us.median": 1e6 * median(list(self._durations_s)) if self._durations_s else 0.0,
+            "frame_us.median": 1e6 * median(durations_s) if durations_s else 0.0,
         }
         if new_rejected:
             return WARN, f"{new_rejected} messages dropped that do not fit, see the log", values
