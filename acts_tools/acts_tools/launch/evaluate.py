@@ -201,12 +201,15 @@ class _Evaluator:
         words = [substitutions.perform(word, scope) for word in action.command]
         program = _on_path(words[0], scope)
         name = program.name if action.name is None else substitutions.perform(action.name, scope)
-        added = [tuple(substitutions.perform(part, scope) for part in variable) for variable in action.environment]
+        added = {
+            substitutions.perform(variable, scope): substitutions.perform(value, scope)
+            for variable, value in action.environment
+        }
         self.plan.processes.append(
             Process(
                 label=f"{name}-{len(self.plan.processes) + 1}",
                 command=(str(program), *words[1:]),
-                environment={**scope.environment, **dict(added)},
+                environment={**scope.environment, **added},
                 output=_output(action, scope),
                 respawn=bool(parameters.coerce(substitutions.perform(action.respawn, scope), "bool")),
                 respawn_delay_s=action.respawn_delay_s,
