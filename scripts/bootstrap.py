@@ -11,6 +11,7 @@ import fcntl
 import hashlib
 import importlib.util
 import os
+import re
 import shlex
 import shutil
 import subprocess
@@ -29,6 +30,7 @@ INSTALL = STATE / "install"
 LOCK = ROOT / "requirements.lock"
 PYTHON_RECORD = VENV / "acts.python"
 
+PLAIN = re.compile(r"[A-Za-z0-9/._+@~-]")
 MINIMUM_PYTHON = (3, 10)
 # Raise it when `create_venv` changes, so that existing checkouts make theirs anew.
 VENV_RECIPE = "1"
@@ -56,6 +58,16 @@ class SetupError(Exception):
 
 def say(text: str) -> None:
     print(f"[setup] {text}", flush=True)
+
+
+def check_place(root: Path) -> None:
+    """Refuse a checkout whose path what is built cannot carry, before anything is downloaded."""
+    wrong = sorted({character for character in str(root) if PLAIN.fullmatch(character) is None})
+    if wrong:
+        raise SetupError(
+            f"the path of this checkout holds {', '.join(map(ascii, wrong))}: {root}. What is built cannot carry that. "
+            "Move the checkout to a path of plain letters A to Z, digits and / . _ - + @ ~ only, such as ~/acts."
+        )
 
 
 def check_machine() -> None:
@@ -284,6 +296,7 @@ def main() -> int:
     if not arguments.this_python:
         hand_over_to_recorded_python()
     try:
+        check_place(ROOT)
         check_machine()
         STATE.mkdir(exist_ok=True)
         # Two commands at once must not build into one another.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import os
 import re
 from collections.abc import Callable
@@ -15,14 +16,20 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from launch_support import PACKAGE
 
-from acts_tools.launch.evaluate import Plan, evaluate
+from acts_core.errors import LaunchError
+from acts_core.settings import describe
+from acts_driver.settings import DriverSettings
+from acts_recon.reconstruction_settings import ReconstructionSettings
+from acts_ros.composition import IN_PARAMS_FILE
+from acts_tools.launch.evaluate import Plan, declarations, evaluate
+from acts_tools.launch.parser import parse_file
 
 FILES = sorted((Path(get_package_share_directory(PACKAGE)) / "launch").glob("*.launch.xml"))
 
 # Arguments that take any text, by launch file.
 TEXTS = {
-    "tactile": ("port", "frame_id", "recording", "replay", "run_dir", "cpu_affinity"),
-    "ball_balancing": ("port", "robot_ip", "trajectory", "frame_id", "run_dir", "cpu_affinity"),
+    "tactile": ("port", "frame_id", "dictionary", "pitch", "recording", "replay", "run_dir", "cpu_affinity"),
+    "ball_balancing": ("port", "robot_ip", "trajectory", "frame_id", "dictionary", "pitch", "run_dir", "cpu_affinity"),
     "skins": ("skins_file", "base_frame", "run_dir"),
     "simulated_board": ("recording", "run_dir", "cpu_affinity"),
     "simulated_robot": ("robot_ip", "frame_id", "run_dir", "cpu_affinity"),
@@ -69,8 +76,12 @@ def replaced(content: Any, text: str) -> Any:
 
 @pytest.fixture
 def launch(tmp_path: Path) -> Callable[..., Printed]:
+    numbers = itertools.count()
+
     def run(file: Path, **arguments: str) -> Printed:
-        return printed(evaluate(file, arguments, os.environ, tmp_path))
+        folder = tmp_path / str(next(numbers))
+        folder.mkdir()
+        return printed(evaluate(file, arguments, os.environ, folder))
 
     return run
 
@@ -85,13 +96,19 @@ def test_no_launch_file_evaluates_code(file: Path) -> None:
 @pytest.mark.parametrize("composed", ["true", "false"])
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.name)
 def test_any_text_of_an_argument_arrives_whole(launch: Callable[..., Printed], file: Path, composed: str) -> None:
-    name = file.name.removesuffix(".launch.xml")
-    more = {"composed": composed} if '"composed"' in file.read_text() else {}
-    for argument in TEXTS[name]:
-        expected = launch(file, **{argument: STANDS_FOR}, **more)
-        assert STANDS_FOR in repr(expected), argument
+    names = TEXTS[file.name.removesuffix(".launch.xml")]
+    given = {"composed": composed} if '"composed"' in file.read_text() else {}
+    # A port matters without a simulation, a recording where nothing is replayed.
+    for sim, left_out in (("true", "replay"), ("false", "recording")):
+        more = {**given, "sim": sim}
+        arguments = [name for name in names if name != left_out]
+        expected = launch(file, **dict.fromkeys(arguments, STANDS_FOR), **more)
         for text in MEAN:
-            assert launch(file, **{argument: text}, **more) == replaced(expected, text), (argument, text)
+            assert launch(file, **dict.fromkeys(arguments, text), **more) == replaced(expected, text), text
+    for name in names:
+        assert any(
+            STANDS_FOR in repr(launch(file, **{name: STANDS_FOR}, **given, sim=sim)) for sim in ("true", "false")
+        )
 
 
 TACTILE = next(file for file in FILES if file.name == "tactile.launch.xml")
@@ -111,3 +128,61 @@ def test_only_with_sim_is_the_robot_held_to_be_a_simulated_one(launch: Callable[
         assert re.findall(r"loopback_only=(\w+)", words) == [expected]
         (separate,) = re.findall(r"'loopback_only': (\w+)", repr(launch(file, sim=sim, composed="false")))
         assert separate.lower() == expected
+
+
+CHOICES = {
+    "scheme": tuple(word for word in describe(DriverSettings)["scheme"].choices if word),
+    "protocol": describe(DriverSettings)["protocol"].choices,
+    "layout": describe(ReconstructionSettings)["layout"].choices,
+    "method": (*describe(ReconstructionSettings)["method"].choices, IN_PARAMS_FILE),
+    "autostart": ("true", "false", IN_PARAMS_FILE),
+}
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda file: file.name)
+def test_choices_are_those_of_the_nodes(file: Path, launch: Callable[..., Printed]) -> None:
+    for argument, _ in declarations(parse_file(file)):
+        assert set(argument.choices) == set(CHOICES.get(argument.name, ())), argument.name
+        for choice in argument.choices:
+            launch(file, **{argument.name: choice})
+        if argument.choices:
+            with pytest.raises(LaunchError, match=f'Argument "{argument.name}" provided value "trackin" is not valid'):
+                launch(file, **{argument.name: "trackin"})
+
+
+def settings_of(printed: Printed, node: str) -> dict[str, str]:
+    """What `--set` gives to a node."""
+    words = [word for command, _ in printed for word in command]
+    return dict(word.removeprefix(f"{node}.").split("=", 1) for word in words if word.startswith(f"{node}."))
+
+
+@pytest.mark.parametrize("composed", ["true", "false"])
+def test_the_array_and_the_method_reach_every_process_that_needs_them(
+    launch: Callable[..., Printed], composed: str
+) -> None:
+    array = {"rows": "16", "cols": "8", "pitch": "0.002"}
+    chosen = {"method": "per_frame", "dictionary": "mine.npz", "autostart": "false"}
+    for name in ("tactile", "ball_balancing"):
+        file = TACTILE.with_name(f"{name}.launch.xml")
+        started = launch(file, composed=composed, **array, **chosen)
+        (board,) = [" ".join(words) for words, _ in started if words[0].endswith("/virtual_board")]
+        assert "--rows 16 --cols 8" in board
+        size = {"rows": "16", "cols": "8"}
+        assert settings_of(started, "ball_world").items() >= {**size, "pitch_m": "0.002"}.items()
+        assert settings_of(started, "driver").items() >= size.items()
+        assert settings_of(started, "reconstruction").items() >= {**size, "pitch_m": "0.002"}.items()
+        assert settings_of(started, "reconstruction")["method"] == "per_frame"
+        assert settings_of(started, "reconstruction")["dictionary"] == "mine.npz"
+        # Of the ball balancing it is the robot that waits.
+        waits, goes_on = ("driver", "") if name == "tactile" else ("ball_control", "driver")
+        assert settings_of(started, waits)["autostart"] == "false"
+        assert not goes_on or settings_of(started, goes_on)["autostart"] == IN_PARAMS_FILE
+
+
+def test_what_is_not_given_is_left_to_the_params_file(launch: Callable[..., Printed]) -> None:
+    started = launch(TACTILE)
+    (board,) = [" ".join(words) for words, _ in started if words[0].endswith("/virtual_board")]
+    assert "--rows 32 --cols 32" in board
+    reconstruction = settings_of(started, "reconstruction")
+    names = ("rows", "cols", "pitch_m", "method", "dictionary")
+    assert {reconstruction[name] for name in names} == {IN_PARAMS_FILE}

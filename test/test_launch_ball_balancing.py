@@ -1,4 +1,4 @@
-"""Ball balancing, launched for real: it balances, and ends level when parts of it are lost. ROS_DOMAIN_ID 96 to 98."""
+"""Ball balancing, launched for real: it balances, and ends level when parts are lost. ROS_DOMAIN_ID 96 to 98, 183."""
 
 import os
 import signal
@@ -27,6 +27,18 @@ def balancing(tmp_path: Path) -> LaunchFile:
     arguments = {"run_dir": str(tmp_path / "run"), "robot_ip": "127.0.6.2", "trajectory": "hold"}
     arguments["params_file"] = patient_parameters(tmp_path)
     return LaunchFile(PACKAGE, "ball_balancing.launch.xml", 96, arguments)
+
+
+@launch_fixture
+def elsewhere(tmp_path: Path) -> LaunchFile:
+    arguments = {"run_dir": str(tmp_path / "run"), "robot_ip": "127.evil.example.com", "trajectory": "hold"}
+    return LaunchFile(PACKAGE, "ball_balancing.launch.xml", 183, arguments)
+
+
+@launch_test(elsewhere)
+def test_with_a_simulated_skin_no_robot_of_another_address_is_moved(elsewhere: Launched) -> None:
+    elsewhere.wait_for_output("robot_ip = '127.evil.example.com': nothing is controlled", START_S)
+    assert elsewhere.stop() == 1
 
 
 def wait_for_state(launched: Launched, state: int, timeout_s: float) -> BalanceStatus:

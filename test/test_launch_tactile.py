@@ -137,12 +137,13 @@ def wrong_parameters(tmp_path: Path) -> LaunchFile:
 
 
 @launch_test(wrong_parameters)
-def test_a_misspelt_parameter_is_named_and_nothing_else_suffers(wrong_parameters: Launched) -> None:
-    wrong_parameters.wait_for_output("porrt", START_S)
-    assert "did you mean 'port'" in wrong_parameters.output
-    # The driver is started again and again; what does not need it goes on.
-    wrong_parameters.wait_for_publisher("/plate/contact", START_S)
-    wrong_parameters.stop()
+def test_a_misspelt_parameter_is_named_and_ends_the_launch(wrong_parameters: Launched) -> None:
+    wrong_parameters.wait_for_output("did you mean 'port'", START_S)
+    # `ros2 launch` starts the process again and again: its launch files cannot tell it not to.
+    if not HAS_LAUNCH_PYTEST:
+        wrong_parameters.wait_for_output("refuses what it was given", LONG_S)
+        assert wrong_parameters.output.count("[INFO] [tactile-3]: process started") == 1
+    assert wrong_parameters.stop() == 1
 
 
 @launch_fixture

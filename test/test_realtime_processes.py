@@ -134,6 +134,6 @@ def test_what_cannot_be_ends_the_node(parameter: str) -> None:
         timeout=DEADLINE_S,
         env={**os.environ, "ROS_DOMAIN_ID": "140"},
     )
-    assert refused.returncode == 1
+    assert refused.returncode == 2
     assert parameter.split(":")[0] in refused.stderr
     assert "allowed" in refused.stderr

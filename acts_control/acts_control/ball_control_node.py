@@ -5,7 +5,8 @@ Topics: ball/state and ball/reference in; ball/status and ball/tilt out. Service
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import sys
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -31,6 +32,7 @@ from acts_core.realtime import RealtimeConfig, enter_realtime
 from acts_core.settings import Changeable, setting
 from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import BalanceStatus, BallReference, BallState
+from acts_ros.composition import parameters_from
 from acts_ros.diagnostics import ERROR, OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
 from acts_ros.log import log_of
@@ -203,6 +205,8 @@ SETTINGS: dict[str, type] = {"ball_control": BallControlSettings}
 """The settings class of the node, by name."""
 
 
-def main(signals: StopSignals | None = None) -> int:
+def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
     """Run the node; the exit code."""
-    return run([BallControlNode], signals=signals)
+    words = list(sys.argv if args is None else args)
+    given = parameters_from(words, SETTINGS)
+    return run([lambda: BallControlNode(parameter_overrides=given["ball_control"])], words, signals)

@@ -16,6 +16,7 @@ from acts_control.ball_state_node import BallStateNode
 from acts_control.ball_trajectory_node import BallTrajectoryNode
 from acts_control.names import set_stamp
 from acts_control.stream_statistics import StreamCounter
+from acts_core.errors import REFUSED_EXIT_CODE
 from acts_msgs.msg import BalanceStatus
 from acts_ros.qos import STATE, STREAM
 
@@ -192,7 +193,7 @@ def test_the_trajectory_starts_with_balancing_pauses_and_starts_anew(bench: Benc
 def test_bad_parameters_are_an_error_at_start(module: str, parameters: dict[str, object], words: str) -> None:
     with Process(*node_command(module, **parameters), domain=63) as process:
         wait_for(lambda: process.process.poll() is not None, "the end of the process")
-        assert process.process.returncode == 1
+        assert process.process.returncode == REFUSED_EXIT_CODE
         assert words in process.text()
         assert process.text().startswith("error: ")
 

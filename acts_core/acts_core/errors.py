@@ -50,3 +50,14 @@ class RobotError(ActsError):
 
 class LaunchError(ActsError):
     """A launch file is not valid, or holds something outside the supported subset."""
+
+
+REFUSED_EXIT_CODE = 2
+"""Exit code of a process that cannot work with what it was given; starting it again is of no use."""
+
+_REFUSALS = (SettingsError, ArrayError, DictionaryError, ObjectLibraryError)
+
+
+def exit_code(error: ActsError) -> int:
+    """Exit code of a process that ends with an error: `REFUSED_EXIT_CODE` where starting it again is of no use."""
+    return REFUSED_EXIT_CODE if isinstance(error, _REFUSALS) else 1

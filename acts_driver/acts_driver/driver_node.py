@@ -6,8 +6,9 @@ Topics: samples, baseline, board, and board_image, board_object with what the bo
 
 from __future__ import annotations
 
+import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
 
@@ -24,6 +25,7 @@ from acts_driver.intake import Intake
 from acts_driver.settings import DriverSettings
 from acts_driver.source import Source
 from acts_msgs.msg import TactileSamples
+from acts_ros.composition import parameters_from
 from acts_ros.diagnostics import ERROR, OK, DiagnosticsReporter, Report
 from acts_ros.executor import run
 from acts_ros.log import log_of
@@ -203,6 +205,8 @@ SETTINGS: dict[str, type] = {"driver": DriverSettings}
 """The settings class of the node, by name."""
 
 
-def main(signals: StopSignals | None = None) -> int:
+def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
     """Run the node; the exit code."""
-    return run([DriverNode], signals=signals)
+    words = list(sys.argv if args is None else args)
+    given = parameters_from(words, SETTINGS)
+    return run([lambda: DriverNode(parameter_overrides=given["driver"])], words, signals)

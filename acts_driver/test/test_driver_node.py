@@ -11,6 +11,7 @@ from driver_rig import Rig, end_process, read_until, start_process
 from lifecycle_msgs.msg import Transition
 from pty_board import PtyBoard, frame
 
+from acts_core.errors import REFUSED_EXIT_CODE
 from acts_core.wire import encode_frame
 
 NS_PER_S = 1_000_000_000
@@ -233,7 +234,7 @@ def test_a_driver_that_gets_nothing_it_can_use_says_so_and_why(board: PtyBoard) 
 def test_a_wrong_parameter_ends_the_process_with_the_reason(argument: str, words: list[str], rig: Rig) -> None:
     process = start_process(rig.domain_id, "-p", argument)
     output, _ = process.communicate(timeout=30)
-    assert process.returncode == 1
+    assert process.returncode == REFUSED_EXIT_CODE
     for word in ["error: ", *words]:
         assert word in output
 

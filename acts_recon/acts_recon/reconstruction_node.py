@@ -5,6 +5,7 @@ Topics: samples and baseline in; contact, contacts, cop, image_raw, image, confi
 
 from __future__ import annotations
 
+import sys
 import time
 from array import array
 from collections import Counter, deque
@@ -32,6 +33,7 @@ from acts_recon.object_publisher import ObjectPublisher
 from acts_recon.reconstruction_settings import ReconstructionSettings
 from acts_ros import qos
 from acts_ros.cdr import ContactFields, write_contact
+from acts_ros.composition import parameters_from
 from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
 from acts_ros.log import log_of
@@ -67,6 +69,8 @@ class ReconstructionNode(Node):
     def __init__(self, *, subscribes: bool = True, cli_args: Sequence[str] | None = None, **options: object) -> None:
         super().__init__("reconstruction", cli_args=cli_args, **node_options(), **options)
         self._settings = declare(self, ReconstructionSettings, self._change)
+        if self._settings.unused:
+            self.get_logger().warning(f"{', '.join(self._settings.unused)}: not used by method {self._settings.method}")
         self.get_logger().info("compiling (the first time on a machine takes some seconds)")
         self._recovery = self._settings.recovery()
         self._baseline = BaselineSubtraction(self._settings.rows * self._settings.cols)
@@ -322,6 +326,8 @@ SETTINGS: dict[str, type] = {"reconstruction": ReconstructionSettings}
 """The settings class of the node, by name."""
 
 
-def main(signals: StopSignals | None = None) -> int:
+def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
     """Run the node; the exit code."""
-    return run([ReconstructionNode], signals=signals)
+    words = list(sys.argv if args is None else args)
+    given = parameters_from(words, SETTINGS)
+    return run([lambda: ReconstructionNode(parameter_overrides=given["reconstruction"])], words, signals)

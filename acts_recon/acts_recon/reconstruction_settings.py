@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from acts_core.array import COUNT_MAX, MAX_SIDE, ArrayGeometry
+from acts_core.errors import SettingsError
 from acts_core.force import ForceResponse, MeasuredForceResponse
 from acts_core.layouts import LAYOUTS, layout
 from acts_core.realtime import RealtimeConfig
@@ -23,6 +24,12 @@ from acts_recon.shipped import shipped_dictionary_path
 
 _ARRAY = ArrayGeometry()
 _RESPONSE = ForceResponse()
+
+# Parameters that one method alone uses.
+_OF_METHOD = {
+    "fusion": ("object_touch_counts", "object_src_weight"),
+    "per_frame": ("dictionary", "patch_step", "sparsity_ratio", "keep_measured", "object_columns"),
+}
 
 
 @dataclass(frozen=True)
@@ -58,7 +65,9 @@ class ReconstructionSettings(RealtimeConfig):
         minimum=0.0,
         maximum=100.0,
     )
-    dictionary: str = setting("", "path of a dictionary file made by `acts train`; empty for the shipped one")
+    dictionary: str = setting(
+        "", "path of a dictionary file made by `acts train`, for per_frame; empty for the shipped one"
+    )
     touch_counts: int = setting(
         default_of(ReconstructorConfig, "touch_counts"),
         "ADC counts above which a taxel is pressed; others are taken as 0",
@@ -161,6 +170,21 @@ class ReconstructionSettings(RealtimeConfig):
 
     def __post_init__(self) -> None:
         RealtimeConfig.__post_init__(self)
+        if self.dictionary and self.method != "per_frame":
+            raise SettingsError(
+                f"dictionary = {self.dictionary!r}: the method {self.method} uses none; "
+                "choose method per_frame, or leave the dictionary out"
+            )
+
+    @property
+    def unused(self) -> tuple[str, ...]:
+        """Parameters that were given and that the method does not use."""
+        return tuple(
+            name
+            for method, names in _OF_METHOD.items()
+            for name in names
+            if method != self.method and getattr(self, name) != default_of(type(self), name)
+        )
 
     def reconstructor(self) -> Reconstructor:
         """Load the dictionary and make everything ready for the first frame; takes seconds when not yet compiled.
@@ -174,7 +198,7 @@ class ReconstructionSettings(RealtimeConfig):
         SettingsError
             When the force response cannot be used.
         """
-        path = Path(self.dictionary) if self.dictionary else shipped_dictionary_path()
+        path = Path(self.dictionary).expanduser() if self.dictionary else shipped_dictionary_path()
         arranged = layout(self.layout, self.rows, self.cols)
         return Reconstructor(
             arranged.geometry(self.pitch_m, self.row_pitch_m),

@@ -36,7 +36,8 @@ class Bench:
     def __init__(self, domain_id: int, dictionary_path: Path, parameters: dict[str, object]) -> None:
         self.context = Context()
         rclpy.init(context=self.context, domain_id=domain_id)
-        words = [f"{name}:={value}" for name, value in {"dictionary": dictionary_path, **parameters}.items()]
+        own = {"dictionary": dictionary_path} if parameters.get("method") == "per_frame" else {}
+        words = [f"{name}:={value}" for name, value in {**own, **parameters}.items()]
         arguments = ["--ros-args", *(part for word in words for part in ("-p", word))]
         self.nodes: list[Node] = []
         self.executor = SingleThreadedExecutor(context=self.context)

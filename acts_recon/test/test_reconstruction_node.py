@@ -16,7 +16,7 @@ from recon_samples import bump, sample
 from sensor_msgs.msg import Image
 
 from acts_core.array import ArrayGeometry
-from acts_core.errors import ArrayError, DictionaryError, ObjectLibraryError, SettingsError
+from acts_core.errors import REFUSED_EXIT_CODE, ArrayError, DictionaryError, ObjectLibraryError, SettingsError
 from acts_core.force import ForceResponse
 from acts_core.frames import SampleFrame, Scheme
 from acts_core.layouts import layout
@@ -24,6 +24,7 @@ from acts_msgs.msg import Contact
 from acts_recon.contact import find_contact
 from acts_recon.dictionary import Dictionary
 from acts_recon.fusion import FusionEstimator
+from acts_recon.reconstruction_settings import ReconstructionSettings
 from acts_recon.reconstructor import Reconstructor
 from acts_ros import qos
 
@@ -255,6 +256,7 @@ def test_the_viewer_image_keeps_its_rate_and_costs_nothing_unheard(make_bench: C
             "/no/such/file.npz: cannot be read",
         ),
         ({"method": "per_frame", "dictionary": __file__}, DictionaryError, "not an npz file"),
+        ({"dictionary": "/no/such/file.npz"}, SettingsError, "file.npz.*the method fusion uses none"),
         ({"object_library": "/no/such/objects.npz"}, ObjectLibraryError, "/no/such/objects.npz: cannot be read"),
         ({"object_columns": 1025}, SettingsError, "object_columns = 1025"),
         ({"method": "per_frame", "rows": 7}, ArrayError, "do not fit a side of 7"),
@@ -274,7 +276,15 @@ def test_wrong_parameters_are_refused_at_start(
         make_bench(44, **parameters)
 
 
-def test_the_program_ends_with_one_line_and_exit_code_1() -> None:
+def test_what_the_method_does_not_use_is_known_by_name() -> None:
+    assert ReconstructionSettings().unused == ()
+    assert ReconstructionSettings(patch_step=2, keep_measured=False).unused == ("patch_step", "keep_measured")
+    assert ReconstructionSettings(method="per_frame", patch_step=2, object_src_weight=0.5).unused == (
+        "object_src_weight",
+    )
+
+
+def test_the_program_ends_with_one_line_and_its_exit_code() -> None:
     command = [sys.executable, "-m", "acts_ros.program", "acts_recon.reconstruction_node"]
     environment = {**os.environ, "ROS_DOMAIN_ID": "44"}
     result = subprocess.run(
@@ -284,7 +294,7 @@ def test_the_program_ends_with_one_line_and_exit_code_1() -> None:
         text=True,
         timeout=120,
     )
-    assert result.returncode == 1
+    assert result.returncode == REFUSED_EXIT_CODE
     assert "error: /no/such.npz: cannot be read" in result.stderr
     assert "Traceback" not in result.stderr
 

@@ -1,7 +1,7 @@
-"""Several nodes in one process: parameters for each of them from the process's own command line.
+"""Parameters of the nodes of a process from its own command line: ``--set NODE.PARAMETER=VALUE``.
 
-A ROS parameter on the command line of a process (``-p name:=value``) goes to all of its nodes, and those that do not
-have it refuse it. So a process of several nodes takes ``--set NODE.PARAMETER=VALUE``.
+A ROS parameter on the command line (``-p name:=value``) goes to all nodes of a process, and those that do not have it
+refuse it. And a launch argument, which goes before a params file, cannot say there that it was not given.
 """
 
 from __future__ import annotations
@@ -15,6 +15,9 @@ from rclpy.utilities import remove_ros_args
 from acts_core.errors import SettingsError
 from acts_core.settings import describe, from_text, unknown_key_message
 from acts_ros.parameters import ros_value
+
+IN_PARAMS_FILE = "params_file"
+"""Value that sets nothing: what a params file says holds, or the default."""
 
 
 def parameters_from(words: Sequence[str], nodes: Mapping[str, type]) -> dict[str, list[Parameter]]:
@@ -52,6 +55,8 @@ def parameters_from(words: Sequence[str], nodes: Mapping[str, type]) -> dict[str
         settings_class = nodes[node]
         if parameter not in describe(settings_class):
             raise SettingsError(unknown_key_message(parameter, list(describe(settings_class)), f"parameters of {node}"))
+        if value == IN_PARAMS_FILE:
+            continue
         # Given again, the last one holds.
         given[node][parameter] = Parameter(parameter, value=ros_value(from_text(settings_class, parameter, value)))
     return {node: list(parameters.values()) for node, parameters in given.items()}

@@ -13,7 +13,7 @@ from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
 
-from acts_core.errors import ActsError
+from acts_core.errors import ActsError, exit_code
 from acts_core.stop_signals import StopSignals
 
 try:  # ROS 2 Kilted and newer; half the latency and a third of the CPU of the other at 1 kHz
@@ -63,7 +63,8 @@ def run(
     Returns
     -------
     int
-        Exit code: 0 after an orderly stop, 1 when a node could not start or failed with an `ActsError`.
+        Exit code: 0 after an orderly stop; when a node could not start or failed with an `ActsError`, 2 where the cause
+        is what it was given and 1 otherwise.
     """
     signals = StopSignals() if signals is None else signals
     rclpy.init(
@@ -85,7 +86,7 @@ def run(
         _spin(executor, signals)
     except ActsError as error:
         print(f"error: {error}", file=sys.stderr, flush=True)
-        return 1
+        return exit_code(error)
     except KeyboardInterrupt:
         return 0
     finally:

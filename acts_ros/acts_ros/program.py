@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from importlib import import_module
 from pathlib import Path
 
-from acts_core.errors import ActsError
+from acts_core.errors import ActsError, exit_code
 from acts_core.stop_signals import StopSignals
 
 
@@ -38,7 +38,7 @@ class Program:
             return int(module.main(signals))
         except ActsError as error:
             print(f"error: {error}", file=sys.stderr, flush=True)
-            return 1
+            return exit_code(error)
         except KeyboardInterrupt:
             # Asked to end before anything had begun.
             return 0

@@ -38,6 +38,13 @@ def test_each_node_gets_its_own_in_the_types_of_its_settings() -> None:
     }
 
 
+def test_what_is_left_to_the_params_file_is_not_set() -> None:
+    words = ["--set", "left.word=params_file", "--set", "left.number=params_file", "--set", "right.count=2"]
+    assert given(*words) == {"left": {}, "right": {"count": 2}}
+    with pytest.raises(SettingsError, match="did you mean 'word'"):
+        given("--set", "left.wrod=params_file")
+
+
 def test_nothing_given_and_given_twice() -> None:
     assert given() == {"left": {}, "right": {}}
     # A value may hold the signs that separate.

@@ -12,7 +12,7 @@ import pytest
 
 NODE = """
 import sys
-from acts_core.errors import SettingsError
+from acts_core import errors
 from acts_ros.executor import run
 from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.node import Node
@@ -25,7 +25,7 @@ class Example(Node):
             while True:
                 self.create_timer(1.0, self.tick)
         if "fail" in sys.argv:
-            raise SettingsError("rate_hz = 0: allowed is 1 to 1000")
+            raise getattr(errors, sys.argv[-1])("rate_hz = 0: allowed is 1 to 1000")
         self.create_timer(0.01, self.tick)
         self.ticks = 0
 
@@ -120,9 +120,10 @@ def test_a_signal_during_the_imports_is_an_orderly_end(tmp_path: Path) -> None:
     assert process.returncode == 0
 
 
-def test_an_error_at_start_is_one_line_and_exit_code_1() -> None:
-    with started("fail") as process:
+@pytest.mark.parametrize(("error", "code"), [("SettingsError", 2), ("DictionaryError", 2), ("RobotError", 1)])
+def test_an_error_at_start_is_one_line_and_the_exit_code_tells_whether_to_try_again(error: str, code: int) -> None:
+    with started("fail", error) as process:
         output, errors = process.communicate(timeout=60)
-    assert process.returncode == 1
+    assert process.returncode == code
     assert errors == "error: rate_hz = 0: allowed is 1 to 1000\n"
     assert output == ""

@@ -12,6 +12,11 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+import pytest
+
+from acts_ros.processes.console import Console
+from acts_ros.processes.launcher import Launcher
+from acts_ros.processes.process import Process
 from acts_ros.processes.respawn import LONGEST_WAIT_S, SOON_S, RespawnWait
 
 DEADLINE_S = 30.0
@@ -109,3 +114,18 @@ def test_what_was_started_ends_when_its_program_is_killed(tmp_path: Path) -> Non
         run.process.kill()
         run.process.wait()
         run.wait_until(lambda: all(is_gone(pid) for pid in run.pids))
+
+
+def test_what_refuses_what_it_was_given_is_not_started_again_and_may_leave_the_others_alone(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    def process(label: str, script: str, respawn: bool) -> Process:
+        return Process(label, ("/bin/sh", "-c", script), dict(os.environ), "screen", respawn, 0.01)
+
+    plan = [process("choosy", "exit 2", True), process("other", "sleep 0.3; echo done", False)]
+    assert Launcher(Console(None), ends_on_refusal=False).run(plan) == 1
+    output = capsys.readouterr().out
+    assert output.count("[choosy]: process started") == 1
+    assert "[other] done" in output
+    assert "choosy refuses what it was given: exit code 2" in output
+    assert "other died" not in output

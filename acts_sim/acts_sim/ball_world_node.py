@@ -6,9 +6,12 @@ subscribes to that.
 
 from __future__ import annotations
 
+import sys
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from geometry_msgs.msg import PointStamped
 from rclpy.node import Node
@@ -18,6 +21,7 @@ from acts_core.realtime import RealtimeConfig, enter_realtime
 from acts_core.settings import setting
 from acts_core.stop_signals import StopSignals
 from acts_ros import qos
+from acts_ros.composition import parameters_from
 from acts_ros.diagnostics import ERROR, OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
 from acts_ros.log import log_of
@@ -59,8 +63,8 @@ class BallWorldSettings(RealtimeConfig, WorldConfig):
 class BallWorld(Node):
     """Translates between ROS and the world; the world itself runs in a thread of its own."""
 
-    def __init__(self) -> None:
-        super().__init__("ball_world", **node_options())
+    def __init__(self, **node_arguments: Any) -> None:
+        super().__init__("ball_world", **node_options(), **node_arguments)
         settings = declare(self, BallWorldSettings)
         self._settings = settings
         self._frame_id = skin_frame(self, settings.frame_id)
@@ -150,6 +154,8 @@ SETTINGS: dict[str, type] = {"ball_world": BallWorldSettings}
 """The settings class of the node, by name."""
 
 
-def main(signals: StopSignals | None = None) -> int:
+def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
     """Run the node; the exit code."""
-    return run([BallWorld], signals=signals)
+    words = list(sys.argv if args is None else args)
+    given = parameters_from(words, SETTINGS)
+    return run([lambda: BallWorld(parameter_overrides=given["ball_world"])], words, signals)

@@ -12,7 +12,7 @@ import stat
 from contextlib import suppress
 from pathlib import Path
 
-from acts_core.errors import ActsError
+from acts_core.errors import ActsError, SettingsError
 from acts_core.process_names import process_name
 
 _OTHER = "give another folder: run_dir:=/dev/shm/NAME"
@@ -28,7 +28,7 @@ def make_private(folder: Path) -> None:
 
     Raises
     ------
-    ActsError
+    SettingsError
         It cannot be made, is a symbolic link, belongs to somebody else, or anybody may write to it. A folder like
         ``/tmp``, in which everybody's files are safe from others, is allowed.
     """
@@ -38,17 +38,17 @@ def make_private(folder: Path) -> None:
                 path.mkdir(mode=0o700)
         status = folder.lstat()
     except OSError as error:
-        raise ActsError(f"the folder {folder} cannot be made ({error.strerror}); {_OTHER}") from error
+        raise SettingsError(f"the folder {folder} cannot be made ({error.strerror}); {_OTHER}") from error
     if stat.S_ISLNK(status.st_mode):
-        raise ActsError(f"the folder {folder} is a symbolic link; name what it leads to, or {_OTHER}")
+        raise SettingsError(f"the folder {folder} is a symbolic link; name what it leads to, or {_OTHER}")
     if not stat.S_ISDIR(status.st_mode):
-        raise ActsError(f"{folder} is no folder; {_OTHER}")
+        raise SettingsError(f"{folder} is no folder; {_OTHER}")
     if status.st_mode & stat.S_ISVTX:
         return
     if status.st_uid != os.geteuid():
-        raise ActsError(f"the folder {folder} belongs to {_user(status.st_uid)}; {_OTHER}")
+        raise SettingsError(f"the folder {folder} belongs to {_user(status.st_uid)}; {_OTHER}")
     if status.st_mode & stat.S_IWOTH:
-        raise ActsError(f"anybody may write to the folder {folder}; `chmod o-w {folder}`, or {_OTHER}")
+        raise SettingsError(f"anybody may write to the folder {folder}; `chmod o-w {folder}`, or {_OTHER}")
 
 
 class Claim:

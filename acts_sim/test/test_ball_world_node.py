@@ -18,6 +18,7 @@ from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 
+from acts_core.errors import REFUSED_EXIT_CODE
 from acts_core.force import ForceResponse
 from acts_core.ur5e import LEVEL_Q_RAD, wrist_angles_for_tilt
 from acts_ros import qos
@@ -176,7 +177,7 @@ def test_the_ball_follows_the_joints_and_presses_the_field(observer: Observer, t
 def test_a_wrong_parameter_ends_it_with_one_clear_line(tmp_path: Path, parameter: str, message: str) -> None:
     with world(101, tmp_path, parameter) as process:
         _, errors = process.communicate(timeout=40)
-        assert process.returncode == 1
+        assert process.returncode == REFUSED_EXIT_CODE
         assert message in errors
         assert "Traceback" not in errors
 

@@ -43,7 +43,9 @@ def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) 
             namespace=_namespace(ros_words),
             environment=os.environ,
         ).plan()
-        return Launcher(Console(None), _SIGTERM_AFTER_S, _SIGKILL_AFTER_S, name="skins").run(plan)
+        return Launcher(Console(None), _SIGTERM_AFTER_S, _SIGKILL_AFTER_S, name="skins", ends_on_refusal=False).run(
+            plan
+        )
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -22,6 +22,7 @@ from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 
+from acts_core.errors import REFUSED_EXIT_CODE
 from acts_msgs.msg import Contact, Contacts, SkinContacts, SkinState, TrackedContact
 from acts_ros import qos
 
@@ -271,6 +272,6 @@ def test_poses_are_kept_for_late_joiners_and_the_aggregate_names_the_skin(robot:
 def test_what_is_wrong_at_the_start_is_told_in_one_line(tmp_path: Path, words: list[str], message: str) -> None:
     with running(tmp_path, 167, *words) as process:
         output, _ = process.communicate(timeout=DEADLINE_S)
-    assert process.returncode == 1
+    assert process.returncode == REFUSED_EXIT_CODE
     assert message in output
     assert "Traceback" not in output

@@ -20,7 +20,7 @@ from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 
-from acts_core.errors import SettingsError
+from acts_core.errors import REFUSED_EXIT_CODE, SettingsError
 from acts_msgs.msg import Contact
 from acts_ros import qos
 from acts_skins.skin_processes import SkinProcesses
@@ -158,7 +158,7 @@ def test_nothing_is_left_when_the_program_is_killed(listener: Listener, tmp_path
 def test_a_wrong_file_is_told_in_one_line_before_anything_starts(tmp_path: Path) -> None:
     path = skins_yaml(tmp_path, TWO.replace("m: 64", "scheme: rastr"))
     with running(tmp_path, path, 162) as skins:
-        assert skins.process.wait(DEADLINE_S) == 1
+        assert skins.process.wait(DEADLINE_S) == REFUSED_EXIT_CODE
         assert skins.output.startswith(f"error: {path}:4: skin right: scheme = 'rastr': allowed is")
         assert skins.output.count("\n") == 1
 

@@ -22,6 +22,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 
 from acts_core.array import ArrayGeometry
+from acts_core.errors import REFUSED_EXIT_CODE
 from acts_msgs.msg import Contact, TactileSamples
 from acts_ros import qos
 
@@ -160,5 +161,5 @@ def test_frames_that_the_reconstruction_cannot_use_do_not_stop_the_driver(listen
 def test_a_wrong_parameter_is_told_in_one_line() -> None:
     with running(*tactile(Path("/dev/null"), "--set", "driver.prot=x"), domain_id=132) as process:
         output, _ = process.communicate(timeout=DEADLINE_S)
-    assert process.returncode == 1
+    assert process.returncode == REFUSED_EXIT_CODE
     assert output == "error: parameters of driver: unknown key 'prot'; did you mean 'port'?\n"

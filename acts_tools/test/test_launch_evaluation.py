@@ -346,3 +346,28 @@ def test_arguments_are_listed_with_description_and_default_as_the_real_launch_do
         "    'm':*\n        taxels\n        (default: '55')\n\n"
         "* argument(s) which are only used if specific conditions occur"
     )
+
+
+CHOICE = '<arg name="colour" default="red" description="Of it"><choice value="red"/><choice value="blue"/></arg>'
+
+
+def test_an_argument_with_choices_takes_no_other(launch: Launch, prefix: Prefix) -> None:
+    body = CHOICE + NODE.format("$(var colour)")
+    assert words(launch(body))[0][0] == "red"
+    assert words(launch(body, colour="blue"))[0][0] == "blue"
+    wrong = r"Argument \"colour\" provided value \"bleu\" is not valid\. Valid options are: \['red', 'blue'\]"
+    with pytest.raises(LaunchError, match=wrong):
+        launch(body, colour="bleu")
+    # Also where the default is none of them, and where a file that includes this one gives it.
+    with pytest.raises(LaunchError, match="not valid"):
+        launch(body.replace('default="red"', 'default="green"'))
+    prefix.launch("inner.launch.xml", CHOICE)
+    with pytest.raises(LaunchError, match="not valid"):
+        launch('<include file="$(dirname)/inner.launch.xml"><arg name="colour" value="bleu"/></include>')
+
+
+def test_choices_are_listed_as_the_real_launch_does(prefix: Prefix) -> None:
+    bare = '<arg name="size"><choice value="1"/></arg>'
+    shown = show_arguments(prefix.launch("it.launch.xml", CHOICE + bare), os.environ)
+    assert "Of it. Valid choices are: ['red', 'blue']" in shown
+    assert "One of: ['1']" in shown

@@ -141,6 +141,19 @@ def test_respawn_starts_again_after_the_delay_and_deaths_are_forgiven(prefix: Pr
         assert marker.read_text() == "xxx"
 
 
+def test_a_node_that_refuses_what_it_was_given_ends_the_launch(prefix: Prefix) -> None:
+    prefix.python("patient", PATIENT)
+    prefix.script("choosy", "#!/bin/sh\necho 'rate = 0: allowed is 1' >&2\nexit 2\n")
+    body = '<node pkg="fake" exec="patient"/><node pkg="fake" exec="choosy" respawn="true" respawn_delay="0.01"/>'
+    with launch(prefix, body) as run:
+        assert run.wait() == 1
+        assert "[choosy-2] rate = 0: allowed is 1" in run.output
+        assert "choosy-2 refuses what it was given, see its message; ending" in run.output
+        assert len(pids(run)) == 2
+        assert all_gone(pids(run))
+        assert "patient-1 died" not in run.output
+
+
 def test_stopping_while_a_respawn_is_due_starts_nothing(prefix: Prefix) -> None:
     prefix.script("mortal", "#!/bin/sh\nexit 1\n")
     with launch(prefix, '<node pkg="fake" exec="mortal" respawn="true" respawn_delay="600"/>') as run:

@@ -16,6 +16,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from typing import IO
 
+from acts_core.errors import REFUSED_EXIT_CODE
 from acts_ros.processes.console import Console
 from acts_ros.processes.process import Process
 from acts_ros.processes.respawn import RespawnWait
@@ -69,13 +70,22 @@ class Launcher:
         A process that has not ended this long after SIGINT gets SIGTERM, and this long after that SIGKILL [s].
     name : str
         Who speaks in our messages.
+    ends_on_refusal : bool
+        Whether all end when one ends with `REFUSED_EXIT_CODE`. Such a process is never respawned.
     """
 
     def __init__(
-        self, console: Console, sigterm_timeout_s: float = 5.0, sigkill_timeout_s: float = 5.0, *, name: str = "launch"
+        self,
+        console: Console,
+        sigterm_timeout_s: float = 5.0,
+        sigkill_timeout_s: float = 5.0,
+        *,
+        name: str = "launch",
+        ends_on_refusal: bool = True,
     ) -> None:
         self._console = console
         self._name = name
+        self._ends_on_refusal = ends_on_refusal
         self._sigterm_timeout_s = sigterm_timeout_s
         self._sigkill_timeout_s = sigkill_timeout_s
         self._children: list[_Child] = []
@@ -239,7 +249,11 @@ class Launcher:
         child.popen = None
         child.escalations.clear()
         self._tell_end(child, popen.pid, code)
-        if child.process.respawn and not self._stopping:
+        if code == REFUSED_EXIT_CODE and not self._stopping:
+            child.failure = f"refuses what it was given: {_describe_code(code)}"
+            if self._ends_on_refusal:
+                self._stop(f"{child.process.label} refuses what it was given, see its message; ending")
+        elif child.process.respawn and not self._stopping:
             child.restart_at_s = now_s + child.wait.next_s(now_s - child.started_s)
 
     def _tell_end(self, child: _Child, pid: int, code: int) -> None:

@@ -244,11 +244,16 @@ def _holds(condition: Condition | None, scope: Scope) -> bool:
 
 
 def _declare(argument: DeclareArgument, scope: Scope) -> None:
-    if argument.name in scope.variables:
-        return
-    if argument.default is None:
-        raise LaunchError(f'Required launch argument "{argument.name}" was not provided.')
-    scope.variables[argument.name] = substitutions.perform(argument.default, scope)
+    if argument.name not in scope.variables:
+        if argument.default is None:
+            raise LaunchError(f'Required launch argument "{argument.name}" was not provided.')
+        scope.variables[argument.name] = substitutions.perform(argument.default, scope)
+    value = scope.variables[argument.name]
+    if argument.choices and value not in argument.choices:
+        raise LaunchError(
+            f'Argument "{argument.name}" provided value "{value}" is not valid. '
+            f"Valid options are: {list(argument.choices)}"
+        )
 
 
 def _push_namespace(pushed: str, scope: Scope) -> None:

@@ -28,11 +28,18 @@ class Action:
 
 @dataclass(frozen=True, kw_only=True)
 class DeclareArgument(Action):
-    """`arg`: something the user of the file may choose; without a default it is required."""
+    """`arg`: something the user of the file may choose; without a default it is required.
+
+    Attributes
+    ----------
+    choices : tuple of str
+        All that it may be; empty: anything.
+    """
 
     name: str
     default: Template | None
     description: str
+    choices: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -89,14 +89,31 @@ def _optional(element: Element, name: str) -> Template | None:
 
 
 def _declare(element: Element, condition: Condition | None) -> DeclareArgument:
-    element.take()
+    choices = tuple(_choice(child) for child in element.take("choice"))
     return DeclareArgument(
         place=element.place,
         condition=condition,
         name=unescape(element.require("name")),
         default=_optional(element, "default"),
-        description=unescape(element.get("description") or "no description given"),
+        description=_description(element.get("description"), choices),
+        choices=choices,
     )
+
+
+def _choice(element: Element) -> str:
+    element.take()
+    value = unescape(element.require("value"))
+    element.finish()
+    return value
+
+
+def _description(text: str | None, choices: tuple[str, ...]) -> str:
+    if text is None:
+        return f"One of: {list(choices)}" if choices else "no description given"
+    described = unescape(text)
+    if not choices:
+        return described
+    return f"{described}{'' if described.endswith('.') else '.'} Valid choices are: {list(choices)}"
 
 
 def _let(element: Element, condition: Condition | None) -> SetVariable:
