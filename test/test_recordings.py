@@ -6,6 +6,7 @@ Writes a picture of a few frames to out/. ROS_DOMAIN_ID 72 and 73. The recording
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -30,7 +31,6 @@ mpl.use("Agg")
 from matplotlib import pyplot as plt
 
 ROOT = Path(__file__).resolve().parent.parent
-DATA = ROOT.parent / "shared" / "data"
 FRAMES = 400
 START_S = 90.0
 FRAME_S = 0.001
@@ -41,9 +41,6 @@ TOUCH_COUNTS = 60
 # row), and of each frame alone (0.39).
 GRASP_ERROR_LIMIT = 0.05
 FIGURE_ERROR_LIMIT = 0.6
-
-GRASPS = DATA / "sdh_weiss" / "grasps_canvas.npz"
-FIGURES = DATA / "paper" / "frames.npz"
 
 
 @dataclass(frozen=True)
@@ -189,12 +186,14 @@ def run_dir(tmp_path: Path) -> Path:
     return tmp_path / "run"
 
 
-@pytest.mark.skipif(not GRASPS.is_file(), reason=f"the grasp recordings are not there: {GRASPS}")
-def test_real_grasps_arrive_as_they_were_pressed(tmp_path: Path, run_dir: Path) -> None:
-    with np.load(GRASPS) as data:
+def test_real_grasps_arrive_as_they_were_pressed(
+    tmp_path: Path, run_dir: Path, recording_path: Callable[[str], Path]
+) -> None:
+    grasps = recording_path("sdh_weiss/grasps_canvas.npz")
+    with np.load(grasps) as data:
         load = data["frames"].sum(axis=(1, 2), dtype=np.int64)
         busiest = int(np.argmax([load[s : s + n].mean() for s, n in zip(data["start"], data["length"], strict=True)]))
-    exported = export_recording(GRASPS, tmp_path / "grasp.npy", recordings=[busiest])
+    exported = export_recording(grasps, tmp_path / "grasp.npy", recordings=[busiest])
     field = TrueField(exported.path, exported.rate_hz)
     seen = replay(exported.path, exported.rate_hz, 72, run_dir, "fusion")
     check_samples(seen, field)
@@ -210,9 +209,11 @@ def test_real_grasps_arrive_as_they_were_pressed(tmp_path: Path, run_dir: Path) 
     draw(rows, ROOT / "out" / "recorded_grasp.png")
 
 
-@pytest.mark.skipif(not FIGURES.is_file(), reason=f"the paper's frames are not there: {FIGURES}")
-def test_the_papers_frame_arrives_as_it_was_pressed(tmp_path: Path, run_dir: Path) -> None:
-    exported = export_recording(FIGURES, tmp_path / "figure.npy", kind="full_raster", repeat=2)
+def test_the_papers_frame_arrives_as_it_was_pressed(
+    tmp_path: Path, run_dir: Path, recording_path: Callable[[str], Path]
+) -> None:
+    figures = recording_path("paper/frames.npz")
+    exported = export_recording(figures, tmp_path / "figure.npy", kind="full_raster", repeat=2)
     field = TrueField(exported.path, exported.rate_hz)
     seen = replay(exported.path, exported.rate_hz, 73, run_dir, "per_frame")
     check_samples(seen, field)

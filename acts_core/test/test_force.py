@@ -1,3 +1,4 @@
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,6 @@ from acts_core.force import ForceResponse, MeasuredForceResponse, force_table
 
 GRAVITY = 9.81
 ASSUMED_FOOT_TAXELS = 16
-MEASURED = Path(__file__).resolve().parents[3] / "shared/data/paper/force_response.npz"
 
 
 def test_follows_the_published_response() -> None:
@@ -45,10 +45,8 @@ def test_impossible_response_is_refused_by_name(wrong: dict[str, float]) -> None
         ForceResponse(**wrong)
 
 
-def test_default_has_the_shape_of_the_published_measurement() -> None:
-    if not MEASURED.exists():
-        pytest.skip(f"the paper's data are not here ({MEASURED})")
-    with np.load(MEASURED) as archive:
+def test_default_has_the_shape_of_the_published_measurement(recording_path: Callable[[str], Path]) -> None:
+    with np.load(recording_path("paper/force_response.npz")) as archive:
         grams, counts = archive["weight_g"].astype(float), archive["output_per_taxel_AU"]
     force_n = grams / 1000 * GRAVITY / ASSUMED_FOOT_TAXELS
     assert np.abs(ForceResponse().counts(force_n) - counts).max() < 50

@@ -1,3 +1,4 @@
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -19,8 +20,6 @@ from acts_core.sampling import (
     raster,
 )
 from acts_core.uniform import uniform, uniform_spacing
-
-SHARED = Path(__file__).resolve().parents[3] / "shared/data/paper"
 
 # M and spacing (rows, columns) of the authors' firmware on 32 x 32.
 PUBLISHED_SPACING = {
@@ -48,10 +47,7 @@ PUBLISHED_SPACING = {
 }
 
 
-def shared(name: str) -> dict[str, NDArray]:
-    path = SHARED / name
-    if not path.is_file():
-        pytest.skip(f"{path} is absent: the published figures' data are not part of the project")
+def arrays(path: Path) -> dict[str, NDArray]:
     with np.load(path) as archive:
         return dict(archive)
 
@@ -202,8 +198,8 @@ def test_raster_is_row_by_row() -> None:
     assert raster(2, 3).tolist() == [0, 1, 2, 3, 4, 5]
 
 
-def test_published_adaptive_order_of_15_x_15() -> None:
-    ranks = shared("sampling_orders.npz")["binSamOrd"]
+def test_published_adaptive_order_of_15_x_15(recording_path: Callable[[str], Path]) -> None:
+    ranks = arrays(recording_path("paper/sampling_orders.npz"))["binSamOrd"]
     field = np.zeros((15, 15), dtype=int)
     # The two objects of Fig. S15C.
     field[(11, 11, 12, 12, 12), (5, 6, 4, 5, 6)] = 500
@@ -214,16 +210,16 @@ def test_published_adaptive_order_of_15_x_15() -> None:
     assert np.array_equal(drawn.reshape(15, 15), ranks)
 
 
-def test_published_uniform_order() -> None:
-    for frame, cutout in enumerate(shared("sampling_orders.npz")["downSamOrd"]):
+def test_published_uniform_order(recording_path: Callable[[str], Path]) -> None:
+    for frame, cutout in enumerate(arrays(recording_path("paper/sampling_orders.npz"))["downSamOrd"]):
         measured = np.zeros(1024, dtype=bool)
         measured[uniform(32, 32, 64, frame)] = True
         assert np.array_equal(measured.reshape(32, 32)[:10, :10], cutout > -5)
 
 
 @pytest.mark.parametrize("m", [64, 128, 256])
-def test_published_adaptive_frames(m: int) -> None:
-    archive = shared("frames.npz")
+def test_published_adaptive_frames(m: int, recording_path: Callable[[str], Path]) -> None:
+    archive = arrays(recording_path("paper/frames.npz"))
     which = archive["names"].tolist().index(f"fig4__{m}_binary_raw")
     measured = archive["measured"][which]
     # What the board measured, and nothing elsewhere; the figure keeps values above 50 only.

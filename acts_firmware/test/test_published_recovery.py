@@ -1,5 +1,6 @@
 """Recovery and classification on the virtual board take the time of the paper's Fig. 9."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -9,20 +10,12 @@ from recovery_library import published_recovery_us
 
 from acts_core.sampling import SamplingConfig
 
-PAPER = Path(__file__).resolve().parents[3] / "shared/data/paper"
 # The files were numbered before the figures: figure 8 there is Fig. 9 of the paper. Curves of frames a second over M.
 CURVES = {("image", 50): 56, ("image", 100): 55, ("object", 60): 52, ("object", 90): 51}
 
 
-def published(name: str) -> Path:
-    path = PAPER / name
-    if not path.is_file():
-        pytest.skip(f"{path} is absent: the published figures' data are not part of the project")
-    return path
-
-
-def test_the_heat_map_of_recovery() -> None:
-    with np.load(published("fig8_heatmap.npz")) as archive:
+def test_the_heat_map_of_recovery(recording_path: Callable[[str], Path]) -> None:
+    with np.load(recording_path("paper/fig8_heatmap.npz")) as archive:
         rates, axis = archive["fps"], archive["x"].astype(int)
     # The published map holds measured values on these rows and columns and interpolates rates between them.
     measured = [0, 1, 3, 5, 7, 9]
@@ -33,8 +26,8 @@ def test_the_heat_map_of_recovery() -> None:
 
 
 @pytest.mark.parametrize(("output", "columns"), CURVES)
-def test_the_frame_rates_with_sampling(output: str, columns: int) -> None:
-    table = np.loadtxt(published("curves.csv"), delimiter=",", skiprows=1)
+def test_the_frame_rates_with_sampling(output: str, columns: int, recording_path: Callable[[str], Path]) -> None:
+    table = np.loadtxt(recording_path("paper/curves.csv"), delimiter=",", skiprows=1)
     curve = table[table[:, 0] == CURVES[output, columns]]
     assert len(curve) == 6
     for _, m, rate in curve:

@@ -1,5 +1,6 @@
 """The virtual board's frame rates are those the authors measured."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -9,17 +10,14 @@ from core_library import published_sample_us
 
 from acts_core.sampling import SCHEMES, SamplingConfig
 
-CURVES = Path(__file__).resolve().parents[3] / "shared/data/paper/curves.csv"
 # Number in curves.csv: the frame rates over M of Fig. 4D.
 FIGURE_4D = {"uniform": 9, "random": 10, "adaptive": 11, "raster": 12}
 ADAPTIVE_FIGURE_8 = 50
 
 
-def curve(number: int) -> dict[int, float]:
+def curve(path: Path, number: int) -> dict[int, float]:
     """Frames per second by M."""
-    if not CURVES.is_file():
-        pytest.skip(f"{CURVES} is absent: the published figures' data are not part of the project")
-    table = np.loadtxt(CURVES, delimiter=",", skiprows=1)
+    table = np.loadtxt(path, delimiter=",", skiprows=1)
     return {int(m): rate for curve_id, m, rate in table if curve_id == number}
 
 
@@ -29,21 +27,24 @@ def rate_hz(scheme: str, m: int) -> float:
 
 
 @pytest.mark.parametrize(("scheme", "margin"), [("uniform", 0.001), ("random", 0.001), ("adaptive", 0.011)])
-def test_frame_rates_of_the_paper(scheme: str, margin: float) -> None:
-    published = curve(FIGURE_4D[scheme])
+def test_frame_rates_of_the_paper(scheme: str, margin: float, recording_path: Callable[[str], Path]) -> None:
+    published = curve(recording_path("paper/curves.csv"), FIGURE_4D[scheme])
     assert len(published) == 20
     off = {m: rate_hz(scheme, m) / rate - 1 for m, rate in published.items()}
     assert max(map(abs, off.values())) < margin, off
 
 
-def test_raster_is_the_55_frames_a_second_of_the_paper() -> None:
-    published = set(curve(FIGURE_4D["raster"]).values())
+def test_raster_is_the_55_frames_a_second_of_the_paper(recording_path: Callable[[str], Path]) -> None:
+    published = set(curve(recording_path("paper/curves.csv"), FIGURE_4D["raster"]).values())
     assert len(published) == 1
     assert rate_hz("raster", 1024) == pytest.approx(published.pop(), rel=0.0001)
 
 
-def test_the_real_time_sketch_was_a_little_faster_where_frames_are_large() -> None:
-    off = {m: rate_hz("adaptive", m) / rate - 1 for m, rate in curve(ADAPTIVE_FIGURE_8).items()}
+def test_the_real_time_sketch_was_a_little_faster_where_frames_are_large(recording_path: Callable[[str], Path]) -> None:
+    off = {
+        m: rate_hz("adaptive", m) / rate - 1
+        for m, rate in curve(recording_path("paper/curves.csv"), ADAPTIVE_FIGURE_8).items()
+    }
     assert -0.055 < min(off.values()) < max(off.values()) < 0.02, off
 
 

@@ -3,6 +3,7 @@
 Both sum in single precision, in different orders. The bounds leave a factor of ten to the largest differences seen.
 """
 
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -20,18 +21,14 @@ from acts_recon.object_library import ObjectLibrary, build_object_library
 from acts_recon.reconstructor import Reconstructor, ReconstructorConfig
 from acts_recon.shipped import shipped_dictionary_path
 
-RECORDINGS = Path(__file__).resolve().parents[3] / "shared" / "data"
 COUNTS_BOUND = 0.005
 Frame = NDArray[np.uint16]
 
 
 @pytest.fixture(scope="module")
-def grasps() -> tuple[Frame, list[str]]:
+def grasps(recording_path: Callable[[str], Path]) -> tuple[Frame, list[str]]:
     """The frame in the middle of each recorded grasp, and its object."""
-    path = RECORDINGS / "sdh_weiss" / "grasps_canvas.npz"
-    if not path.exists():
-        pytest.skip(f"the shared recordings are not here ({path})")
-    with np.load(path) as archive:
+    with np.load(recording_path("sdh_weiss/grasps_canvas.npz")) as archive:
         frames = archive["frames"][archive["start"] + archive["length"] // 2]
         touched = (frames > 60).any(axis=(1, 2))
         return frames[touched], archive["label"][touched].tolist()

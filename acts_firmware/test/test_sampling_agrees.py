@@ -1,5 +1,6 @@
 """The core on the board and its Python reference measure the same taxels in the same order."""
 
+from collections.abc import Callable
 from itertools import product
 from pathlib import Path
 
@@ -23,7 +24,6 @@ from acts_core.sampling import (
 )
 from acts_core.uniform import uniform_spacing
 
-SHARED = Path(__file__).resolve().parents[3] / "shared/data"
 FRAMES = 3
 
 # M and spacing (rows, columns) of the authors' firmware on 32 x 32.
@@ -181,43 +181,39 @@ def test_every_shape_up_to_64_x_64() -> None:
         compare(SamplingConfig(scheme, rows, cols, m, seed=number), field[None, :rows, :cols])
 
 
-def recording(name: str) -> dict[str, NDArray]:
-    path = SHARED / name
-    if not path.is_file():
-        pytest.skip(f"{path} is absent: recordings are not part of the project")
+def frames_of(path: Path) -> NDArray[np.integer]:
     with np.load(path) as archive:
-        return dict(archive)
+        return archive["frames"]
 
 
-def canvas(name: str) -> NDArray[np.integer]:
+def canvas(path: Path) -> NDArray[np.integer]:
     """100 frames in a row around the hardest press of a recording of grasps or slips, and 50 spread over all."""
-    frames = recording(name)["frames"]
+    frames = frames_of(path)
     hardest = int(frames.sum(axis=(1, 2), dtype=np.int64).argmax())
     first = max(hardest - 50, 0)
     return np.concatenate((frames[first : first + 100], frames[:: len(frames) // 50]))
 
 
-def published() -> NDArray[np.integer]:
-    return np.clip(recording("paper/frames.npz")["frames"], 0, 1023).astype(int)
+def published(path: Path) -> NDArray[np.integer]:
+    return np.clip(frames_of(path), 0, 1023).astype(int)
 
 
-def insole() -> NDArray[np.integer]:
-    frames = recording("insole/pairs.npz")["frames"][:, 0]
-    return frames[::60] // 2  # 11 bit
+def insole(path: Path) -> NDArray[np.integer]:
+    return frames_of(path)[::60, 0] // 2  # 11 bit
 
 
 FIELDS = {
-    "grasps": lambda: canvas("sdh_weiss/grasps_canvas.npz"),
-    "slip": lambda: canvas("sdh_weiss/slip_canvas.npz"),
-    "figures": published,
-    "insole": insole,
+    "sdh_weiss/grasps_canvas.npz": canvas,
+    "sdh_weiss/slip_canvas.npz": canvas,
+    "paper/frames.npz": published,
+    "insole/pairs.npz": insole,
 }
 
 
 @pytest.mark.parametrize("scheme", sorted(SCHEMES))
 @pytest.mark.parametrize("recorded", FIELDS)
-def test_on_recorded_fields(recorded: str, scheme: str) -> None:
-    fields = FIELDS[recorded]()
+def test_on_recorded_fields(recorded: str, scheme: str, recording_path: Callable[[str], Path]) -> None:
+    fields = FIELDS[recorded](recording_path(recorded))
     rows, cols = fields.shape[1:]
     m = -(-rows // 4) * -(-cols // 4) if scheme == "uniform" else 56
     searches = scheme in ("adaptive", "hybrid")
@@ -228,6 +224,7 @@ def test_on_recorded_fields(recorded: str, scheme: str) -> None:
 
 @pytest.mark.parametrize("m", [128, 512])
 @pytest.mark.parametrize("scheme", ["adaptive", "hybrid", "tracking"])
-def test_large_frames_of_the_published_figures(m: int, scheme: str) -> None:
+def test_large_frames_of_the_published_figures(m: int, scheme: str, recording_path: Callable[[str], Path]) -> None:
+    fields = published(recording_path("paper/frames.npz"))
     for order in sorted(NEIGHBOURS):
-        compare(SamplingConfig(scheme, m=m, threshold_counts=50, neighbour_order=order), published())
+        compare(SamplingConfig(scheme, m=m, threshold_counts=50, neighbour_order=order), fields)

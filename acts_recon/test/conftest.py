@@ -10,8 +10,6 @@ from recon_bench import Bench
 
 from acts_recon.dictionary import Dictionary, save_dictionary
 
-RECORDINGS = Path(__file__).resolve().parents[3] / "shared" / "data"
-
 
 @pytest.fixture(scope="session")
 def dictionary() -> Dictionary:
@@ -50,11 +48,8 @@ def make_bench(dictionary_path: Path) -> Iterator[Callable[..., Bench]]:
 
 
 @pytest.fixture(scope="session")
-def grasp_frames() -> NDArray[np.uint16]:
+def grasp_frames(recording_path: Callable[[str], Path]) -> NDArray[np.uint16]:
     """Frames of real grasps, one in the middle of each of 40 recordings."""
-    path = RECORDINGS / "sdh_weiss" / "grasps_canvas.npz"
-    if not path.exists():
-        pytest.skip(f"the shared recordings are not here ({path})")
-    with np.load(path) as archive:
+    with np.load(recording_path("sdh_weiss/grasps_canvas.npz")) as archive:
         middle = archive["start"] + archive["length"] // 2
         return archive["frames"][middle[::10][:40]]

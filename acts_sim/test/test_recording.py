@@ -1,5 +1,6 @@
 """Exports of npz recordings; the real ones are measured where they are at hand."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -9,9 +10,6 @@ from hypothesis import strategies as st
 
 from acts_core.errors import RecordingError
 from acts_sim.recording import export_recording
-
-DATA = Path(__file__).resolve().parents[3] / "shared" / "data"
-needs_data = pytest.mark.skipif(not DATA.is_dir(), reason=f"no recordings at {DATA}")
 
 
 def evaluation(path: Path, **changes: object) -> Path:
@@ -188,9 +186,8 @@ def test_garbage_and_cut_files_are_refused_or_read(
         assert np.load(folder / "out.npy").max() <= 1023
 
 
-@needs_data
-def test_real_grasps_are_exported(out: Path) -> None:
-    path = DATA / "sdh_weiss" / "grasps_canvas.npz"
+def test_real_grasps_are_exported(out: Path, recording_path: Callable[[str], Path]) -> None:
+    path = recording_path("sdh_weiss/grasps_canvas.npz")
     exported = export_recording(path, out, recordings=[0, 5])
     with np.load(path) as archive:
         start, length = archive["start"], archive["length"]
@@ -200,9 +197,9 @@ def test_real_grasps_are_exported(out: Path) -> None:
     assert (exported.rows, exported.cols) == (32, 32)
 
 
-@needs_data
-def test_real_figures_are_exported(out: Path) -> None:
-    exported = export_recording(DATA / "paper" / "frames.npz", out, kind="full_raster")
+def test_real_figures_are_exported(out: Path, recording_path: Callable[[str], Path]) -> None:
+    path = recording_path("paper/frames.npz")
+    exported = export_recording(path, out, kind="full_raster")
     assert (exported.frames, exported.labels) == (1, ("fig5__FR_twoPole",))
-    export_recording(DATA / "paper" / "frames.npz", out, kind="reconstruction")
+    export_recording(path, out, kind="reconstruction")
     assert np.load(out).shape == (18, 32, 32)

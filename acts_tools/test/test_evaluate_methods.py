@@ -1,5 +1,6 @@
 """The plain methods that the recovery is compared with."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +15,6 @@ from acts_recon.shipped import shipped_dictionary_path
 from acts_tools.evaluate.dictionaries import cosine_dictionary, dictionary_named, haar_dictionary
 from acts_tools.evaluate.methods import METHODS, Method, method_named
 
-SHARED = Path(__file__).resolve().parents[3] / "shared" / "data" / "paper" / "dictionaries.npz"
 GEOMETRY = ArrayGeometry()
 CONFIG = ReconstructorConfig(touch_counts=50)
 
@@ -98,10 +98,8 @@ def test_dictionaries_that_are_not_learnt(make: type) -> None:
     assert np.linalg.matrix_rank(atoms) == 64
 
 
-def test_the_cosines_are_those_that_the_paper_compared_with() -> None:
-    if not SHARED.exists():
-        pytest.skip(f"the shared dictionaries are not here ({SHARED})")
-    with np.load(SHARED) as archive:
+def test_the_cosines_are_those_that_the_paper_compared_with(recording_path: Callable[[str], Path]) -> None:
+    with np.load(recording_path("paper/dictionaries.npz")) as archive:
         np.testing.assert_allclose(cosine_dictionary().atoms, archive["dct_unit_exact"], atol=1e-6)
 
 

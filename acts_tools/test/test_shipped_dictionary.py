@@ -1,5 +1,6 @@
 """Quality of the shipped dictionary: limits lie 10 to 50 % above what was measured (docs/reconstruction.md)."""
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -13,8 +14,6 @@ from acts_recon.shipped import shipped_dictionary_path
 from acts_sim.objects import OBJECTS
 from acts_tools.evaluate.recovery import Recording, Task, evaluate
 from acts_tools.train import model_frames
-
-GRASPS = Path(__file__).resolve().parents[3] / "shared" / "data" / "sdh_weiss" / "grasps_canvas.npz"
 
 
 @pytest.fixture(scope="module")
@@ -47,10 +46,10 @@ def test_quality_on_the_contact_model(shipped: Dictionary, m: int, relative_erro
 
 
 @pytest.mark.parametrize(("m", "relative_error", "cop_error"), [(56, 0.58, 6.3), (128, 0.26, 3.1), (256, 0.11, 0.25)])
-def test_quality_on_real_grasps(shipped: Dictionary, m: int, relative_error: float, cop_error: float) -> None:
-    if not GRASPS.exists():
-        pytest.skip(f"the shared recordings are not here ({GRASPS})")
-    recorded = load_frames(GRASPS)
+def test_quality_on_real_grasps(
+    shipped: Dictionary, m: int, relative_error: float, cop_error: float, recording_path: Callable[[str], Path]
+) -> None:
+    recorded = load_frames(recording_path("sdh_weiss/grasps_canvas.npz"))
     recordings = [Recording(frame[None], 31.0, recorded.live) for frame in recorded.peak_frames()]
     result = score(recordings, m, "paper", shipped)
     assert result["frames"] == 425
