@@ -64,6 +64,20 @@ def kernel(
     return _compiled(function, options)
 
 
+def skip_blas() -> None:
+    """Keep numba from importing scipy's linear algebra; for the start of a program none of whose kernels uses any.
+
+    Numba imports it at the first call of any kernel, only to know that it is there: an eighth of the start of `tactile`.
+    Afterwards a kernel with a product of matrices in it cannot be compiled.
+    """
+    from numba.np import linalg
+
+    def refuse() -> None:
+        raise ImportError("this program has kernels without products of matrices only: acts_core.kernels.skip_blas")
+
+    linalg.ensure_blas = refuse
+
+
 def _compiled(function: Callable[..., R], options: dict[str, Any]) -> Callable[..., R]:
     before = numba.config.CACHE_DIR
     # Read while a function is decorated, and at no other time.
