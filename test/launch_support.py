@@ -4,6 +4,7 @@ import re
 from pathlib import Path
 
 import numpy as np
+from ament_index_python.packages import get_package_share_directory
 
 from acts_tools.testing.launch_runner import Launched
 
@@ -18,6 +19,15 @@ def pid_of(launched: Launched, name: str) -> int:
     found = re.findall(rf"\[{name}(?:-\d+)?\]: process started with pid \[(\d+)\]", launched.output)
     assert found, f"{name} was not started"
     return int(found[-1])
+
+
+def patient_parameters(folder: Path) -> str:
+    """The shipped parameters, for a busy machine: late touch or a late robot level the plate but do not end the run."""
+    path = folder / "patient.yaml"
+    shipped = Path(get_package_share_directory("acts_config")) / "params" / "ball_balancing.yaml"
+    limits = "{touch_stop_after_s: 60.0, robot_stale_after_s: 2.0}"
+    path.write_text(f"{shipped.read_text()}\n/**/ball_control:\n  ros__parameters: {limits}\n")
+    return str(path)
 
 
 def disc_recording(folder: Path) -> Path:

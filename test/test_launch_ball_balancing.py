@@ -5,21 +5,11 @@ import signal
 from pathlib import Path
 
 import numpy as np
-from ament_index_python.packages import get_package_share_directory
 from geometry_msgs.msg import PointStamped
-from launch_support import LONG_S, PACKAGE, START_S, pid_of
+from launch_support import LONG_S, PACKAGE, START_S, patient_parameters, pid_of
 
 from acts_msgs.msg import BalanceStatus
 from acts_tools.testing.launch_runner import Launched, LaunchFile, launch_fixture, launch_test
-
-
-def patient_parameters(folder: Path) -> str:
-    """The shipped parameters, for a busy machine: late touch or a late robot level the plate but do not end the run."""
-    path = folder / "patient.yaml"
-    shipped = Path(get_package_share_directory("acts_config")) / "params" / "ball_balancing.yaml"
-    limits = "{touch_stop_after_s: 10.0, robot_stale_after_s: 2.0}"
-    path.write_text(f"{shipped.read_text()}\n/**/ball_control:\n  ros__parameters: {limits}\n")
-    return str(path)
 
 
 @launch_fixture

@@ -44,7 +44,7 @@ class SafetyConfig:
         3.0,
         "and when that has lasted for longer, motion ends: STOPPED; where touch returns before, balancing goes on [s]",
         minimum=0.005,
-        maximum=10.0,
+        maximum=60.0,
     )
     ball_lost_after_s: float = setting(
         0.25,

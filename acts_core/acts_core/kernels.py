@@ -67,7 +67,7 @@ def kernel(
 def skip_blas() -> None:
     """Keep numba from importing scipy's linear algebra; for the start of a program none of whose kernels uses any.
 
-    Numba imports it at the first call of any kernel, only to know that it is there: an eighth of the start of `tactile`.
+    Numba imports it at the first call of any kernel, only to know that it is there: an eighth of a node's start.
     Afterwards a kernel with a product of matrices in it cannot be compiled.
     """
     from numba.np import linalg

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-SOON_S = 10.0
+SOON_S = 2.0
 """A process that ends within this time of its start has ended soon [s]."""
 
 LONGEST_WAIT_S = 5.0
