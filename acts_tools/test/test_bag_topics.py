@@ -147,7 +147,7 @@ def test_a_topic_that_never_appears_is_named_and_the_exit_code_tells(tmp_path: P
     with acts("record", "-o", str(tmp_path / "bag"), "-d", "0.5", "/never", domain_id=86) as process:
         output, _ = process.communicate(timeout=TIMEOUT_S)
     assert process.returncode == 1
-    assert "never appeared: /never, nobody published it" in output
+    assert "never appeared: /never, no publisher was found" in output
     assert "nothing was recorded; the bag is empty" in output
     assert contents(tmp_path / "bag") == []
 

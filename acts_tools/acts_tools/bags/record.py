@@ -77,7 +77,6 @@ def record(path: Path, topics: list[str] | None, duration_s: float | None) -> in
     from acts_tools.bags.writing import BagWriter
 
     bag = BagWriter(path)
-    started_s = time.monotonic()
     with StopFlag() as stop:
         rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
         node = rclpy.create_node("acts_recorder", start_parameter_services=False, enable_rosout=False)
@@ -85,6 +84,7 @@ def record(path: Path, topics: list[str] | None, duration_s: float | None) -> in
         executor.add_node(node)
         recorder = Recorder(node, bag, topics, _say)
         _say(f"recording to {path}, Ctrl-C ends it")
+        started_s = time.monotonic()
         try:
             # The bag is closed before the graph is left: should that fail, it is complete already.
             with closing(bag), closing(recorder):
@@ -107,7 +107,7 @@ def _summarise(recorder: Recorder, bag: BagWriter, elapsed_s: float) -> None:
         lost = "loss not known" if record.lost is None else f"{record.lost} lost"
         _say(f"{record.topic:{width}}  {record.received:8d} messages  {lost}")
     for topic in recorder.missing():
-        _say(f"never appeared: {topic}, nobody published it")
+        _say(f"never appeared: {topic}, no publisher was found")
     for topic in recorder.silent():
         _say(f"no message: {topic} had a publisher, but nothing came")
     total = sum(record.received for record in records)
