@@ -82,8 +82,9 @@ class SkinProcesses:
         if parameters.reconstruction.pitch_m:
             world["pitch_m"] = parameters.reconstruction.pitch_m
         pushes = packages.share("acts_config", self._environment) / "params" / "tactile.yaml"
-        given = [word for name, value in world.items() for word in ("-p", f"{name}:={value}")]
-        ball_words = ["--ros-args", *self._remaps(skin), "--params-file", f"{pushes}", *given]
+        # Not as ROS parameters: there a folder's name is read as YAML.
+        given = [word for name, value in world.items() for word in ("--set", f"ball_world.{name}={value}")]
+        ball_words = [*given, "--ros-args", *self._remaps(skin), "--params-file", f"{pushes}"]
         return [
             self._process(skin, "acts_firmware", "virtual_board", *words, "--field-ring", ring),
             self._process(skin, "acts_sim", "ball_world", *ball_words),

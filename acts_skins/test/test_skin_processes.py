@@ -191,7 +191,7 @@ def test_the_boards_of_simulated_skins_are_as_the_file_says(tmp_path: Path) -> N
     commands = plan(skins_yaml(tmp_path, TWO.replace("m: 64", "m: 64, rows: 16, cols: 24")), simulated=True)
     assert "--link /run/right/board --rows 16 --cols 24" in commands["right/virtual_board"]
     assert "--seed 2" in commands["right/virtual_board"]
-    assert "rows:=16" in commands["right/ball_world"]
+    assert "--set ball_world.rows=16" in commands["right/ball_world"]
     assert "driver.port=/run/right/board" in commands["right/tactile"]
 
 
