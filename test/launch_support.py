@@ -21,11 +21,11 @@ def pid_of(launched: Launched, name: str) -> int:
     return int(found[-1])
 
 
-def patient_parameters(folder: Path) -> str:
+def patient_parameters(folder: Path, touch_stop_after_s: float = 10.0) -> str:
     """The shipped parameters, for a busy machine: late touch or a late robot level the plate but do not end the run."""
     path = folder / "patient.yaml"
     shipped = Path(get_package_share_directory("acts_config")) / "params" / "ball_balancing.yaml"
-    limits = "{touch_stop_after_s: 60.0, robot_stale_after_s: 2.0}"
+    limits = f"{{touch_stop_after_s: {touch_stop_after_s}, robot_stale_after_s: 2.0}}"
     path.write_text(f"{shipped.read_text()}\n/**/ball_control:\n  ros__parameters: {limits}\n")
     return str(path)
 

@@ -28,7 +28,7 @@ ON_THE_PLATE_M = 0.065
 def balancing(tmp_path: Path) -> LaunchFile:
     arguments = {"run_dir": str(tmp_path / "run"), "robot_ip": "127.0.6.8"}
     arguments["trajectory"] = "hold" if CRASHES == 1 else ",".join(["N", "B", "I"] * CRASHES)
-    arguments["params_file"] = patient_parameters(tmp_path)
+    arguments["params_file"] = patient_parameters(tmp_path, touch_stop_after_s=60.0)
     return LaunchFile(PACKAGE, "ball_balancing.launch.xml", 179, arguments)
 
 
