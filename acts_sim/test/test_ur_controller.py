@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 
 import pytest
@@ -14,6 +15,7 @@ from acts_sim.ur.config import ControllerConfig
 from acts_sim.ur.controller import Controller, RobotMode, RuntimeState, SafetyMode
 from acts_sim.ur.pose import transform_from_pose
 from acts_sim.ur.program import ControlProgram
+from acts_sim.ur.script import ScriptSession
 
 READY, DONE = 1, 2
 
@@ -267,6 +269,23 @@ def test_power_cycle_over_the_dashboard() -> None:
     assert dashboard.answer(controller, "stop") == "Stopped"
     assert dashboard.answer(controller, "get serial number").isdigit()
     assert dashboard.answer(controller, "dance") == 'could not understand: "dance"'
+
+
+def test_what_clients_have_ordered_is_recorded() -> None:
+    robot = Robot()
+    controller = robot.controller
+    controller.orders.clear()
+    robot.write(11, servo(list(LEVEL_Q_RAD)))
+    robot.cycles(5)
+    dashboard.answer(controller, "running")
+    dashboard.answer(controller, "stop")
+    ScriptSession(controller).receive(b"def rtde_control():\n  movej()\nend\n")
+    now_s = controller.time_s
+    assert json.loads(hooks.answer(controller, "orders")) == [
+        [pytest.approx(now_s - 0.01), "rtde", "command 11"],
+        [now_s, "dashboard", "stop"],
+        [now_s, "script", "program rtde_control"],
+    ]
 
 
 def test_kinematics_answers() -> None:

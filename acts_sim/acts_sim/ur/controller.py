@@ -6,6 +6,7 @@ import math
 from collections import deque
 from collections.abc import Callable, Sequence
 from enum import IntEnum
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +24,27 @@ COMMAND_REGISTERS = ("input_int_register_0", "input_int_register_24")
 
 HISTORY = 1000
 """Number of past cycles whose joint angles are kept."""
+
+RECORD = 5000
+"""Number of orders that are kept."""
+
+
+class Order(NamedTuple):
+    """Something that a client has told the robot to do.
+
+    Attributes
+    ----------
+    time_s : float
+        The controller's time [s].
+    port : str
+        Over which port it came: rtde, script or dashboard.
+    words : str
+        What was asked for.
+    """
+
+    time_s: float
+    port: str
+    words: str
 
 
 class RuntimeState(IntEnum):
@@ -93,6 +115,7 @@ class Controller:
         self.program: ControlProgram | None = None
         self.tcp_offset = np.eye(4)
         self.tcp_wanted = False
+        self.orders: deque[Order] = deque(maxlen=RECORD)
         self.history: deque[tuple[float, ...]] = deque([tuple(self.joints.q)], maxlen=HISTORY)
         self._starts_at_s = math.inf
         self._stopped_at_s = 0.0
@@ -141,6 +164,11 @@ class Controller:
         for name in COMMAND_REGISTERS:
             if name in values:
                 self._command_written_s[name] = self.time_s
+                self.note("rtde", f"command {values[name]}")
+
+    def note(self, port: str, words: str) -> None:
+        """Record what a client has told the robot to do."""
+        self.orders.append(Order(self.time_s, port, words))
 
     def since_command_s(self, register: str) -> float:
         """Time since a command register was last written [s]; infinite when it never was."""

@@ -12,6 +12,8 @@ SERIAL_NUMBER = "20235500001"
 
 _PROGRAM_FILE = "rtde_control.urp"
 
+_QUESTIONS = frozenset({"running", "programState"})
+
 _SAFETY_NAMES = {
     SafetyMode.NORMAL: "NORMAL",
     SafetyMode.PROTECTIVE_STOP: "PROTECTIVE_STOP",
@@ -57,6 +59,8 @@ def answer(controller: Controller, line: str) -> str:
         "brake release": _brake_release,
     }
     if line in actions:
+        if line not in _QUESTIONS:
+            controller.note("dashboard", line)
         return actions[line](controller)
     word, _, rest = line.partition(" ")
     if word == "load" and rest:

@@ -6,7 +6,7 @@ import json
 
 from acts_sim.ur.controller import Controller
 
-_KNOWN = "protective_stop [reason], emergency_stop, clear, state"
+_KNOWN = "protective_stop [reason], emergency_stop, clear, state, orders"
 
 
 def answer(controller: Controller, line: str) -> str:
@@ -30,6 +30,8 @@ def answer(controller: Controller, line: str) -> str:
                 "robot_mode": controller.robot_mode.name,
             }
         )
+    elif word == "orders":
+        return json.dumps(list(controller.orders))
     else:
         return f"error: unknown {word!r}; known are {_KNOWN}"
     return "ok"

@@ -53,6 +53,7 @@ class ScriptSession:
     def receive(self, data: bytes) -> bytes:
         """Start the programs that have become whole; there is no reply."""
         for name, text in self._reader.feed(data):
+            self._controller.note("script", f"program {name}")
             if name == CONTROL_PROGRAM:
                 found = _OFFSET.search(text)
                 offset = int(found.group(1)) if found else 0
