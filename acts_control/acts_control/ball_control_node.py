@@ -156,18 +156,28 @@ class BallControlNode(Node):
 
     def _on_start(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         response.success = self._loop.start()
-        response.message = "started" if response.success else f"already {self._loop.status.phase.name.lower()}"
+        status = self._loop.status
+        if response.success:
+            response.message = "started"
+        elif self._loop.is_stopping:
+            response.message = f"still stopping ({status.reason}); call again once the state is STOPPED"
+        elif status.phase is Phase.STOPPED:
+            response.message = f"the control loop has ended ({status.reason}); start the node anew"
+        else:
+            response.message = f"already {status.phase.name.lower()}: {status.reason}"
         return response
 
     def _on_stop(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         response.success = self._loop.stop("stopped by request")
-        response.message = "stopping" if response.success else "already stopped"
+        response.message = "stopping" if response.success else f"already stopped: {self._loop.status.reason}"
         return response
 
     def _publish_status(self) -> None:
         status, message = self._loop.status, self._status
         if (status.phase, status.reason) != (self._told.phase, self._told.reason):
             self._tell(status)
+        if status.phase is not self._told.phase:
+            self._diagnostics.publish()
         self._told = status
         set_stamp(message.header.stamp, self.get_clock().now().nanoseconds)
         message.state = int(status.phase)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from math import hypot
 
@@ -20,6 +21,8 @@ from acts_core.ur5e import JOINTS, LEVEL_Q_RAD, WRIST_1, WRIST_2, tilt_of, wrist
 _LEVEL_TOLERANCE_RAD = 0.02
 
 _HOMING_PERIOD_S = 0.02
+_ENDING_PERIOD_S = 0.002
+_ENDING_TIMEOUT_S = 3.0
 _HOMED_RAD = 0.002
 _STANDING_STILL_RAD = 2e-4
 _STANDING_STILL_POLLS = 5
@@ -115,26 +118,33 @@ class ControlLoop:
         self._robot = robot
         self._now_ns = now_ns
         self._on_step = on_step
-        self._wanted = threading.Event()
+        # Guards the three below, and wakes the thread when one changes.
+        self._changed = threading.Condition()
+        self._wanted = False
         # What ended the session asked for, in words; empty while it should go on.
         self._stop_reason = ""
         self._closing = False
-        self._woken = threading.Condition()
         self._thread = threading.Thread(target=self._run, name="control_loop", daemon=True)
 
     def launch(self) -> None:
         """Start the thread, and with `autostart` the robot."""
-        if self._config.autostart:
-            self._wanted.set()
+        self._wanted = self._config.autostart
         self._thread.start()
+
+    @property
+    def is_stopping(self) -> bool:
+        """Whether motion has been asked to end and has not ended yet."""
+        return self._wanted and bool(self._stop_reason)
 
     def start(self) -> bool:
         """Begin anew; False when it is running already."""
-        if self._wanted.is_set() or self._closing or not self._thread.is_alive():
-            return False
-        self._stop_reason = ""
-        self._wanted.set()
-        return True
+        with self._changed:
+            if self._wanted or self._closing or not self._thread.is_alive():
+                return False
+            self._stop_reason = ""
+            self._wanted = True
+            self._changed.notify_all()
+            return True
 
     def change(self, config: LoopConfig) -> None:
         """Use other settings from the next control step on, where they are `Changeable.RUNNING`. From any thread."""
@@ -142,66 +152,66 @@ class ControlLoop:
 
     def stop(self, reason: str) -> bool:
         """End motion: level the plate, stop the servo, release the robot. False when it is stopped already."""
-        if not self._wanted.is_set():
-            return False
-        self._stop_reason = reason
-        self._wake()
-        return True
+        with self._changed:
+            if not self._wanted:
+                return False
+            self._stop_reason = self._stop_reason or reason
+            self._changed.notify_all()
+            return True
 
     def close(self, timeout_s: float = 5.0) -> None:
         """End motion and the thread."""
-        self._closing = True
-        self.stop("shutting down")
-        self._wanted.set()
-        self._wake()
+        with self._changed:
+            self._closing = True
+            self._stop_reason = self._stop_reason or "shutting down"
+            self._changed.notify_all()
         if self._thread.is_alive():
             self._thread.join(timeout_s)
 
-    def _wake(self) -> None:
-        with self._woken:
-            self._woken.notify_all()
-
-    def _pause(self, seconds: float) -> None:
-        with self._woken:
-            if not self._stop_reason:
-                self._woken.wait(seconds)
-
     def _run(self) -> None:
         while True:
-            self._wanted.wait()
-            if self._closing:
-                return
+            with self._changed:
+                self._changed.wait_for(lambda: self._wanted or self._closing)
+                if self._closing:
+                    return
             self._session()
-            if not self._closing:
-                self._wanted.clear()
 
     def _session(self) -> None:
         """From connecting to a stop, whatever the reason."""
         lost, reason = False, "the control loop failed"
+        watch = RobotWatch(self._config)
         try:
             if not self._connect():
                 reason = self._stop_reason
                 return
-            watch = RobotWatch(self._config)
             reason = self._servo(watch) if self._home(watch) else self._stop_reason
         except ActsError as error:
             # After a stop or loss of the robot nothing is sent to it any more; otherwise its program is ended.
             lost, reason = isinstance(error, RobotError), str(error)
+        except Exception:
+            self._closing = True  # the thread ends with it, and nothing can be started any more
+            raise
         finally:
-            self._robot.disconnect(lost=lost)
-            self.status = replace(self.status, phase=Phase.STOPPED, reason=reason)
+            if not lost:
+                reason += self._end_program(watch)
+            # Told before the connection is cut, however long that takes; a start asked for from now on comes after it.
+            with self._changed:
+                self._wanted = False
+                self.status = replace(self.status, phase=Phase.STOPPED, reason=reason)
+            self._robot.disconnect()
 
     def _connect(self) -> bool:
         self.status = LoopStatus(phase=Phase.CONNECTING, reason="connecting")
         while not self._stop_reason:
             try:
-                self._robot.connect()
+                self._robot.connect(lambda: not self._stop_reason)
                 return True
             except (RobotStoppedError, RobotTakenError):
                 raise
             except RobotError as error:
                 self.status = replace(self.status, reason=str(error))
-            self._pause(self._config.connect_retry_s)
+            with self._changed:
+                self._changed.wait_for(lambda: self._stop_reason, self._config.connect_retry_s)
         return False
 
     def _home(self, watch: RobotWatch) -> bool:
@@ -217,6 +227,7 @@ class ControlLoop:
         while time.monotonic() < end:
             if self._stop_reason:
                 self._robot.end_move()
+                self._await_end(watch)
                 return False
             time.sleep(_HOMING_PERIOD_S)
             reading = self._checked(watch, _HOMING_PERIOD_S)
@@ -227,6 +238,7 @@ class ControlLoop:
             if still >= _STANDING_STILL_POLLS:
                 return True
         self._robot.end_move()
+        self._await_end(watch)
         raise RobotError(f"the level pose was not reached within {timeout_s:.1f} s")
 
     def _servo(self, watch: RobotWatch) -> str:
@@ -264,6 +276,7 @@ class ControlLoop:
             if refused > 1:
                 # Not even the way back to level can be sent.
                 robot.end_servo()
+                self._await_end(watch)
                 return fault
             if fault:
                 controller.end(fault)
@@ -284,6 +297,7 @@ class ControlLoop:
             )
             self._on_step(now_ns, measured)
         robot.end_servo()
+        self._await_end(watch)
         return controller.state.reason
 
     def _take_changes(self, controller: BallController) -> None:
@@ -295,12 +309,7 @@ class ControlLoop:
         try:
             self._robot.servo(joints)
         except RobotError as error:
-            # That a command was refused is often known a packet earlier than why.
-            end = time.monotonic() + _REASON_S
-            while time.monotonic() < end:
-                self._checked(watch, 0.0)
-                time.sleep(0.002)
-            raise error
+            raise RobotError(self._cause(watch) or str(error)) from error
 
     def _aim(self, joints: list[float], tilt: tuple[float, float]) -> str:
         """Write the wrist angles of a tilt into `joints`; why that cannot be, or nothing."""
@@ -311,9 +320,45 @@ class ControlLoop:
             return str(error)
         return ""
 
+    def _end_program(self, watch: RobotWatch) -> str:
+        """End the robot's program; what went wrong, to be added to the reason."""
+        try:
+            self._robot.end_program()
+            self._await_end(watch)
+        except RobotError as error:
+            return f"; the robot's program may still run: {error}"
+        return ""
+
+    def _await_end(self, watch: RobotWatch) -> None:
+        """Wait until the robot has done what ends motion. It may brake for a while, but it must be there."""
+        end = time.monotonic() + _ENDING_TIMEOUT_S
+        last = time.monotonic()
+        while self._robot.is_busy:
+            time.sleep(_ENDING_PERIOD_S)
+            last, before = time.monotonic(), last
+            loss = watch.loss(self._robot.read(), last - before)
+            if loss:
+                raise RobotError(loss)
+            if last > end:
+                raise RobotError(f"the robot has not ended its motion within {_ENDING_TIMEOUT_S:g} s")
+
     def _checked(self, watch: RobotWatch, dt: float) -> RobotReading:
-        reading = self._robot.read()
+        try:
+            reading = self._robot.read()
+        except RobotError as error:
+            raise RobotError(self._cause(watch) or str(error)) from error
         fault = watch.step(reading, dt)
         if fault:
             raise RobotError(fault)
         return reading
+
+    def _cause(self, watch: RobotWatch) -> str:
+        """Why a command was refused, or nothing: that it was is often known a packet earlier than why."""
+        end = time.monotonic() + _REASON_S
+        while time.monotonic() < end:
+            with suppress(RobotError):
+                fault = watch.step(self._robot.read(), 0.0)
+                if fault:
+                    return fault
+            time.sleep(0.002)
+        return ""

@@ -1,37 +1,43 @@
-"""The UR5e through `ur_rtde`, which no other module of this package imports.
+"""The arm as the control loop sees it, and the UR5e behind it.
 
-What is particular about that library: the constructors hold Python's global lock, so an address is tried with plain
-sockets first; ``servoJ`` returns True whether or not anybody listens, so every loss is found by `RobotWatch` from what
-is read; after a loss its control interface must not be called any more, for it blocks for seconds.
+`ur_rtde` and all in which it may wait are in a process of their own (`ur_process`); here nothing but connecting waits,
+and that for a stated time. That ``servoJ`` returns True says nothing about the robot: every loss is found by
+`RobotWatch` from what is read.
 """
 
 from __future__ import annotations
 
+import json
+import signal
 import socket
+import subprocess
+import sys
 import time
-from collections.abc import Sequence
+from collections import deque
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from math import isfinite
-from typing import Any, Protocol
+from typing import Protocol
 
 from acts_control.robot_claim import RobotClaim
 from acts_control.safety import RUNTIME_PLAYING, RobotReading, safety_stop
+from acts_control.ur_probe import probe
 from acts_core.addresses import is_loopback
 from acts_core.errors import RobotError, SettingsError
 from acts_core.settings import setting, validate
 
-# Dashboard, script upload, real-time data exchange.
-_PORTS = (30004, 29999, 30003)
-_CONNECT_TIMEOUT_S = 2.0
+# The library itself waits for up to 5 s for its program to start.
+_CONNECT_TIMEOUT_S = 10.0
 _PROGRAM_TIMEOUT_S = 2.0
-
-# What is asked of the robot. With the library's own list of 58 variables its threads take several times the CPU.
-_VARIABLES = ["timestamp", "actual_q", "safety_status_bits", "runtime_state", "robot_status_bits"]
+_KILL_TIMEOUT_S = 1.0
+_POLL_S = 0.002
 
 _STOP_DECELERATION_RAD_S2 = 4.0
 
 _RATES_HZ = (125, 250, 500)
+
+_PACKET_BYTES = 65536
 
 
 @dataclass(frozen=True)
@@ -77,16 +83,20 @@ class RobotStoppedError(RobotError):
 
 
 class Robot(Protocol):
-    """What the control loop needs of an arm. Every method may raise `RobotError`."""
+    """What the control loop needs of an arm. Nothing but `connect` waits; every method may raise `RobotError`."""
 
-    def connect(self) -> None:
-        """Connect and take control."""
+    def connect(self, is_wanted: Callable[[], bool]) -> None:
+        """Connect and take control; soon gives up, with a `RobotError`, when it is not wanted any more."""
 
     def read(self) -> RobotReading:
-        """The newest state; costs microseconds and never blocks."""
+        """The newest state; costs microseconds."""
+
+    @property
+    def is_busy(self) -> bool:
+        """Whether something that was asked for has not been carried out yet. (A move counts once it has begun.)"""
 
     def begin_move(self, q_rad: Sequence[float]) -> None:
-        """Start to move to a pose; returns at once."""
+        """Start to move to a pose."""
 
     def end_move(self) -> None:
         """Stop such a move."""
@@ -97,125 +107,214 @@ class Robot(Protocol):
     def end_servo(self) -> None:
         """Stop following; the arm holds its pose."""
 
-    def disconnect(self, *, lost: bool) -> None:
-        """Give up control. With `lost` no command is sent any more."""
+    def end_program(self) -> None:
+        """Give up control; the robot's program ends."""
+
+    def disconnect(self) -> None:
+        """Cut the connection; no command is sent any more."""
 
 
 class UrRobot:
-    """A UR5e, real or simulated."""
+    """A UR5e, real or simulated, through `ur_process`."""
 
     def __init__(self, config: RobotConfig) -> None:
         self._config = config
-        self._control: Any = None
-        self._receive: Any = None
         self._claim: RobotClaim | None = None
+        self._process: subprocess.Popen[bytes] | None = None
+        self._link: socket.socket | None = None
+        self._reading: RobotReading | None = None
+        # Commands that have not been answered yet, oldest first: name, and when it was sent [s].
+        self._pending: deque[tuple[str, float]] = deque()
 
-    def connect(self) -> None:
+    def connect(self, is_wanted: Callable[[], bool]) -> None:
         """Connect and upload the control script.
 
         Raises
         ------
         RobotError
-            When a port cannot be reached, or another program controls the robot.
+            When the controller does not answer, another program controls the robot, or it is not wanted any more.
         RobotStoppedError
             When a safety function holds it.
         RobotTakenError
             When another program of this machine controls it.
         """
+        host = self._config.robot_ip
         if self._claim is None:
-            self._claim = RobotClaim(self._config.robot_ip)
+            self._claim = RobotClaim(host)
+        self._await_former_end()
+        probe(host)
         try:
-            import rtde_control
-            import rtde_receive
-        except ImportError as error:
-            raise RobotError(f"ur_rtde cannot be imported ({error}); install it with: pip install ur-rtde") from error
-        config = self._config
-        for port in _PORTS:
-            _try_port(config.robot_ip, port)
-        rate_hz = float(config.control_rate_hz)
-        try:
-            self._receive = rtde_receive.RTDEReceiveInterface(config.robot_ip, rate_hz, _VARIABLES)
-            reading = self.read()
-            stop = safety_stop(reading)
+            self._start_process()
+            self._carry_out("watch", is_wanted)
+            stop = safety_stop(self.read())
             if stop:
-                raise RobotStoppedError(f"{config.robot_ip}: {stop}; release it at the robot, then start again")
-            self._control = rtde_control.RTDEControlInterface(config.robot_ip, rate_hz)
-            self._await_program()
-        except (RuntimeError, ValueError) as error:
-            self.disconnect(lost=True)
-            hint = "; is another program controlling the robot?" if "in use" in str(error) else ""
-            raise RobotError(f"{config.robot_ip}: {str(error).strip()}{hint}") from error
-        except RobotError:
-            self.disconnect(lost=True)
+                raise RobotStoppedError(f"{host}: {stop}; release it at the robot, then start again")
+            self._carry_out("take_control", is_wanted)
+            # The library knows that its program runs a packet or two before it can be read.
+            self._await(
+                lambda: self.read().runtime_state == RUNTIME_PLAYING,
+                is_wanted,
+                _PROGRAM_TIMEOUT_S,
+                "the control script does not run; is the robot in remote control?",
+            )
+        except RobotError as error:
+            self.disconnect()
+            if "already in use" in str(error):
+                raise RobotError(f"{error} Is another program controlling the robot?") from error
             raise
 
-    def _await_program(self) -> None:
-        """The control interface knows that its program runs a packet or two before the receive interface does."""
-        deadline = time.monotonic() + _PROGRAM_TIMEOUT_S
-        while self.read().runtime_state != RUNTIME_PLAYING:
-            if time.monotonic() > deadline:
-                raise RobotError(
-                    f"{self._config.robot_ip}: the control script does not run; is the robot in remote control?"
-                )
-            time.sleep(0.002)
-
     def read(self) -> RobotReading:
-        """The newest state; costs microseconds and never blocks."""
-        receive = self._receive
-        return RobotReading(
-            bool(receive.isConnected()),
-            float(receive.getTimestamp()),
-            tuple(receive.getActualQ()),
-            int(receive.getSafetyStatusBits()),
-            int(receive.getRuntimeState()),
-        )
+        """The newest state; costs microseconds."""
+        self._take_in()
+        if self._reading is None:
+            raise RobotError(f"{self._config.robot_ip}: nothing has been read yet")
+        waiting_s = time.monotonic() - self._pending[0][1] if self._pending else 0.0
+        return self._reading._replace(waiting_s=waiting_s)
+
+    @property
+    def is_busy(self) -> bool:
+        """Whether something that was asked for has not been carried out yet. (A move counts once it has begun.)"""
+        if self._link is not None:
+            self._take_in()
+        return bool(self._pending)
 
     def begin_move(self, q_rad: Sequence[float]) -> None:
-        """Start to move to a pose; returns at once."""
-        speed, acceleration = self._config.homing_speed_rad_s, self._config.homing_acceleration_rad_s2
-        # Asynchronous: a blocking moveJ would wait for minutes after the connection was lost.
-        if not self._call("moveJ", _finite(q_rad), speed, acceleration, True):
-            raise RobotError(f"{self._config.robot_ip}: moveJ refused; is the robot on and in remote control?")
+        """Start to move to a pose."""
+        # Asynchronous: a blocking moveJ would answer at its end only.
+        self._send(
+            "moveJ", _finite(q_rad), self._config.homing_speed_rad_s, self._config.homing_acceleration_rad_s2, True
+        )
 
     def end_move(self) -> None:
         """Stop such a move."""
-        self._call("stopJ", _STOP_DECELERATION_RAD_S2)
+        self._send("stopJ", _STOP_DECELERATION_RAD_S2)
 
     def servo(self, q_rad: Sequence[float]) -> None:
         """Aim for joint angles."""
         config = self._config
         # Speed and acceleration are ignored by the script.
         step_s = 1.0 / config.control_rate_hz
-        if not self._call("servoJ", _finite(q_rad), 0.0, 0.0, step_s, config.servo_lookahead_s, config.servo_gain):
-            raise RobotError(f"{config.robot_ip}: servoJ refused; the robot's program is not running")
+        self._send("servoJ", _finite(q_rad), 0.0, 0.0, step_s, config.servo_lookahead_s, config.servo_gain)
 
     def end_servo(self) -> None:
         """Stop following; the arm holds its pose."""
-        self._call("servoStop", _STOP_DECELERATION_RAD_S2)
+        self._send("servoStop", _STOP_DECELERATION_RAD_S2)
 
-    def disconnect(self, *, lost: bool) -> None:
-        """Give up control. With `lost` no command is sent any more."""
-        control, receive, self._control, self._receive = self._control, self._receive, None, None
-        # Whatever these say, both are done with: errors of a connection that is being given up mean nothing.
-        if control is not None:
-            with suppress(RuntimeError):
-                if not lost:
-                    control.stopScript()
-            with suppress(RuntimeError):
-                control.disconnect()
-        if receive is not None:
-            with suppress(RuntimeError):
-                receive.disconnect()
-        # Last: another program may take the robot from here on.
-        claim, self._claim = self._claim, None
-        if claim is not None:
-            claim.close()
+    def end_program(self) -> None:
+        """Give up control; the robot's program ends."""
+        if self._link is not None:
+            self._send("stopScript")
 
-    def _call(self, name: str, *arguments: object) -> bool:
+    def disconnect(self) -> None:
+        """Cut the connection; no command is sent any more."""
+        # Killed first: what sees the link closed ends the robot's program, which is a command.
+        if self._process is not None:
+            self._process.kill()
+            with suppress(subprocess.TimeoutExpired):
+                self._process.wait(_KILL_TIMEOUT_S)
+        if self._link is not None:
+            self._link.close()
+        self._link, self._reading = None, None
+        self._pending.clear()
+        if self._claim is not None and (self._process is None or self._process.poll() is not None):
+            # Last: another program may take the robot from here on.
+            self._claim.close()
+            self._claim = None
+
+    def _await_former_end(self) -> None:
+        """Two connections at once would be refused, and both might command."""
+        if self._process is None:
+            return
+        if self._process.poll() is None:
+            raise RobotError(
+                f"{self._config.robot_ip}: waiting for the end of the former connection (process {self._process.pid})"
+            )
+        self._process = None
+
+    def _start_process(self) -> None:
+        ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+        with theirs:
+            ours.setblocking(False)
+            self._link = ours
+            words = [str(theirs.fileno()), self._config.robot_ip, str(self._config.control_rate_hz)]
+            try:
+                self._process = subprocess.Popen(
+                    [sys.executable, "-m", "acts_control.ur_process", *words],
+                    stdin=subprocess.DEVNULL,
+                    pass_fds=[theirs.fileno()],
+                    # A Ctrl-C in the terminal is for this process, which ends motion in order.
+                    start_new_session=True,
+                )
+            except OSError as error:
+                raise RobotError(f"the process for the robot cannot be started: {error}") from error
+
+    def _carry_out(self, name: str, is_wanted: Callable[[], bool]) -> None:
+        self._send(name)
+        self._await(lambda: not self.is_busy, is_wanted, _CONNECT_TIMEOUT_S, f"{name}: no answer")
+
+    def _await(self, condition: Callable[[], bool], is_wanted: Callable[[], bool], timeout_s: float, what: str) -> None:
+        deadline = time.monotonic() + timeout_s
+        while not condition():
+            if not is_wanted():
+                raise RobotError(f"{self._config.robot_ip}: connecting was given up")
+            if time.monotonic() > deadline:
+                raise RobotError(f"{self._config.robot_ip}: {what} (waited for {timeout_s:g} s)")
+            time.sleep(_POLL_S)
+
+    def _send(self, name: str, *arguments: object) -> None:
+        self._take_in()
+        assert self._link is not None
         try:
-            return bool(getattr(self._control, name)(*arguments))
-        except (RuntimeError, ValueError) as error:
-            raise RobotError(f"{self._config.robot_ip}: {name}: {str(error).strip()}") from error
+            self._link.send(json.dumps([name, *arguments]).encode())
+        except OSError as error:
+            raise RobotError(f"{self._config.robot_ip}: {name} cannot be handed over ({error.strerror})") from error
+        self._pending.append((name, time.monotonic()))
+
+    def _take_in(self) -> None:
+        """Read what the other process has told since.
+
+        Raises
+        ------
+        RobotError
+            When something that was asked for has failed, or the process has ended.
+        """
+        if self._link is None:
+            raise RobotError(f"{self._config.robot_ip}: not connected")
+        while True:
+            try:
+                packet = self._link.recv(_PACKET_BYTES)
+            except BlockingIOError:
+                return
+            except OSError:
+                packet = b""
+            if not packet:
+                raise RobotError(f"{self._config.robot_ip}: {self._how_it_ended()}")
+            kind, *words = json.loads(packet)
+            if kind == "reading":
+                connected, timestamp_s, q_rad, safety_bits, runtime_state = words
+                self._reading = RobotReading(connected, timestamp_s, tuple(q_rad), safety_bits, runtime_state)
+                continue
+            name, _ = self._pending.popleft()
+            if kind == "failed":
+                raise RobotError(f"{self._config.robot_ip}: {words[0]}")
+            if words[0] is False and name in _REFUSALS:
+                raise RobotError(f"{self._config.robot_ip}: {name} refused; {_REFUSALS[name]}")
+
+    def _how_it_ended(self) -> str:
+        assert self._process is not None
+        try:
+            code = self._process.wait(_KILL_TIMEOUT_S)
+        except subprocess.TimeoutExpired:
+            return "the process of the connection does not answer any more"
+        how = signal.Signals(-code).name if code < 0 else f"exit code {code}"
+        return f"the process of the connection has ended ({how}); what ur_rtde said is above"
+
+
+# What refuses to stop something has nothing to stop.
+_REFUSALS = {
+    "moveJ": "is the robot on and in remote control?",
+    "servoJ": "the robot's program is not running",
+}
 
 
 def _finite(q_rad: Sequence[float]) -> list[float]:
@@ -224,12 +323,3 @@ def _finite(q_rad: Sequence[float]) -> list[float]:
     if len(q) != 6 or not all(map(isfinite, q)):
         raise RobotError(f"joint angles {q} cannot be sent: six finite numbers are needed")
     return q
-
-
-def _try_port(host: str, port: int) -> None:
-    try:
-        socket.create_connection((host, port), timeout=_CONNECT_TIMEOUT_S).close()
-    except OSError as error:
-        raise RobotError(
-            f"no UR controller at {host} port {port} ({error.strerror or error}); is it on, and robot_ip right?"
-        ) from error

@@ -54,7 +54,11 @@ class SafetyConfig:
         changeable=Changeable.RUNNING,
     )
     robot_stale_after_s: float = setting(
-        0.2, "the robot's clock standing still for longer is a lost connection [s]", minimum=0.02, maximum=5.0
+        0.2,
+        "the robot's clock standing still, or a command not being taken, for longer is a lost connection [s]",
+        minimum=0.02,
+        # After 2.5 s ur_rtde begins to connect anew by itself.
+        maximum=2.0,
     )
     max_wrist_offset_rad: float = setting(
         0.14, "farthest wrist 1 and wrist 2 may go from the level pose [rad]", minimum=0.001, maximum=0.5
@@ -85,6 +89,8 @@ class RobotReading(NamedTuple):
         Joint angles, base to wrist 3 [rad].
     safety_bits, runtime_state : int
         As in RTDE: safety_status_bits and runtime_state.
+    waiting_s : float
+        How long the oldest command that has not been taken yet has been waiting [s].
     """
 
     connected: bool
@@ -92,6 +98,7 @@ class RobotReading(NamedTuple):
     q_rad: tuple[float, ...]
     safety_bits: int
     runtime_state: int
+    waiting_s: float = 0.0
 
 
 def safety_stop(reading: RobotReading) -> str:
@@ -119,12 +126,11 @@ class RobotWatch:
         dt : float
             Time since the last step [s].
         """
-        if not reading.connected:
-            return "connection to the robot lost"
-        self._still_s = self._still_s + dt if reading.timestamp_s == self._timestamp_s else 0.0
-        self._timestamp_s = reading.timestamp_s
-        if self._still_s > self._config.robot_stale_after_s:
-            return f"no data from the robot for {self._still_s:.2f} s"
+        loss = self.loss(reading, dt)
+        if loss:
+            return loss
+        if reading.waiting_s > self._config.robot_stale_after_s:
+            return f"the robot has not taken a command for {reading.waiting_s:.2f} s"
         stop = safety_stop(reading)
         if stop:
             return f"robot: {stop}"
@@ -133,6 +139,16 @@ class RobotWatch:
             return f"the robot's program is not running ({state})"
         if len(reading.q_rad) != JOINTS or not all(map(isfinite, reading.q_rad)):
             return f"the robot reports joint angles {reading.q_rad}"
+        return ""
+
+    def loss(self, reading: RobotReading, dt: float) -> str:
+        """That the robot is gone or stands still, in words; empty when it is there. To be called instead of `step`."""
+        if not reading.connected:
+            return "connection to the robot lost"
+        self._still_s = self._still_s + dt if reading.timestamp_s == self._timestamp_s else 0.0
+        self._timestamp_s = reading.timestamp_s
+        if self._still_s > self._config.robot_stale_after_s:
+            return f"no data from the robot for {self._still_s:.2f} s"
         return ""
 
 

@@ -63,6 +63,8 @@ class Process:
         """Signal it once and wait; the exit code."""
         if self.process.poll() is None:
             self.process.send_signal(number)
+            # One that a test has made stand still would not get it.
+            self.process.send_signal(signal.SIGCONT)
         try:
             return self.process.wait(timeout_s)
         finally:
@@ -102,6 +104,10 @@ class SimulatedRobot(Process):
     def state(self) -> dict[str, Any]:
         """Joint angles, program, safety."""
         return dict(json.loads(self.hook("state")))
+
+    def orders(self) -> list[tuple[float, str, str]]:
+        """What clients have told it to do: the robot's time [s], the port, and what."""
+        return [tuple(order) for order in json.loads(self.hook("orders"))]
 
 
 class Bench:

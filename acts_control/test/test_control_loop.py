@@ -1,6 +1,7 @@
 """The control loop's thread on an arm in this process: every way from connecting to a stop."""
 
 import itertools
+import threading
 import time
 from collections.abc import Callable, Iterator, Sequence
 
@@ -15,6 +16,7 @@ from acts_core.errors import RobotError, SettingsError
 from acts_core.ur5e import LEVEL_Q_RAD, tilt_of
 
 DEADLINE_S = 20.0
+ORDERLY_END = ["end_servo", "end_program", "disconnect"]
 
 
 class ArmInProcess:
@@ -31,10 +33,12 @@ class ArmInProcess:
         self.frozen = False
         self.moves = True
         self.refuses: Callable[[], None] | None = None
+        # What is asked of it never gets done while set.
+        self.is_busy = False
         self._time = itertools.count()
         self._timestamp = 0.0
 
-    def connect(self) -> None:
+    def connect(self, is_wanted: Callable[[], bool]) -> None:
         self.calls.append("connect")
         if self.connect_errors:
             raise self.connect_errors.pop(0)
@@ -62,8 +66,11 @@ class ArmInProcess:
     def end_servo(self) -> None:
         self.calls.append("end_servo")
 
-    def disconnect(self, *, lost: bool) -> None:
-        self.calls.append("abandon" if lost else "disconnect")
+    def end_program(self) -> None:
+        self.calls.append("end_program")
+
+    def disconnect(self) -> None:
+        self.calls.append("disconnect")
 
 
 Make = Callable[..., ControlLoop]
@@ -131,7 +138,7 @@ def test_from_connecting_to_balancing_and_back_to_level(arm: ArmInProcess, make:
     assert tilt_of(arm.commands[-1])[1] < 0.0
     assert loop.stop("stopped by request")
     assert await_stop(loop) == "stopped by request"
-    assert arm.calls[-2:] == ["end_servo", "disconnect"]
+    wait_for(lambda: arm.calls[-3:] == ORDERLY_END, "the end of the connection")
     assert tilt_of(arm.commands[-1]) == pytest.approx((0.0, 0.0), abs=1e-5)
     assert not loop.stop("again")
     assert loop.start()
@@ -202,7 +209,8 @@ def test_homing_can_be_broken_off(arm: ArmInProcess, make: Make) -> None:
     wait_for(lambda: "begin_move" in arm.calls, "homing")
     loop.stop("stopped by request")
     assert await_stop(loop) == "stopped by request"
-    assert arm.calls == ["connect", "begin_move", "end_move", "disconnect"]
+    wait_for(lambda: arm.calls[-1] == "disconnect", "the end of the connection")
+    assert arm.calls == ["connect", "begin_move", "end_move", "end_program", "disconnect"]
 
 
 @pytest.mark.parametrize(
@@ -228,9 +236,9 @@ def test_a_robot_that_stops_gets_no_further_command(
     setattr(arm, fault, value)
     assert await_stop(loop).startswith(words)
     sent = len(arm.commands)
-    # Neither servoStop nor stopScript: nothing is sent any more.
-    assert arm.calls == ["connect", "begin_move", "abandon"]
     loop.close()
+    # Neither servoStop nor stopScript: nothing is sent any more.
+    assert arm.calls == ["connect", "begin_move", "disconnect"]
     assert len(arm.commands) == sent
 
 
@@ -243,7 +251,8 @@ def test_a_refused_command_ends_motion_with_the_reason_if_there_is_one(
     # The command is refused before the stop is told.
     arm.refuses = lambda: setattr(arm, "safety_bits", bits)
     assert await_stop(loop) == words
-    assert arm.calls[-1] == "abandon"
+    loop.close()
+    assert arm.calls == ["connect", "begin_move", "disconnect"]
 
 
 def test_stale_touch_levels_the_plate_and_ends_the_servo(arm: ArmInProcess, make: Make) -> None:
@@ -251,7 +260,7 @@ def test_stale_touch_levels_the_plate_and_ends_the_servo(arm: ArmInProcess, make
     balance(loop)
     reason = await_stop(loop)
     assert reason.startswith("touch is stale: the newest is")
-    assert arm.calls[-2:] == ["end_servo", "disconnect"]
+    wait_for(lambda: arm.calls[-3:] == ORDERLY_END, "the end of the connection")
     assert tilt_of(arm.commands[-1]) == pytest.approx((0.0, 0.0), abs=1e-5)
 
 
@@ -262,7 +271,7 @@ def test_a_command_that_is_not_finite_ends_motion_and_is_not_sent(
     balance(loop)
     monkeypatch.setattr(BallController, "step", lambda self, inputs, dt: (float("nan"), 0.0))
     assert "tilt = (nan, 0.0)" in await_stop(loop)
-    assert arm.calls[-2:] == ["end_servo", "disconnect"]
+    wait_for(lambda: arm.calls[-3:] == ORDERLY_END, "the end of the connection")
     assert all(angle == angle for command in arm.commands for angle in command)
 
 
@@ -293,8 +302,54 @@ def test_a_mistake_in_the_program_still_ends_the_robots_program(
     monkeypatch.setattr("threading.excepthook", lambda arguments: None)
     monkeypatch.setattr(BallController, "step", lambda self, inputs, dt: 1 / 0)
     assert await_stop(loop) == "the control loop failed"
-    assert arm.calls[-1] == "disconnect"
+    wait_for(lambda: arm.calls[-2:] == ["end_program", "disconnect"], "the end of the robot's program")
     assert not loop.start()
+
+
+def test_a_robot_that_does_not_end_its_motion_is_cut_off(
+    arm: ArmInProcess, make: Make, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("acts_control.loop._ENDING_TIMEOUT_S", 0.1)
+    loop = make()
+    balance(loop)
+    arm.is_busy = True
+    loop.stop("stopped by request")
+    assert loop.is_stopping
+    assert await_stop(loop) == "the robot has not ended its motion within 0.1 s"
+    assert not loop.is_stopping
+    loop.close()
+    assert arm.calls[-2:] == ["end_servo", "disconnect"]
+
+
+def test_a_program_that_cannot_be_ended_is_told(arm: ArmInProcess, make: Make, monkeypatch: pytest.MonkeyPatch) -> None:
+    loop = make()
+    balance(loop)
+
+    def fail() -> None:
+        raise RobotError("gone")
+
+    monkeypatch.setattr(arm, "end_program", fail)
+    loop.stop("stopped by request")
+    assert await_stop(loop) == "stopped by request; the robot's program may still run: gone"
+
+
+def test_the_end_is_told_before_the_connection_is_cut(
+    arm: ArmInProcess, make: Make, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    loop = make()
+    balance(loop)
+    cut = threading.Event()
+    monkeypatch.setattr(arm, "disconnect", lambda: cut.wait(DEADLINE_S))
+    arm.frozen = True
+    assert await_stop(loop).startswith("no data from the robot for")
+    assert not loop.stop("again")
+    # Asked for meanwhile, and begun when the old connection is gone.
+    assert loop.start()
+    assert not loop.start()
+    assert arm.calls.count("connect") == 1
+    arm.frozen = False
+    cut.set()
+    wait_for(lambda: arm.calls.count("connect") == 2, "a new connection")
 
 
 def test_closing_stops_the_robot_in_order(arm: ArmInProcess, make: Make) -> None:
@@ -302,7 +357,7 @@ def test_closing_stops_the_robot_in_order(arm: ArmInProcess, make: Make) -> None
     balance(loop)
     loop.close()
     assert (loop.status.phase, loop.status.reason) == (Phase.STOPPED, "shutting down")
-    assert arm.calls[-2:] == ["end_servo", "disconnect"]
+    assert arm.calls[-3:] == ORDERLY_END
     assert tilt_of(arm.commands[-1]) == pytest.approx((0.0, 0.0), abs=1e-5)
 
 

@@ -21,7 +21,7 @@ WAITING, BALANCING = BalanceStatus.STATE_WAITING, BalanceStatus.STATE_BALANCING
 STOPPED = BalanceStatus.STATE_STOPPED
 
 # The ball of these tests rolls on published tilts, on a plate that turns about the ball and without resistance; and the
-# machine may be busy, so touch may be older than in earnest.
+# machine may be busy, so touch and readings may be older than in earnest.
 SETTINGS = """
 /**/ball_state:
   ros__parameters: {lever_arm_m: 0.0}
@@ -32,6 +32,7 @@ SETTINGS = """
     touch_stale_after_s: 0.3
     touch_stop_after_s: 1.0
     ball_lost_after_s: 0.3
+    robot_stale_after_s: 1.0
     connect_retry_s: 0.2
     homing_speed_rad_s: 2.0
     homing_acceleration_rad_s2: 8.0
@@ -112,7 +113,7 @@ def test_stop_and_start_by_service(tmp_path: Path) -> None:
             assert bench.await_phase(STOPPED).reason == "stopped by request"
             assert tilt(robot) < 1e-3
             answer = bench.call("stop")
-            assert (answer.success, answer.message) == (False, "already stopped")
+            assert (answer.success, answer.message) == (False, "already stopped: stopped by request")
             assert bench.call("start").success
             bench.await_phase(BALANCING)
             assert process.stop(signal.SIGTERM) == 0, process.text()

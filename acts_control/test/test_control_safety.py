@@ -68,6 +68,7 @@ def test_the_gate_stops_what_must_not_reach_the_robot(q: list[float], words: str
         ({"safety_bits": 0x4C0}, "robot: emergency stop"),
         ({"safety_bits": 0x410}, "robot: safeguard stop"),
         ({"runtime_state": 1}, "the robot's program is not running (stopped)"),
+        ({"waiting_s": 0.25}, "the robot has not taken a command for 0.25 s"),
         ({"runtime_state": 4}, "the robot's program is not running (paused)"),
         ({"q_rad": (NAN,) * 6}, "the robot reports joint angles (nan, nan, nan, nan, nan, nan)"),
         ({"q_rad": (0.0,) * 5}, "the robot reports joint angles (0.0, 0.0, 0.0, 0.0, 0.0)"),
