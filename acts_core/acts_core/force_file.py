@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from acts_core.array import COUNT_MAX
 from acts_core.errors import SettingsError
 from acts_core.npz_file import read_npz
+from acts_core.regular_file import read_text
 
 _NAMES = ("newtons", "counts")
 
@@ -45,8 +46,6 @@ def read_force_points(path: Path) -> tuple[NDArray[np.float64], NDArray[np.float
             newtons, counts = (np.asarray(content[name], dtype=np.float64) for name in _NAMES)
         else:
             raise SettingsError(f"{path}: a force response is a .csv or .npz file of newtons and counts")
-    except OSError as error:
-        raise SettingsError(f"{path}: cannot be read ({error.strerror or error}); give an existing file") from error
     except (ValueError, TypeError, csv.Error) as error:
         raise SettingsError(f"{path}: damaged, or not what its name says ({error})") from error
     _check(path, newtons, counts)
@@ -54,8 +53,8 @@ def read_force_points(path: Path) -> tuple[NDArray[np.float64], NDArray[np.float
 
 
 def _from_csv(path: Path) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    with path.open(encoding="utf-8", newline="") as file:
-        rows = list(csv.DictReader((line for line in file if not line.startswith("#")), skipinitialspace=True))
+    lines = read_text(path, error=SettingsError, hint="give an existing file").splitlines(keepends=True)
+    rows = list(csv.DictReader((line for line in lines if not line.startswith("#")), skipinitialspace=True))
     values: list[list[float]] = [[], []]
     for number, row in enumerate(rows, start=1):
         for name, column in zip(_NAMES, values, strict=True):

@@ -64,7 +64,7 @@ def without_contact(largest_counts: int, touch_counts: float) -> str:
     )
 
 
-def load_frames(path: Path, *, labels: bool = False) -> FramesFile:
+def load_frames(path: Path, *, labels: bool = False, limit_bytes: int | None = None) -> FramesFile:
     """Read a file of frames; recordings of no frames are left out.
 
     Parameters
@@ -73,6 +73,8 @@ def load_frames(path: Path, *, labels: bool = False) -> FramesFile:
         An npz file.
     labels : bool
         Whether to read what each recording shows: text or numbers, as `label`.
+    limit_bytes : int or None
+        How much the arrays may take unpacked; None for half of the memory of this machine.
 
     Raises
     ------
@@ -81,7 +83,8 @@ def load_frames(path: Path, *, labels: bool = False) -> FramesFile:
     """
     needed = "needed is an npz file with an array `frames` (n, rows, cols)"
     names = ["frames", "live", "start", "length", "rate_hz", *(["label"] if labels else [])]
-    content = read_npz(path, names, error=RecordingError, hint=needed, limit_bytes=half_of_memory_bytes())
+    limit_bytes = half_of_memory_bytes() if limit_bytes is None else limit_bytes
+    content = read_npz(path, names, error=RecordingError, hint=needed, limit_bytes=limit_bytes)
     if "frames" not in content:
         raise RecordingError(f"{path}: no array `frames`; {needed}")
     frames = _frames(path, content["frames"])

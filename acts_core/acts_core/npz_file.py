@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import stat
 import struct
 import tokenize
 import zipfile
@@ -16,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import ActsError
+from acts_core.regular_file import require_regular
 
 # What zipfile, zlib and NumPy raise for damaged files; a length that was hit may also ask for more than there is.
 _DAMAGED = (
@@ -36,7 +36,7 @@ _DAMAGED = (
 )
 
 UNPACKED_BYTES_MAX = 1 << 30
-"""Arrays of a model, a baseline or a table take at most so much; those of recordings see `half_of_memory_bytes`."""
+"""Arrays that a node reads take at most so much, and few seconds; what a command reads see `half_of_memory_bytes`."""
 
 
 def half_of_memory_bytes() -> int:
@@ -73,10 +73,8 @@ def read_npz(
         The file is missing, is no npz file, is damaged, or holds more than is allowed.
     """
     tail = f"; {hint}" if hint else ""
+    require_regular(path, error=error, hint=hint)
     try:
-        # A device may have no end, and a pipe no beginning.
-        if not stat.S_ISREG(path.stat().st_mode):
-            raise error(f"{path}: not a regular file{tail}")
         with path.open("rb") as file:
             is_npz = zipfile.is_zipfile(file)
         # NumPy would take anything else for a pickle, and say so.

@@ -192,5 +192,5 @@ class StreamDecoder(DelimitedDecoder):
 def _check_size(rows: int, cols: int, m: int) -> None:
     if not (1 <= rows <= MAX_SIDE and 1 <= cols <= MAX_SIDE):
         raise PacketError(f"array of {rows} x {cols} taxels; 1 to {MAX_SIDE} each are allowed")
-    if m > rows * cols:
-        raise PacketError(f"{m} samples of an array of {rows} x {cols} = {rows * cols} taxels")
+    if not 1 <= m <= rows * cols:
+        raise PacketError(f"{m} samples of an array of {rows} x {cols}; 1 to {rows * cols} are allowed")

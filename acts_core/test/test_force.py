@@ -118,7 +118,7 @@ def test_files_that_are_no_response_are_refused(tmp_path: Path) -> None:
     assert "needed is a first line `newtons,counts`" in refusal("nameless.csv", b"0,0\n1,5\n")
     assert "point 2, counts: 'much'" in refusal("word.csv", b"newtons,counts\n0,0\n1,much\n")
     assert "point 1, counts: None" in refusal("short.csv", b"newtons,counts\n0\n")
-    assert "damaged" in refusal("binary.csv", b"newtons,counts\n\xff\xfe")
+    assert "not text in UTF-8" in refusal("binary.csv", b"newtons,counts\n\xff\xfe")
     assert "not an npz file" in refusal("text.npz", b"newtons,counts\n0,0\n")
     assert ".csv or .npz" in refusal("response.txt", b"newtons,counts\n0,0\n")
     np.savez(tmp_path / "other.npz", grams=[1.0])

@@ -22,7 +22,7 @@ GARBAGE = st.binary(max_size=300)
 @st.composite
 def frames(draw: st.DrawFn) -> SampleFrame:
     rows, cols = draw(st.integers(1, 64)), draw(st.integers(1, 64))
-    m = draw(st.integers(0, min(rows * cols, 80)))
+    m = draw(st.integers(1, min(rows * cols, 80)))
     random = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
     return SampleFrame(
         sequence=draw(st.integers(0, 2**32 - 1)),
@@ -234,6 +234,7 @@ def test_a_packet_of_many_chunks_that_is_too_long_is_rejected() -> None:
         ({"cols": 65}, "32 x 65"),
         ({"rows": 1, "cols": 2}, "3 samples of an array of 1 x 2"),
         ({"rows": 2, "cols": 7}, "index 14 of sample 2 is outside of the array of 14"),
+        ({"m": 0}, "0 samples of an array of 32 x 32; 1 to 1024 are allowed"),
         ({"m": 2}, "48 bytes with 2 samples"),
         ({"m": 4}, "48 bytes with 4 samples"),
     ],
@@ -243,6 +244,15 @@ def test_what_cannot_be_is_malformed_though_its_crc_is_right(changes: dict[str, 
     assert decoder.feed(packet_of(example(), **changes)) == []
     assert (decoder.malformed, decoder.crc_errors) == (1, 0)
     assert re.search(words, decoder.last_error), decoder.last_error
+
+
+def test_a_frame_without_samples_is_neither_encoded_nor_decoded() -> None:
+    nothing = example(m=0)
+    with pytest.raises(PacketError, match="0 samples of an array of 32 x 32; 1 to 1024 are allowed"):
+        encode_frame(nothing)
+    decoder = StreamDecoder()
+    assert len(decoder.feed(packet_of(nothing) + packet_of(example()))) == 1
+    assert (decoder.frames, decoder.malformed) == (1, 1)
 
 
 def test_a_wrong_crc_is_counted_as_such() -> None:

@@ -16,6 +16,8 @@ from acts_core.npz_file import read_npz
 
 _FORMAT = "acts_baseline"
 _VERSION = 1
+# Of the largest array 50 kB are needed.
+_BYTES_MAX = 1 << 24
 
 
 class BaselineSource(IntEnum):
@@ -102,7 +104,7 @@ class Baseline:
             When the file cannot be read, is no baseline, or one of another array.
         """
         again = "calibrate again, or remove the file"
-        content = read_npz(path, error=SettingsError, hint=again)
+        content = read_npz(path, error=SettingsError, hint=again, limit_bytes=_BYTES_MAX)
         try:
             if str(content["format"]) != _FORMAT or int(content["version"]) != _VERSION:
                 raise SettingsError(f"{path}: no baseline of this release; {again}")

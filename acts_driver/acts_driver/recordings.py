@@ -15,7 +15,7 @@ from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import RecordingError
 from acts_core.frames import SampleFrame, Scheme
 from acts_core.frames_file import FramesFile, load_frames
-from acts_core.npz_file import half_of_memory_bytes, read_npz
+from acts_core.npz_file import UNPACKED_BYTES_MAX, read_npz
 from acts_core.sampling import SCHEMES, Sampler, SamplingConfig, measure_in
 
 MEASUREMENT_US = 17.877
@@ -76,7 +76,7 @@ def open_recording(options: ReplayOptions) -> Recording:
     if path.suffix == ".npz":
         if _has_samples(path):
             return RecordedSamples.load(path)
-        content = load_frames(path)
+        content = load_frames(path, limit_bytes=UNPACKED_BYTES_MAX)
         rows, cols = content.frames.shape[1:]
         if max(rows, cols) > MAX_SIDE:
             raise RecordingError(f"{path}: frames of {rows} x {cols} taxels; an array has up to {MAX_SIDE} each way")
@@ -183,7 +183,7 @@ class RecordedSamples:
         RecordingError
             It cannot be read, or its arrays do not fit together.
         """
-        content = read_npz(path, error=RecordingError, limit_bytes=half_of_memory_bytes())
+        content = read_npz(path, error=RecordingError, hint="longer ones as a bag, which is not read whole")
         for name in ("indices", "counts"):
             if name not in content or content[name].ndim != 2 or content[name].dtype.kind not in "iu":
                 raise RecordingError(f"{path}: needed are whole numbers indices (n, m) and counts (n, m)")

@@ -13,7 +13,7 @@ from acts_core.wire import StreamDecoder, encode_frame
 @st.composite
 def frames(draw: st.DrawFn) -> SampleFrame:
     rows, cols = draw(st.integers(1, 64)), draw(st.integers(1, 64))
-    m = draw(st.integers(0, rows * cols))
+    m = draw(st.integers(1, rows * cols))
     rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
     u32 = st.integers(0, 2**32 - 1)
     return SampleFrame(

@@ -8,9 +8,6 @@ optionally ``start`` and ``length`` (and ``label``) of the recordings that follo
 
 from __future__ import annotations
 
-import struct
-import zipfile
-import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,6 +17,7 @@ from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import RecordingError
+from acts_core.npz_file import half_of_memory_bytes, read_npz
 
 
 @dataclass(frozen=True)
@@ -45,20 +43,6 @@ class ExportedRecording:
     rate_hz: float
     labels: tuple[str, ...]
 
-
-# What NumPy and zipfile raise from damaged files, by trial.
-_UNREADABLE = (
-    OSError,
-    EOFError,
-    ValueError,
-    KeyError,
-    TypeError,
-    RuntimeError,
-    MemoryError,
-    struct.error,
-    zlib.error,
-    zipfile.BadZipFile,
-)
 
 DEFAULT_RATE_HZ = 1.0
 """Rate of single frames, which have none of their own: long enough to look at each."""
@@ -133,14 +117,8 @@ def export_recording(
 
 
 def _load(path: Path) -> dict[str, NDArray]:
-    try:
-        loaded = np.load(path, allow_pickle=False)
-        if not isinstance(loaded, np.lib.npyio.NpzFile):
-            raise RecordingError(f"{path}: a single array; needed is an npz file with frames and rate_hz")
-        with loaded:
-            return {name: loaded[name] for name in loaded.files}
-    except _UNREADABLE as error:
-        raise RecordingError(f"{path}: cannot be read as a recording ({error}); give an existing npz file") from error
+    needed = "needed is an npz file with frames and rate_hz"
+    return read_npz(path, error=RecordingError, hint=needed, limit_bytes=half_of_memory_bytes())
 
 
 def _need(content: dict[str, NDArray], name: str, path: Path) -> NDArray:

@@ -28,6 +28,7 @@ from __future__ import annotations
 
 import mmap
 import os
+import stat
 import struct
 import time
 from contextlib import suppress
@@ -176,6 +177,8 @@ class TimedRingReader:
     def _open(self) -> None:
         path = self.path
         try:
+            if not stat.S_ISREG(path.stat().st_mode):
+                raise ValueError("not a regular file")
             with path.open("rb") as file:
                 identity = _identity_of(os.fstat(file.fileno()))
                 mapped = mmap.mmap(file.fileno(), 0, prot=mmap.PROT_READ)

@@ -105,7 +105,7 @@ def test_single_frames_are_rounded(tmp_path: Path, out: Path) -> None:
         ({"frames": np.full((6, 4, 5), -1, dtype=np.int16)}, "allowed are 0 to 1023"),
         ({"frames": np.full((6, 4, 5), np.nan)}, "NaN or infinity"),
         ({"frames": np.full((6, 4, 5), "x")}, "needed are counts"),
-        ({"frames": np.full((6, 4, 5), None)}, "cannot be read"),
+        ({"frames": np.full((6, 4, 5), None)}, "a damaged npz file"),
         ({"frames": np.zeros((0, 4, 5), dtype=np.uint16), "start": None, "length": None, "label": None}, "no frames"),
         ({"length": np.array([2, 2, 3])}, "reach beyond the 6 frames"),
         ({"start": np.array([-1, 2, 4])}, "reach beyond the 6 frames"),
@@ -160,7 +160,7 @@ def test_paths_that_do_not_work_are_refused(tmp_path: Path, out: Path) -> None:
     with pytest.raises(RecordingError, match="cannot be read"):
         export_recording(tmp_path / "missing.npz", out)
     np.save(tmp_path / "single.npy", np.zeros((2, 4, 4), dtype=np.uint16))
-    with pytest.raises(RecordingError, match="a single array"):
+    with pytest.raises(RecordingError, match="not an npz file"):
         export_recording(tmp_path / "single.npy", out)
     with pytest.raises(RecordingError, match="its folder must exist"):
         export_recording(evaluation(tmp_path / "in.npz"), tmp_path / "missing" / "out.npy")

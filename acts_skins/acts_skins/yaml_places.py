@@ -10,10 +10,13 @@ from typing import Any
 import yaml
 
 from acts_core.errors import SettingsError
+from acts_core.regular_file import read_text
 from acts_core.settings import unknown_key_message
 
 # Deeper than any file that is read by this; what lies below goes by the line of what holds it.
 _MAX_DEPTH = 5
+# So much is parsed in a few seconds; a file of a hundred skins has a tenth of it.
+_BYTES_MAX = 1 << 18
 
 Keys = tuple[object, ...]
 
@@ -77,12 +80,7 @@ def read_yaml(path: Path) -> Section:
     SettingsError
         When it cannot be read, is not YAML, gives a key twice, or is no mapping; with file and line.
     """
-    try:
-        text = path.read_text(encoding="utf-8")
-    except OSError as error:
-        raise SettingsError(f"{path}: cannot be read ({error.strerror}); give an existing YAML file") from error
-    except UnicodeDecodeError as error:
-        raise SettingsError(f"{path}: not valid YAML: {error}") from error
+    text = read_text(path, error=SettingsError, hint="give an existing YAML file", limit_bytes=_BYTES_MAX)
     lines: dict[Keys, int] = {}
     try:
         loader = yaml.SafeLoader(text)

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from rclpy.duration import Duration
 from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
 from rosbags.interfaces import Qos, QosDurability, QosHistory, QosLiveliness, QosReliability, QosTime
-from rosbags.rosbag2 import Reader
+from rosbags.rosbag2 import Reader, StoragePlugin, Writer
 
 from acts_core.errors import RecordingError
 from acts_ros.bags.message_types import Definitions, message_class
@@ -203,6 +203,35 @@ def test_what_is_no_bag_is_refused(tmp_path: Path, name: str, content: bytes | N
         (tmp_path / name).write_bytes(content)
     with pytest.raises(RecordingError, match=message):
         read(tmp_path / name)
+
+
+def test_files_without_an_end_or_a_beginning_are_refused(tmp_path: Path) -> None:
+    write_bag(tmp_path / "bag", 5)
+    os.mkfifo(tmp_path / "pipe.mcap")
+    with pytest.raises(RecordingError, match=r"pipe.mcap: not a regular file"):
+        read(tmp_path / "pipe.mcap")
+    (tmp_path / "bag/metadata.yaml").unlink()
+    (tmp_path / "bag/metadata.yaml").symlink_to("/dev/zero")
+    with pytest.raises(RecordingError, match=r"metadata.yaml: not a regular file"):
+        read(tmp_path / "bag")
+    (tmp_path / "bag/metadata.yaml").unlink()
+    (tmp_path / "bag/metadata.yaml").write_bytes(b" " * 2_000_000)
+    with pytest.raises(RecordingError, match=r"metadata.yaml: 2.0 MB; allowed are 1.0 MB"):
+        read(tmp_path / "bag")
+
+
+def test_a_chunk_that_unpacks_to_gigabytes_is_refused(tmp_path: Path) -> None:
+    with Writer(tmp_path / "bomb", version=8, storage_plugin=StoragePlugin.MCAP) as writer:
+        topic = writer.add_connection("/word", "std_msgs/msg/String", msgdef="string data", rihs01="RIHS01_0")
+        writer.write(topic, 0, b"1234")
+    path = tmp_path / "bomb/bomb.mcap"
+    data = bytearray(path.read_bytes())
+    at = 8 + 9 + int.from_bytes(data[9:17], "little")  # after the header comes the chunk: kind, length, two times
+    assert data[at] == 0x06
+    data[at + 25 : at + 33] = (10**10).to_bytes(8, "little")
+    path.write_bytes(data)
+    with pytest.raises(RecordingError, match="a chunk of 10000 MB unpacked; allowed are 268 MB"):
+        read(tmp_path / "bomb")
 
 
 def test_a_folder_without_a_bag_is_refused(tmp_path: Path) -> None:

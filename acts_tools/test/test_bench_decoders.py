@@ -17,7 +17,7 @@ from acts_tools.bench.naive_decoder import NaiveDecoder
 @st.composite
 def frames(draw: st.DrawFn) -> SampleFrame:
     rows, cols = draw(st.integers(1, 64)), draw(st.integers(1, 64))
-    m = draw(st.integers(0, min(rows * cols, 300)))
+    m = draw(st.integers(1, min(rows * cols, 300)))
     random = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
     return SampleFrame(
         sequence=draw(st.integers(0, 2**32 - 1)),

@@ -13,8 +13,12 @@ from rosbags.rosbag2 import Reader
 from rosbags.rosbag2.storage_mcap import McapReader
 
 from acts_core.errors import RecordingError
+from acts_core.regular_file import TEXT_BYTES_MAX, require_regular
 from acts_ros.bags.message_types import Definitions
-from acts_ros.bags.salvage import WholeRecords
+from acts_ros.bags.salvage import WholeRecords, largest_chunk
+
+# Recorders close a chunk after some megabytes; it is unpacked whole.
+_CHUNK_BYTES_MAX = 1 << 28
 
 
 @dataclass
@@ -99,15 +103,31 @@ def open_bag(path: Path) -> Iterator[Bag]:
     Raises
     ------
     RecordingError
-        There is no bag, or nothing in it can be read.
+        There is no bag, nothing in it can be read, or it holds more than is allowed.
     """
     if not path.exists():
         raise RecordingError(f"there is no bag '{path}'")
+    _check_files(path)
     reader, note = _open_reader(path)
     try:
         yield Bag(list(reader.connections), note, reader, path)
     finally:
         reader.close()
+
+
+def _check_files(path: Path) -> None:
+    """Refuse what may have no end or never begin, and chunks that unpack to more than any recorder puts in one."""
+    for file in path.iterdir() if path.is_dir() else [path]:
+        size = require_regular(file, error=RecordingError)
+        if file.name == "metadata.yaml" and size > TEXT_BYTES_MAX:
+            raise RecordingError(f"{file}: {size / 1e6:.1f} MB; allowed are {TEXT_BYTES_MAX / 1e6:.1f} MB")
+        if file.suffix == ".mcap":
+            with file.open("rb") as stream:
+                largest = largest_chunk(stream)
+            if largest > _CHUNK_BYTES_MAX:
+                raise RecordingError(
+                    f"{file}: a chunk of {largest / 1e6:.0f} MB unpacked; allowed are {_CHUNK_BYTES_MAX / 1e6:.0f} MB"
+                )
 
 
 def _open_reader(path: Path) -> tuple[Reader | McapReader, str | None]:

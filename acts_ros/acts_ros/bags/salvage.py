@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import io
 import struct
+from collections.abc import Iterator
 from pathlib import Path
 from typing import BinaryIO
 
@@ -15,7 +16,9 @@ from acts_core.errors import RecordingError
 
 MAGIC = b"\x89MCAP0\r\n"
 _HEADER = struct.Struct("<BQ")
-_FOOTER, _DATA_END = 0x02, 0x0F
+_FOOTER, _CHUNK, _DATA_END = 0x02, 0x06, 0x0F
+# Times of the first and the last message, size once unpacked.
+_CHUNK_HEAD = struct.Struct("<QQQ")
 # A footer without summary: readers then go through the records.
 _NO_SUMMARY = _HEADER.pack(_FOOTER, 20) + bytes(20) + MAGIC
 
@@ -28,20 +31,47 @@ def end_of_whole_records(stream: BinaryIO) -> int:
     RecordingError
         It is no MCAP file.
     """
+    end = len(MAGIC)
+    for _, start, length in _whole_records(stream):
+        end = start + length
+    return end
+
+
+def largest_chunk(stream: BinaryIO) -> int:
+    """Size of the largest chunk of the data section once it is unpacked, as the file says it [bytes].
+
+    Raises
+    ------
+    RecordingError
+        It is no MCAP file.
+    """
+    largest = 0
+    for kind, start, length in _whole_records(stream):
+        if kind == _CHUNK and length >= _CHUNK_HEAD.size:
+            stream.seek(start)
+            _, _, unpacked = _CHUNK_HEAD.unpack(stream.read(_CHUNK_HEAD.size))
+            largest = max(largest, unpacked)
+    return largest
+
+
+def _whole_records(stream: BinaryIO) -> Iterator[tuple[int, int, int]]:
+    """Kind, offset of the content and its length, of the whole records of the data section."""
     size = stream.seek(0, io.SEEK_END)
     stream.seek(0)
     if stream.read(len(MAGIC)) != MAGIC:
         raise RecordingError("not an MCAP file")
-    end = len(MAGIC)
+    at = len(MAGIC)
     while True:
-        stream.seek(end)
+        stream.seek(at)
         header = stream.read(_HEADER.size)
         if len(header) < _HEADER.size:
-            return end
+            return
         kind, length = _HEADER.unpack(header)
-        if kind in (_FOOTER, _DATA_END) or end + _HEADER.size + length > size:
-            return end
-        end += _HEADER.size + length
+        at += _HEADER.size
+        if kind in (_FOOTER, _DATA_END) or at + length > size:
+            return
+        yield kind, at, length
+        at += length
 
 
 class WholeRecords:

@@ -1,0 +1,38 @@
+"""Regular files only, and no larger than allowed."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+from acts_core.errors import SettingsError
+from acts_core.force_file import read_force_points
+from acts_core.regular_file import read_text
+
+
+@pytest.mark.parametrize("name", ["/dev/zero", "/dev", "pipe"])
+def test_only_regular_files_are_opened(name: str, tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    with pytest.raises(SettingsError, match=f"{name}: not a regular file; give another"):
+        read_text(tmp_path / name, error=SettingsError, hint="give another")
+
+
+def test_what_is_too_large_or_no_text_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "some.txt"
+    path.write_bytes("zwölf".encode())
+    assert read_text(path, error=SettingsError) == "zwölf"
+    with pytest.raises(SettingsError, match=r"some.txt: 0\.0 MB; allowed are 0\.0 MB"):
+        read_text(path, error=SettingsError, limit_bytes=5)
+    path.write_bytes(b"\xff")
+    with pytest.raises(SettingsError, match="not text in UTF-8"):
+        read_text(path, error=SettingsError)
+    with pytest.raises(SettingsError, match="nowhere: cannot be read"):
+        read_text(tmp_path / "nowhere", error=SettingsError)
+
+
+def test_a_force_response_is_a_regular_file(tmp_path: Path) -> None:
+    (tmp_path / "endless.csv").symlink_to("/dev/zero")
+    with pytest.raises(SettingsError, match=r"endless.csv: not a regular file"):
+        read_force_points(tmp_path / "endless.csv")
