@@ -15,6 +15,7 @@ from rclpy.task import Future
 
 from acts_core.errors import ActsError, exit_code
 from acts_core.stop_signals import StopSignals
+from acts_ros import middleware
 
 try:  # ROS 2 Kilted and newer; half the latency and a third of the CPU of the other at 1 kHz
     from rclpy.experimental import EventsExecutor
@@ -67,7 +68,7 @@ def run(
         is what it was given and 1 otherwise.
     """
     signals = StopSignals() if signals is None else signals
-    rclpy.init(
+    middleware.init(
         args=list(args) if args is not None else None,
         # Theirs end the context at once, and whatever is under way then fails.
         signal_handler_options=SignalHandlerOptions.NO,

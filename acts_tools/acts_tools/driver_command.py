@@ -103,8 +103,10 @@ def _call(kind: Any, name: str, request: Any) -> Any:
     from rclpy.executors import SingleThreadedExecutor
     from rclpy.node import Node
 
+    from acts_ros import middleware
+
     context = Context()
-    rclpy.init(args=[], context=context)
+    middleware.init(args=[], context=context)
     node = Node("acts_driver_command", context=context, start_parameter_services=False, enable_rosout=False)
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(node)

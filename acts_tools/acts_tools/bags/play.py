@@ -68,6 +68,7 @@ def play(path: Path, rate: float, loop: bool, topics: list[str] | None, delay_s:
     import rclpy
     from rclpy.signals import SignalHandlerOptions
 
+    from acts_ros import middleware
     from acts_ros.bags.reading import open_bag
     from acts_tools.bags.player import Player
     from acts_tools.bags.stopping import StopFlag
@@ -75,7 +76,7 @@ def play(path: Path, rate: float, loop: bool, topics: list[str] | None, delay_s:
     with open_bag(path) as bag, StopFlag() as stop:
         if bag.note is not None:
             _say(bag.note)
-        rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+        middleware.init(signal_handler_options=SignalHandlerOptions.NO)
         node = rclpy.create_node("acts_player", start_parameter_services=False, enable_rosout=False)
         try:
             player = Player(node, bag, topics, _say)

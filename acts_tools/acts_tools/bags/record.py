@@ -71,6 +71,7 @@ def record(path: Path, topics: list[str] | None, duration_s: float | None) -> in
     import rclpy
     from rclpy.signals import SignalHandlerOptions
 
+    from acts_ros import middleware
     from acts_ros.executor import make_executor, spin_for
     from acts_tools.bags.recorder import Recorder
     from acts_tools.bags.stopping import StopFlag
@@ -78,7 +79,7 @@ def record(path: Path, topics: list[str] | None, duration_s: float | None) -> in
 
     bag = BagWriter(path)
     with StopFlag() as stop:
-        rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+        middleware.init(signal_handler_options=SignalHandlerOptions.NO)
         node = rclpy.create_node("acts_recorder", start_parameter_services=False, enable_rosout=False)
         executor = make_executor()
         executor.add_node(node)

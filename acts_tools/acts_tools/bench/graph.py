@@ -12,6 +12,7 @@ from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 
 from acts_core.errors import LaunchError
+from acts_ros import middleware
 from acts_ros.executor import make_executor, spin_for
 from acts_tools.bench.processes import NAMESPACE
 from acts_tools.bench.workbench import Workbench
@@ -41,7 +42,7 @@ class Graph:
 
     def __enter__(self) -> Graph:
         """Join the graph."""
-        rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
+        middleware.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
         self.node = Node("bench", namespace=NAMESPACE)
         self._executor = self._make()
         self._executor.add_node(self.node)

@@ -8,9 +8,8 @@ from __future__ import annotations
 import sys
 import time
 
-import rclpy
-
 from acts_msgs.msg import Contact, TactileSamples
+from acts_ros import middleware
 from acts_ros.polled import PollingNode
 from acts_ros.qos import STREAM
 
@@ -19,7 +18,7 @@ _PERIOD_S = 0.008
 
 def main(namespace: str) -> None:
     """Take messages until the process is ended."""
-    rclpy.init(args=[])
+    middleware.init(args=[])
     node = PollingNode("silent_listener", namespace=namespace)
     subscriptions = [
         node.create_polled_subscription(kind, topic, STREAM)

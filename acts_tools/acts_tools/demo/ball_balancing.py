@@ -23,6 +23,7 @@ from acts_core.addresses import is_loopback
 from acts_core.array import ArrayGeometry
 from acts_core.errors import ActsError, LaunchError
 from acts_msgs.msg import BalanceStatus
+from acts_ros import middleware
 from acts_ros.executor import make_executor, spin_for
 from acts_ros.processes.launcher import leave_with_parent
 from acts_tools.bags.stopping import StopFlag
@@ -212,7 +213,7 @@ def check_robot_ip(robot_ip: str) -> None:
 
 def watch(arguments: list[str], duration_s: float, recording: Recording, log_path: Path, stop: StopFlag) -> None:
     """Launch the chain and watch it to the end of the trajectory, or until it is to stop (KeyboardInterrupt)."""
-    rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
+    middleware.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
     executor = make_executor()
     collector = Collector(NAMESPACE, recording)
     executor.add_node(collector)

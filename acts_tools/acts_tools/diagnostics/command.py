@@ -79,6 +79,7 @@ def _heard(timeout_s: float) -> Statuses:
     from rclpy.executors import SingleThreadedExecutor
     from rclpy.node import Node
 
+    from acts_ros import middleware
     from acts_ros.executor import spin_for
     from acts_tools.bags.stopping import StopFlag
 
@@ -86,7 +87,7 @@ def _heard(timeout_s: float) -> Statuses:
     with StopFlag() as stop:
         # Signals are left alone where the context is one's own.
         context = Context()
-        rclpy.init(args=[], context=context)
+        middleware.init(args=[], context=context)
         node = Node("acts_diagnostics", context=context, start_parameter_services=False, enable_rosout=False)
         executor = SingleThreadedExecutor(context=context)
         executor.add_node(node)

@@ -52,6 +52,7 @@ def run(arguments: argparse.Namespace) -> int:
     import rclpy
     from rclpy.signals import SignalHandlerOptions
 
+    from acts_ros import middleware
     from acts_ros.executor import make_executor, spin_for
     from acts_tools.bags.stopping import StopFlag
     from acts_tools.listen.listener import Listener
@@ -59,7 +60,7 @@ def run(arguments: argparse.Namespace) -> int:
     topics = list(dict.fromkeys(f"/{name.lstrip('/')}" for name in arguments.topics))
     end_s = None if arguments.duration is None else time.monotonic() + arguments.duration
     with StopFlag() as stop:
-        rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
+        middleware.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
         node = rclpy.create_node("acts_listener", start_parameter_services=False, enable_rosout=False)
         executor = make_executor()
         executor.add_node(node)

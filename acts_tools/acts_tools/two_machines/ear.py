@@ -5,10 +5,11 @@ from __future__ import annotations
 import json
 import sys
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 
 from acts_core.errors import LaunchError
 from acts_tools.listen.arrivals import Interval
@@ -110,10 +111,16 @@ def _parse(line: bytes) -> Report:
 
 
 @contextmanager
-def ear(machine: Machine, topics: Sequence[str], domain_id: int, log: Path) -> Iterator[Ear]:
-    """Listen on a machine for the length of a block."""
+def ear(
+    machine: Machine,
+    topics: Sequence[str],
+    domain_id: int,
+    log: Path,
+    variables: Mapping[str, str] = MappingProxyType({}),
+) -> Iterator[Ear]:
+    """Listen on a machine, with more environment variables, for the length of a block."""
     words = [sys.executable, "-m", "acts_tools", "listen", "--json", "--every", str(EVERY_S), *topics]
-    with machine.running(words, domain_id, log) as process:
+    with machine.running(words, domain_id, log, variables) as process:
 
         def check() -> None:
             if process.poll() is not None:

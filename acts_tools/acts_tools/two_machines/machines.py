@@ -7,10 +7,11 @@ import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from acts_core.errors import LaunchError
@@ -82,12 +83,14 @@ class Machine:
         }
 
     @contextmanager
-    def running(self, words: Sequence[str], domain_id: int, log: Path) -> Iterator[subprocess.Popen[bytes]]:
-        """Run a program there for the length of a block; what it writes goes to a file."""
+    def running(
+        self, words: Sequence[str], domain_id: int, log: Path, variables: Mapping[str, str] = MappingProxyType({})
+    ) -> Iterator[subprocess.Popen[bytes]]:
+        """Run a program there for the length of a block, with more environment variables; it writes to a file."""
         with log.open("wb") as output:
             process = subprocess.Popen(
                 self.command(words),
-                env={"ROS_LOG_DIR": str(log.parent), **self.environment(domain_id)},
+                env={"ROS_LOG_DIR": str(log.parent), **self.environment(domain_id), **variables},
                 stdin=subprocess.DEVNULL,
                 stdout=output,
                 stderr=subprocess.STDOUT,

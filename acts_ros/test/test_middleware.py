@@ -1,0 +1,124 @@
+"""What is asked of the middleware, and that it complies. ROS_DOMAIN_ID 201."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import rclpy
+
+from acts_ros.middleware import choose_transports
+
+PROFILE, JAZZY_PROFILE = PROFILES = ("FASTDDS_DEFAULT_PROFILES_FILE", "FASTRTPS_DEFAULT_PROFILES_FILE")
+FAST_DDS = "rmw_fastrtps_cpp"
+SHARED_MEMORY = """
+import rclpy
+from pathlib import Path
+from acts_ros import middleware
+middleware.init()
+node = rclpy.create_node("publisher")
+print(any("/dev/shm/fast" in line for line in Path("/proc/self/maps").read_text().splitlines()))
+rclpy.shutdown()
+"""
+
+
+def environment(**variables: str) -> dict[str, str]:
+    return {"AMENT_PREFIX_PATH": os.environ["AMENT_PREFIX_PATH"], "ROS_DISTRO": "kilted", **variables}
+
+
+@pytest.mark.parametrize("asked", [{"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}, {"ROS_LOCALHOST_ONLY": "1"}])
+def test_this_machine_only_takes_our_profile_and_nothing_beside_it(asked: dict[str, str], tmp_path: Path) -> None:
+    variables = environment(**asked)
+    assert choose_transports(variables, FAST_DDS, tmp_path) is None
+    assert "127.0.0.1" in Path(variables[PROFILE]).read_text()
+    assert JAZZY_PROFILE not in variables
+    # With LOCALHOST rmw_fastrtps opens a socket on all interfaces beside those of the profile.
+    assert variables["ROS_AUTOMATIC_DISCOVERY_RANGE"] == "SYSTEM_DEFAULT"
+    assert "ROS_LOCALHOST_ONLY" not in variables
+
+
+@pytest.mark.parametrize("asked", [{}, {"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET"}, {"ROS_LOCALHOST_ONLY": "0"}])
+def test_the_network_stays_open_where_that_is_asked_for(asked: dict[str, str], tmp_path: Path) -> None:
+    variables = environment(**asked)
+    assert choose_transports(variables, FAST_DDS, tmp_path) is None
+    assert variables == environment(**asked, FASTDDS_BUILTIN_TRANSPORTS="UDPv4")
+
+
+def test_what_is_started_by_a_process_that_is_bound_may_be_open(tmp_path: Path) -> None:
+    bound = environment(ROS_AUTOMATIC_DISCOVERY_RANGE="LOCALHOST")
+    choose_transports(bound, FAST_DDS, tmp_path)
+    inherited = dict(bound)
+    assert choose_transports(inherited, FAST_DDS, tmp_path) is None
+    assert inherited[PROFILE] == bound[PROFILE]
+    assert (
+        choose_transports(again := {**bound, "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}, FAST_DDS, tmp_path) is None
+    )
+    assert again == bound
+    assert choose_transports(opened := {**bound, "ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET"}, FAST_DDS, tmp_path) is None
+    assert PROFILE not in opened
+
+
+def test_transports_that_the_user_has_chosen_stay(tmp_path: Path) -> None:
+    asked = environment(FASTDDS_BUILTIN_TRANSPORTS="LARGE_DATA")
+    variables = dict(asked)
+    assert choose_transports(variables, FAST_DDS, tmp_path) is None
+    assert variables == asked
+
+
+@pytest.mark.parametrize("name", [*PROFILES, "ROS_STATIC_PEERS", "ROS_DISCOVERY_SERVER"])
+def test_what_the_user_has_set_stays_and_is_told(name: str, tmp_path: Path) -> None:
+    asked = environment(ROS_AUTOMATIC_DISCOVERY_RANGE="LOCALHOST", **{name: "mine"})
+    variables = dict(asked)
+    told = choose_transports(variables, FAST_DDS, tmp_path)
+    assert told is not None
+    assert name in told
+    assert variables == asked
+
+
+def test_a_profile_in_the_folder_stays_and_is_told(tmp_path: Path) -> None:
+    (tmp_path / "DEFAULT_FASTDDS_PROFILES.xml").write_text("<dds/>")
+    variables = environment(ROS_AUTOMATIC_DISCOVERY_RANGE="LOCALHOST")
+    told = choose_transports(variables, FAST_DDS, tmp_path)
+    assert told is not None
+    assert "DEFAULT_FASTDDS_PROFILES.xml" in told
+    assert not set(PROFILES) & set(variables)
+
+
+def test_another_middleware_is_left_alone_and_told(tmp_path: Path) -> None:
+    asked = environment(ROS_AUTOMATIC_DISCOVERY_RANGE="LOCALHOST", CYCLONEDDS_URI="mine")
+    variables = dict(asked)
+    told = choose_transports(variables, "rmw_cyclonedds_cpp", tmp_path)
+    assert told is not None
+    assert "rmw_cyclonedds_cpp" in told
+    assert variables == asked
+
+
+def test_jazzy_reads_the_profile_by_its_older_name(tmp_path: Path) -> None:
+    variables = environment(ROS_AUTOMATIC_DISCOVERY_RANGE="LOCALHOST", ROS_DISTRO="jazzy")
+    assert choose_transports(variables, FAST_DDS, tmp_path) is None
+    assert "127.0.0.1" in Path(variables[JAZZY_PROFILE]).read_text()
+    assert PROFILE not in variables
+
+
+def test_humble_is_asked_in_its_own_way(tmp_path: Path) -> None:
+    variables = environment(ROS_AUTOMATIC_DISCOVERY_RANGE="LOCALHOST", ROS_DISTRO="humble")
+    assert choose_transports(variables, FAST_DDS, tmp_path) is None
+    assert variables["ROS_LOCALHOST_ONLY"] == "1"
+    assert not set(PROFILES) & set(variables)
+
+
+@pytest.mark.parametrize("discovery", ["LOCALHOST", "SUBNET"])
+def test_no_process_waits_for_another_in_shared_memory(discovery: str) -> None:
+    if not rclpy.get_rmw_implementation_identifier().startswith("rmw_fastrtps"):
+        pytest.skip("only Fast DDS has it")
+    finished = subprocess.run(
+        [sys.executable, "-c", SHARED_MEMORY],
+        env={**os.environ, "ROS_DOMAIN_ID": "201", "ROS_AUTOMATIC_DISCOVERY_RANGE": discovery},
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+    assert finished.stdout.strip() == "False", finished.stderr
