@@ -11,9 +11,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from acts_control.controller import BallController, BallReport, ControlInput, ControllerConfig, ReferenceReport
+from acts_control.controller import BallController, BallReport, ControlInput, ControllerConfig
 from acts_control.estimator import BallEstimator, ContactMeasurement, EstimatorConfig
-from acts_control.pid import Ball, JerkFinder
+from acts_control.pid import Ball
+from acts_control.reference import ReferenceReport
 from acts_control.robot import RobotConfig
 from acts_control.trajectory import Trajectory, TrajectoryConfig
 from acts_core.array import COUNT_MAX, ArrayGeometry
@@ -77,7 +78,6 @@ def run(chain: Chain, limit_s: float = 60.0) -> Recording:
     estimator = BallEstimator(chain.estimator)
     controller = BallController(chain.controller)
     trajectory = Trajectory(chain.trajectory)
-    jerk = JerkFinder()
     joints = JointState(LEVEL_Q_RAD, _SPEED_LIMIT_RAD_S, _ACCELERATION_LIMIT_RAD_S2)
     servo = Servo()
     control_every = round(1000 / chain.robot.control_rate_hz)
@@ -111,7 +111,7 @@ def run(chain: Chain, limit_s: float = 60.0) -> Recording:
         ball = Ball(estimate.x_m, estimate.y_m, estimate.vx_m_s, estimate.vy_m_s)
         time_s = 0.0 if started_ms is None else (now_ms - started_ms) * STEP_S
         wanted = trajectory.at(time_s)
-        report = ReferenceReport(stamp_ns, jerk.step(stamp_ns, wanted.reference))
+        report = ReferenceReport(stamp_ns, wanted.reference)
         aim = controller.step(
             ControlInput(stamp_ns, BallReport(estimate.stamp_ns, estimate.valid, ball), report, tilt),
             control_every * STEP_S,

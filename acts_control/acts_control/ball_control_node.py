@@ -16,7 +16,7 @@ from std_srvs.srv import Trigger
 
 from acts_control.ball_state_node import BallStateNode
 from acts_control.ball_trajectory_node import BallTrajectoryNode
-from acts_control.controller import BallReport, Phase, ReferenceReport
+from acts_control.controller import BallReport, Phase
 from acts_control.loop import ControlLoop, LoopConfig, LoopStatus
 from acts_control.names import (
     REFERENCE_TOPIC,
@@ -26,7 +26,8 @@ from acts_control.names import (
     set_stamp,
     to_ns,
 )
-from acts_control.pid import Ball, JerkFinder, Reference
+from acts_control.pid import Ball
+from acts_control.reference import Reference, ReferenceReport
 from acts_control.robot import Robot, UrRobot
 from acts_core.realtime import RealtimeConfig, enter_realtime
 from acts_core.settings import Changeable, setting
@@ -81,7 +82,6 @@ class BallControlNode(Node):
         super().__init__("ball_control", **node_options(), **node_arguments)
         settings = declare(self, BallControlSettings, self._change)
         self._settings = settings
-        self._jerk = JerkFinder()
         self._told = LoopStatus()
         frame_id = skin_frame(self, settings.frame_id)
         self._status = BalanceStatus()
@@ -111,8 +111,7 @@ class BallControlNode(Node):
         def look(phase: Phase) -> None:
             self._loop.ball = state.update()
             now_ns = clock.now().nanoseconds
-            reference = trajectory.advance(now_ns, phase)
-            self._loop.reference = ReferenceReport(now_ns, self._jerk.step(now_ns, reference))
+            self._loop.reference = ReferenceReport(now_ns, trajectory.advance(now_ns, phase))
 
         self._loop.look = look
 
@@ -140,9 +139,8 @@ class BallControlNode(Node):
 
     def _on_reference(self, message: BallReference) -> None:
         position, velocity, acceleration = message.position, message.velocity, message.acceleration
-        stamp_ns = to_ns(message.header.stamp)
         reference = Reference(position.x, position.y, velocity.x, velocity.y, acceleration.x, acceleration.y)
-        self._loop.reference = ReferenceReport(stamp_ns, self._jerk.step(stamp_ns, reference))
+        self._loop.reference = ReferenceReport(to_ns(message.header.stamp), reference)
 
     def _on_step(self, now_ns: int, tilt_rad: tuple[float, float]) -> None:
         # From the loop's thread.

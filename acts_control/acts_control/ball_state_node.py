@@ -178,6 +178,7 @@ class BallStateNode(PollingNode):
             "without_contact": state.without_contact,
             "outliers": state.outliers,
             "not_finite": state.not_finite,
+            "implausible": state.implausible,
             "out_of_order": state.out_of_order,
             "restarts": state.restarts,
             "valid": state.valid,
@@ -186,6 +187,12 @@ class BallStateNode(PollingNode):
             return WARN, f"no contact messages on {self._contacts.topic_name}", values
         if state.not_finite:
             return WARN, f"{state.not_finite} contacts were not finite and were left out", values
+        if state.implausible:
+            return (
+                WARN,
+                f"{state.implausible} contacts were at places or of forces beyond reason and were left out",
+                values,
+            )
         return OK, "ball" if state.valid else "no ball", values
 
 

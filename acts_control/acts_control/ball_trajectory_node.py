@@ -15,7 +15,7 @@ from rclpy.node import Node
 
 from acts_control.controller import Phase
 from acts_control.names import REFERENCE_TOPIC, STATUS_TOPIC, set_stamp
-from acts_control.pid import Reference
+from acts_control.reference import Reference
 from acts_control.trajectory import TimedReference, Trajectory, TrajectoryConfig
 from acts_core.rate_limit import RateLimit
 from acts_core.settings import Changeable, setting
@@ -27,12 +27,15 @@ from acts_ros.qos import STATE
 from acts_ros.skin_frame import skin_frame
 
 # A status older than this says nothing any more.
-_STATUS_STALE_NS = 500_000_000
+_STATUS_STALE_S = 0.5
 
 _FROM_THE_START = (Phase.CONNECTING, Phase.HOMING, Phase.STOPPED)
 
 # How often the reference is published while the control loop does not ask, since it is connecting or stopped [s].
 _UNDRIVEN_S = 0.1
+
+# After the process was held up for longer, the trajectory goes on from where it was: the ball is not led by a leap.
+_LONGEST_STEP_S = 0.1
 
 
 @dataclass(frozen=True)
@@ -71,7 +74,8 @@ class BallTrajectoryNode(Node):
         self._is_driven = is_driven
         self._elapsed_s = 0.0
         self._told = Phase.CONNECTING
-        self._told_ns = self._last_ns = self.get_clock().now().nanoseconds
+        # By the steady clock, as all that is timed here: that of the stamps may be set.
+        self._told_s = self._last_s = time.monotonic()
         self._finished = False
         self._message = BallReference()
         self._message.header.frame_id = skin_frame(self, settings.frame_id)
@@ -87,19 +91,20 @@ class BallTrajectoryNode(Node):
         Parameters
         ----------
         now_ns : int
-            The time [ns].
+            The time, by the clock of the stamps [ns].
         phase : Phase
             What the controller does.
         """
         with self._lock:
+            now_s = time.monotonic()
+            passed_s, self._last_s = now_s - self._last_s, now_s
             if phase in _FROM_THE_START:
                 self._elapsed_s = 0.0
                 self._finished = False
             elif phase is Phase.BALANCING:
-                self._elapsed_s += max(now_ns - self._last_ns, 0) * 1e-9
-            self._last_ns = now_ns
+                self._elapsed_s += min(passed_s, _LONGEST_STEP_S)
             timed = self._trajectory.at(self._elapsed_s)
-            if self._publisher.get_subscription_count() and self._limit.due(time.monotonic()):
+            if self._publisher.get_subscription_count() and self._limit.due(now_s):
                 self._publish(now_ns, timed)
             if timed.finished and not self._finished:
                 self._finished = True
@@ -116,17 +121,16 @@ class BallTrajectoryNode(Node):
 
     def _on_status(self, message: BalanceStatus) -> None:
         self._told = Phase(message.state) if message.state in list(Phase) else Phase.WAITING
-        self._told_ns = self.get_clock().now().nanoseconds
+        self._told_s = time.monotonic()
 
     def _told_phase(self) -> Phase:
-        is_stale = self.get_clock().now().nanoseconds - self._told_ns >= _STATUS_STALE_NS
+        is_stale = time.monotonic() - self._told_s >= _STATUS_STALE_S
         # Whether it still balances is not known: the trajectory waits.
         return Phase.WAITING if is_stale and self._told is Phase.BALANCING else self._told
 
     def _on_timer(self) -> None:
-        now_ns = self.get_clock().now().nanoseconds
-        if not self._is_driven or now_ns - self._last_ns > _UNDRIVEN_S * 1e9:
-            self.advance(now_ns, self.phase())
+        if not self._is_driven or time.monotonic() - self._last_s > _UNDRIVEN_S:
+            self.advance(self.get_clock().now().nanoseconds, self.phase())
 
     def _publish(self, now_ns: int, timed: TimedReference) -> None:
         reference, message = timed.reference, self._message

@@ -4,18 +4,20 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import IntEnum
-from math import isfinite, isinf
+from math import hypot, isinf
 from typing import NamedTuple
 
 from acts_control.limiter import LimiterConfig, TiltLimiter
-from acts_control.pid import Ball, BallPid, PidConfig, Reference
+from acts_control.pid import Ball, BallPid, PidConfig
 from acts_control.prediction import TiltHistory
+from acts_control.reference import Reference, ReferenceFollower, ReferenceLimits, ReferenceReport
 from acts_control.safety import SafetyConfig, touch_age_s
 from acts_core.errors import SettingsError
 from acts_core.settings import Changeable, setting, validate
 
-# A reference is carried on to now, but not for longer than this.
-_MAX_ADVANCE_S = 0.05
+# An estimate beyond these is of no ball on a plate [m, m/s].
+_FARTHEST_M = 1.0
+_FASTEST_M_S = 5.0
 
 
 class Phase(IntEnum):
@@ -44,6 +46,13 @@ class ControllerConfig(PidConfig, LimiterConfig, SafetyConfig):
         "without a reference for longer the ball is held at the last one [s]",
         minimum=0.01,
         maximum=10.0,
+        changeable=Changeable.RUNNING,
+    )
+    reference_reach_m: float = setting(
+        0.07,
+        "a reference farther from the centre than this in x or y is refused [m]",
+        minimum=0.005,
+        maximum=1.0,
         changeable=Changeable.RUNNING,
     )
     settle_s: float = setting(
@@ -79,13 +88,6 @@ class BallReport(NamedTuple):
     stamp_ns: int
     valid: bool
     ball: Ball
-
-
-class ReferenceReport(NamedTuple):
-    """A reference as it arrived, and the time it holds for [ns]."""
-
-    stamp_ns: int
-    reference: Reference
 
 
 class ControlInput(NamedTuple):
@@ -156,6 +158,9 @@ class BallController:
         self._no_ball_s = 0.0
         self._level_s = 0.0
         self._stale_s = 0.0
+        self._reported_ns: int | None = None
+        self._unchanged_s = 0.0
+        self._references = ReferenceFollower(_reference_limits(config))
         self._tilts = TiltHistory(config.lever_arm_m, 2.0 * config.touch_stale_after_s)
 
     def change(self, config: ControllerConfig) -> None:
@@ -166,6 +171,7 @@ class BallController:
         self.config = config
         self._pid.config, self._pid.max_tilt_rad = config, config.max_tilt_rad
         self._limiter.config = config
+        self._references.limits = _reference_limits(config)
 
     def end(self, reason: str) -> None:
         """Bring the plate to level and stop there; the first reason is kept."""
@@ -189,12 +195,10 @@ class BallController:
         """
         state, config = self.state, self.config
         report = inputs.ball
-        state.touch_age_s = touch_age_s(inputs.now_ns, report.stamp_ns) if report is not None else float("inf")
+        state.touch_age_s = self._touch_age_s(inputs, dt)
         fresh = state.touch_age_s <= config.touch_stale_after_s
-        ball = (
-            report.ball if report is not None and fresh and report.valid and all(map(isfinite, report.ball)) else None
-        )
-        reference = self._reference(inputs)
+        ball = report.ball if report is not None and fresh and report.valid and _is_plausible(report.ball) else None
+        reference = self._references.step(inputs.reference, inputs.now_ns)
         self._stale_s = 0.0 if fresh else self._stale_s + dt
         self._tilts.add(inputs.now_ns, *inputs.tilt_rad)
         if ball is not None and report is not None:
@@ -212,14 +216,14 @@ class BallController:
         state.tilt_rad = self._limiter.step(*target, dt)
         return state.tilt_rad
 
-    def _reference(self, inputs: ControlInput) -> Reference | None:
-        if inputs.reference is None or not all(map(isfinite, inputs.reference.reference)):
-            return None
-        age_s = (inputs.now_ns - inputs.reference.stamp_ns) * 1e-9
-        reference = inputs.reference.reference
-        if not age_s <= self.config.reference_stale_after_s:
-            return reference.at_rest()
-        return reference.after(min(max(age_s, 0.0), _MAX_ADVANCE_S))
+    def _touch_age_s(self, inputs: ControlInput, dt: float) -> float:
+        """Age of the newest estimate [s]: by its stamp, and by how long it has been the newest, whatever clocks say."""
+        if inputs.ball is None:
+            return float("inf")
+        stamp_ns = inputs.ball.stamp_ns
+        self._unchanged_s = self._unchanged_s + dt if stamp_ns == self._reported_ns else 0.0
+        self._reported_ns = stamp_ns
+        return max(touch_age_s(inputs.now_ns, stamp_ns), self._unchanged_s)
 
     def _wait(self, fresh: bool, ball: bool, reference: bool, dt: float) -> None:
         state = self.state
@@ -229,7 +233,7 @@ class BallController:
         elif not ball:
             state.reason = "waiting for a ball"
         elif not reference:
-            state.reason = "waiting for a reference"
+            state.reason = "; ".join(filter(None, ("waiting for a reference", self._references.problem)))
         if self._ball_s > self.config.engage_after_s:
             state.phase = Phase.BALANCING
             state.reason = "balancing"
@@ -239,7 +243,7 @@ class BallController:
     def _balance(self, ball: Ball, reference: Reference, inputs: ControlInput, dt: float) -> tuple[float, float]:
         state = self.state
         self._no_ball_s = 0.0
-        state.reason = "balancing"
+        state.reason = "; ".join(filter(None, ("balancing", self._references.problem)))
         state.error_m = (ball.x_m - reference.x_m, ball.y_m - reference.y_m)
         return self._pid.step(ball, reference, inputs.tilt_rad, dt)
 
@@ -269,3 +273,14 @@ class BallController:
         self._level_s = self._level_s + dt if self._limiter.is_level else 0.0
         if self._level_s > self.config.settle_s:
             self.state.phase = Phase.STOPPED
+
+
+def _reference_limits(config: ControllerConfig) -> ReferenceLimits:
+    return ReferenceLimits(
+        config.reference_reach_m, config.reference_stale_after_s, config.max_tilt_rad, config.max_tilt_rate_rad_s
+    )
+
+
+def _is_plausible(ball: Ball) -> bool:
+    # Not by "greater": nothing is greater than NaN.
+    return hypot(ball.x_m, ball.y_m) <= _FARTHEST_M and hypot(ball.vx_m_s, ball.vy_m_s) <= _FASTEST_M_S

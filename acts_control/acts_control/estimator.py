@@ -24,6 +24,7 @@ from typing import NamedTuple
 
 from acts_control.plate import LEVER_ARM_SETTING, RESISTANCE_SETTING, ROLLING, acceleration_of, resistance_per_speed
 from acts_core.settings import Changeable, setting, validate
+from acts_core.stamp_order import Order, StampOrder
 
 _NS = 1e-9
 
@@ -36,8 +37,10 @@ _FORCE_FALL_S = 5.0
 
 _MAX_TILTS = 1000
 
-# A stamp this much older than the newest one is a new time base (a driver or clock began anew), not a late message.
-_NEW_TIME_BASE_NS = 1_000_000_000
+# What is farther away, presses harder or is tilted more than this is no ball on a plate [m, N, rad].
+_FARTHEST_M = 1.0
+_HARDEST_N = 1000.0
+_STEEPEST_RAD = 0.5
 
 
 @dataclass(frozen=True)
@@ -131,9 +134,10 @@ class EstimatorState:
         the velocity of the ball against the plate while that keeps its tilt.
     sigma_m : float
         One standard deviation of the position along each axis [m].
-    received, without_contact, outliers, not_finite, out_of_order, restarts : int
-        Messages of all kinds; those without contact; outside the gate; with a NaN or infinity; repeated or older than
-        one before; and how often the estimate began anew.
+    received, without_contact, outliers, not_finite, implausible, out_of_order, restarts : int
+        Messages of all kinds; those without contact; outside the gate; with a NaN or infinity; with a place or force
+        that no ball on a plate has; repeated, late or of another clock (see `acts_core.stamp_order`); and how often the
+        estimate began anew.
     """
 
     stamp_ns: int = 0
@@ -147,6 +151,7 @@ class EstimatorState:
     without_contact: int = 0
     outliers: int = 0
     not_finite: int = 0
+    implausible: int = 0
     out_of_order: int = 0
     restarts: int = 0
 
@@ -166,6 +171,7 @@ class BallEstimator:
         self.config = config
         self.state = EstimatorState()
         self._lever = ROLLING * config.lever_arm_m
+        self._order = StampOrder()
         self._contact_ns = 0
         # The filter's own position and velocity along x and y, and its covariance.
         self._zx = self._zy = self._wx = self._wy = 0.0
@@ -183,10 +189,16 @@ class BallEstimator:
         stamp_ns : int
             When it was measured [ns]. Contacts come later than tilts: each is given the tilt of its own time.
         tilt_x_rad, tilt_y_rad : float
-            Rotation vector about the skin's x and y axes [rad]. Ignored when not finite.
+            Rotation vector about the skin's x and y axes [rad]. Ignored when not finite, or steeper than any plate.
         """
-        if isfinite(tilt_x_rad) and isfinite(tilt_y_rad):
-            self._tilts.append((stamp_ns, tilt_y_rad, -tilt_x_rad))
+        # Not by "greater": nothing is greater than NaN.
+        if not hypot(tilt_x_rad, tilt_y_rad) <= _STEEPEST_RAD:
+            return
+        tilts = self._tilts
+        # Tilts come in order. What was stamped later than this one was stamped by a clock that has been set back since.
+        while tilts and tilts[-1][0] >= stamp_ns:
+            tilts.pop()
+        tilts.append((stamp_ns, tilt_y_rad, -tilt_x_rad))
 
     def step(self, measurement: ContactMeasurement) -> None:
         """Take in one contact message."""
@@ -196,10 +208,15 @@ class BallEstimator:
         if in_contact and not (isfinite(x) and isfinite(y) and isfinite(force)):
             state.not_finite += 1
             return
-        if stamp_ns <= state.stamp_ns:
-            if stamp_ns > state.stamp_ns - _NEW_TIME_BASE_NS:
-                state.out_of_order += 1
-                return
+        if in_contact and not (max(abs(x), abs(y)) <= _FARTHEST_M and 0.0 <= force <= _HARDEST_N):
+            state.implausible += 1
+            return
+        order = self._order.step(stamp_ns)
+        if order is Order.STRAY:
+            state.out_of_order += 1
+            return
+        if order is Order.ANEW and stamp_ns <= state.stamp_ns:
+            # Forwards it is like a gap, see below.
             state.valid = False
         dt = (stamp_ns - state.stamp_ns) * _NS
         state.stamp_ns = stamp_ns
@@ -223,11 +240,11 @@ class BallEstimator:
         """Variance of a centre of pressure along each axis [m^2], from how much of the contact was seen.
 
         Where a frame's samples hit only the edge of the contact, its centre is drawn there and its force is too small.
-        The usual force is followed quickly upwards and slowly downwards.
+        The usual force is followed quickly upwards and slowly downwards, and no single message raises it by much.
         """
         usual = self._usual_force
         if force > usual:
-            usual += (force - usual) * (min(dt / _FORCE_RISE_S, 1.0) if usual > 0.0 else 1.0)
+            usual = usual + min(force - usual, usual) * min(dt / _FORCE_RISE_S, 1.0) if usual > 0.0 else force
         else:
             usual += (force - usual) * min(dt / _FORCE_FALL_S, 1.0)
         self._usual_force = usual

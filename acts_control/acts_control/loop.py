@@ -9,7 +9,8 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from math import hypot
 
-from acts_control.controller import BallController, BallReport, ControlInput, ControllerConfig, Phase, ReferenceReport
+from acts_control.controller import BallController, BallReport, ControlInput, ControllerConfig, Phase
+from acts_control.reference import ReferenceReport
 from acts_control.robot import Robot, RobotConfig, RobotStoppedError
 from acts_control.robot_claim import RobotTakenError
 from acts_control.safety import CommandGate, RobotReading, RobotWatch

@@ -25,6 +25,7 @@ from acts_control.plate import (
     resistance_per_speed,
     tilt_for,
 )
+from acts_control.reference import Reference
 from acts_core.settings import Changeable, setting, validate
 
 # The adapted coefficient of rolling resistance stays below this.
@@ -83,66 +84,6 @@ class Ball(NamedTuple):
     y_m: float
     vx_m_s: float
     vy_m_s: float
-
-
-class Reference(NamedTuple):
-    """Where the ball should be in the skin's frame: position, velocity, acceleration, jerk [m, m/s, m/s^2, m/s^3]."""
-
-    x_m: float
-    y_m: float
-    vx_m_s: float = 0.0
-    vy_m_s: float = 0.0
-    ax_m_s2: float = 0.0
-    ay_m_s2: float = 0.0
-    jx_m_s3: float = 0.0
-    jy_m_s3: float = 0.0
-
-    def after(self, dt: float) -> Reference:
-        """The reference a short time later [s]."""
-        return Reference(
-            self.x_m + dt * (self.vx_m_s + 0.5 * dt * self.ax_m_s2),
-            self.y_m + dt * (self.vy_m_s + 0.5 * dt * self.ay_m_s2),
-            self.vx_m_s + dt * self.ax_m_s2,
-            self.vy_m_s + dt * self.ay_m_s2,
-            self.ax_m_s2 + dt * self.jx_m_s3,
-            self.ay_m_s2 + dt * self.jy_m_s3,
-            self.jx_m_s3,
-            self.jy_m_s3,
-        )
-
-    def at_rest(self) -> Reference:
-        """The same place without motion."""
-        return Reference(self.x_m, self.y_m)
-
-
-class JerkFinder:
-    """Adds the jerk to references that come one after the other, from how their acceleration changes."""
-
-    # Two references farther apart than this do not belong together.
-    _MAX_GAP_S = 0.1
-
-    def __init__(self) -> None:
-        self._stamp_ns = 0
-        self._last = Reference(0.0, 0.0)
-
-    def step(self, stamp_ns: int, reference: Reference) -> Reference:
-        """The reference with its jerk; 0 after a gap, and where the reference rests.
-
-        Parameters
-        ----------
-        stamp_ns : int
-            The time it holds for [ns].
-        reference : Reference
-        """
-        dt = (stamp_ns - self._stamp_ns) * 1e-9
-        if dt <= 0.0:
-            return reference._replace(jx_m_s3=self._last.jx_m_s3, jy_m_s3=self._last.jy_m_s3)
-        jerk_x = jerk_y = 0.0
-        if dt < self._MAX_GAP_S:
-            jerk_x = (reference.ax_m_s2 - self._last.ax_m_s2) / dt
-            jerk_y = (reference.ay_m_s2 - self._last.ay_m_s2) / dt
-        self._stamp_ns, self._last = stamp_ns, reference._replace(jx_m_s3=jerk_x, jy_m_s3=jerk_y)
-        return self._last
 
 
 @dataclass

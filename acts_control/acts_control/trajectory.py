@@ -10,7 +10,7 @@ from bisect import bisect_right
 from dataclasses import dataclass
 from math import hypot, sqrt
 
-from acts_control.pid import Reference
+from acts_control.reference import Reference
 from acts_control.strokes import Line, Point, Stroke, circle, letter
 from acts_core.errors import SettingsError
 from acts_core.settings import setting, validate

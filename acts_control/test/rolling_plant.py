@@ -11,9 +11,10 @@ from math import hypot, pi, sin
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_control.controller import BallController, BallReport, ControlInput, ControllerConfig, Phase, ReferenceReport
+from acts_control.controller import BallController, BallReport, ControlInput, ControllerConfig, Phase
 from acts_control.estimator import BallEstimator, ContactMeasurement, EstimatorConfig
-from acts_control.pid import Ball, JerkFinder
+from acts_control.pid import Ball
+from acts_control.reference import ReferenceReport
 from acts_control.trajectory import Trajectory, TrajectoryConfig
 from acts_core.ur5e import LEVEL_Q_RAD, forward_kinematics, tilt_of, wrist_angles_for_tilt
 
@@ -86,13 +87,13 @@ class Plant:
         self.x += STEP_S * self.vx
         self.y += STEP_S * self.vy
 
-    def touch(self, time_s: float) -> ContactMeasurement | None:
-        """Measure now; what was measured `delay_s` ago arrives."""
+    def touch(self, time_s: float, clock_ns: int) -> ContactMeasurement | None:
+        """Measure now, stamped with the clock of the stamps; what was measured `delay_s` ago arrives."""
         config, noise = self.config, self._random
         # Places where the samples hit only a part of the contact: the rest of it draws the centre to its side.
         missing = config.partial * max(sin(2 * pi * self.x / 0.023) * sin(2 * pi * self.y / 0.031), 0.0)
         ripple = [config.ripple_m * sin(2 * pi * place / 0.004375) for place in (self.x, self.y)]
-        stamp_ns = START_NS + round((time_s + noise.uniform(-1e-4, 1e-4)) * 1e9)
+        stamp_ns = clock_ns + round(noise.uniform(-1e-4, 1e-4) * 1e9)
         measured = ContactMeasurement(
             stamp_ns,
             noise.random() >= config.no_contact,
@@ -139,18 +140,21 @@ def run(
     control_hz: int = 125,
     touch: Callable[[float, ContactMeasurement], ContactMeasurement | None] = lambda _time, measured: measured,
     at: Callable[[float, Plant], None] = lambda _time, _plant: None,
+    refer: Callable[[float, ReferenceReport], ReferenceReport | None] = lambda _time, report: report,
+    clock_off_s: Callable[[float], float] = lambda _time: 0.0,
 ) -> Run:
     """Close the loop as the nodes do: estimate at 1 kHz, control at `control_hz`, the trajectory while balancing.
 
-    `touch` may change or swallow what the skin says; `at` may meddle with the plant.
+    `touch` and `refer` may change or swallow what the skin and the trajectory say; `at` may meddle with the plant.
+    `clock_off_s` is how far the clock of all stamps is off: where it steps, somebody has set it.
     """
     plant = Plant(plant_config or PlantConfig())
     controller = BallController(controller_config or ControllerConfig())
     estimator = BallEstimator(estimator_config or EstimatorConfig())
     plan = Trajectory(trajectory_config or TrajectoryConfig(trajectory=trajectory))
     every = round(1.0 / control_hz / STEP_S)
-    jerk = JerkFinder()
     report: BallReport | None = None
+    referred: ReferenceReport | None = None
     clock_s = 0.0
     rows = round((plan.duration_s + 0.5 if seconds is None else seconds) / STEP_S)
     times, errors, segments, tilts, phases = np.zeros(rows), np.zeros(rows), [], np.zeros(rows), []
@@ -158,8 +162,8 @@ def run(
         time_s = row * STEP_S
         at(time_s, plant)
         plant.step()
-        now_ns = START_NS + round(time_s * 1e9)
-        arrived = plant.touch(time_s)
+        now_ns = START_NS + round((time_s + clock_off_s(time_s)) * 1e9)
+        arrived = plant.touch(time_s, now_ns)
         arrived = touch(time_s, arrived) if arrived is not None else None
         if arrived is not None:
             estimator.step(arrived)
@@ -169,7 +173,9 @@ def run(
         if row % every == 0:
             tilt = tilt_of(plant.q)
             estimator.set_tilt(now_ns, *tilt)
-            inputs = ControlInput(now_ns, report, ReferenceReport(now_ns, jerk.step(now_ns, reference.reference)), tilt)
+            new = refer(time_s, ReferenceReport(now_ns, reference.reference))
+            referred = new if new is not None else referred
+            inputs = ControlInput(now_ns, report, referred, tilt)
             wanted = controller.step(inputs, 1.0 / control_hz)
             plant.command[3:5] = wrist_angles_for_tilt(LEVEL_Q_RAD, *wanted)
         if controller.state.phase is Phase.BALANCING:

@@ -2,6 +2,7 @@
 
 import math
 import random
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -106,7 +107,8 @@ def test_without_contact_it_predicts_and_then_is_not_valid() -> None:
 
 def test_a_gap_in_the_messages_counts_as_no_contact() -> None:
     estimator = settled()
-    estimator.step(touch(300 + 150, 0.02, 0.02))
+    for k in range(450, 455):
+        estimator.step(touch(k, 0.02, 0.02))
     assert estimator.state.x_m == pytest.approx(0.02)
     assert estimator.state.restarts == 2
 
@@ -187,12 +189,71 @@ def test_repeated_and_older_stamps_are_ignored_and_counted() -> None:
     assert (estimator.state.stamp_ns, estimator.state.x_m, estimator.state.out_of_order) == (stamp_ns, x_m, 3)
 
 
-def test_a_new_time_base_is_taken_over() -> None:
+@pytest.mark.parametrize("step_ms", [-3_600_000, -5000, -500, -20, 5000, 3_600_000])
+def test_a_clock_that_was_set_is_followed_from_the_fifth_message_on(step_ms: int) -> None:
     estimator = settled()
-    estimator.step(touch(-5000, 0.03, 0.03))
+    for k in range(300, 305):
+        assert estimator.state.x_m == pytest.approx(0.01, abs=1e-3)
+        estimator.step(touch(k + step_ms, 0.03, 0.03))
     assert estimator.state.valid
     assert estimator.state.x_m == pytest.approx(0.03)
-    assert estimator.state.stamp_ns == START_NS - 5000 * MS
+    assert estimator.state.stamp_ns == START_NS + (304 + step_ms) * MS
+
+
+@pytest.mark.parametrize("off_ms", [-3_600_000, -500, 5000, 3_600_000])
+def test_single_messages_of_another_clock_change_nothing(off_ms: int) -> None:
+    estimator = settled()
+    for k in range(300, 400):
+        estimator.step(touch(k + (off_ms if k % 4 == 0 else 0), 0.01 if k % 4 else 0.05))
+    assert estimator.state.x_m == pytest.approx(0.01, abs=1e-4)
+    assert (estimator.state.restarts, estimator.state.out_of_order) == (1, 25)
+
+
+def test_after_one_message_from_the_near_future_the_stream_is_found_again() -> None:
+    estimator = settled()
+    estimator.step(touch(300 + 900))
+    for k in range(301, 320):
+        estimator.step(touch(k))
+    assert estimator.state.valid
+    assert estimator.state.stamp_ns == START_NS + 319 * MS
+
+
+@pytest.mark.parametrize("late_ms", [-3_600_000, 900, 3_600_000])
+def test_tilts_of_another_clock_do_not_hide_those_that_follow(late_ms: int) -> None:
+    def after_a_tilt(first_ms: int) -> float:
+        estimator = settled(EstimatorConfig(lever_arm_m=0.0))
+        estimator.set_tilt(START_NS + first_ms * MS, -0.05, 0.05)
+        for k in range(300, 400):
+            estimator.set_tilt(START_NS + k * MS, 0.02, 0.03)
+            estimator.step(touch(k, touched=False))
+        return estimator.state.x_m
+
+    assert after_a_tilt(300 + late_ms) == pytest.approx(after_a_tilt(299), abs=1e-4)
+
+
+@pytest.mark.parametrize(
+    "bad", [touch(300, 1000.0), touch(300, 0.0, -1.5), touch(300, force_n=1e6), touch(300, force_n=-1.0)]
+)
+def test_what_no_ball_on_a_plate_does_is_counted_and_changes_nothing(bad: ContactMeasurement) -> None:
+    estimator = settled()
+    before = replace(estimator.state)
+    estimator.step(bad)
+    assert estimator.state == replace(before, received=before.received + 1, implausible=1)
+
+
+def test_a_tilt_that_no_plate_has_is_left_out() -> None:
+    estimator = settled()
+    estimator.set_tilt(START_NS + 300 * MS, 0.0, 100.0)
+    estimator.step(touch(301))
+    assert estimator.state.x_m == pytest.approx(0.01, abs=1e-4)
+
+
+def test_one_hard_knock_does_not_make_all_that_follows_doubtful() -> None:
+    estimator = settled()
+    estimator.step(touch(300, force_n=900.0))
+    for k in range(301, 330):
+        estimator.step(touch(k, 0.014))
+    assert estimator.state.x_m > 0.011
 
 
 def test_settings_out_of_range_are_refused() -> None:

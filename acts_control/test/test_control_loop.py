@@ -7,9 +7,10 @@ from collections.abc import Callable, Iterator, Sequence
 
 import pytest
 
-from acts_control.controller import BallController, BallReport, Phase, ReferenceReport
+from acts_control.controller import BallController, BallReport, Phase
 from acts_control.loop import ControlLoop, LoopConfig
-from acts_control.pid import Ball, Reference
+from acts_control.pid import Ball
+from acts_control.reference import Reference, ReferenceReport
 from acts_control.robot import RobotConfig, RobotStoppedError
 from acts_control.safety import RobotReading
 from acts_core.errors import RobotError, SettingsError

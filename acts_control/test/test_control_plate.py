@@ -1,15 +1,16 @@
 """Tilt and acceleration, the PID, and the limits of the tilt's motion."""
 
 import itertools
-from math import hypot, radians, sqrt
+from math import hypot, radians, sin, sqrt
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from acts_control.limiter import LimiterConfig, TiltLimiter
-from acts_control.pid import Ball, BallPid, JerkFinder, PidConfig, Reference
+from acts_control.pid import Ball, BallPid, PidConfig
 from acts_control.plate import GRAVITY_M_S2, ROLLING_GRAVITY_M_S2, acceleration_of, tilt_for
+from acts_control.reference import Reference, ReferenceFollower, ReferenceLimits, ReferenceReport
 from acts_core.errors import SettingsError
 
 LIMIT = radians(6)
@@ -102,13 +103,27 @@ def test_nothing_is_integrated_far_away_or_while_the_tilt_is_limited(ball: Ball)
     assert pid.state.saturated == (ball.vx_m_s != 0.0)
 
 
-def test_the_jerk_is_found_and_gaps_and_repeats_do_no_harm() -> None:
-    finder = JerkFinder()
-    assert finder.step(10**9, Reference(0, 0, 0, 0, 1.0, 2.0)).jx_m_s3 == 0.0
-    found = finder.step(10**9 + 8_000_000, Reference(0, 0, 0, 0, 1.08, 1.92))
-    assert (found.jx_m_s3, found.jy_m_s3) == pytest.approx((10.0, -10.0))
-    assert finder.step(10**9 + 8_000_000, Reference(0, 0, 0, 0, 5.0, 5.0)).jx_m_s3 == pytest.approx(10.0)
-    assert finder.step(2 * 10**9, Reference(0, 0, 0, 0, 9.0, 9.0)).jx_m_s3 == 0.0
+def follow(*references: tuple[int, Reference]) -> Reference | None:
+    """What is followed after these, each at the time of its stamp [ms]."""
+    follower = ReferenceFollower(ReferenceLimits(0.07, 0.2, 0.105, 1.0))
+    for stamp_ms, reference in references:
+        followed = follower.step(ReferenceReport(stamp_ms * 10**6, reference), stamp_ms * 10**6)
+    return followed
+
+
+@pytest.mark.parametrize("next_ms", [1008, 992, 1000, 2000, -3_600_000, 3_600_000])
+def test_the_jerk_is_found_from_the_reference_before_and_from_no_other(next_ms: int) -> None:
+    now = follow((1000, Reference(0, 0, 0, 0, 0.2, 0.1)), (next_ms, Reference(0, 0, 0, 0, 0.21, 0.08)))
+    expected = (1.25, -2.5) if next_ms == 1008 else (0.0, 0.0)
+    assert now is not None
+    assert (now.jx_m_s3, now.jy_m_s3) == pytest.approx(expected)
+
+
+def test_acceleration_and_jerk_count_no_more_than_the_plate_can_do() -> None:
+    now = follow((1000, Reference(0, 0, 0, 0, -6.0, 0.0)), (1001, Reference(0, 0, 0, 0, 0.0, 6.0)))
+    assert now is not None
+    assert now.ay_m_s2 == pytest.approx(ROLLING_GRAVITY_M_S2 * sin(0.105))
+    assert hypot(now.jx_m_s3, now.jy_m_s3) == pytest.approx(ROLLING_GRAVITY_M_S2 * 1.0)
 
 
 def test_a_reference_can_be_carried_on() -> None:

@@ -4,10 +4,11 @@ import math
 
 import pytest
 
-from acts_control.controller import BallController, BallReport, ControlInput, ControllerConfig, Phase, ReferenceReport
-from acts_control.pid import Ball, Reference
+from acts_control.controller import BallController, BallReport, ControlInput, ControllerConfig, Phase
+from acts_control.pid import Ball
 from acts_control.plate import acceleration_of
 from acts_control.prediction import TiltHistory
+from acts_control.reference import Reference, ReferenceReport
 from acts_control.safety import CommandGate, RobotReading, RobotWatch, SafetyConfig, touch_age_s
 from acts_core.errors import SettingsError
 from acts_core.ur5e import LEVEL_Q_RAD
@@ -168,11 +169,14 @@ class Scene:
             self.largest_tilt = max(self.largest_tilt, math.hypot(*tilt))
         return tilt
 
-    def go_silent(self, seconds: float) -> None:
-        """No new message for a while: the last one grows old."""
+    def go_silent(self, seconds: float, *, clock_runs: bool = True) -> None:
+        """No new message for a while: the last one grows old. A clock that does not run is set back at every step."""
         for _ in range(round(seconds / DT)):
             assert self.touch_age_ms is not None
-            self.touch_age_ms += DT * 1e3
+            if clock_runs:
+                self.touch_age_ms += DT * 1e3
+            else:
+                self.now_ns -= round(DT * 1e9)
             self.step()
 
 
@@ -265,8 +269,10 @@ def test_a_lost_ball_levels_the_plate_and_is_waited_for() -> None:
     assert scene.phase is Phase.BALANCING
 
 
-@pytest.mark.parametrize("bad", [Ball(NAN, 0.0, 0.0, 0.0), Ball(0.0, 0.0, 0.0, math.inf)])
-def test_an_estimate_that_is_not_finite_is_no_ball(bad: Ball) -> None:
+@pytest.mark.parametrize(
+    "bad", [Ball(NAN, 0.0, 0.0, 0.0), Ball(0.0, 0.0, 0.0, math.inf), Ball(2.0, 0.0, 0.0, 0.0), Ball(0.0, 0.0, 0.0, 9.0)]
+)
+def test_an_estimate_beyond_reason_is_no_ball(bad: Ball) -> None:
     scene = balancing()
     scene.ball = bad
     scene.step(0.6)
@@ -274,16 +280,57 @@ def test_an_estimate_that_is_not_finite_is_no_ball(bad: Ball) -> None:
     assert scene.controller.state.tilt_rad == pytest.approx(LEVEL, abs=1e-6)
 
 
-def test_a_reference_that_is_not_finite_is_none() -> None:
+@pytest.mark.parametrize(
+    ("bad", "words"),
+    [
+        (Reference(NAN, 0.0), "not finite"),
+        (Reference(0.0, 0.0, 0.0, math.inf), "not finite"),
+        (Reference(1000.0, 0.0), "farther from the centre than reference_reach_m"),
+        (Reference(0.0, 0.0, 0.0, 30.0), "faster than 2 m/s"),
+        (Reference(0.0, 0.0, 0.0, 0.0, 1e6, 0.0), "accelerated by more than 9.81 m/s^2"),
+    ],
+)
+def test_a_reference_that_cannot_be_meant_is_refused_and_the_ball_held_at_the_last(bad: Reference, words: str) -> None:
     scene = balancing()
-    scene.reference = Reference(NAN, 0.0)
+    scene.reference = bad
     scene.step(0.6)
-    assert (scene.phase, scene.reason) == (Phase.WAITING, "waiting for a reference")
+    assert (scene.phase, scene.reason) == (Phase.BALANCING, f"balancing; the reference is refused: {words}")
+    assert scene.controller.state.error_m == pytest.approx((0.02, 0.0))
+    scene.reference = Reference(0.01, 0.0)
+    scene.step()
+    assert scene.reason == "balancing"
+    assert scene.controller.state.error_m == pytest.approx((0.01, 0.0))
+
+
+def test_without_a_good_reference_there_is_none() -> None:
+    scene = Scene()
+    scene.reference = Reference(NAN, 0.0)
+    scene.step(1.0)
+    assert scene.phase is Phase.WAITING
+    assert scene.reason == "waiting for a reference; the reference is refused: not finite"
+
+
+@pytest.mark.parametrize(
+    ("age_ms", "why"), [(300.0, "is stale"), (-3.6e6, "is stamped in the future, the clocks differ")]
+)
+def test_of_a_reference_of_another_time_only_the_place_counts(age_ms: float, why: str) -> None:
+    scene = balancing()
+    scene.reference = Reference(0.0, 0.0, 0.1, 0.1, 0.5, 0.5)
+    scene.reference_age_ms = age_ms
+    scene.step()
+    assert scene.controller.state.error_m == pytest.approx((0.02, 0.0))
+    assert scene.reason == f"balancing; the reference {why}: its motion is left out"
+
+
+def test_an_estimate_that_stays_the_same_grows_stale_although_the_clock_is_set_back_again_and_again() -> None:
+    scene = balancing()
+    scene.go_silent(0.15, clock_runs=False)
+    assert (scene.phase, scene.reason) == (Phase.BALANCING, "touch is stale: levelling the plate")
 
 
 def test_without_new_references_the_ball_is_held_at_the_last() -> None:
     scene = balancing()
-    scene.reference = Reference(0.0, 0.0, 1.0, 1.0, 5.0, 5.0)
+    scene.reference = Reference(0.0, 0.0, 0.5, 0.5, 5.0, 5.0)
     scene.reference_age_ms = 300.0
     scene.step()
     assert scene.controller.state.error_m == pytest.approx((0.02, 0.0))
@@ -303,7 +350,7 @@ def test_a_request_ends_motion_level_and_the_first_reason_stays() -> None:
 
 def test_the_tilt_stays_within_its_limit_whatever_the_error() -> None:
     scene = Scene()
-    scene.ball = Ball(5.0, -5.0, 50.0, -50.0)
+    scene.ball = Ball(0.5, -0.5, 3.0, -3.0)
     scene.step(2.0)
     assert scene.largest_tilt == pytest.approx(ControllerConfig().max_tilt_rad, rel=1e-6)
 

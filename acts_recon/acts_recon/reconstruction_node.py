@@ -18,7 +18,7 @@ from rclpy.node import Node
 from sensor_msgs.msg import Image
 from std_msgs.msg import Header
 
-from acts_core.errors import ArrayError
+from acts_core.errors import ArrayError, PacketError
 from acts_core.frames import SampleFrame
 from acts_core.kernels import skip_blas
 from acts_core.rate_limit import RateLimit
@@ -142,7 +142,12 @@ class ReconstructionNode(Node):
             self._objects.look_for_subscribers()
 
     def _on_samples(self, samples: TactileSamples) -> None:
-        self.take([(frame_of(samples), stamp_ns_of(samples))], samples.header.frame_id)
+        try:
+            stamp_ns = stamp_ns_of(samples)
+        except PacketError as error:
+            self._reject("bad_stamp", str(error))
+            return
+        self.take([(frame_of(samples), stamp_ns)], samples.header.frame_id)
 
     def take(self, frames: Sequence[tuple[SampleFrame, int]], frame_id: str) -> None:
         """Recover frames that have come together, and publish what is in them; always from the same thread.
@@ -304,6 +309,7 @@ class ReconstructionNode(Node):
             "lost": self._lost,
             "rejected.wrong_array_size": self._rejected["wrong_array_size"],
             "rejected.bad_frame": self._rejected["bad_frame"],
+            "rejected.bad_stamp": self._rejected["bad_stamp"],
             "rejected.bad_baseline": self._rejected["bad_baseline"],
             "not_published": self._untold,
             "not_used": self._unused,

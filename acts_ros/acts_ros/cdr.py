@@ -115,6 +115,8 @@ def _header(data: bytes) -> tuple[int, str, str, int]:
         raise PacketError(f"message of {len(data)} bytes cannot be read: {error}") from error
     if not 1 <= length <= len(data) - begin:
         raise PacketError(f"message of {len(data)} bytes cannot be read: its frame_id has {length}")
+    if nanosec >= _NS_PER_S:
+        raise PacketError(f"stamp of {nanosec} nanoseconds: a second has {_NS_PER_S}")
     return sec * _NS_PER_S + nanosec, frame_id, order, length
 
 

@@ -6,6 +6,7 @@ from array import array
 
 import numpy as np
 
+from acts_core.errors import PacketError
 from acts_core.frames import SampleFrame, Scheme
 from acts_msgs.msg import TactileSamples
 
@@ -53,8 +54,16 @@ class SamplesMessage:
 
 
 def stamp_ns_of(message: TactileSamples) -> int:
-    """ROS time at the end of the frame's last measurement [ns]."""
+    """ROS time at the end of the frame's last measurement [ns].
+
+    Raises
+    ------
+    PacketError
+        When its nanoseconds are more than a second.
+    """
     stamp = message.header.stamp
+    if stamp.nanosec >= _NS_PER_S:
+        raise PacketError(f"stamp of {stamp.nanosec} nanoseconds: a second has {_NS_PER_S}")
     return int(stamp.sec * _NS_PER_S + stamp.nanosec)
 
 

@@ -109,3 +109,10 @@ def test_numbers_beyond_their_field_are_refused(change: dict[str, float]) -> Non
     contact = read_contact(serialize_message(Contact()))
     with pytest.raises(PacketError, match="does not fit the message"):
         write_contact(contact._replace(**change))  # type: ignore[arg-type]
+
+
+def test_a_stamp_of_too_many_nanoseconds_is_refused() -> None:
+    message = Contact()
+    message.header.stamp.nanosec = 2**32 - 1
+    with pytest.raises(PacketError, match="a second has 1000000000"):
+        read_contact(serialize_message(message))
