@@ -257,6 +257,10 @@ class BaselineTracker:
         since_ns = time_ns - self._growing_since_ns
         if 0 <= since_ns < self._block_ns and self._growing_since_ns >= 0:
             return
+        if since_ns < 0:
+            # The clock was set back: no taxel is kept as it is for longer than after a touch now.
+            latest_ns = time_ns + int(self.config.hold_s * _NS_PER_S)
+            np.minimum(self._frozen_until_ns, latest_ns, out=self._frozen_until_ns)
         if self._growing_since_ns >= 0 and 0 <= since_ns < 2 * self._block_ns:
             self._growing = (self._growing + 1) % len(self._blocks)
             self._whole = min(self._whole + 1, len(self._blocks) - 1)

@@ -56,8 +56,8 @@ class ClockFilter:
     """Stamps frames with the host time of their measurement.
 
     Stamps increase strictly and never lie after the arrival. Only where the host's own clock is set back do they follow
-    it. A jump of either clock starts the estimate anew: forwards of the board's or backwards of the host's at once, the
-    others, which look like a stall on the way, after `jump_confirm_s`.
+    it. A jump of either clock starts the estimate anew: forwards of the board's, backwards of the host's, and any that
+    `host_was_set` tells of, at once; others, which look like a stall on the way, after `jump_confirm_s`.
     """
 
     def __init__(self, config: ClockFilterConfig | None = None) -> None:
@@ -88,6 +88,13 @@ class ClockFilter:
             delay_us=max(self._height_ns, 0) * 1e-3,
             resets=self._resets,
         )
+
+    def host_was_set(self) -> None:
+        """Tell that the host's clock was set: the estimate begins anew with the next frame, and stamps follow it."""
+        self._resets += 1
+        self._envelope = None
+        self._last_arrival_ns = 0
+        self._last_stamp_ns = None
 
     def step(self, board_us: int, arrival_ns: int) -> int:
         """Take one frame; see `step_batch`."""

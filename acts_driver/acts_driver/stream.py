@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from acts_core.frames import SampleFrame
 from acts_driver.clock import ClockFilter
+from acts_driver.host_clock import HostClock
 from acts_driver.statistics import StreamStatistics
 
 
@@ -18,6 +19,8 @@ class FrameStream:
         Expected size of the array.
     has_board_clock : bool
         Whether the frames' `board_us` is a clock; otherwise they are stamped with their arrival.
+    host_clock : HostClock or None
+        What tells that the clock of the arrivals was set; None: that of this machine.
 
     Attributes
     ----------
@@ -31,7 +34,10 @@ class FrameStream:
         Rows and columns of the last of them; (0, 0) for none.
     """
 
-    def __init__(self, rows: int, cols: int, *, has_board_clock: bool = True) -> None:
+    def __init__(
+        self, rows: int, cols: int, *, has_board_clock: bool = True, host_clock: HostClock | None = None
+    ) -> None:
+        self._host_clock = HostClock() if host_clock is None else host_clock
         self.statistics = StreamStatistics()
         self.clock = ClockFilter()
         self.has_board_clock = has_board_clock
@@ -66,6 +72,8 @@ class FrameStream:
         if not new:
             return []
         if self.has_board_clock:
+            if self._host_clock.was_set():
+                self.clock.host_was_set()
             stamps = self.clock.step_batch([frame.board_us for frame in new], arrival_ns, restarted=restarted)
             statistics.stamped(stamps[-1])
         else:

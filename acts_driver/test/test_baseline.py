@@ -94,6 +94,22 @@ def test_a_pause_of_the_stream_begins_anew() -> None:
     assert skin.tracker.calibrate().valid.all()
 
 
+def test_a_clock_that_is_set_back_lets_no_taxel_stay_frozen() -> None:
+    skin = Skin()
+    skin.run(2.5)
+    skin.tracker.calibrate()
+    skin.run(0.1, skin.pressed())
+    skin.now_ns -= 3600 * 10**9
+    skin.run(CONFIG.hold_s + 0.5)
+    before = skin.tracker.present()
+    assert before is not None
+    skin.field += 3.0
+    skin.run(2.0)
+    after = skin.tracker.present()
+    assert after is not None
+    assert (after.counts - before.counts).min() > 0.0
+
+
 def test_taxels_that_are_not_measured_are_not_known() -> None:
     skin = Skin()
     skin.run(1.0)

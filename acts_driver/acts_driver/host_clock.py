@@ -1,0 +1,38 @@
+"""Whether somebody has set the system's clock, which the steady clock tells."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+
+# Time synchronisation that does not set the clock makes it run faster or slower by 500 ppm: in a minute less than this.
+_STEP_NS = 40_000_000
+
+# Two clocks that were not read at once are not compared.
+_AT_ONCE_NS = 1_000_000
+
+
+class HostClock:
+    """Compares the system's clock, by which arrivals and stamps are told, with the steady one.
+
+    Parameters
+    ----------
+    system_ns, steady_ns : callable
+        The clocks [ns].
+    """
+
+    def __init__(
+        self, system_ns: Callable[[], int] = time.time_ns, steady_ns: Callable[[], int] = time.monotonic_ns
+    ) -> None:
+        self._system_ns = system_ns
+        self._steady_ns = steady_ns
+        self._difference_ns: int | None = None
+
+    def was_set(self) -> bool:
+        """Whether the system's clock was set since the last call, by more than 40 ms; to be asked again and again."""
+        before_ns = self._steady_ns()
+        system_ns = self._system_ns()
+        if self._steady_ns() - before_ns > _AT_ONCE_NS:
+            return False
+        last_ns, self._difference_ns = self._difference_ns, system_ns - before_ns
+        return last_ns is not None and abs(self._difference_ns - last_ns) > _STEP_NS

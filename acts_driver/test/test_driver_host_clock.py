@@ -1,0 +1,66 @@
+"""The system's clock is set while frames come: stamps follow it with the next frame."""
+
+import numpy as np
+import pytest
+
+from acts_core.frames import SampleFrame, Scheme
+from acts_driver.host_clock import HostClock
+from acts_driver.stream import FrameStream
+
+MS = 1_000_000
+EPOCH_NS = 1_700_000_000_000_000_000
+NONE = np.zeros(0, dtype=np.uint16)
+
+
+class Clocks:
+    """A machine's two clocks."""
+
+    def __init__(self) -> None:
+        self.steady_ns = 5_000 * MS
+        self.system_ns = EPOCH_NS
+        self.reading_takes_ns = 0
+
+    def run(self, time_ns: int) -> None:
+        self.steady_ns += time_ns
+        self.system_ns += time_ns
+
+    def read_steady(self) -> int:
+        self.run(self.reading_takes_ns)
+        return self.steady_ns
+
+
+@pytest.mark.parametrize("step_ms", [-3_600_000, -60, 60, 500, 3_600_000])
+def test_stamps_follow_the_systems_clock_at_once(step_ms: int) -> None:
+    clocks = Clocks()
+    stream = FrameStream(4, 4, host_clock=HostClock(lambda: clocks.system_ns, clocks.read_steady))
+    for k in range(3000):
+        if k == 2000:
+            clocks.system_ns += step_ms * MS
+        frame = SampleFrame(k, 7_000_000 + 1000 * k, 0, Scheme.UNIFORM, 4, 4, 0, NONE, NONE)
+        [(_, stamp_ns)] = stream.accept([frame], clocks.system_ns)
+        assert abs(stamp_ns - clocks.system_ns) < MS // 10
+        clocks.run(MS)
+    assert stream.clock.state.resets == 1
+    assert stream.statistics.restarts == 0
+
+
+def test_a_clock_that_is_made_to_run_faster_was_not_set() -> None:
+    clocks = Clocks()
+    clock = HostClock(lambda: clocks.system_ns, clocks.read_steady)
+    for _ in range(1000):
+        clocks.run(1000 * MS)
+        clocks.system_ns += MS // 2
+        assert not clock.was_set()
+
+
+def test_clocks_that_were_not_read_at_once_are_not_compared() -> None:
+    clocks = Clocks()
+    clock = HostClock(lambda: clocks.system_ns, clocks.read_steady)
+    assert not clock.was_set()
+    clocks.reading_takes_ns = 100 * MS
+    assert not clock.was_set()
+    clocks.reading_takes_ns = 0
+    assert not clock.was_set()
+    clocks.system_ns += 50 * MS
+    assert clock.was_set()
+    assert not clock.was_set()
