@@ -19,6 +19,7 @@ from acts_control.ball_trajectory_node import BallTrajectoryNode
 from acts_control.controller import BallReport, Phase
 from acts_control.loop import ControlLoop, LoopConfig, LoopStatus
 from acts_control.names import (
+    CLOCK_REASON,
     REFERENCE_TOPIC,
     STATE_TOPIC,
     STATUS_TOPIC,
@@ -33,6 +34,7 @@ from acts_core.realtime import RealtimeConfig, enter_realtime
 from acts_core.settings import Changeable, setting
 from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import BalanceStatus, BallReference, BallState
+from acts_ros.clocks import keep_system_clock, steady_timer
 from acts_ros.composition import parameters_from
 from acts_ros.diagnostics import ERROR, OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
@@ -81,6 +83,7 @@ class BallControlNode(Node):
     ) -> None:
         super().__init__("ball_control", **node_options(), **node_arguments)
         settings = declare(self, BallControlSettings, self._change)
+        keep_system_clock(self, CLOCK_REASON)
         self._settings = settings
         self._told = LoopStatus()
         frame_id = skin_frame(self, settings.frame_id)
@@ -98,7 +101,7 @@ class BallControlNode(Node):
             self.create_subscription(BallReference, REFERENCE_TOPIC, self._on_reference, STATE)
         self.create_service(Trigger, "~/start", self._on_start)
         self.create_service(Trigger, "~/stop", self._on_stop)
-        self._status_timer = self.create_timer(1.0 / settings.status_rate_hz, self._publish_status)
+        self._status_timer = steady_timer(self, 1.0 / settings.status_rate_hz, self._publish_status)
         self._diagnostics = DiagnosticsReporter(self, settings.robot_ip, self._report)
 
     def follow(self, state: BallStateNode, trajectory: BallTrajectoryNode) -> None:

@@ -14,7 +14,7 @@ from geometry_msgs.msg import Vector3Stamped
 
 from acts_control.controller import BallReport
 from acts_control.estimator import BallEstimator, ContactMeasurement, EstimatorConfig
-from acts_control.names import CONTACT_TOPIC, STATE_TOPIC, STATISTICS_TOPIC, TILT_TOPIC, set_stamp, to_ns
+from acts_control.names import CLOCK_REASON, CONTACT_TOPIC, STATE_TOPIC, STATISTICS_TOPIC, TILT_TOPIC, set_stamp, to_ns
 from acts_control.pid import Ball
 from acts_control.stream_statistics import StreamCounter
 from acts_core.errors import PacketError
@@ -22,6 +22,7 @@ from acts_core.settings import Changeable, setting
 from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import BallState, Contact, StreamStatistics
 from acts_ros.cdr import read_contact
+from acts_ros.clocks import keep_system_clock, steady_timer
 from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
 from acts_ros.parameters import declare, node_options, set_rate
@@ -64,6 +65,7 @@ class BallStateNode(PollingNode):
     def __init__(self, *, is_driven: bool = False, **node_arguments: Any) -> None:
         super().__init__("ball_state", **node_options(), **node_arguments)
         settings = declare(self, BallStateSettings, self._change)
+        keep_system_clock(self, CLOCK_REASON)
         self._is_driven = is_driven
         self._lock = threading.Lock()
         self._updated_s = 0.0
@@ -73,17 +75,17 @@ class BallStateNode(PollingNode):
         self._due_ns = 0
         self._message = BallState()
         self._clock = self.get_clock()
-        self._interval_start_ns = self._clock.now().nanoseconds
+        self._interval_start_s = time.monotonic()
         self._reported = 0
         self._state_publisher = self.create_publisher(BallState, STATE_TOPIC, STATE)
         self._statistics_publisher = self.create_publisher(StreamStatistics, STATISTICS_TOPIC, STATE)
         self._contacts = self.create_raw_polled_subscription(Contact, CONTACT_TOPIC, STREAM, depth=_CONTACTS)
         if is_driven:
-            self._timer = self.create_timer(_UNDRIVEN_S, self._update_undriven)
+            self._timer = steady_timer(self, _UNDRIVEN_S, self._update_undriven)
         else:
             self.create_subscription(Vector3Stamped, TILT_TOPIC, self._on_tilt, STREAM)
-            self._timer = self.create_timer(1.0 / settings.publish_rate_hz, self.update)
-        self.create_timer(_STATISTICS_PERIOD_S, self._publish_statistics)
+            self._timer = steady_timer(self, 1.0 / settings.publish_rate_hz, self.update)
+        steady_timer(self, _STATISTICS_PERIOD_S, self._publish_statistics)
         self._diagnostics = DiagnosticsReporter(self, "ball", self._report)
 
     def update(self) -> BallReport | None:
@@ -153,18 +155,18 @@ class BallStateNode(PollingNode):
         self._state_publisher.publish(message)
 
     def _publish_statistics(self) -> None:
-        now_ns = self._clock.now().nanoseconds
+        now_s = time.monotonic()
         with self._lock:
             message = StreamStatistics(
                 topic=self._contacts.topic_name,
                 receiver=self.get_fully_qualified_name(),
-                interval=(now_ns - self._interval_start_ns) * 1e-9,
+                interval=now_s - self._interval_start_s,
                 received=self._counter.received,
                 lost=self._counter.lost,
                 latencies=self._counter.take_latencies(),
             )
-        set_stamp(message.header.stamp, now_ns)
-        self._interval_start_ns = now_ns
+        set_stamp(message.header.stamp, self._clock.now().nanoseconds)
+        self._interval_start_s = now_s
         self._statistics_publisher.publish(message)
 
     def _report(self) -> Report:

@@ -14,13 +14,14 @@ from typing import Any
 from rclpy.node import Node
 
 from acts_control.controller import Phase
-from acts_control.names import REFERENCE_TOPIC, STATUS_TOPIC, set_stamp
+from acts_control.names import CLOCK_REASON, REFERENCE_TOPIC, STATUS_TOPIC, set_stamp
 from acts_control.reference import Reference
 from acts_control.trajectory import TimedReference, Trajectory, TrajectoryConfig
 from acts_core.rate_limit import RateLimit
 from acts_core.settings import Changeable, setting
 from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import BalanceStatus, BallReference
+from acts_ros.clocks import keep_system_clock, steady_timer
 from acts_ros.executor import run
 from acts_ros.parameters import declare, node_options, set_rate
 from acts_ros.qos import STATE
@@ -66,6 +67,7 @@ class BallTrajectoryNode(Node):
     def __init__(self, *, is_driven: bool = False, **node_arguments: Any) -> None:
         super().__init__("ball_trajectory", **node_options(), **node_arguments)
         settings = declare(self, BallTrajectorySettings, self._change)
+        keep_system_clock(self, CLOCK_REASON)
         self._trajectory = Trajectory(settings)
         self.phase: Callable[[], Phase] = self._told_phase
         self._lock = threading.Lock()
@@ -82,7 +84,7 @@ class BallTrajectoryNode(Node):
         self._publisher = self.create_publisher(BallReference, REFERENCE_TOPIC, STATE)
         if not is_driven:
             self.create_subscription(BalanceStatus, STATUS_TOPIC, self._on_status, STATE)
-        self._timer = self.create_timer(_UNDRIVEN_S if is_driven else 1.0 / settings.publish_rate_hz, self._on_timer)
+        self._timer = steady_timer(self, _UNDRIVEN_S if is_driven else 1.0 / settings.publish_rate_hz, self._on_timer)
         self.get_logger().info(f"{settings.trajectory}: {self._trajectory.duration_s:.1f} s")
 
     def advance(self, now_ns: int, phase: Phase) -> Reference:

@@ -11,6 +11,9 @@ TILT_TOPIC = "ball/tilt"
 CONTACT_TOPIC = "contact"
 STATISTICS_TOPIC = "contact_statistics"
 
+CLOCK_REASON = "robot and touch are real, and are stamped by it"
+"""Why the nodes do not run on simulated time."""
+
 _NS_PER_S = 1_000_000_000
 
 

@@ -143,9 +143,7 @@ class ReferenceFollower:
     def _with_jerk(self, report: ReferenceReport) -> ReferenceReport:
         """The reference with its jerk, from how the acceleration changes, and no more of both than the plate can do."""
         stamp_ns, reference = report
-        ax, ay = _shortened(
-            reference.ax_m_s2, reference.ay_m_s2, ROLLING_GRAVITY_M_S2 * sin(self.limits.max_tilt_rad)
-        )
+        ax, ay = _shortened(reference.ax_m_s2, reference.ay_m_s2, ROLLING_GRAVITY_M_S2 * sin(self.limits.max_tilt_rad))
         jx = jy = 0.0
         if self._good is not None:
             dt = (stamp_ns - self._good.stamp_ns) * 1e-9

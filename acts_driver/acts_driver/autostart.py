@@ -5,6 +5,8 @@ from __future__ import annotations
 from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
 from rclpy.timer import Timer
 
+from acts_ros.clocks import steady_timer
+
 
 class Autostart:
     """Tries to configure a node at once and then again and again; where that succeeds, the node is activated.
@@ -23,8 +25,8 @@ class Autostart:
         self._node = node
         self._waits_for = waits_for
         self._is_waiting = False
-        self._first: Timer = node.create_timer(0.001, self._try_first)
-        self._again: Timer = node.create_timer(period_s, self._try)
+        self._first: Timer = steady_timer(node, 0.001, self._try_first)
+        self._again: Timer = steady_timer(node, period_s, self._try)
         self._is_over = False
 
     def stop(self) -> None:

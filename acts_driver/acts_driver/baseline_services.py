@@ -17,6 +17,7 @@ from acts_driver.baseline import Baseline
 from acts_driver.baseline_parameters import BaselineParameters
 from acts_driver.baseline_tracker import BaselineTracker
 from acts_msgs.msg import Baseline as BaselineMessage
+from acts_ros.clocks import steady_timer
 from acts_ros.qos import LATCHED, overridable
 
 _NS_PER_S = 1_000_000_000
@@ -58,7 +59,7 @@ class BaselineServices:
         node.create_service(Trigger, "~/calibrate", self._calibrate)
         node.create_service(Trigger, "~/tare", self._tare)
         self.begin(parameters, rows, cols)
-        self._timer = node.create_timer(_PUBLISH_PERIOD_S, self._publish_where_moved)
+        self._timer = steady_timer(node, _PUBLISH_PERIOD_S, self._publish_where_moved)
 
     def begin(self, parameters: BaselineParameters, rows: int, cols: int) -> None:
         """Begin anew with other parameters, while no frames come.

@@ -26,6 +26,7 @@ from acts_driver.intake import Intake
 from acts_driver.settings import DriverSettings
 from acts_driver.source import Source
 from acts_msgs.msg import TactileSamples
+from acts_ros.clocks import keep_system_clock
 from acts_ros.composition import parameters_from
 from acts_ros.diagnostics import ERROR, OK, DiagnosticsReporter, Report
 from acts_ros.executor import run
@@ -67,6 +68,7 @@ class DriverNode(LifecycleNode):
         self._settings = declare(
             self, DriverSettings, self._on_changed_parameters, is_unconfigured=lambda: self.intake is None
         )
+        keep_system_clock(self, "the board does not wait for simulated time, and frames are stamped as they arrive")
         self.consumers: list[FrameConsumer] = []
         self._source: Source | None = None
         self._problem = ""

@@ -34,6 +34,7 @@ from acts_recon.object_publisher import ObjectPublisher
 from acts_recon.reconstruction_settings import ReconstructionSettings
 from acts_ros import qos
 from acts_ros.cdr import ContactFields, write_contact
+from acts_ros.clocks import steady_timer
 from acts_ros.composition import parameters_from
 from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
@@ -109,7 +110,7 @@ class ReconstructionNode(Node):
         self._reported = (time.monotonic(), 0, 0, 0)
 
         self._look_for_subscribers()
-        self.create_timer(_SUBSCRIBERS_PERIOD_S, self._look_for_subscribers)
+        steady_timer(self, _SUBSCRIBERS_PERIOD_S, self._look_for_subscribers)
         self._diagnostics = DiagnosticsReporter(self, self.resolve_topic_name("samples"), self._report)
         if self._settings.subtract_baseline:
             self.create_subscription(Baseline, "baseline", self._on_baseline, **qos.overridable(qos.LATCHED))

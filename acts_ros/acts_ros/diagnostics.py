@@ -7,6 +7,8 @@ from collections.abc import Callable, Mapping
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from rclpy.node import Node
 
+from acts_ros.clocks import steady_timer
+
 OK = 0
 WARN = 1
 ERROR = 2
@@ -38,7 +40,7 @@ class DiagnosticsReporter:
         self.hardware_id = hardware_id
         self._report = report
         self._publisher = node.create_publisher(DiagnosticArray, "/diagnostics", 10)
-        self._timer = node.create_timer(period_s, self.publish)
+        self._timer = steady_timer(node, period_s, self.publish)
 
     def publish(self) -> None:
         """Publish the present report at once."""

@@ -21,6 +21,7 @@ from acts_core.realtime import RealtimeConfig, enter_realtime
 from acts_core.settings import setting
 from acts_core.stop_signals import StopSignals
 from acts_ros import qos
+from acts_ros.clocks import keep_system_clock
 from acts_ros.composition import parameters_from
 from acts_ros.diagnostics import ERROR, OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
@@ -66,6 +67,7 @@ class BallWorld(Node):
     def __init__(self, **node_arguments: Any) -> None:
         super().__init__("ball_world", **node_options(), **node_arguments)
         settings = declare(self, BallWorldSettings)
+        keep_system_clock(self, "robot, ball and board are simulated as fast as real ones, and share the steady clock")
         self._settings = settings
         self._frame_id = skin_frame(self, settings.frame_id)
         self._truth = self.create_publisher(PointStamped, "ball/truth", qos.STATE)

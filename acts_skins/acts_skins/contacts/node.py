@@ -137,6 +137,9 @@ class SkinContactsNode(PollingNode):
                 self._there.add(skin.name)
                 self.get_logger().info(f"skin {skin.name}: there")
 
+    def _clock_name(self) -> str:
+        return "simulated time (use_sim_time)" if self.get_parameter("use_sim_time").value else "this clock"
+
     def _report(self) -> Report:
         if self._cycle.failure is not None:
             raise ActsError(f"merging has stopped: {self._cycle.failure!r}")
@@ -159,7 +162,9 @@ class SkinContactsNode(PollingNode):
             values[f"{skin.name}.future"] = counters.future
             values[f"{skin.name}.out_of_order"] = counters.out_of_order
             if skin.state is not SkinState.FRESH:
-                ahead = f", stamps lie {counters.ahead_s:.3g} s ahead of this clock" if counters.future else ""
+                ahead = (
+                    f", stamps lie {counters.ahead_s:.3g} s ahead of {self._clock_name()}" if counters.future else ""
+                )
                 troubles.append(f"{skin.name} is {_silence(skin)}{ahead}")
         troubles += [
             f"{number} contacts of {name} {why} dropped" for (name, why), number in (refused - refused_before).items()

@@ -12,6 +12,7 @@ from rclpy.node import Node
 
 from acts_core.errors import SettingsError
 from acts_core.settings import setting, validate
+from acts_ros.clocks import steady_timer
 from acts_ros.parameters import declare, node_options
 from acts_skins.overview.aggregate import Aggregate, Status
 from acts_skins.skins_file import read_skins
@@ -47,7 +48,7 @@ class SkinDiagnosticsNode(Node):
         self._array_publisher = self.create_publisher(DiagnosticArray, "/diagnostics_agg", 10)
         self._state_publisher = self.create_publisher(DiagnosticStatus, "/diagnostics_toplevel_state", 10)
         self.create_subscription(DiagnosticArray, "/diagnostics", self._take, _DEPTH)
-        self.create_timer(_PERIOD_S, self._publish)
+        steady_timer(self, _PERIOD_S, self._publish)
 
     def _take(self, array: DiagnosticArray) -> None:
         now_s = time.monotonic()
