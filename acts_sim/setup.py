@@ -20,6 +20,7 @@ setup(
     license="Apache-2.0",
     entry_points={
         "console_scripts": [
+            "dynamixel_bus = acts_sim.programs:dynamixel_bus",
             "ball_world = acts_sim.programs:ball_world",
             "ur_controller = acts_sim.programs:ur_controller",
         ],

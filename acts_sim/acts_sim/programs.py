@@ -3,4 +3,5 @@
 from acts_ros.program import Program
 
 ball_world = Program("acts_sim.ball_world_node")
+dynamixel_bus = Program("acts_sim.dynamixel.main")
 ur_controller = Program("acts_sim.ur.main")

@@ -1,0 +1,170 @@
+"""The motors on one line: whom an instruction is for, what they answer, and how long that takes on the wire."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import NamedTuple
+
+from acts_sim.dynamixel.motor import Motor, StatusError
+from acts_sim.dynamixel.packets import (
+    BROADCAST_ID,
+    Instruction,
+    Packet,
+    encode_fast_status,
+    encode_status,
+    fast_status_bytes,
+)
+
+# Start bit, eight bits, stop bit.
+BITS_PER_BYTE = 10
+
+_SYNC_READS = (Instruction.SYNC_READ, Instruction.FAST_SYNC_READ)
+_BULK_READS = (Instruction.BULK_READ, Instruction.FAST_BULK_READ)
+_FAST_READS = (Instruction.FAST_SYNC_READ, Instruction.FAST_BULK_READ)
+
+
+class Answer(NamedTuple):
+    """What comes back.
+
+    Attributes
+    ----------
+    data : bytes
+        All status packets; may be empty.
+    delay_s : float
+        How long the motors wait before they send, together [s].
+    """
+
+    data: bytes = b""
+    delay_s: float = 0.0
+
+
+class Bus:
+    """Motors that share a line.
+
+    Parameters
+    ----------
+    motors : iterable of Motor
+        With different IDs.
+
+    Attributes
+    ----------
+    lost : set of int
+        IDs of motors that are cut off: they hear nothing and say nothing.
+    """
+
+    def __init__(self, motors: Iterable[Motor]) -> None:
+        self.motors = list(motors)
+        self.lost: set[int] = set()
+
+    def find(self, motor_id: int) -> Motor | None:
+        """The motor with an ID, unless it is cut off."""
+        for motor in self.motors:
+            if motor.motor_id == motor_id and motor_id not in self.lost:
+                return motor
+        return None
+
+    def handle(self, packet: Packet) -> Answer:
+        """Carry out an instruction."""
+        connected = [motor for motor in self.motors if motor.motor_id not in self.lost]
+        for motor in connected:
+            motor.heard()
+        if packet.instruction in (*_SYNC_READS, *_BULK_READS):
+            return self._read_many(packet)
+        if packet.instruction == Instruction.SYNC_WRITE:
+            self._sync_write(packet.parameters)
+            return Answer()
+        if packet.instruction == Instruction.BULK_WRITE:
+            self._bulk_write(packet.parameters)
+            return Answer()
+        if packet.motor_id != BROADCAST_ID:
+            called = self.find(packet.motor_id)
+            return Answer() if called is None else _answer_of(called, packet)
+        # To a broadcast only a ping is answered, one motor after the other.
+        answers = [_answer_of(motor, packet) for motor in sorted(connected, key=lambda one: one.motor_id)]
+        if packet.instruction != Instruction.PING:
+            return Answer()
+        return Answer(b"".join(one.data for one in answers), sum(one.delay_s for one in answers))
+
+    def _read_many(self, packet: Packet) -> Answer:
+        """Sync and bulk reads: the motors answer in the order in which they are named.
+
+        Each waits for the one before it; behind a motor that is silent, nobody answers.
+        """
+        if packet.instruction in _SYNC_READS:
+            address, size = _word(packet.parameters, 0), _word(packet.parameters, 2)
+            asked = [(motor_id, address, size) for motor_id in packet.parameters[4:]]
+        else:
+            rows = [packet.parameters[k : k + 5] for k in range(0, len(packet.parameters) - 4, 5)]
+            asked = [(row[0], _word(row, 1), _word(row, 3)) for row in rows]
+        fast = packet.instruction in _FAST_READS
+        replies: list[tuple[int, int, bytes]] = []
+        delay_s = 0.0
+        for motor_id, address, size in asked:
+            motor = self.find(motor_id)
+            if motor is None:
+                break
+            error, data = motor.read(address, size)
+            if fast and error:
+                break  # its part has the length that was asked for, or does not come
+            replies.append((motor_id, error | motor.alert, data))
+            delay_s += motor.return_delay_s
+        if not fast:
+            return Answer(b"".join(encode_status(*reply) for reply in replies), delay_s)
+        first = self.find(asked[0][0]) if replies else None
+        if first is None:
+            return Answer()
+        # The first motor announces the length for all of them, also where its end then never comes. Only it waits.
+        announced = sum(fast_status_bytes(size) for _, _, size in asked)
+        return Answer(encode_fast_status(replies, announced), first.return_delay_s)
+
+    def _sync_write(self, parameters: bytes) -> None:
+        address, size = _word(parameters, 0), _word(parameters, 2)
+        for k in range(4, len(parameters) - size, 1 + size):
+            motor = self.find(parameters[k])
+            if motor is not None:
+                motor.write(address, parameters[k + 1 : k + 1 + size])
+
+    def _bulk_write(self, parameters: bytes) -> None:
+        k = 0
+        while k + 5 <= len(parameters):
+            motor, address, size = self.find(parameters[k]), _word(parameters, k + 1), _word(parameters, k + 3)
+            if motor is not None:
+                motor.write(address, parameters[k + 5 : k + 5 + size])
+            k += 5 + size
+
+
+def _word(data: bytes, at: int) -> int:
+    return int.from_bytes(data[at : at + 2], "little")
+
+
+def _answer_of(motor: Motor, packet: Packet) -> Answer:
+    """What one motor does and says."""
+    level = motor["status_return_level"]
+    error, data = _carry_out(motor, packet)
+    if packet.instruction == Instruction.PING or level == 2 or (level == 1 and packet.instruction == Instruction.READ):
+        return Answer(encode_status(motor.motor_id, error | motor.alert, data), motor.return_delay_s)
+    return Answer()
+
+
+def _carry_out(motor: Motor, packet: Packet) -> tuple[int, bytes]:
+    parameters = packet.parameters
+    match packet.instruction:
+        case Instruction.PING:
+            return StatusError.NONE, motor.read(0, 2)[1] + motor.read(6, 1)[1]
+        case Instruction.READ:
+            if len(parameters) != 4:
+                return StatusError.DATA_LENGTH, b""
+            return motor.read(_word(parameters, 0), _word(parameters, 2))
+        case Instruction.WRITE:
+            if len(parameters) < 3:
+                return StatusError.DATA_LENGTH, b""
+            return motor.write(_word(parameters, 0), parameters[2:]), b""
+        case Instruction.REG_WRITE:
+            return motor.register_write(parameters), b""
+        case Instruction.ACTION:
+            return motor.action(), b""
+        case Instruction.REBOOT:
+            motor.reboot()
+            return StatusError.NONE, b""
+        case _:
+            return StatusError.INSTRUCTION, b""

@@ -1,0 +1,91 @@
+"""A socket that takes commands in lines while the simulation runs, and answers each with a line."""
+
+from __future__ import annotations
+
+import socket
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+
+from acts_core.errors import RobotError
+
+_MAX_LINE_BYTES = 4096
+_MAX_CLIENTS = 16
+
+
+class ControlSocket:
+    """Listens on a Unix socket; never blocks.
+
+    Parameters
+    ----------
+    path : Path
+        Name of the socket; one that nobody serves any more is replaced.
+    answer : callable
+        Takes a line without its end, gives the line of answer.
+
+    Raises
+    ------
+    RobotError
+        When the socket cannot be made.
+    """
+
+    def __init__(self, path: Path, answer: Callable[[str], str]) -> None:
+        self._path = path
+        self._answer = answer
+        self._clients: dict[int, tuple[socket.socket, bytes]] = {}
+        self._listener = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            if path.is_socket():
+                path.unlink()
+            self._listener.bind(str(path))
+            path.chmod(0o600)
+        except OSError as error:
+            self._listener.close()
+            raise RobotError(f"{path}: the control socket cannot be made ({error}); give another path") from error
+        self._listener.listen()
+        self._listener.setblocking(False)
+
+    def descriptors(self) -> list[int]:
+        """What to wait for."""
+        return [self._listener.fileno(), *self._clients]
+
+    def serve(self, descriptor: int) -> None:
+        """Something has come in on one of the descriptors."""
+        if descriptor == self._listener.fileno():
+            self._accept()
+        elif descriptor in self._clients:
+            self._read(descriptor)
+
+    def close(self) -> None:
+        """Close everything and remove the name."""
+        for client, _ in self._clients.values():
+            client.close()
+        self._clients.clear()
+        self._listener.close()
+        with suppress(FileNotFoundError):
+            self._path.unlink()
+
+    def _accept(self) -> None:
+        with suppress(BlockingIOError):
+            client, _ = self._listener.accept()
+            if len(self._clients) >= _MAX_CLIENTS:
+                client.close()
+                return
+            client.setblocking(False)
+            self._clients[client.fileno()] = (client, b"")
+
+    def _read(self, descriptor: int) -> None:
+        client, rest = self._clients[descriptor]
+        try:
+            data = client.recv(_MAX_LINE_BYTES)
+            *lines, rest = (rest + data).split(b"\n")
+            for line in lines:
+                client.sendall(self._answer(line.decode(errors="replace").strip()).encode() + b"\n")
+        except OSError:
+            data = b""  # gone, or it does not read its answers
+        if not data or len(rest) > _MAX_LINE_BYTES:
+            client.close()
+            del self._clients[descriptor]
+            return
+        self._clients[descriptor] = (client, rest)

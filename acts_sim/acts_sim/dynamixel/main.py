@@ -1,0 +1,96 @@
+"""``dynamixel_bus``: the command line of a simulated bus of Dynamixel motors on free joints."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import json
+import math
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from acts_core.errors import ActsError
+from acts_core.realtime import RealtimeConfig, enter_realtime
+from acts_core.stop_signals import StopSignals
+from acts_sim.dynamixel.bus import Bus
+from acts_sim.dynamixel.control import ControlSocket
+from acts_sim.dynamixel.control_table import MODELS
+from acts_sim.dynamixel.faults import Faults
+from acts_sim.dynamixel.joints import FreeJoints
+from acts_sim.dynamixel.motor import Motor
+from acts_sim.dynamixel.port import BusPort
+
+_STEP_S = 0.002
+
+
+def parse(arguments: Sequence[str]) -> argparse.Namespace:
+    """The command line; what stands from ``--ros-args`` on is ROS's and is left out."""
+    parser = argparse.ArgumentParser(
+        prog="dynamixel_bus", description="Simulated Dynamixel motors, Protocol 2.0, behind a pseudo-terminal."
+    )
+    parser.add_argument("--link", type=Path, help="symbolic link to the port")
+    parser.add_argument("--motors", type=int, default=16, help="how many, with IDs from 0 on (1 to 100)")
+    parser.add_argument("--model", choices=sorted(MODELS), default="xc330", help="kind of motor")
+    parser.add_argument("--return-delay", type=int, default=250, help="in the EEPROM, in units of 2 us (0 to 254)")
+    parser.add_argument("--baud", type=int, default=4_000_000, help="for the time that packets take; 0: none")
+    parser.add_argument("--range-rad", type=float, default=math.pi, help="how far each joint turns to both sides of pi")
+    parser.add_argument("--control", type=Path, help="Unix socket that takes faults in lines: lose 3, unplug ...")
+    parser.add_argument("--realtime-priority", type=int, default=0, help="under SCHED_FIFO; 0: the ordinary scheduler")
+    parser.add_argument("--cpu-affinity", default="", help="cores to run on, as in 0,2-3")
+    own = list(arguments)
+    if "--ros-args" in own:
+        del own[own.index("--ros-args") :]
+    options = parser.parse_args(own)
+    for name, low, high in (("motors", 1, 100), ("return_delay", 0, 254), ("baud", 0, 10_000_000)):
+        value = getattr(options, name)
+        if not low <= value <= high:
+            parser.error(f"--{name.replace('_', '-')} {value}: allowed is {low} to {high}")
+    if not 0.0 < options.range_rad <= 256.0 * math.tau:
+        parser.error(f"--range-rad {options.range_rad}: allowed is above 0 to {256.0 * math.tau:.0f}")
+    return options
+
+
+def run(options: argparse.Namespace, signals: StopSignals) -> None:
+    """Serve until a signal asks to stop.
+
+    Raises
+    ------
+    ActsError
+        When the port or the control socket cannot be made.
+    """
+    scheduling = RealtimeConfig(realtime_priority=options.realtime_priority, cpu_affinity=options.cpu_affinity)
+    motors = [Motor(MODELS[options.model], number, options.return_delay) for number in range(options.motors)]
+    bus = Bus(motors)
+    limits = [(math.pi - options.range_rad, math.pi + options.range_rad)] * len(motors)
+    joints = FreeJoints(motors, limits)
+    with contextlib.ExitStack() as stack:
+        port = stack.enter_context(
+            contextlib.closing(BusPort(bus, joints.step, _STEP_S, options.link, baud=options.baud))
+        )
+        signals.on_stop(port.stop)
+        control = None
+        if options.control is not None:
+            control = ControlSocket(options.control, Faults(bus, joints, port).answer)
+            stack.enter_context(contextlib.closing(control))
+        enter_realtime(scheduling, "all of it", lambda _level, sentence: print(sentence, file=sys.stderr, flush=True))
+        print(json.dumps({"port": port.path, "link": str(options.link or "")}), flush=True)
+        port.run(control)
+
+
+def main(signals: StopSignals | None = None) -> int:
+    """Run the simulated bus; 0 after a signal, 1 when it could not start."""
+    options = parse(sys.argv[1:])
+    signals = StopSignals() if signals is None else signals
+    try:
+        run(options, signals)
+    except ActsError as error:
+        print(f"dynamixel_bus: {error}", file=sys.stderr, flush=True)
+        return 1
+    finally:
+        signals.ended()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,304 @@
+"""One motor: its control table and the rules for reading and writing it, its errors, its torque."""
+
+from __future__ import annotations
+
+import math
+from enum import IntEnum, IntFlag
+
+from acts_sim.dynamixel.control_table import EEPROM_END, INDIRECT_COUNT, INDIRECT_DATA, SIZE, Model
+from acts_sim.dynamixel.drive import (
+    RAD_PER_TICK,
+    RAD_S_PER_VELOCITY_UNIT,
+    PositionControl,
+    Shaft,
+    Trajectory,
+    torque_nm,
+)
+
+BASE_DELAY_S = 2e-6
+"""Unit of the return delay time [s]."""
+
+_WATCHDOG_UNIT_S = 0.02
+_WATCHDOG_EXPIRED = 255
+
+# While the bus watchdog has run out, these cannot be written.
+_GOALS = {"goal_pwm", "goal_current", "goal_velocity", "goal_position"}
+
+# Worked out when somebody asks.
+_MEASURED = {"present_position", "present_velocity", "moving", "position_trajectory", "realtime_tick"}
+
+_MOVING_RAD_S = 10 * RAD_S_PER_VELOCITY_UNIT
+
+
+class StatusError(IntEnum):
+    """The error number of a status packet; `ALERT` is a bit that is set besides while `hardware_error_status` is."""
+
+    NONE = 0
+    RESULT_FAIL = 1
+    INSTRUCTION = 2
+    CRC = 3
+    DATA_RANGE = 4
+    DATA_LENGTH = 5
+    DATA_LIMIT = 6
+    ACCESS = 7
+    ALERT = 0x80
+
+
+class HardwareError(IntFlag):
+    """Bits of ``hardware_error_status``."""
+
+    INPUT_VOLTAGE = 1 << 0
+    OVERHEATING = 1 << 2
+    ENCODER = 1 << 3
+    ELECTRICAL_SHOCK = 1 << 4
+    OVERLOAD = 1 << 5
+
+
+class OperatingMode(IntEnum):
+    """What the goal means. Velocity and PWM control are not simulated and are refused as out of range."""
+
+    CURRENT = 0
+    POSITION = 3
+    EXTENDED_POSITION = 4
+    CURRENT_BASED_POSITION = 5
+
+
+class Motor:
+    """A motor on the bus.
+
+    Parameters
+    ----------
+    model : Model
+    motor_id : int
+        0 to 252.
+    return_delay_time : int
+        In the EEPROM at the start, in units of 2 us.
+    operating_mode : OperatingMode
+        Likewise.
+
+    Attributes
+    ----------
+    shaft : Shaft
+        To be set by the mechanics.
+    torque_nm : float
+        What it turns with now [N m].
+    """
+
+    def __init__(
+        self,
+        model: Model,
+        motor_id: int,
+        return_delay_time: int = 250,
+        operating_mode: OperatingMode = OperatingMode.POSITION,
+    ) -> None:
+        self.model = model
+        self.shaft = Shaft()
+        self.torque_nm = 0.0
+        self._values = {one.name: one.initial for one in model.registers.values()}
+        # Register and place in it of every address that has one.
+        self._at = {one.address + k: (one, k) for one in model.registers.values() for k in range(one.size)}
+        self._control = PositionControl()
+        self._trajectory = Trajectory(0.0)
+        self._silent_s = 0.0
+        self._since_start_s = 0.0
+        self._registered: tuple[int, bytes] | None = None
+        self._values["id"] = motor_id
+        self._values["return_delay_time"] = return_delay_time
+        self._values["operating_mode"] = operating_mode
+
+    # --- the control table
+
+    def __getitem__(self, name: str) -> int:
+        """Value of a register by name."""
+        if name in _MEASURED:
+            self._sense()
+        return self._values[name]
+
+    @property
+    def motor_id(self) -> int:
+        """Its number on the bus."""
+        return self["id"]
+
+    @property
+    def return_delay_s(self) -> float:
+        """How long it waits before it answers [s]."""
+        return self["return_delay_time"] * BASE_DELAY_S
+
+    @property
+    def alert(self) -> int:
+        """Bit of the status packet's error that says: look at ``hardware_error_status``."""
+        return StatusError.ALERT if self["hardware_error_status"] else 0
+
+    def heard(self) -> None:
+        """An instruction has come; the bus watchdog counts anew."""
+        self._silent_s = 0.0
+
+    def read(self, address: int, size: int) -> tuple[int, bytes]:
+        """Error and data of a read; what stands nowhere reads as 0."""
+        if size == 0 or address + size > SIZE:
+            return StatusError.DATA_RANGE, b""
+        self._sense()
+        return StatusError.NONE, bytes(self._byte(self._direct(where)) for where in range(address, address + size))
+
+    def write(self, address: int, data: bytes) -> int:
+        """Write what is allowed, all of it or nothing; the error number."""
+        if not data or address + len(data) > SIZE:
+            return StatusError.DATA_RANGE
+        places = [self._direct(address + k) for k in range(len(data))]
+        wanted: list[tuple[str, int]] = []
+        k = 0
+        while k < len(data):
+            register, first = self._at.get(places[k], (None, 0))
+            if register is None or not register.writable:
+                return StatusError.ACCESS
+            if first or places[k : k + register.size] != list(
+                range(register.address, register.address + register.size)
+            ):
+                return StatusError.DATA_LENGTH
+            value = int.from_bytes(data[k : k + register.size], "little", signed=register.signed)
+            error = self._objection(register.name, value)
+            if error:
+                return error
+            wanted.append((register.name, value))
+            k += register.size
+        for name, value in wanted:
+            self._write(name, value)
+        return StatusError.NONE
+
+    def register_write(self, parameters: bytes) -> int:
+        """Keep a write until `action`."""
+        if len(parameters) < 3:
+            return StatusError.DATA_LENGTH
+        self._registered = (int.from_bytes(parameters[:2], "little"), parameters[2:])
+        self._values["registered_instruction"] = 1
+        return StatusError.NONE
+
+    def action(self) -> int:
+        """Carry out what was kept."""
+        if self._registered is None:
+            return StatusError.NONE
+        address, data = self._registered
+        self._registered = None
+        self._values["registered_instruction"] = 0
+        return self.write(address, data)
+
+    def _direct(self, address: int) -> int:
+        """Where an address of the indirect data leads."""
+        if not INDIRECT_DATA <= address < INDIRECT_DATA + INDIRECT_COUNT:
+            return address
+        return self._values[f"indirect_address_{address - INDIRECT_DATA + 1}"]
+
+    def _byte(self, address: int) -> int:
+        if address not in self._at:
+            return 0
+        register, k = self._at[address]
+        return self._values[register.name] >> 8 * k & 0xFF
+
+    def _objection(self, name: str, value: int) -> int:
+        """Why a value may not be written."""
+        register = self.model.registers[name]
+        assert register.minimum is not None
+        assert register.maximum is not None
+        if register.address < EEPROM_END and self["torque_enable"]:
+            return StatusError.ACCESS
+        if not register.minimum <= value <= register.maximum:
+            return StatusError.DATA_RANGE
+        if name == "operating_mode" and value not in OperatingMode.__members__.values():
+            return StatusError.DATA_RANGE
+        if name in _GOALS and self["bus_watchdog"] == _WATCHDOG_EXPIRED:
+            return StatusError.DATA_RANGE
+        if name == "goal_current" and abs(value) > self["current_limit"]:
+            return StatusError.DATA_LIMIT
+        if name == "goal_pwm" and abs(value) > self["pwm_limit"]:
+            return StatusError.DATA_LIMIT
+        if (
+            name == "goal_position"
+            and self["operating_mode"] == OperatingMode.POSITION
+            and not self["min_position_limit"] <= value <= self["max_position_limit"]
+        ):
+            return StatusError.DATA_LIMIT
+        if name == "torque_enable" and value and self["hardware_error_status"] & self["shutdown"]:
+            return StatusError.RESULT_FAIL  # only a reboot helps
+        return StatusError.NONE
+
+    def _write(self, name: str, value: int) -> None:
+        if name == "torque_enable" and value != self["torque_enable"]:
+            self._hold_still()
+        if name == "operating_mode" and value != self["operating_mode"]:
+            for gain in ("position_p_gain", "position_i_gain", "position_d_gain", "goal_current", "goal_pwm"):
+                self._values[gain] = self.model.registers[gain].initial
+        self._values[name] = value
+
+    def _hold_still(self) -> None:
+        """As the torque comes or goes: the goal is where the motor is."""
+        ticks = round(self.shaft.position_rad / RAD_PER_TICK)
+        self._values["goal_position"] = ticks
+        self._trajectory.reset(ticks)
+        self._control.reset()
+
+    # --- errors
+
+    def fail(self, error: HardwareError) -> None:
+        """A hardware error happens; with its bit in the shutdown mask the torque goes off."""
+        self._values["hardware_error_status"] = self["hardware_error_status"] | error
+        if error & self["shutdown"]:
+            self._values["torque_enable"] = 0
+
+    def reboot(self) -> None:
+        """Start anew: RAM as after power-on, errors forgotten, EEPROM kept."""
+        for register in self.model.registers.values():
+            if register.address >= EEPROM_END:
+                self._values[register.name] = register.initial
+        self._registered = None
+        self._since_start_s = self._silent_s = 0.0
+        self._hold_still()
+
+    # --- time
+
+    def step(self, dt_s: float) -> float:
+        """Let time pass, with the shaft where the mechanics have put it.
+
+        Returns
+        -------
+        float
+            The torque until the next step [N m].
+        """
+        self._since_start_s += dt_s
+        self._watch_bus(dt_s)
+        current_ma = self._wanted_current_ma(dt_s) if self["torque_enable"] else 0.0
+        current_ma, self.torque_nm = torque_nm(self.model, current_ma, self.shaft.velocity_rad_s)
+        self._values["present_current"] = round(current_ma)
+        if self._values["present_temperature"] > self._values["temperature_limit"]:
+            self.fail(HardwareError.OVERHEATING)
+        return self.torque_nm
+
+    def _wanted_current_ma(self, dt_s: float) -> float:
+        mode = self["operating_mode"]
+        limit = float(self["current_limit"])
+        if mode == OperatingMode.CURRENT:
+            return float(self["goal_current"])
+        cap = min(abs(float(self["goal_current"])), limit) if mode == OperatingMode.CURRENT_BASED_POSITION else limit
+        where = self._trajectory.advance(
+            self["goal_position"], self["profile_velocity"], self["profile_acceleration"], dt_s
+        )
+        error_ticks = where - self.shaft.position_rad / RAD_PER_TICK
+        gains = (self["position_p_gain"], self["position_i_gain"], self["position_d_gain"])
+        return self._control.current_ma(error_ticks, gains, cap, dt_s)
+
+    def _watch_bus(self, dt_s: float) -> None:
+        allowed = self["bus_watchdog"]
+        if allowed in (0, _WATCHDOG_EXPIRED) or not self["torque_enable"]:
+            return
+        self._silent_s += dt_s
+        if self._silent_s > allowed * _WATCHDOG_UNIT_S:
+            self._values["bus_watchdog"] = _WATCHDOG_EXPIRED
+            self._hold_still()
+
+    def _sense(self) -> None:
+        """What is measured, as it stands in the control table."""
+        shaft, values = self.shaft, self._values
+        values["present_position"] = math.floor(shaft.position_rad / RAD_PER_TICK)
+        values["present_velocity"] = round(shaft.velocity_rad_s / RAD_S_PER_VELOCITY_UNIT)
+        values["moving"] = int(abs(shaft.velocity_rad_s) > _MOVING_RAD_S)
+        values["position_trajectory"] = round(self._trajectory.ticks)
+        values["realtime_tick"] = int(self._since_start_s * 1e3) % 32768

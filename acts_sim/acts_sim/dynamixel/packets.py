@@ -1,0 +1,175 @@
+"""Packets of the Dynamixel Protocol 2.0 (https://emanual.robotis.com/docs/en/dxl/protocol2/).
+
+A packet is ``FF FF FD 00``, the ID, the length of the rest as two bytes, an instruction, its parameters, and a CRC of
+all before it. Wherever ``FF FF FD`` occurs from the instruction on, another ``FD`` is stuffed in behind it.
+"""
+
+from __future__ import annotations
+
+from enum import IntEnum
+from typing import NamedTuple
+
+HEADER = b"\xff\xff\xfd\x00"
+
+BROADCAST_ID = 0xFE
+
+MAX_LENGTH = 1024
+"""Longest length field that is believed; a longer one is taken for noise."""
+
+_MARK = b"\xff\xff\xfd"
+# Header, ID and length come before what the length counts.
+_PREFIX_BYTES = 7
+_CRC_BYTES = 2
+_CRC_POLYNOMIAL = 0x8005
+
+
+class Instruction(IntEnum):
+    """What a packet asks for."""
+
+    PING = 0x01
+    READ = 0x02
+    WRITE = 0x03
+    REG_WRITE = 0x04
+    ACTION = 0x05
+    FACTORY_RESET = 0x06
+    REBOOT = 0x08
+    CLEAR = 0x10
+    STATUS = 0x55
+    SYNC_READ = 0x82
+    SYNC_WRITE = 0x83
+    FAST_SYNC_READ = 0x8A
+    BULK_READ = 0x92
+    BULK_WRITE = 0x93
+    FAST_BULK_READ = 0x9A
+
+
+class Packet(NamedTuple):
+    """A packet that has come in.
+
+    Attributes
+    ----------
+    motor_id : int
+        Whom it is for.
+    instruction : int
+        A number of `Instruction`, or one that nobody knows.
+    parameters : bytes
+        Without stuffing.
+    """
+
+    motor_id: int
+    instruction: int
+    parameters: bytes
+
+
+def _crc_entry(byte: int) -> int:
+    crc = byte << 8
+    for _ in range(8):
+        crc = (crc << 1) ^ (_CRC_POLYNOMIAL if crc & 0x8000 else 0)
+    return crc & 0xFFFF
+
+
+_CRC_TABLE = [_crc_entry(byte) for byte in range(256)]
+
+
+def crc16(data: bytes, crc: int = 0) -> int:
+    """Sum of the protocol: polynomial 0x8005, highest bit first, from 0 or from the CRC of what came before."""
+    for byte in data:
+        crc = (crc << 8 & 0xFFFF) ^ _CRC_TABLE[crc >> 8 ^ byte]
+    return crc
+
+
+def stuff(body: bytes) -> bytes:
+    """Instruction and parameters as they go over the wire."""
+    return body.replace(_MARK, _MARK + b"\xfd")
+
+
+def unstuff(body: bytes) -> bytes:
+    """The inverse of `stuff`."""
+    return body.replace(_MARK + b"\xfd", _MARK)
+
+
+def encode(motor_id: int, instruction: int, parameters: bytes = b"", *, stuffed: bool = True) -> bytes:
+    """A whole packet; without `stuffed` its bytes are taken as they are, as in replies to fast reads."""
+    body = bytes([instruction]) + parameters
+    if stuffed:
+        body = stuff(body)
+    packet = HEADER + bytes([motor_id]) + (len(body) + _CRC_BYTES).to_bytes(2, "little") + body
+    return packet + crc16(packet).to_bytes(2, "little")
+
+
+def encode_status(motor_id: int, error: int, parameters: bytes = b"") -> bytes:
+    """The reply of one motor."""
+    return encode(motor_id, Instruction.STATUS, bytes([error]) + parameters)
+
+
+def fast_status_bytes(size: int) -> int:
+    """Bytes of a motor's part of the reply to a fast read of `size` bytes: error, ID, data, CRC."""
+    return 2 + size + _CRC_BYTES
+
+
+def encode_fast_status(replies: list[tuple[int, int, bytes]], announced_bytes: int) -> bytes:
+    """The one reply to a fast read, to which each motor adds its part.
+
+    Parameters
+    ----------
+    replies : list of (ID, error, data)
+        In the order of the request.
+    announced_bytes : int
+        Of all parts, also of those that do not come.
+
+    Returns
+    -------
+    bytes
+        Each part ends with the CRC of the whole packet up to there. Nothing is stuffed.
+    """
+    length = (1 + announced_bytes) & 0xFFFF
+    packet = HEADER + bytes([BROADCAST_ID]) + length.to_bytes(2, "little") + bytes([Instruction.STATUS])
+    for motor_id, error, data in replies:
+        packet += bytes([error, motor_id]) + data
+        packet += crc16(packet).to_bytes(2, "little")
+    return packet
+
+
+class PacketReader:
+    """Finds packets in a stream of bytes.
+
+    Attributes
+    ----------
+    damaged : int
+        Packets whose CRC was wrong.
+    """
+
+    def __init__(self) -> None:
+        self.damaged = 0
+        self._buffer = b""
+
+    def feed(self, data: bytes) -> list[Packet]:
+        """Packets that the new bytes complete, without those that answer (status packets)."""
+        self._buffer += data
+        packets: list[Packet] = []
+        while True:
+            start = self._buffer.find(HEADER)
+            # The beginning of a header may be all there is of it yet.
+            self._buffer = self._buffer[start:] if start >= 0 else self._buffer[-len(HEADER) + 1 :]
+            if start < 0 or len(self._buffer) < _PREFIX_BYTES:
+                return packets
+            length = int.from_bytes(self._buffer[5:_PREFIX_BYTES], "little")
+            end = _PREFIX_BYTES + length
+            crc = self._buffer[end - _CRC_BYTES : end]
+            if not _CRC_BYTES < length <= MAX_LENGTH:
+                self._buffer = self._buffer[1:]
+            elif len(self._buffer) < end:
+                return packets
+            elif crc16(self._buffer[: end - _CRC_BYTES]) != int.from_bytes(crc, "little"):
+                # A packet that was cut may have swallowed the next one: look for a header inside.
+                self.damaged += 1
+                self._buffer = self._buffer[1:]
+            else:
+                body = unstuff(self._buffer[_PREFIX_BYTES : end - _CRC_BYTES])
+                if body[0] != Instruction.STATUS:
+                    packets.append(Packet(self._buffer[4], body[0], body[1:]))
+                self._buffer = self._buffer[end:]
+
+    def forget(self) -> None:
+        """Give up a packet that has begun: nothing more has come for long."""
+        self._buffer = b""

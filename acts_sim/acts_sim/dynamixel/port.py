@@ -1,0 +1,144 @@
+"""The bus behind a pseudo-terminal, as behind a USB adapter: bytes in and out, at the time they take on the wire."""
+
+from __future__ import annotations
+
+import os
+import select
+import time
+import tty
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+
+from acts_core.errors import RobotError
+from acts_sim.dynamixel.bus import BITS_PER_BYTE, Bus
+from acts_sim.dynamixel.control import ControlSocket
+from acts_sim.dynamixel.packets import PacketReader
+
+# A packet that stops half-way is given up after this; at 1 Mb/s the longest takes 10 ms.
+_PACKET_TIMEOUT_S = 0.05
+
+# After a longer pause of the process the missed steps are not made up for: the motors' time stood still.
+_MAX_CATCH_UP_S = 0.1
+
+
+class BusPort:
+    """Owns a pseudo-terminal and lets a `Bus` live behind it.
+
+    Parameters
+    ----------
+    bus : Bus
+    step : callable
+        Called for each step of time with its length [s]: motors and mechanics.
+    step_s : float
+        Length of a step [s].
+    link : Path or None
+        Symbolic link to the port; a stale one is replaced.
+    baud : int
+        Bits a second on the simulated wire, for the time that packets take; 0 for none.
+
+    Raises
+    ------
+    RobotError
+        When the link cannot be made.
+    """
+
+    def __init__(
+        self, bus: Bus, step: Callable[[float], None], step_s: float, link: Path | None = None, baud: int = 4_000_000
+    ) -> None:
+        self._bus = bus
+        self._step = step
+        self._step_s = step_s
+        self._link = link
+        self._s_per_byte = BITS_PER_BYTE / baud if baud else 0.0
+        self._reader = PacketReader()
+        self._heard_s = 0.0
+        self._stopping = False
+        self._master = self._slave = -1
+        self.path = ""
+        self.plug_in()
+
+    @property
+    def connected(self) -> bool:
+        """Whether the adapter is plugged in."""
+        return self._master >= 0
+
+    def plug_in(self) -> None:
+        """Connect the adapter: a new pseudo-terminal under the same link."""
+        if self._master >= 0:
+            return
+        self._master, self._slave = os.openpty()
+        # Our own descriptor of the slave stays open: reading from a terminal that nobody has open is an error.
+        tty.setraw(self._slave)
+        os.set_blocking(self._master, False)
+        self._reader.forget()
+        self.path = os.ttyname(self._slave)
+        if self._link is not None:
+            try:
+                self._link.parent.mkdir(parents=True, exist_ok=True)
+                if self._link.is_symlink():
+                    self._link.unlink()
+                self._link.symlink_to(self.path)
+            except OSError as error:
+                self.close()
+                raise RobotError(f"{self._link}: the link to the port cannot be made ({error.strerror})") from error
+
+    def unplug(self) -> None:
+        """Tear the adapter off: whoever has the port open gets errors, and its name is gone."""
+        for descriptor in (self._master, self._slave):
+            if descriptor >= 0:
+                os.close(descriptor)
+        self._master = self._slave = -1
+        if self._link is not None and self._link.is_symlink() and str(self._link.readlink()) == self.path:
+            self._link.unlink()
+
+    def close(self) -> None:
+        """Give everything back."""
+        self.unplug()
+
+    def stop(self) -> None:
+        """Let `run` return, from any thread or signal handler."""
+        self._stopping = True
+
+    def run(self, control: ControlSocket | None = None) -> None:
+        """Serve the port, and the control socket if there is one, until `stop` is called."""
+        due_s = time.monotonic()
+        while not self._stopping:
+            now_s = time.monotonic()
+            if now_s >= due_s:
+                if now_s - due_s > _MAX_CATCH_UP_S:
+                    due_s = now_s
+                self._step(self._step_s)
+                due_s += self._step_s
+            # Looked at after every step: whoever waits for an answer must not wait until time has been made up for.
+            waiting = control.descriptors() if control is not None else []
+            if self._master >= 0:
+                waiting.append(self._master)
+            readable, _, _ = select.select(waiting, [], [], max(0.0, due_s - time.monotonic()))
+            for descriptor in readable:
+                if descriptor == self._master:
+                    self._receive()
+                elif control is not None:
+                    control.serve(descriptor)
+
+    def _receive(self) -> None:
+        arrival_s = time.monotonic()
+        try:
+            data = os.read(self._master, 4096)
+        except BlockingIOError:
+            return
+        if arrival_s - self._heard_s > _PACKET_TIMEOUT_S:
+            self._reader.forget()
+        self._heard_s = arrival_s
+        for packet in self._reader.feed(data):
+            answer = self._bus.handle(packet)
+            if not answer.data:
+                continue
+            wire_s = (len(data) + len(answer.data)) * self._s_per_byte
+            due_s = arrival_s + wire_s + (answer.delay_s if self._s_per_byte else 0.0)
+            wait_s = due_s - time.monotonic()
+            if wait_s > 0.0:
+                time.sleep(wait_s)
+            # What does not fit into the terminal's buffer is lost, as where nobody reads a serial port.
+            with suppress(BlockingIOError):
+                os.write(self._master, answer.data)
