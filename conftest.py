@@ -1,8 +1,14 @@
-"""For every test: a loaded machine is slow, which is no failure; signals do what they do in a terminal; recordings."""
+"""For every test: a loaded machine is slow, which is no failure; signals do what they do in a terminal; recordings.
 
+`make test` runs files of tests side by side in as many processes as there are cores (pytest-xdist). Tests that keep
+others from the cores are marked `alone`: while one of them runs, the other processes wait between two tests.
+"""
+
+import fcntl
 import os
 import signal
-from collections.abc import Callable
+import tempfile
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -29,3 +35,24 @@ def recording_path() -> Callable[[str], Path]:
         return path
 
     return path_of
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Keep a file's tests on one process, since they share a ROS domain; all of the driver's share a range of them."""
+    for item in items:
+        package = item.path.parent.parent.name
+        item.add_marker(pytest.mark.xdist_group(package if package == "acts_driver" else str(item.path)))
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
+    """Let a test marked `alone` run while no other does."""
+    if "PYTEST_XDIST_WORKER" not in os.environ:
+        return (yield)
+    path = Path(tempfile.gettempdir()) / f"acts_test_{os.getuid()}"
+    with path.with_suffix(".turn").open("w") as turn, path.with_suffix(".cores").open("w") as cores:
+        fcntl.flock(turn, fcntl.LOCK_EX)  # whoever waits for the cores keeps others from taking them again and again
+        fcntl.flock(cores, fcntl.LOCK_EX if item.get_closest_marker("alone") else fcntl.LOCK_SH)
+        fcntl.flock(turn, fcntl.LOCK_UN)
+        return (yield)

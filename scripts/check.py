@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import fcntl
+import importlib.util
 import os
 import shutil
 import subprocess
@@ -12,6 +13,8 @@ import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
+# More side by side gain little: the longest files of tests are the whole system's, on processes of their own.
+MAX_PROCESSES = 4
 CXX_PATTERNS = ("*.cpp", "*.hpp", "*.h", "*.ino")
 # Errors here and not in the build: a warning that only a newer compiler knows must not keep anybody from building.
 CXX_WARNINGS = ["-std=c++17", "-fsyntax-only", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Werror"]
@@ -73,7 +76,14 @@ def test(arguments: list[str]) -> bool:
         except BlockingIOError:
             print("[check] waiting for another run of the test suite on this machine to end", flush=True)
             fcntl.flock(lock, fcntl.LOCK_EX)
-        return run("pytest", [sys.executable, "-m", "pytest", *arguments], env)
+        return run("pytest", [sys.executable, "-m", "pytest", *side_by_side(), *arguments], env)
+
+
+def side_by_side() -> list[str]:
+    """Options of pytest-xdist, where that is installed; see conftest.py."""
+    if importlib.util.find_spec("xdist") is None:
+        return []
+    return ["--numprocesses", str(min(len(os.sched_getaffinity(0)), MAX_PROCESSES)), "--dist", "loadgroup"]
 
 
 def main() -> int:

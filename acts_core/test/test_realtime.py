@@ -36,6 +36,9 @@ def may_be_realtime() -> bool:
     return subprocess.run([sys.executable, "-c", tried], capture_output=True).returncode == 0
 
 
+# A thread that runs away under SCHED_FIFO keeps others from the core.
+pytestmark = pytest.mark.alone
+
 needs_realtime = pytest.mark.skipif(
     not may_be_realtime(), reason="SCHED_FIFO is not allowed here (`acts doctor` tells what is missing)"
 )
