@@ -24,6 +24,7 @@ setup(
             "ball_control = acts_control.programs:ball_control",
             "ball_state = acts_control.programs:ball_state",
             "ball_trajectory = acts_control.programs:ball_trajectory",
+            "hand = acts_control.programs:hand",
         ],
     },
 )

@@ -1,0 +1,62 @@
+"""What the control of a hand needs of its motors, whichever they are."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple, Protocol
+
+from acts_core.errors import ActsError
+
+
+class HandError(ActsError):
+    """The hand cannot be reached, refuses a command, or has switched itself off."""
+
+
+class HandLostError(HandError):
+    """The port of the hand is gone; it has to be connected anew."""
+
+
+class HandReading(NamedTuple):
+    """What the motors say of themselves, in the order of the joints.
+
+    Attributes
+    ----------
+    q_rad, qd_rad_s : tuple of float
+        Angle and speed of each joint.
+    current_ma : tuple of float
+        Positive where the motor closes the joint [mA].
+    temperature_c : tuple of int
+    faults : tuple of str
+        In words; empty for a motor that is well.
+    """
+
+    q_rad: tuple[float, ...]
+    qd_rad_s: tuple[float, ...]
+    current_ma: tuple[float, ...]
+    temperature_c: tuple[int, ...]
+    faults: tuple[str, ...]
+
+
+class HandBus(Protocol):
+    """The motors of a hand. Every method may raise `HandError`."""
+
+    def connect(self) -> list[str]:
+        """Find all motors and set them up, with the torque off; what a person should know of, in sentences."""
+
+    def enable(self) -> None:
+        """Switch the torque on; every joint holds where it is."""
+
+    def release(self) -> None:
+        """Switch the torque off."""
+
+    def read(self) -> HandReading:
+        """The newest state of all motors."""
+
+    def command(self, q_rad: Sequence[float]) -> None:
+        """Send every joint to an angle."""
+
+    def recover(self, joint: int) -> None:
+        """Bring a motor back that has switched itself off; its torque stays off."""
+
+    def close(self) -> None:
+        """Give the port back; the torque stays as it is."""
