@@ -11,6 +11,7 @@ from acts_tools.evaluate import (
     events_command,
     objects_command,
     recovery_command,
+    slip_command,
 )
 
 
@@ -23,7 +24,14 @@ def add_parser(subparsers: Any) -> None:
         "compare with the truth. docs/recovery.md tells what the numbers mean.",
     )
     commands = parser.add_subparsers(title="what to evaluate", metavar="WHAT", required=True)
-    for module in (recovery_command, events_command, objects_command, classification_command, convert_command):
+    for module in (
+        recovery_command,
+        events_command,
+        objects_command,
+        classification_command,
+        slip_command,
+        convert_command,
+    ):
         module.add_parser(commands)
 
 

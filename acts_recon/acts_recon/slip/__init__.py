@@ -1,0 +1,1 @@
+"""How what touches a patch of skin moves along it, and whether it slips."""

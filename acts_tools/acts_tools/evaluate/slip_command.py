@@ -1,0 +1,242 @@
+"""`acts evaluate slip`: where slip is told in recordings of full frames.
+
+Recordings of slip have no labels, so no share of right answers can be given. Two things are counted: how often slip is
+told at all, and how often while the grip is steady, where nothing should be told. A picture shows the path of the
+centre of pressure with what was told on it.
+"""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from acts_core.array import ArrayGeometry
+from acts_core.errors import RecordingError
+from acts_core.frames_file import FramesFile, load_frames
+from acts_core.settings import default_of, describe
+from acts_recon.slip.detector import SlipConfig, SlipDetector
+from acts_tools.evaluate import report
+from acts_tools.output_file import require_writable
+
+# A grip is steady where its force stays within this part of its largest for so long before and after.
+_STEADY_SHARE = 0.05
+_STEADY_S = 0.26
+_SMALLEST_SIDE = 3
+
+
+@dataclass
+class PatchResult:
+    """One patch in one recording.
+
+    Attributes
+    ----------
+    patch : int
+        Number of the patch, in the order of `patches`.
+    pressed, told, steady, told_while_steady : int
+        Frames in which something pressed; of these, those in which slip was told; those with a steady grip; both.
+    events : list of (float, float, float)
+        Begin and end of slip [s], and the largest distance within a window [taxels].
+    path : list of (float, float, float, bool)
+        Time [s], row and column of the centre of pressure, whether slip was told; of the frames in which it pressed.
+    """
+
+    patch: int
+    pressed: int = 0
+    told: int = 0
+    steady: int = 0
+    told_while_steady: int = 0
+    events: list[tuple[float, float, float]] = field(default_factory=list)
+    path: list[tuple[float, float, float, bool]] = field(default_factory=list)
+
+
+def add_parser(commands: Any) -> None:
+    """Add ``acts evaluate slip``."""
+    parser = commands.add_parser(
+        "slip",
+        help="where slip is told in recordings, and how often in a steady grip",
+        description="Watch every patch of a recording for motion along the skin. Patches are the connected parts of "
+        "the live taxels. Without labels it is counted how often slip is told, and how often while the grip is steady.",
+    )
+    parser.add_argument("--frames", type=Path, required=True, metavar="FILE.npz", help="full frames (docs/recovery.md)")
+    parser.add_argument("--rate-hz", type=float, metavar="R", help="frames per second, where the file does not say")
+    parser.add_argument("--pitch-m", type=float, default=ArrayGeometry().pitch_m, metavar="P", help="of the taxels [m]")
+    parser.add_argument(
+        "--noise-counts", type=float, default=1.5, metavar="S", help="of a taxel (default: %(default)s)"
+    )
+    for name, info in describe(SlipConfig).items():
+        default = default_of(SlipConfig, name)
+        parser.add_argument(
+            f"--{name.replace('_', '-')}",
+            type=float,
+            default=default,
+            metavar="X",
+            help=f"{info.description} (default: %(default)s)",
+        )
+    parser.add_argument("--json", type=Path, metavar="OUT", help="write the results here, too")
+    parser.add_argument("--picture", type=Path, metavar="PNG", help="draw paths and what was told")
+    parser.set_defaults(evaluate=_run)
+
+
+def patches(live: NDArray[np.bool_]) -> list[tuple[slice, slice]]:
+    """Rows and columns of the connected parts of the live taxels, in the order of the rows.
+
+    Raises
+    ------
+    RecordingError
+        When one is no rectangle of 3 x 3 taxels or more.
+    """
+    labels, count = ndimage.label(live)
+    found = []
+    for rows, cols in ndimage.find_objects(labels):
+        shape = (rows.stop - rows.start, cols.stop - cols.start)
+        if min(shape) < _SMALLEST_SIDE or not live[rows, cols].all():
+            raise RecordingError(
+                f"live taxels in rows {rows.start} to {rows.stop - 1}, columns {cols.start} to {cols.stop - 1}: slip "
+                f"is watched on whole rectangles of {_SMALLEST_SIDE} x {_SMALLEST_SIDE} taxels and more"
+            )
+        found.append((rows, cols))
+    if not count:
+        raise RecordingError("no taxel is live; give a file in which `live` says which are")
+    return found
+
+
+def watch(
+    images: NDArray[np.float32], rate_hz: float, detector: SlipDetector, min_counts: float, patch: int = 0
+) -> PatchResult:
+    """Follow one patch through one recording; `images` [shape=(n, rows, cols)] are its counts."""
+    result = PatchResult(patch)
+    sums = images.sum(axis=(1, 2))
+    steady = _steady(sums, max(1, round(_STEADY_S * rate_hz)))
+    rows, cols = np.indices(images.shape[1:])
+    begin_s: float | None = None
+    farthest = 0.0
+    for k, image in enumerate(images):
+        time_s = k / rate_hz
+        slip = detector.step(time_s, image)
+        # While it is held for a moment, no motion is told any more.
+        told = slip.distance_taxels > 0.0
+        if sums[k] >= min_counts:
+            result.pressed += 1
+            result.told += told
+            result.steady += bool(steady[k])
+            result.told_while_steady += told and bool(steady[k])
+            row, col = float((rows * image).sum() / sums[k]), float((cols * image).sum() / sums[k])
+            result.path.append((time_s, row, col, told))
+        if slip.slipping and begin_s is None:
+            begin_s, farthest = time_s, 0.0
+        farthest = max(farthest, slip.distance_taxels)
+        if begin_s is not None and not slip.slipping:
+            result.events.append((begin_s, time_s, farthest))
+            begin_s = None
+    if begin_s is not None:
+        result.events.append((begin_s, len(images) / rate_hz, farthest))
+    return result
+
+
+def _steady(sums: NDArray[np.float32], reach: int) -> NDArray[np.bool_]:
+    """Where the sum of counts changes little, `reach` frames before and after included."""
+    size = 2 * reach + 1
+    if len(sums) < size:
+        return np.zeros(len(sums), dtype=bool)
+    low, high = ndimage.minimum_filter1d(sums, size), ndimage.maximum_filter1d(sums, size)
+    steady: NDArray[np.bool_] = (low >= (1.0 - _STEADY_SHARE) * high) & (high > 0)
+    steady[:reach] = steady[len(sums) - reach :] = False
+    return steady
+
+
+def _run(arguments: argparse.Namespace) -> int:
+    results = report.Results(arguments.json, {"frames": str(arguments.frames)})
+    require_writable(arguments.picture)
+    config = SlipConfig(**{name: getattr(arguments, name) for name in describe(SlipConfig)})
+    recorded = load_frames(arguments.frames, labels=True)
+    rate_hz = arguments.rate_hz or recorded.rate_hz
+    if not rate_hz or not 0.0 < rate_hz < 1e6:
+        raise RecordingError(f"{arguments.frames}: rate {rate_hz}; say how many frames a second with --rate-hz")
+    boxes = patches(recorded.live)
+    print(f"{len(recorded.start)} recordings, {rate_hz:g} frames/s, {len(boxes)} patches")
+    print("| recording | pressed frames of patches | slip told | steady | told while steady |\n|---|---|---|---|---|")
+    watched: list[tuple[str, list[PatchResult]]] = []
+    for number in range(len(recorded.start)):
+        name = f"{number} {recorded.label[number]}" if recorded.label else str(number)
+        found = _watch_all(recorded, number, boxes, rate_hz, config, arguments)
+        watched.append((name, found))
+        entry = _entry(name, found)
+        results.add(entry)
+        if len(recorded.start) <= 20:
+            print(_line(name, entry))
+    total = _entry("all", [one for _, found in watched for one in found])
+    print(_line("all", total))
+    results.add(total)
+    if arguments.picture:
+        _draw(arguments.picture, watched)
+    return 0
+
+
+def _watch_all(
+    recorded: FramesFile,
+    number: int,
+    boxes: list[tuple[slice, slice]],
+    rate_hz: float,
+    config: SlipConfig,
+    arguments: argparse.Namespace,
+) -> list[PatchResult]:
+    start = int(recorded.start[number])
+    frames = recorded.frames[start : start + int(recorded.length[number])]
+    found = []
+    for patch, (rows, cols) in enumerate(boxes):
+        images = np.ascontiguousarray(frames[:, rows, cols], np.float32)
+        _, high, wide = images.shape
+        detector = SlipDetector(high, wide, arguments.pitch_m, config, arguments.noise_counts)
+        found.append(watch(images, rate_hz, detector, config.slip_min_counts, patch))
+    return found
+
+
+def _entry(name: str, found: list[PatchResult]) -> dict[str, object]:
+    counts = {
+        key: sum(getattr(one, key) for one in found) for key in ("pressed", "told", "steady", "told_while_steady")
+    }
+    events = [
+        {"patch": one.patch, "begin_s": begin, "end_s": end, "distance_taxels": far}
+        for one in found
+        for begin, end, far in one.events
+    ]
+    return {"recording": name, **counts, **({"events": events} if name != "all" else {})}
+
+
+def _line(name: str, entry: dict[str, object]) -> str:
+    return f"| {name} | " + " | ".join(str(entry[k]) for k in ("pressed", "told", "steady", "told_while_steady")) + " |"
+
+
+def _draw(path: Path, watched: list[tuple[str, list[PatchResult]]]) -> None:
+    """The path of the centre of pressure over time, of the recordings with most slip; red where it was told."""
+    # Imported here: it takes long, and only this needs it.
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    most = sorted(watched, key=lambda one: -sum(patch.told for patch in one[1]))[:5]
+    figure, rows = pyplot.subplots(len(most), 1, figsize=(9, 2.2 * len(most)), layout="constrained", squeeze=False)
+    for axes, (name, found) in zip(rows[:, 0], most, strict=True):
+        for patch in found:
+            if not patch.path:
+                continue
+            time_s, row, col, told = (np.array(values) for values in zip(*patch.path, strict=True))
+            (line,) = axes.plot(time_s, row, ".", markersize=2, label=f"patch {patch.patch}: row")
+            axes.plot(time_s, col, ".", markersize=2, color=line.get_color(), alpha=0.4)
+            axes.plot(time_s[told], row[told], "o", markersize=4, markerfacecolor="none", color="tab:red")
+        axes.set_title(f"recording {name}: centre of pressure, rows (strong) and columns (pale); red: slip", fontsize=8)
+        axes.set_ylabel("taxels")
+        axes.legend(fontsize=6, loc="upper right")
+    rows[-1, 0].set_xlabel("time [s]")
+    try:
+        figure.savefig(path, dpi=110)
+    except OSError as error:
+        raise RecordingError(f"{path}: cannot be written ({error.strerror}); its folder must exist") from error
+    pyplot.close(figure)
