@@ -30,7 +30,7 @@ ERR_TOGETHER = 5.0
 """Guesses that err together: as many as this are one independent error."""
 
 FAR = 6.0
-"""An untouched taxel so many standard deviations below the threshold is untouched without doubt."""
+"""A taxel so many standard deviations from the threshold is pressed, or untouched, without doubt."""
 
 _TINY_COUNTS = 1e-9
 
@@ -80,7 +80,7 @@ def variances(
     # What reads 0 is pressed by 0 N, but what is above a threshold of 0 by more than the force that reads nothing.
     force = np.where(inside, response.force_n(counts), float(response.force_n(least)) if least > 0 else table[0])
     slopes = slope_table(table)[counts.astype(np.intp)]
-    unsure = (inside | (edge & ~(counts + FAR * sigma < least))) & (sigma > 0)
+    unsure = (inside | edge) & (np.abs(counts - least) <= FAR * sigma) & (sigma > 0)
     wrong = np.zeros(image.shape)
     with np.errstate(over="ignore"):  # a sigma of next to nothing: infinitely far, and rightly so
         wrong[unsure] = special.ndtr(-np.abs(counts[unsure] - least) / sigma[unsure])

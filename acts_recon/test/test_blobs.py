@@ -91,8 +91,7 @@ def test_kernel_equals_twin(
         assert np.array_equal(taxels, twin.taxels)
         assert blob["taxels"] == twin.active_taxels
         for field in FIELDS:
-            # Six deviations from the threshold the tail of the distribution is that of single precision.
-            assert blob[field] == pytest.approx(getattr(twin, field), rel=1e-4, abs=1e-9), field
+            assert blob[field] == pytest.approx(getattr(twin, field), rel=1e-5, abs=1e-9), field
         moments = (blob["xx_m2"], blob["xy_m2"], blob["yy_m2"])
         assert moments == pytest.approx(twin.moments_m2, rel=1e-6, abs=1e-12)
         assert sigma_known or blob["x_var"] == blob["y_var"] == blob["force_var"] == blob["taxels_var"] == 0
