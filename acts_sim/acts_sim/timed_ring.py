@@ -216,7 +216,8 @@ class TimedRingReader:
             if count == 0:
                 return None
             slot = self._read((count - 1) % len(self._slots))
-            if slot is not None:
+            # A reader that was overtaken may hold a slot that is not counted yet, and would next time get an older one.
+            if slot is not None and self.written < count + len(self._slots) - 1:
                 return slot
         raise self._stuck()
 

@@ -230,7 +230,7 @@ def test_a_reader_never_sees_a_torn_slot_of_another_process(path: Path) -> None:
         assert process.stdout is not None
         assert process.stdout.readline() == "ready\n"
         reader = TimedRingReader(path, 256)
-        deadline_s = time.monotonic() + 120
+        deadline_s = time.monotonic() + 30
         reads = 0
         last_ns = 0
         while reader.written < 150_000:
@@ -240,8 +240,7 @@ def test_a_reader_never_sees_a_torn_slot_of_another_process(path: Path) -> None:
                 continue
             time_ns, values = newest
             assert values.min() == values.max() == time_ns / 1000
-            # A reader that was overtaken may have got the slot that was being counted just then.
-            assert time_ns >= last_ns - 1000
+            assert time_ns >= last_ns
             last_ns = time_ns
             sampled = reader.sample(time_ns - 1500)
             assert sampled is not None
