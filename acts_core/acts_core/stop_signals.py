@@ -36,6 +36,9 @@ class StopSignals:
         self._last_resort_s = last_resort_s
         self._lock = threading.Lock()
         self._is_set = False
+        # Seen by the handler already: the thread that calls back may be late on a busy machine.
+        self._came = False
+        self._called = False
         self._interrupts = False
         self._interrupted = False
         self._on_stop: Callable[[], None] | None = None
@@ -54,14 +57,15 @@ class StopSignals:
     @property
     def is_set(self) -> bool:
         """Whether a signal has come."""
-        return self._is_set
+        return self._is_set or self._came
 
     def on_stop(self, callback: Callable[[], None]) -> None:
         """Call this once when a signal comes, from another thread; at once where one has come already."""
         with self._lock:
             self._on_stop = callback
-            if not self._is_set:
+            if not self.is_set:
                 return
+            self._called = True
         callback()
 
     @contextmanager
@@ -86,6 +90,7 @@ class StopSignals:
         faulthandler.cancel_dump_traceback_later()
 
     def _handle(self, _number: int, _frame: FrameType | None) -> None:
+        self._came = True
         if self._interrupts and not self._interrupted:
             self._interrupted = True
             raise KeyboardInterrupt
@@ -99,6 +104,6 @@ class StopSignals:
         faulthandler.dump_traceback_later(self._last_resort_s, exit=True)
         with self._lock:
             self._is_set = True
-            callback = self._on_stop
+            callback = None if self._called else self._on_stop
         if callback is not None:
             callback()

@@ -39,7 +39,7 @@ except KeyboardInterrupt:
     print("ending", flush=True)
 sys.stdin.readline()
 signals.on_stop(asked.set)
-print("ended" if asked.wait(60.0) and signals.is_set else "forgotten", flush=True)
+print("ended" if asked.is_set() and signals.is_set else "forgotten", flush=True)
 signals.ended()
 """
 
