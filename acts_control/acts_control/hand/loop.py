@@ -152,7 +152,7 @@ class HandLoop:
     def enable(self) -> str:
         """Switch the torque on, now or as soon as the hand is connected; why that cannot be, or nothing."""
         if self._closing.is_set() or not self._thread.is_alive():
-            return "shutting down"
+            return f"the hand's loop has ended: {self.status.reason}"
         for faults in self._faults:
             faults.clear()
         self._enabled = True
@@ -174,6 +174,10 @@ class HandLoop:
             except HandError as error:
                 self._log("error", f"{error}; connecting anew")
                 self._set(HandPhase.CONNECTING, str(error), reading=None)
+            except Exception:
+                # The thread ends with it; the motors' own watchdog stops them, and `enable` says that nothing runs.
+                self._set(HandPhase.GIVEN_UP, "the hand's loop failed", reading=None)
+                raise
             finally:
                 self._bus.close()
             self._closing.wait(self._config.connect_retry_s)
