@@ -1,4 +1,4 @@
-"""What the dashboard and the test hooks share: lines in, one line of answer each."""
+"""Lines in, one line of answer each: what dashboard, test hooks and control sockets share."""
 
 from __future__ import annotations
 

@@ -10,11 +10,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from acts_sim.lines import LineSession
 from acts_sim.ur.config import ControllerConfig
 from acts_sim.ur.controller import Controller, RuntimeState
 from acts_sim.ur.pose import pose_from_transform, transform_from_pose
 from acts_sim.ur.script import ScriptReader, ScriptSession
-from acts_sim.ur.textport import LineSession
 
 
 @settings(deadline=None)

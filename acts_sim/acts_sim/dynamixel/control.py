@@ -8,8 +8,9 @@ from contextlib import suppress
 from pathlib import Path
 
 from acts_core.errors import RobotError
+from acts_sim.lines import LineSession
 
-_MAX_LINE_BYTES = 4096
+_READ_BYTES = 4096
 _MAX_CLIENTS = 16
 
 
@@ -32,7 +33,7 @@ class ControlSocket:
     def __init__(self, path: Path, answer: Callable[[str], str]) -> None:
         self._path = path
         self._answer = answer
-        self._clients: dict[int, tuple[socket.socket, bytes]] = {}
+        self._clients: dict[int, tuple[socket.socket, LineSession]] = {}
         self._listener = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
@@ -73,19 +74,15 @@ class ControlSocket:
                 client.close()
                 return
             client.setblocking(False)
-            self._clients[client.fileno()] = (client, b"")
+            self._clients[client.fileno()] = (client, LineSession(self._answer))
 
     def _read(self, descriptor: int) -> None:
-        client, rest = self._clients[descriptor]
+        client, session = self._clients[descriptor]
         try:
-            data = client.recv(_MAX_LINE_BYTES)
-            *lines, rest = (rest + data).split(b"\n")
-            for line in lines:
-                client.sendall(self._answer(line.decode(errors="replace").strip()).encode() + b"\n")
+            data = client.recv(_READ_BYTES)
+            client.sendall(session.receive(data))
         except OSError:
             data = b""  # gone, or it does not read its answers
-        if not data or len(rest) > _MAX_LINE_BYTES:
+        if not data:
             client.close()
             del self._clients[descriptor]
-            return
-        self._clients[descriptor] = (client, rest)

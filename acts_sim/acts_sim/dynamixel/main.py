@@ -10,7 +10,6 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from acts_core.errors import ActsError
 from acts_core.realtime import RealtimeConfig, enter_realtime
 from acts_core.stop_signals import StopSignals
 from acts_sim.dynamixel.bus import Bus
@@ -78,19 +77,7 @@ def run(options: argparse.Namespace, signals: StopSignals) -> None:
         port.run(control)
 
 
-def main(signals: StopSignals | None = None) -> int:
-    """Run the simulated bus; 0 after a signal, 1 when it could not start."""
-    options = parse(sys.argv[1:])
-    signals = StopSignals() if signals is None else signals
-    try:
-        run(options, signals)
-    except ActsError as error:
-        print(f"dynamixel_bus: {error}", file=sys.stderr, flush=True)
-        return 1
-    finally:
-        signals.ended()
+def main(signals: StopSignals) -> int:
+    """Run the simulated bus; 0 after a signal."""
+    run(parse(sys.argv[1:]), signals)
     return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -17,6 +17,7 @@ from acts_core.errors import ActsError
 from acts_core.realtime import RealtimeConfig, enter_realtime
 from acts_core.settings import default_of, describe, from_mapping
 from acts_core.stop_signals import StopSignals
+from acts_sim.lines import LineSession
 from acts_sim.run_folder import Claim
 from acts_sim.timed_ring import TimedRingWriter
 from acts_sim.ur import dashboard, hooks
@@ -25,7 +26,6 @@ from acts_sim.ur.controller import Controller
 from acts_sim.ur.script import ScriptSession
 from acts_sim.ur.server import Port, Server
 from acts_sim.ur.session import RtdePort
-from acts_sim.ur.textport import LineSession
 
 RTDE_PORT, DASHBOARD_PORT, SCRIPT_PORT = 30004, 29999, 30003
 
