@@ -24,7 +24,7 @@ from acts_recon.reconstruction_settings import ReconstructionSettings
 from acts_sim.ball_plate import JointMotion
 from acts_sim.ur.joints import JointState, Servo
 from acts_sim.world import Phase, World, WorldConfig
-from acts_tools.demo.recording import Recording
+from acts_tools.demo.ball.recording import Recording
 
 STEP_S = 0.001
 _SPEED_LIMIT_RAD_S = np.pi

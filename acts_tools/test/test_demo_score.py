@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from acts_core.array import ArrayGeometry
-from acts_tools.demo.picture import draw
-from acts_tools.demo.recording import Recording, Track
-from acts_tools.demo.score import rms_error_mm, score, table
+from acts_tools.demo.ball.picture import draw
+from acts_tools.demo.ball.recording import Recording, Track
+from acts_tools.demo.ball.score import rms_error_mm, score, table
 
 
 def make_recording(*, offset_m: float = 0.001, rate_hz: float = 1000.0) -> Recording:

@@ -1,1 +1,1 @@
-"""The demonstrations: `acts demo ball_balancing`."""
+"""`acts demo`: the whole chain with everything simulated, one folder for each demonstration."""

@@ -29,6 +29,6 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 def run(arguments: argparse.Namespace) -> int:
     """Run the demonstration that was named."""
     # Late: the other commands need neither ROS messages nor the drawing library.
-    from acts_tools.demo import ball_balancing
+    from acts_tools.demo.ball import run as ball
 
-    return ball_balancing.run(arguments.seconds, arguments.out, arguments.robot_ip, arguments.realtime_priority)
+    return ball.run(arguments.seconds, arguments.out, arguments.robot_ip, arguments.realtime_priority)

@@ -11,7 +11,7 @@ from sensor_msgs.msg import Image
 
 from acts_msgs.msg import BalanceStatus, BallReference, StreamStatistics
 from acts_ros import qos
-from acts_tools.demo.recording import Recording
+from acts_tools.demo.ball.recording import Recording
 from acts_tools.driver_status import driver_values
 
 

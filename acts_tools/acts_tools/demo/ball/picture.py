@@ -9,8 +9,8 @@ import matplotlib as mpl
 import numpy as np
 
 from acts_core.array import ArrayGeometry
-from acts_tools.demo.recording import Recording
-from acts_tools.demo.score import LETTERS
+from acts_tools.demo.ball.recording import Recording
+from acts_tools.demo.ball.score import LETTERS
 
 mpl.use("Agg")
 from matplotlib import pyplot as plt

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from acts_tools.demo.recording import Recording
+from acts_tools.demo.ball.recording import Recording
 from acts_tools.percentiles import percentiles
 
 HOLD_SETTLE_S = 2.0

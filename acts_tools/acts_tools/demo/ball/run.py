@@ -3,19 +3,12 @@
 from __future__ import annotations
 
 import json
-import os
-import signal
 import socket
-import subprocess
 import sys
 import tempfile
-import time
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 
 import rclpy
-from rclpy.executors import Executor
 from rclpy.signals import SignalHandlerOptions
 
 from acts_control.trajectory import Trajectory, TrajectoryConfig
@@ -24,21 +17,20 @@ from acts_core.array import ArrayGeometry
 from acts_core.errors import ActsError, LaunchError
 from acts_msgs.msg import BalanceStatus
 from acts_ros import middleware
-from acts_ros.executor import make_executor, spin_for
-from acts_ros.processes.launcher import leave_with_parent
+from acts_ros.executor import make_executor
 from acts_tools.bags.stopping import StopFlag
-from acts_tools.demo.collector import Collector
-from acts_tools.demo.picture import draw
-from acts_tools.demo.recording import Recording
-from acts_tools.demo.score import score, table
+from acts_tools.demo.ball.collector import Collector
+from acts_tools.demo.ball.picture import draw
+from acts_tools.demo.ball.recording import Recording
+from acts_tools.demo.ball.score import score, table
+from acts_tools.demo.launched import launched
+from acts_tools.demo.watcher import Watcher
 from acts_tools.process_load import LoadMeter
 from acts_tools.ros_domain import use_free_domain
 from acts_tools.run_folder import shared_memory
 
-START_TIMEOUT_S = 60.0
-STOP_TIMEOUT_S = 20.0
-_REFRESH_S = 0.2
-_PLAIN_REFRESH_S = 5.0
+# On a machine that compiles for the first time and has other work besides, a minute was not enough.
+_START_TIMEOUT_S = 180.0
 NAMESPACE = "/plate"
 _RTDE_PORT = 30004
 
@@ -75,112 +67,20 @@ def plan(seconds: float | None) -> tuple[str, float]:
         segments.pop()
 
 
-@contextmanager
-def launched(arguments: list[str], log_path: Path) -> Iterator[subprocess.Popen[bytes]]:
-    """Run a launch file in a session of its own; at the end, or should this process be killed, it is stopped."""
-    command = [
-        sys.executable,
-        "-m",
-        "acts_tools",
-        "launch",
-        "--own",
-        "acts_bringup",
-        "ball_balancing.launch.xml",
-        *arguments,
-    ]
-    with log_path.open("wb") as log:
-        process = subprocess.Popen(
-            command,
-            stdout=log,
-            stderr=subprocess.STDOUT,
-            start_new_session=True,
-            preexec_fn=leave_with_parent(os.getpid()),
-        )
-        try:
-            yield process
-        finally:
-            if process.poll() is None:
-                process.send_signal(signal.SIGINT)
-            try:
-                process.wait(STOP_TIMEOUT_S)
-            except subprocess.TimeoutExpired:
-                os.killpg(process.pid, signal.SIGKILL)
-                process.wait()
-
-
-class Watcher:
-    """Spins the collector, shows the status line, and notices when something ends."""
-
-    def __init__(
-        self,
-        executor: Executor,
-        collector: Collector,
-        launch: subprocess.Popen[bytes],
-        stop: StopFlag,
-        total_s: float,
-    ) -> None:
-        self._executor = executor
-        self._collector = collector
-        self._launch = launch
-        self._stop = stop
-        self._total_s = total_s
-        self._live = sys.stdout.isatty()
-        self._shown_s = 0.0
-
-    def until_balancing(self) -> None:
-        """Wait until the control loop is closed.
-
-        Raises
-        ------
-        LaunchError
-            When it is not within `START_TIMEOUT_S`, or the launch ended.
-        """
-        deadline_s = time.monotonic() + START_TIMEOUT_S
-        while self._collector.state != BalanceStatus.STATE_BALANCING:
-            self._step()
-            if time.monotonic() > deadline_s:
-                raise LaunchError(f"the control loop was not closed within {START_TIMEOUT_S:.0f} s")
-
-    def until_finished(self, limit_s: float) -> None:
-        """Watch the run until the trajectory has ended, the controller has stopped, or time is over."""
-        deadline_s = time.monotonic() + limit_s
-        recording = self._collector.recording
-        while not recording.finished and not recording.stop_reason and time.monotonic() < deadline_s:
-            self._step()
-
-    def end(self) -> None:
-        """Leave the status line."""
-        if self._live:
-            print()
-
-    def _step(self) -> None:
-        spin_for(self._executor, 0.1)
-        if self._stop.is_set:
-            self.end()
-            raise KeyboardInterrupt
-        if self._launch.poll() is not None:
-            raise LaunchError(f"the launch ended early with code {self._launch.returncode}")
-        now_s = time.monotonic()
-        if now_s - self._shown_s >= (_REFRESH_S if self._live else _PLAIN_REFRESH_S):
-            self._shown_s = now_s
-            line = self._line()
-            print(f"\r\x1b[K{line}" if self._live else line, end="" if self._live else "\n", flush=True)
-
-    def _line(self) -> str:
-        collector = self._collector
-        words = [f"{_STATE_NAMES.get(collector.state, '?'):>10}"]
-        track = collector.recording.reference.time_s
-        if track:
-            words.append(f"{track[-1] - track[0]:5.1f}/{self._total_s:.0f} s {collector.segment:<4}")
-        else:
-            words.append(collector.reason)
-        if collector.latency_s.size:
-            median_ms, worst_ms = (float(value) * 1000 for value in _median_and_p99(collector))
-            words.append(f"{collector.rate_hz:6.1f} contacts/s")
-            words.append(f"latency {median_ms:.2f} ms (p99 {worst_ms:.2f})")
-        if collector.ball_m is not None:
-            words.append(f"ball {collector.ball_m[0] * 1000:+6.1f} {collector.ball_m[1] * 1000:+6.1f} mm")
-        return " | ".join(words)
+def _line(collector: Collector, total_s: float) -> str:
+    words = [f"{_STATE_NAMES.get(collector.state, '?'):>10}"]
+    track = collector.recording.reference.time_s
+    if track:
+        words.append(f"{track[-1] - track[0]:5.1f}/{total_s:.0f} s {collector.segment:<4}")
+    else:
+        words.append(collector.reason)
+    if collector.latency_s.size:
+        median_ms, worst_ms = (float(value) * 1000 for value in _median_and_p99(collector))
+        words.append(f"{collector.rate_hz:6.1f} contacts/s")
+        words.append(f"latency {median_ms:.2f} ms (p99 {worst_ms:.2f})")
+    if collector.ball_m is not None:
+        words.append(f"ball {collector.ball_m[0] * 1000:+6.1f} {collector.ball_m[1] * 1000:+6.1f} mm")
+    return " | ".join(words)
 
 
 def _median_and_p99(collector: Collector) -> tuple[float, float]:
@@ -212,24 +112,31 @@ def check_robot_ip(robot_ip: str) -> None:
 
 
 def watch(arguments: list[str], duration_s: float, recording: Recording, log_path: Path, stop: StopFlag) -> None:
-    """Launch the chain and watch it to the end of the trajectory, or until it is to stop (KeyboardInterrupt)."""
-    middleware.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
-    executor = make_executor()
-    collector = Collector(NAMESPACE, recording)
-    executor.add_node(collector)
-    try:
-        with launched(arguments, log_path) as launch:
-            watcher = Watcher(executor, collector, launch, stop, duration_s)
-            watcher.until_balancing()
+    """Launch the chain and watch it to the end of the trajectory, or until it is to stop (KeyboardInterrupt).
+
+    Raises
+    ------
+    LaunchError
+        When the launch ended, or the control loop was not closed in time.
+    """
+    with launched("ball_balancing.launch.xml", arguments, log_path) as launch:
+        middleware.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
+        executor = make_executor()
+        collector = Collector(NAMESPACE, recording)
+        executor.add_node(collector)
+        watcher = Watcher(executor, launch, stop, lambda: _line(collector, duration_s))
+        try:
+            if not watcher.until(lambda: collector.state == BalanceStatus.STATE_BALANCING, _START_TIMEOUT_S):
+                raise LaunchError(f"the control loop was not closed within {_START_TIMEOUT_S:.0f} s")
             meter = LoadMeter(launch.pid)
             meter.start()
-            watcher.until_finished(duration_s + 10.0)
+            watcher.until(lambda: recording.finished or bool(recording.stop_reason), duration_s + 10.0)
             recording.cpu_percent = meter.percent()
             watcher.end()
-    finally:
-        collector.destroy_node()
-        executor.shutdown()
-        rclpy.try_shutdown()
+        finally:
+            collector.destroy_node()
+            executor.shutdown()
+            rclpy.try_shutdown()
 
 
 def run(seconds: float | None, out: Path, robot_ip: str, realtime_priority: int = 0) -> int:

@@ -1,0 +1,1 @@
+"""The demonstration of ball balancing: watched, scored and drawn."""

@@ -1,0 +1,79 @@
+"""Waits for what a demonstration does, shows a status line meanwhile, and notices when something ends."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+
+from rclpy.executors import Executor
+
+from acts_core.errors import LaunchError
+from acts_ros.executor import spin_for
+from acts_tools.bags.stopping import StopFlag
+
+_STEP_S = 0.1
+_REFRESH_S = 0.2
+_PLAIN_REFRESH_S = 5.0
+
+
+class Watcher:
+    """Spins an executor and prints a line: in place on a terminal, elsewhere one every five seconds.
+
+    Parameters
+    ----------
+    executor : Executor
+        Of the node that watches.
+    launch : subprocess.Popen
+        Of the launch file.
+    stop : StopFlag
+        Set when a person wants it to end.
+    line : callable
+        The status line.
+    """
+
+    def __init__(
+        self, executor: Executor, launch: subprocess.Popen[bytes], stop: StopFlag, line: Callable[[], str]
+    ) -> None:
+        self._executor = executor
+        self._launch = launch
+        self._stop = stop
+        self._line = line
+        self._live = sys.stdout.isatty()
+        self._shown_s = 0.0
+
+    def until(self, condition: Callable[[], bool], timeout_s: float) -> bool:
+        """Wait for a condition; whether it came true in time.
+
+        Raises
+        ------
+        LaunchError
+            When the launch has ended.
+        KeyboardInterrupt
+            When it is to stop.
+        """
+        deadline_s = time.monotonic() + timeout_s
+        while not condition():
+            if time.monotonic() > deadline_s:
+                return False
+            self._step()
+        return True
+
+    def end(self) -> None:
+        """Leave the status line."""
+        if self._live:
+            print()
+
+    def _step(self) -> None:
+        spin_for(self._executor, _STEP_S)
+        if self._stop.is_set:
+            self.end()
+            raise KeyboardInterrupt
+        if self._launch.poll() is not None:
+            raise LaunchError(f"the launch ended early with code {self._launch.returncode}")
+        now_s = time.monotonic()
+        if now_s - self._shown_s >= (_REFRESH_S if self._live else _PLAIN_REFRESH_S):
+            self._shown_s = now_s
+            line = self._line()
+            print(f"\r\x1b[K{line}" if self._live else line, end="" if self._live else "\n", flush=True)
