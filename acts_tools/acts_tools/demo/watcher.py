@@ -7,10 +7,7 @@ import sys
 import time
 from collections.abc import Callable
 
-from rclpy.executors import Executor
-
 from acts_core.errors import LaunchError
-from acts_ros.executor import spin_for
 from acts_tools.bags.stopping import StopFlag
 
 _STEP_S = 0.1
@@ -19,12 +16,14 @@ _PLAIN_REFRESH_S = 5.0
 
 
 class Watcher:
-    """Spins an executor and prints a line: in place on a terminal, elsewhere one every five seconds.
+    """Takes in what has come, ten times a second, and prints a line.
+
+    On a terminal the line stays in place; elsewhere one is printed every five seconds.
 
     Parameters
     ----------
-    executor : Executor
-        Of the node that watches.
+    take_in : callable
+        Works on what has come.
     launch : subprocess.Popen
         Of the launch file.
     stop : StopFlag
@@ -34,9 +33,9 @@ class Watcher:
     """
 
     def __init__(
-        self, executor: Executor, launch: subprocess.Popen[bytes], stop: StopFlag, line: Callable[[], str]
+        self, take_in: Callable[[], None], launch: subprocess.Popen[bytes], stop: StopFlag, line: Callable[[], str]
     ) -> None:
-        self._executor = executor
+        self._take_in = take_in
         self._launch = launch
         self._stop = stop
         self._line = line
@@ -66,7 +65,8 @@ class Watcher:
             print()
 
     def _step(self) -> None:
-        spin_for(self._executor, _STEP_S)
+        time.sleep(_STEP_S)
+        self._take_in()
         if self._stop.is_set:
             self.end()
             raise KeyboardInterrupt

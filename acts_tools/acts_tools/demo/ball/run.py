@@ -17,7 +17,6 @@ from acts_core.array import ArrayGeometry
 from acts_core.errors import ActsError, LaunchError
 from acts_msgs.msg import BalanceStatus
 from acts_ros import middleware
-from acts_ros.executor import make_executor
 from acts_tools.bags.stopping import StopFlag
 from acts_tools.demo.ball.collector import Collector
 from acts_tools.demo.ball.picture import draw
@@ -121,10 +120,8 @@ def watch(arguments: list[str], duration_s: float, recording: Recording, log_pat
     """
     with launched("ball_balancing.launch.xml", arguments, log_path) as launch:
         middleware.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
-        executor = make_executor()
         collector = Collector(NAMESPACE, recording)
-        executor.add_node(collector)
-        watcher = Watcher(executor, launch, stop, lambda: _line(collector, duration_s))
+        watcher = Watcher(collector.take_in, launch, stop, lambda: _line(collector, duration_s))
         try:
             if not watcher.until(lambda: collector.state == BalanceStatus.STATE_BALANCING, _START_TIMEOUT_S):
                 raise LaunchError(f"the control loop was not closed within {_START_TIMEOUT_S:.0f} s")
@@ -135,7 +132,6 @@ def watch(arguments: list[str], duration_s: float, recording: Recording, log_pat
             watcher.end()
         finally:
             collector.destroy_node()
-            executor.shutdown()
             rclpy.try_shutdown()
 
 
