@@ -72,15 +72,23 @@ class StopSignals:
     def interrupting(self) -> Iterator[None]:
         """While entered, the first signal raises KeyboardInterrupt in the main thread.
 
-        For the start of a program: there is nothing to end in order yet, and what takes long is to be broken off.
+        For the start of a program: there is nothing to end in order yet, and what takes long is to be broken off. A
+        library that is written in C and calls back, as numba's compiler does, swallows the exception; whatever comes
+        of that, the block ends with it.
         """
         self._interrupts = True
         try:
             if self._is_set:
                 raise KeyboardInterrupt
             yield
+        except Exception:
+            if self._interrupted:
+                raise KeyboardInterrupt from None
+            raise
         finally:
             self._interrupts = False
+        if self._interrupted:
+            raise KeyboardInterrupt
 
     def ended(self) -> None:
         """Tell that the program has ended in order, and its process is about to: signals are ignored from now on."""

@@ -43,6 +43,28 @@ print("ended" if asked.is_set() and signals.is_set else "forgotten", flush=True)
 signals.ended()
 """
 
+# As numba's compiler: C calls back, in which an exception is lost, and then fails or goes on without the result.
+CALLED_BACK_FROM_C = """
+import ctypes
+sys.unraisablehook = lambda lost: print("lost", flush=True)
+def wait(_left, _right):
+    print("running", flush=True)
+    while True:
+        pass
+def call_back():
+    two = (ctypes.c_int * 2)()
+    kind = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p)
+    ctypes.CDLL(None).qsort(two, 2, 4, kind(wait))
+try:
+    with signals.interrupting():
+        call_back()
+        FAILURE
+    print("not interrupted", flush=True)
+except KeyboardInterrupt:
+    print("ending", flush=True)
+signals.ended()
+"""
+
 
 @contextmanager
 def program(code: str, last_resort_s: float) -> Iterator[subprocess.Popen[str]]:
@@ -76,6 +98,16 @@ def test_further_signals_do_not_disturb_the_way_out(code: str, first: signal.Sig
             process.send_signal(again)
         output, errors = process.communicate("go on\n", timeout=DEADLINE_S)
     assert (output, errors) == ("ended\n", "")
+    assert process.returncode == 0
+
+
+@pytest.mark.parametrize("failure", ["pass", "raise RuntimeError"])
+def test_an_interruption_that_is_lost_in_a_library_takes_effect_after_it(failure: str) -> None:
+    with program(CALLED_BACK_FROM_C.replace("FAILURE", failure), DEADLINE_S) as process:
+        assert line(process) == "running"
+        process.send_signal(signal.SIGINT)
+        output, errors = process.communicate(timeout=DEADLINE_S)
+    assert (output, errors) == ("lost\nending\n", "")
     assert process.returncode == 0
 
 
