@@ -9,6 +9,7 @@ counted from there.
 from __future__ import annotations
 
 import struct
+from collections.abc import Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -16,7 +17,8 @@ from acts_core.errors import PacketError
 
 _NS_PER_S = 1_000_000_000
 _ORDERS = {b"\x00\x00": ">", b"\x00\x01": "<"}
-_ENCAPSULATION_BYTES = 4
+ENCAPSULATION_BYTES = 4
+"""Before the first field; places are counted from behind them."""
 _STAMP = "iII"
 """Seconds, nanoseconds, and the length of frame_id with its closing zero."""
 _STAMP_BYTES = struct.calcsize(f"<{_STAMP}")
@@ -56,7 +58,7 @@ def header_of(data: bytes) -> tuple[int, str]:
     PacketError
         When the bytes are no such message.
     """
-    stamp_ns, frame_id, _, _ = _header(data)
+    stamp_ns, frame_id, _, _ = header_parts(data)
     return stamp_ns, frame_id
 
 
@@ -69,17 +71,13 @@ def write_contact(contact: ContactFields) -> bytes:
         When a number is beyond what its field holds.
     """
     stamp_ns, frame_id, sequence, in_contact, x_m, y_m, *numbers, x_sd_m, y_sd_m, force_sd, area_sd, spread_sd = contact
-    name = frame_id.encode()
-    sec, nanosec = divmod(stamp_ns, _NS_PER_S)
-    length = len(name) + 1
+    head = header_bytes(stamp_ns, frame_id)
     try:
-        head = _STAMPS["<"].pack(sec, nanosec, length)
-        tail = _contact("<", length).pack(
+        return head + _contact("<", len(head) - ENCAPSULATION_BYTES).pack(
             sequence, in_contact, x_m, y_m, 0.0, *numbers, x_sd_m, y_sd_m, 0.0, force_sd, area_sd, spread_sd
         )
     except (struct.error, OverflowError) as error:
         raise PacketError(f"{contact} does not fit the message: {error}") from error
-    return b"\x00\x01\x00\x00" + head + name + b"\x00" + tail
 
 
 def read_contact(data: bytes) -> ContactFields:
@@ -90,11 +88,11 @@ def read_contact(data: bytes) -> ContactFields:
     PacketError
         When the bytes are no such message.
     """
-    stamp_ns, frame_id, order, length = _header(data)
+    stamp_ns, frame_id, order, at = header_parts(data)
     try:
         sequence, in_contact, x_m, y_m, _, *numbers, x_sd_m, y_sd_m, _, force_sd, area_sd, spread_sd = _contact(
-            order, length
-        ).unpack_from(data, _ENCAPSULATION_BYTES + _STAMP_BYTES + length)
+            order, at
+        ).unpack_from(data, ENCAPSULATION_BYTES + at)
     except struct.error as error:
         raise PacketError(f"contact of {len(data)} bytes cannot be read: {error}") from error
     return ContactFields._make(
@@ -102,14 +100,36 @@ def read_contact(data: bytes) -> ContactFields:
     )
 
 
-def _header(data: bytes) -> tuple[int, str, str, int]:
-    """Stamp, frame_id, order of bytes, and the length of frame_id with its closing zero."""
+def header_bytes(stamp_ns: int, frame_id: str) -> bytes:
+    """Encapsulation and header of a message, little-endian.
+
+    Raises
+    ------
+    PacketError
+        When the stamp is beyond what its field holds.
+    """
+    name = frame_id.encode()
+    sec, nanosec = divmod(stamp_ns, _NS_PER_S)
+    try:
+        return b"\x00\x01\x00\x00" + _STAMPS["<"].pack(sec, nanosec, len(name) + 1) + name + b"\x00"
+    except struct.error as error:
+        raise PacketError(f"stamp of {stamp_ns} ns does not fit the message: {error}") from error
+
+
+def header_parts(data: bytes) -> tuple[int, str, str, int]:
+    """Stamp [ns], frame_id, order of bytes as struct calls it, and where the header ends behind the encapsulation.
+
+    Raises
+    ------
+    PacketError
+        When the bytes are no message that begins with a header.
+    """
     order = _ORDERS.get(data[:2])
     if order is None:
         raise PacketError(f"message encoded as {data[:2].hex()}; only plain CDR (0000, 0001) is read")
-    begin = _ENCAPSULATION_BYTES + _STAMP_BYTES
+    begin = ENCAPSULATION_BYTES + _STAMP_BYTES
     try:
-        sec, nanosec, length = _STAMPS[order].unpack_from(data, _ENCAPSULATION_BYTES)
+        sec, nanosec, length = _STAMPS[order].unpack_from(data, ENCAPSULATION_BYTES)
         frame_id = data[begin : begin + length - 1].decode()
     except (struct.error, UnicodeDecodeError) as error:
         raise PacketError(f"message of {len(data)} bytes cannot be read: {error}") from error
@@ -117,16 +137,35 @@ def _header(data: bytes) -> tuple[int, str, str, int]:
         raise PacketError(f"message of {len(data)} bytes cannot be read: its frame_id has {length}")
     if nanosec >= _NS_PER_S:
         raise PacketError(f"stamp of {nanosec} nanoseconds: a second has {_NS_PER_S}")
-    return sec * _NS_PER_S + nanosec, frame_id, order, length
+    return sec * _NS_PER_S + nanosec, frame_id, order, _STAMP_BYTES + length
 
 
-@lru_cache(_LAYOUTS_KEPT)
-def _contact(order: str, length: int) -> struct.Struct:
-    """Layout of what follows a frame_id of so many bytes."""
-    layout = order
-    at = _STAMP_BYTES + length
-    for kind, size in _CONTACT_FIELDS:
+def padded(at: int, fields: Sequence[tuple[str, int]]) -> tuple[str, int]:
+    """Lay out numbers, each at a multiple of its own size.
+
+    Parameters
+    ----------
+    at : int
+        Where they begin, counted from behind the encapsulation.
+    fields : sequence of (str, int)
+        Each as struct calls it, and its size.
+
+    Returns
+    -------
+    str
+        The layout as struct calls it, without the order of bytes.
+    int
+        Where they end.
+    """
+    layout = ""
+    for kind, size in fields:
         padding = -at % size
         layout += f"{padding}x{kind}"
         at += padding + size
-    return struct.Struct(layout)
+    return layout, at
+
+
+@lru_cache(_LAYOUTS_KEPT)
+def _contact(order: str, at: int) -> struct.Struct:
+    """Layout of what follows a header that ends there."""
+    return struct.Struct(order + padded(at, _CONTACT_FIELDS)[0])
