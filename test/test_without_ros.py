@@ -98,3 +98,12 @@ def test_the_shipped_dictionary_is_installed_with_its_package(site: Path) -> Non
     path = Path(run(site, "-c", code).strip())
     assert path.is_relative_to(site)
     assert path.read_bytes() == (ROOT / "acts_recon/acts_recon/dictionaries" / path.name).read_bytes()
+
+
+def test_the_shipped_layouts_are_installed_with_their_package(site: Path) -> None:
+    code = "from acts_core.layouts import LAYOUTS, layout, layout_path as p\nfor n in LAYOUTS: layout(n); print(p(n))"
+    paths = [Path(line) for line in run(site, "-c", code).splitlines()]
+    assert sorted(path.name for path in paths) == sorted(
+        path.name for path in (ROOT / "acts_core/acts_core/skin_layouts").iterdir()
+    )
+    assert all(path.is_relative_to(site) for path in paths)

@@ -52,9 +52,9 @@ def test_glove_as_published() -> None:
             assert shape.taxels[row, col] == 32 * col + 31 - row
 
 
-def test_parts_of_the_glove() -> None:
+def test_patches_of_the_glove() -> None:
     shape = layout("glove")
-    sizes = {part.name: part.of(shape.taxels).shape for part in shape.parts}
+    sizes = {patch.name: patch.of(shape.taxels).shape for patch in shape.patches}
     assert sizes == {
         "palm": (16, 24),
         "thumb": (16, 8),
@@ -64,18 +64,45 @@ def test_parts_of_the_glove() -> None:
         "little": (16, 8),
     }
     places = {"thumb": (31, 0), "palm": (16, 8), "index": (0, 7), "middle": (15, 8), "ring": (3, 23), "little": (0, 31)}
-    assert {shape.part(*place).name for place in places.values()} == set(sizes)
+    assert {shape.patch(*place).name for place in places.values()} == set(sizes)
     for name, place in places.items():
-        assert shape.part(*place).name == name
+        assert shape.patch(*place).name == name
 
 
 @pytest.mark.parametrize("name", LAYOUTS)
-def test_parts_cover_the_picture_once(name: str) -> None:
+def test_patches_cover_the_picture_once(name: str) -> None:
     shape = layout(name)
     covered = np.zeros((shape.rows, shape.cols), dtype=int)
-    for part in shape.parts:
-        part.of(covered)[...] += 1
+    for index, patch in enumerate(shape.patches):
+        patch.of(covered)[...] += 1
+        assert (patch.of(shape.patch_of) == index).all()
     assert (covered == 1).all()
+    assert np.array_equal(shape.picture(shape.patch_of_taxel), shape.patch_of)
+    assert shape.is_matrix == (name == "square")
+
+
+def test_patches_of_the_leap_hand() -> None:
+    shape = layout("leap_right")
+    fingers = ("index", "middle", "ring", "thumb")
+    segments = [f"{finger}_{segment}" for finger in fingers for segment in ("proximal", "medial", "distal")]
+    assert [patch.name for patch in shape.patches] == ["palm", *segments]
+    assert [patch.of(shape.taxels).shape for patch in shape.patches] == [(16, 16)] + 12 * [(8, 8)]
+    assert shape.patches[0].link == "palm_lower"
+    assert {patch.link.split("_")[0] for patch in shape.patches[1:]} == set(fingers)
+    assert [patch.link for patch in shape.patches[2::3]] == [f"{finger}_medial" for finger in fingers]
+    assert [patch.link for patch in shape.patches[3::3]] == [f"{finger}_distal" for finger in fingers]
+    # Out of the palm is -z of its link; the sense in which the fingers close.
+    assert shape.patches[0].normals()[8, 8] == pytest.approx([0, 0, -1], abs=1e-6)
+
+
+def test_the_patch_of_a_pad_lies_as_its_picture() -> None:
+    shape = layout("square", 20, 12)
+    (pad,) = shape.patches
+    points_m = pad.points_m()
+    assert points_m[..., 0] == pytest.approx(np.tile(shape.geometry().x_m(np.arange(12)), (20, 1)))
+    assert points_m[..., 1] == pytest.approx(np.tile(shape.geometry().y_m(np.arange(20)), (12, 1)).T)
+    thumb = layout("glove").patches[1]
+    assert thumb.origin_m == pytest.approx([-12 * 0.005625, -8 * 0.0071875, 0])
 
 
 @pytest.mark.parametrize(
@@ -98,7 +125,7 @@ def test_a_pitch_of_ones_own() -> None:
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (("sock",), "'sock'.*square, insole, glove"),
+        (("sock",), "'sock'.*square, insole, glove, leap_right, or the path"),
         (("insole", 64, 16), "64 x 16.*use square"),
         (("glove", 16, 32), "16 x 32"),
         (("square", 65, 1), "rows = 65"),
@@ -116,4 +143,4 @@ def test_wrong_shapes_and_places_are_refused() -> None:
     with pytest.raises(ArrayError, match=r"picture of shape \(32, 32\)"):
         insole.matrix(np.zeros((32, 32)))
     with pytest.raises(ArrayError, match=r"place \(64, 0\)"):
-        insole.part(64, 0)
+        insole.patch(64, 0)

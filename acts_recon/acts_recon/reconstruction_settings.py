@@ -8,7 +8,7 @@ from pathlib import Path
 from acts_core.array import COUNT_MAX, MAX_SIDE, ArrayGeometry
 from acts_core.errors import SettingsError
 from acts_core.force import ForceResponse, MeasuredForceResponse
-from acts_core.layouts import LAYOUTS, layout
+from acts_core.layouts import LAYOUTS, Layout, layout, layout_path
 from acts_core.realtime import RealtimeConfig
 from acts_core.settings import Changeable, default_of, setting
 from acts_recon.blobs import BlobConfig
@@ -39,17 +39,19 @@ class ReconstructionSettings(RealtimeConfig):
     rows: int = setting(_ARRAY.rows, "rows of the array", minimum=1, maximum=MAX_SIDE)
     cols: int = setting(_ARRAY.cols, "columns of the array", minimum=1, maximum=MAX_SIDE)
     layout: str = setting(
-        "square", "how the matrix of taxels lies on the skin; images and contacts follow it", choices=LAYOUTS
+        "square",
+        f"how the matrix of taxels lies on the skin: {', '.join(LAYOUTS)}, or the path of a layout file; images and "
+        "contacts follow it",
     )
     pitch_m: float = setting(
         0.0,
-        "distance between neighbouring columns of the image [m]; 0: that of the paper's skin of this layout",
+        "distance between neighbouring columns of the image [m]; 0: that of the layout",
         minimum=0.0,
         maximum=1.0,
     )
     row_pitch_m: float = setting(
         0.0,
-        "distance between neighbouring rows of the image [m]; 0: as pitch_m, the paper's where that is 0",
+        "distance between neighbouring rows of the image [m]; 0: as pitch_m, the layout's where that is 0",
         minimum=0.0,
         maximum=1.0,
     )
@@ -170,6 +172,7 @@ class ReconstructionSettings(RealtimeConfig):
 
     def __post_init__(self) -> None:
         RealtimeConfig.__post_init__(self)
+        layout_path(self.layout)  # refuses what is neither a name nor a path
         if self.dictionary and self.method != "per_frame":
             raise SettingsError(
                 f"dictionary = {self.dictionary!r}: the method {self.method} uses none; "
@@ -186,6 +189,16 @@ class ReconstructionSettings(RealtimeConfig):
             if method != self.method and getattr(self, name) != default_of(type(self), name)
         )
 
+    def arranged(self) -> Layout:
+        """The layout.
+
+        Raises
+        ------
+        ArrayError, SettingsError
+            As of `acts_core.layouts.layout`.
+        """
+        return layout(self.layout, self.rows, self.cols)
+
     def reconstructor(self) -> Reconstructor:
         """Load the dictionary and make everything ready for the first frame; takes seconds when not yet compiled.
 
@@ -199,7 +212,7 @@ class ReconstructionSettings(RealtimeConfig):
             When the force response cannot be used.
         """
         path = Path(self.dictionary).expanduser() if self.dictionary else shipped_dictionary_path()
-        arranged = layout(self.layout, self.rows, self.cols)
+        arranged = self.arranged()
         return Reconstructor(
             arranged.geometry(self.pitch_m, self.row_pitch_m),
             load_dictionary(path),
@@ -210,7 +223,7 @@ class ReconstructionSettings(RealtimeConfig):
                 keep_measured=self.keep_measured,
             ),
             self._response(),
-            None if self.layout == "square" else arranged,
+            None if arranged.is_matrix else arranged,
         )
 
     def recovery(self) -> Recovery:
@@ -223,11 +236,11 @@ class ReconstructionSettings(RealtimeConfig):
         """
         if self.method == "per_frame":
             return PerFrameRecovery(self.reconstructor())
-        arranged = layout(self.layout, self.rows, self.cols)
+        arranged = self.arranged()
         estimator = FusionEstimator(
             arranged.geometry(self.pitch_m, self.row_pitch_m),
             FusionConfig(noise_counts=self.noise_counts),
-            None if self.layout == "square" else arranged,
+            None if arranged.is_matrix else arranged,
         )
         return FusedRecovery(estimator, self._response(), self.touch_counts)
 
@@ -262,6 +275,7 @@ class ReconstructionSettings(RealtimeConfig):
         if not self.object_library:
             return None
         library = load_object_library(Path(self.object_library).expanduser(), shape=(self.rows, self.cols))
+        arranged = self.arranged()
         if recovery.sigma is None or recovery.age_s is None:
             config = ClassifierConfig(touch_counts=self.touch_counts, max_columns=self.object_columns)
             return PerFrameObjects(Classifier(library, config))
@@ -274,5 +288,5 @@ class ReconstructionSettings(RealtimeConfig):
             recovery.image,
             recovery.sigma,
             recovery.age_s,
-            None if self.layout == "square" else layout(self.layout, self.rows, self.cols),
+            None if arranged.is_matrix else arranged,
         )

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from acts_core.errors import SettingsError
-from acts_skins.transforms import Transform
+from acts_core.transforms import Transform
 
 
 @dataclass(frozen=True)

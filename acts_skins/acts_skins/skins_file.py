@@ -6,17 +6,17 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from acts_core.errors import SettingsError
+from acts_core.errors import ActsError, SettingsError
+from acts_core.layouts import LAYOUTS, layout_path
+from acts_core.transforms import Transform
+from acts_core.yaml_places import Section, is_number, read_yaml
 from acts_skins.frame_tree import FrameTree, Pose
-from acts_skins.transforms import Quaternion, Transform, Vector
-from acts_skins.yaml_places import Section, read_yaml
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,63}")
 _FRAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*")
@@ -173,7 +173,7 @@ def _skin(name: str, section: Section) -> Skin:
     if port is not None and "replay" in section.values:
         raise section.error("port and replay: samples come either from a board or from a recording", "replay")
     rate_hz = section.values.get("recording_rate_hz", 1000.0)
-    if not _is_number(rate_hz) or not 0.0 < rate_hz <= 1e6:
+    if not is_number(rate_hz) or not 0.0 < rate_hz <= 1e6:
         raise section.error(
             f"recording_rate_hz = {rate_hz!r}: allowed is a number above 0 to 1000000", "recording_rate_hz"
         )
@@ -198,6 +198,16 @@ def _file(section: Section, key: str) -> Path | None:
     return None if text is None else section.path.absolute().parent / Path(text).expanduser()
 
 
+def _layout(section: Section) -> str:
+    """A known name, or the path of a file, which begins as other paths do."""
+    text = section.text("layout", "") or ""
+    try:
+        path = layout_path(text)
+    except ActsError as error:
+        raise section.error(str(error), "layout") from None
+    return text if text in LAYOUTS else str(section.path.absolute().parent / path)
+
+
 def _parameters(section: Section, node: str) -> dict[str, Any]:
     further = section.section(node, f"{section.what}: {node}")
     for key in further.values:
@@ -207,7 +217,11 @@ def _parameters(section: Section, node: str) -> dict[str, Any]:
             raise further.error(f"{key} is given at the skin itself, beside pose", key)
         if key == "frame_id":
             raise further.error("frame_id is the skin's name", key)
-    own = {key: section.values.get(key, _DEFAULTS.get(key)) for key, nodes in _NODES_OF.items() if node in nodes}
+    own: dict[str, Any] = {
+        key: section.values.get(key, _DEFAULTS.get(key)) for key, nodes in _NODES_OF.items() if node in nodes
+    }
+    if own.get("layout") is not None:
+        own["layout"] = _layout(section)
     return {**{key: value for key, value in own.items() if value is not None}, **further.values}
 
 
@@ -216,36 +230,7 @@ def _pose(section: Section) -> Pose:
     parent = section.text("parent")
     if parent is None or _FRAME.fullmatch(parent) is None:
         raise section.error(f"parent = {parent!r}: needed is the name of a frame; {_allowed_name('frame')}", "parent")
-    if "rpy_rad" in section.values and "quaternion_xyzw" in section.values:
-        raise section.error("rpy_rad and quaternion_xyzw: give one of them", "quaternion_xyzw")
-    x, y, z = _numbers(section, "position_m", (0.0, 0.0, 0.0))
-    try:
-        if "quaternion_xyzw" in section.values:
-            quaternion: Quaternion = _numbers(section, "quaternion_xyzw", (0.0, 0.0, 0.0, 1.0))  # type: ignore[assignment]
-            return Pose(parent, Transform((x, y, z), quaternion))
-        rpy_rad: Vector = _numbers(section, "rpy_rad", (0.0, 0.0, 0.0))  # type: ignore[assignment]
-        return Pose(parent, Transform.from_rpy((x, y, z), rpy_rad))
-    except SettingsError as error:
-        key = "quaternion_xyzw" if "quaternion_xyzw" in section.values else None
-        raise section.error(str(error), key) from None
-
-
-def _numbers(section: Section, key: str, default: tuple[float, ...]) -> tuple[float, ...]:
-    given = section.values.get(key, default)
-    if not isinstance(given, (list, tuple)) or len(given) != len(default) or not all(map(_is_number, given)):
-        raise section.error(
-            f"{key} = {given!r}: allowed are {len(default)} finite numbers, such as [0.1, 0, -1.5e-3] (1e-3 is "
-            "text in YAML, write 1.0e-3)",
-            key,
-        )
-    return tuple(float(number) for number in given)
-
-
-def _is_number(value: object) -> bool:
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
-        return False
-    # One of 400 digits is no float.
-    return abs(value) < 1e300 and math.isfinite(value)
+    return Pose(parent, section.transform())
 
 
 def _check_ports(skins: tuple[Skin, ...]) -> None:

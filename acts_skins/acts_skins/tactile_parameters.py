@@ -10,12 +10,11 @@ from typing import Any, TypeVar
 import yaml
 
 from acts_core.errors import ActsError
-from acts_core.layouts import layout
 from acts_core.settings import checked, default_of, describe, unknown_key_message
+from acts_core.yaml_places import Section
 from acts_driver.settings import DriverSettings
 from acts_recon.reconstruction_settings import ReconstructionSettings
 from acts_skins.skins_file import Skin
-from acts_skins.yaml_places import Section
 
 T = TypeVar("T")
 
@@ -59,7 +58,7 @@ def tactile_parameters(skin: Skin, port: str) -> TactileParameters:
     driver_settings = _settings(DriverSettings, skin, "driver", driver)
     reconstruction = _settings(ReconstructionSettings, skin, "reconstruction", skin.reconstruction)
     try:
-        layout(reconstruction.layout, reconstruction.rows, reconstruction.cols)
+        reconstruction.arranged()
     except ActsError as error:
         raise skin.section.error(str(error), "layout") from None
     words: list[str] = []

@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from acts_core.transforms import Transform
 from acts_skins.contacts.placing import Placement, Touch
-from acts_skins.transforms import Transform
 
 TOUCH = Touch(
     number=7,

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from acts_core.transforms import Transform
 from acts_msgs.msg import Contact, Contacts, TrackedContact
 from acts_skins.contacts.messages import skin_contact, touches
 from acts_skins.contacts.placing import Placement
-from acts_skins.transforms import Transform
 
 
 def test_every_number_of_a_contact_arrives() -> None:

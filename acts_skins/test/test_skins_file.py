@@ -236,3 +236,19 @@ def test_what_was_written_is_read(
     assert {name: transform.position_m for name, transform in placed.items()} == {
         name: pytest.approx(numbers[:3]) for name, numbers in poses.items()
     }
+
+
+def test_a_layout_of_ones_own_is_found_beside_the_file(tmp_path: Path) -> None:
+    (tmp_path / "hand.yaml").write_text("patches:\n  tip:\n    wires: {down: cols, across: row}\n")
+    (skin,) = read(tmp_path, of_skin("layout: hand.yaml")).skins
+    with pytest.raises(
+        SettingsError, match=r"skins.yaml:4: skin left: .*hand.yaml:3: patch tip: wires: across = 'row'"
+    ):
+        tactile_parameters(skin, "auto")
+    (tmp_path / "hand.yaml").write_text("patches:\n  tip:\n    wires: {down: cols, across: rows}\n")
+    assert tactile_parameters(skin, "auto").reconstruction.arranged().taxels[1, 0] == 1
+    (tmp_path / "hand.yaml").unlink()
+    with pytest.raises(SettingsError, match=r"skins.yaml:4: skin left: .*hand.yaml: cannot be read"):
+        tactile_parameters(skin, "auto")
+    with pytest.raises(SettingsError, match=r"skins.yaml:4: skin left: .*allowed is one of square"):
+        read(tmp_path, of_skin("layout: hnad"))

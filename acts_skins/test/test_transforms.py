@@ -10,8 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from acts_core.errors import SettingsError
+from acts_core.transforms import Transform
 from acts_skins.frame_tree import FrameTree, Pose
-from acts_skins.transforms import Transform
 
 LENGTHS = st.floats(-10.0, 10.0)
 ANGLES = st.floats(-7.0, 7.0)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from geometry_msgs.msg import Point, Vector3
 
+from acts_core.transforms import Vector
 from acts_msgs.msg import Contact, Contacts, SkinContact, TrackedContact
 from acts_skins.contacts.placing import PlacedTouch, Touch
-from acts_skins.transforms import Vector
 
 CONTACT_TYPES = {"contacts": Contacts, "contact": Contact}
 """Topics of a skin that contacts can be taken from: told apart and numbered, or all that presses as one."""

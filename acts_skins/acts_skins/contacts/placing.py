@@ -8,7 +8,7 @@ from dataclasses import astuple, dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_skins.transforms import Transform, Vector
+from acts_core.transforms import Transform, Vector
 
 
 @dataclass(frozen=True)

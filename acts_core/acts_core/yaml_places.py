@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import reprlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,6 +14,7 @@ import yaml
 from acts_core.errors import SettingsError
 from acts_core.regular_file import read_text
 from acts_core.settings import unknown_key_message
+from acts_core.transforms import Quaternion, Transform, Vector
 
 # Deeper than any file that is read by this; what lies below goes by the line of what holds it.
 _MAX_DEPTH = 5
@@ -59,7 +62,18 @@ class Section:
         values = self.values.get(key)
         inner = Section(self.path, {} if values is None else values, what, (*self._keys, key), self._lines)
         if not isinstance(inner.values, Mapping):
-            raise self.error(f"{key} = {values!r}: needed is a mapping of names to values", key)
+            raise self.error(f"{key} = {shown(values)}: needed is a mapping of names to values", key)
+        return inner
+
+    def sections(self, key: str, what: str) -> list[Section]:
+        """The mappings below a key that holds one of them, or a list."""
+        values = self.values.get(key)
+        if not isinstance(values, list):
+            return [self.section(key, what)]
+        inner = [Section(self.path, value, what, (*self._keys, key, i), self._lines) for i, value in enumerate(values)]
+        for section in inner:
+            if not isinstance(section.values, Mapping):
+                raise section.error(f"{key} has {shown(section.values)}: needed is a mapping of names to values")
         return inner
 
     def text(self, key: str, default: str | None = None) -> str | None:
@@ -68,8 +82,46 @@ class Section:
         if value is None:
             return default
         if not isinstance(value, str) or not value.strip():
-            raise self.error(f"{key} = {value!r}: allowed is text; put it in quotes", key)
+            raise self.error(f"{key} = {shown(value)}: allowed is text; put it in quotes", key)
         return value.strip()
+
+    def numbers(self, key: str, default: tuple[float, ...]) -> tuple[float, ...]:
+        """As many finite numbers as `default` has."""
+        given = self.values.get(key, default)
+        if not isinstance(given, (list, tuple)) or len(given) != len(default) or not all(map(is_number, given)):
+            raise self.error(
+                f"{key} = {shown(given)}: allowed are {len(default)} finite numbers, such as [0.1, 0, -1.5e-3] "
+                "(1e-3 is text in YAML, write 1.0e-3)",
+                key,
+            )
+        return tuple(float(number) for number in given)
+
+    def transform(self) -> Transform:
+        """What the keys position_m and rpy_rad or quaternion_xyzw say."""
+        if "rpy_rad" in self.values and "quaternion_xyzw" in self.values:
+            raise self.error("rpy_rad and quaternion_xyzw: give one of them", "quaternion_xyzw")
+        position_m: Vector = self.numbers("position_m", (0.0, 0.0, 0.0))  # type: ignore[assignment]
+        rpy_rad: Vector = self.numbers("rpy_rad", (0.0, 0.0, 0.0))  # type: ignore[assignment]
+        quaternion: Quaternion = self.numbers("quaternion_xyzw", (0.0, 0.0, 0.0, 1.0))  # type: ignore[assignment]
+        try:
+            if "quaternion_xyzw" in self.values:
+                return Transform(position_m, quaternion)
+            return Transform.from_rpy(position_m, rpy_rad)
+        except SettingsError as error:
+            raise self.error(str(error), "quaternion_xyzw" if "quaternion_xyzw" in self.values else None) from None
+
+
+def is_number(value: object) -> bool:
+    """Whether a value of a YAML file is a finite number."""
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        return False
+    # One of 400 digits is no float.
+    return abs(value) < 1e300 and math.isfinite(value)
+
+
+def shown(value: object) -> str:
+    """A value of a YAML file for a message: shortened, for with aliases a short file can hold very long ones."""
+    return reprlib.repr(value)
 
 
 def read_yaml(path: Path) -> Section:
@@ -87,7 +139,7 @@ def read_yaml(path: Path) -> Section:
         try:
             node = loader.get_single_node()
             if node is not None:
-                _note_lines(path, node, (), lines)
+                _note_lines(path, node, (), lines, set())
             values = None if node is None else loader.construct_document(node)
         finally:
             loader.dispose()
@@ -99,9 +151,16 @@ def read_yaml(path: Path) -> Section:
     return Section(path, values, "", (), lines)
 
 
-def _note_lines(path: Path, node: yaml.Node, keys: Keys, lines: dict[Keys, int]) -> None:
+def _note_lines(path: Path, node: yaml.Node, keys: Keys, lines: dict[Keys, int], seen: set[int]) -> None:
     lines.setdefault(keys, node.start_mark.line + 1)
-    if not isinstance(node, yaml.MappingNode) or len(keys) >= _MAX_DEPTH:
+    # What an alias repeats goes by the line of the alias: with aliases in aliases there is no end to it.
+    if len(keys) >= _MAX_DEPTH or id(node) in seen:
+        return
+    seen.add(id(node))
+    if isinstance(node, yaml.SequenceNode):
+        for i, item in enumerate(node.value):
+            _note_lines(path, item, (*keys, i), lines, seen)
+    if not isinstance(node, yaml.MappingNode):
         return
     given: set[str] = set()
     for key_node, value_node in node.value:
@@ -112,4 +171,4 @@ def _note_lines(path: Path, node: yaml.Node, keys: Keys, lines: dict[Keys, int])
             raise SettingsError(f"{path}:{line}: the key {key!r} is given twice")
         given.add(key)
         lines[(*keys, key)] = line
-        _note_lines(path, value_node, (*keys, key), lines)
+        _note_lines(path, value_node, (*keys, key), lines, seen)
