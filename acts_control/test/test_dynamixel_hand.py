@@ -16,7 +16,8 @@ from typing import Any
 import pytest
 
 from acts_control.hand.bus import HandError, HandLostError, HandReading
-from acts_control.hand.description import LEAP_RIGHT, HandDescription, Joint
+from acts_control.hand.description import HandDescription, Joint
+from acts_control.hand.description_file import LEAP_RIGHT
 from acts_control.hand.dynamixel import DynamixelConfig, DynamixelHand
 from acts_core.errors import SettingsError
 

@@ -1,11 +1,18 @@
-"""What a hand is, whatever moves it: its joints in the order of all joint arrays."""
+"""What a hand is, whatever moves it: its joints in the order of all joint arrays, links, fingers, patches of skin."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal
 
 from acts_core.errors import SettingsError
+from acts_core.transforms import Transform, Vector
+
+Role = Literal["palm", "proximal", "medial", "distal"]
+ROLES: tuple[Role, ...] = ("palm", "proximal", "medial", "distal")
+"""Of a patch of skin; the last three along a finger, from its root to its tip."""
 
 
 @dataclass(frozen=True)
@@ -25,6 +32,8 @@ class Joint:
         1, or -1 where the motor turns against the joint.
     gain_scale : float
         Factor on the motor's P and D gains.
+    step_scale : float
+        Factor on how far a step of a reflex moves the joint.
 
     Raises
     ------
@@ -39,18 +48,21 @@ class Joint:
     motor_zero_rad: float = math.pi
     direction: int = 1
     gain_scale: float = 1.0
+    step_scale: float = 1.0
 
     def __post_init__(self) -> None:
-        finite = all(map(math.isfinite, (self.lower_rad, self.upper_rad, self.motor_zero_rad, self.gain_scale)))
+        numbers = (self.lower_rad, self.upper_rad, self.motor_zero_rad, self.gain_scale, self.step_scale)
+        finite = all(map(math.isfinite, numbers))
         if not finite or not self.lower_rad < self.upper_rad:
             raise SettingsError(
                 f"joint {self.name}: limits {self.lower_rad} and {self.upper_rad} rad; allowed are two finite numbers, "
                 f"the lower one first"
             )
-        if self.direction not in (-1, 1) or not 0 <= self.motor_id <= 252 or not 0.0 < self.gain_scale <= 10.0:
+        scales = (self.gain_scale, self.step_scale)
+        if self.direction not in (-1, 1) or not 0 <= self.motor_id <= 252 or not all(0.0 < s <= 10.0 for s in scales):
             raise SettingsError(
-                f"joint {self.name}: direction {self.direction}, motor_id {self.motor_id}, gain_scale "
-                f"{self.gain_scale}; allowed are 1 or -1, 0 to 252, above 0 to 10"
+                f"joint {self.name}: direction {self.direction}, motor_id {self.motor_id}, gain_scale and step_scale "
+                f"{scales}; allowed are 1 or -1, 0 to 252, above 0 to 10"
             )
 
     def to_motor_rad(self, q_rad: float) -> float:
@@ -67,6 +79,74 @@ class Joint:
 
 
 @dataclass(frozen=True)
+class Link:
+    """A rigid part, turned by one joint about an axis through its origin.
+
+    Attributes
+    ----------
+    name, parent, joint : str
+        The parent is another link or the hand's base.
+    pose : Transform
+        In the parent's frame, where the joint is at 0.
+    axis : tuple of float
+        In the link's own frame, of length 1.
+    """
+
+    name: str
+    parent: str
+    joint: str
+    pose: Transform
+    axis: Vector
+
+
+@dataclass(frozen=True)
+class Finger:
+    """A finger, or a thumb.
+
+    Attributes
+    ----------
+    name : str
+    closes : mapping of str to float
+        The joints that close it, and how much each takes part.
+    tip_link : str
+    tip_m : tuple of float
+        In the frame of `tip_link` [m].
+    """
+
+    name: str
+    closes: Mapping[str, float]
+    tip_link: str
+    tip_m: Vector
+
+
+@dataclass(frozen=True)
+class Region:
+    """A patch of the hand's skin.
+
+    Attributes
+    ----------
+    name : str
+        As in the layout of the skin.
+    link : str
+        That carries it.
+    finger : str
+        Empty for the palm.
+    role : str
+        One of `ROLES`.
+    centre_m, normal : tuple of float
+        Its middle [m] and the unit vector out of the skin there, in the link's frame; of a palm, where an object is
+        brought to. Zeros where nobody asks.
+    """
+
+    name: str
+    link: str
+    finger: str
+    role: Role
+    centre_m: Vector = (0.0, 0.0, 0.0)
+    normal: Vector = (0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True)
 class HandDescription:
     """A hand.
 
@@ -75,6 +155,14 @@ class HandDescription:
     name : str
     joints : tuple of Joint
         With different names and motors.
+    base : str
+        The link that nothing moves.
+    links : tuple of Link
+        Parents before their children.
+    fingers : mapping of str to Finger
+    regions : mapping of str to Region
+    postures : mapping of str to tuple of float
+        Angles of all joints [rad].
 
     Raises
     ------
@@ -84,6 +172,11 @@ class HandDescription:
 
     name: str
     joints: tuple[Joint, ...]
+    base: str = "palm"
+    links: tuple[Link, ...] = ()
+    fingers: Mapping[str, Finger] = field(default_factory=dict)
+    regions: Mapping[str, Region] = field(default_factory=dict)
+    postures: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         names, motors = [one.name for one in self.joints], [one.motor_id for one in self.joints]
@@ -97,28 +190,3 @@ class HandDescription:
     def names(self) -> list[str]:
         """Of the joints, in order."""
         return [joint.name for joint in self.joints]
-
-
-def _finger(name: str, first_motor: int) -> tuple[Joint, ...]:
-    # The two joints at the root have the load of the whole finger: LEAP's own programs weaken the one to the side.
-    return (
-        Joint(f"{name}_mcp_side", first_motor, -1.047, 1.047, gain_scale=0.75),
-        Joint(f"{name}_mcp_forward", first_motor + 1, -0.314, 2.23),
-        Joint(f"{name}_pip", first_motor + 2, -0.506, 1.885),
-        Joint(f"{name}_dip", first_motor + 3, -0.366, 2.042),
-    )
-
-
-LEAP_RIGHT = HandDescription(
-    "leap_right",
-    (
-        *_finger("index", 0),
-        *_finger("middle", 4),
-        *_finger("ring", 8),
-        Joint("thumb_cmc", 12, -0.349, 2.094),
-        Joint("thumb_axial", 13, -0.47, 2.443),
-        Joint("thumb_mcp", 14, -1.20, 1.90),
-        Joint("thumb_ipl", 15, -1.34, 1.88),
-    ),
-)
-"""The right LEAP hand (Shaw et al., 2023, doi:10.15607/RSS.2023.XIX.089): limits of its URDF, motors open at pi."""

@@ -5,16 +5,18 @@ from __future__ import annotations
 import threading
 import time
 from collections import deque
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import IntEnum
 from math import isfinite
+from typing import Protocol
 
 from acts_control.hand.bus import HandBus, HandError, HandLostError, HandReading
 from acts_control.hand.description import HandDescription
 from acts_core.settings import setting, validate
 
 _FAULT_MEMORY_S = 60.0
+_NOT_FINITE = "the goals stand still, for what was asked for cannot be"
 
 
 class HandPhase(IntEnum):
@@ -78,6 +80,30 @@ class HandStatus:
     recovered: int = 0
 
 
+class Behaviour(Protocol):
+    """What moves a hand instead of commands, from the loop's thread."""
+
+    def restart(self, *, recovered: bool) -> None:
+        """The torque is on again, and every joint holds where it is; `recovered`: after a motor had failed."""
+
+    def step(self, reading: HandReading, goal_rad: Sequence[float], now_s: float, dt_s: float) -> Sequence[float]:
+        """Called with each reading while the torque is on.
+
+        Parameters
+        ----------
+        reading : HandReading
+        goal_rad : sequence of float
+            What was sent last [rad].
+        now_s, dt_s : float
+            By `time.monotonic`, and since the step before [s].
+
+        Returns
+        -------
+        sequence of float
+            Where every joint is to go [rad].
+        """
+
+
 class HandLoop:
     """Runs a hand in a thread of its own.
 
@@ -90,6 +116,8 @@ class HandLoop:
         Takes a level (info, warning, error) and a sentence; called from the loop's thread.
     on_reading : callable
         Called after every reading, from the loop's thread.
+    behaviour : Behaviour or None
+        Says where the joints go; None: `command` does.
 
     Attributes
     ----------
@@ -104,6 +132,7 @@ class HandLoop:
         config: HandLoopConfig,
         log: Callable[[str, str], None],
         on_reading: Callable[[HandReading], None] = lambda _reading: None,
+        behaviour: Behaviour | None = None,
     ) -> None:
         self.status = HandStatus()
         self._hand = hand
@@ -111,6 +140,7 @@ class HandLoop:
         self._config = config
         self._log = log
         self._on_reading = on_reading
+        self._behaviour = behaviour
         self._index = {joint.name: k for k, joint in enumerate(hand.joints)}
         self._lock = threading.Lock()
         self._target: dict[int, float] = {}
@@ -248,18 +278,33 @@ class HandLoop:
             with self._lock:
                 self._target.clear()  # what was wanted before is old
             goal = list(reading.q_rad)
+            if self._behaviour is not None:
+                self._behaviour.restart(recovered=phase is HandPhase.RECOVERING)
             self._set(HandPhase.ENABLED, "holding", goal_rad=tuple(goal))
             return goal
-        with self._lock:
-            fresh = now_s - self._commanded_s <= self._config.command_stale_after_s
-            targets = dict(self._target)
+        targets, reason = self._targets(reading, goal, now_s, dt_s)
         step = self._config.max_speed_rad_s * dt_s
-        if fresh:
-            for k, target in targets.items():
-                goal[k] += min(max(target - goal[k], -step), step)
+        for k, target in targets.items():
+            goal[k] += min(max(target - goal[k], -step), step)
         self._bus.command(goal)
-        self._set(HandPhase.ENABLED, "moving as commanded" if fresh else "holding", goal_rad=tuple(goal))
+        self._set(HandPhase.ENABLED, reason, goal_rad=tuple(goal))
         return goal
+
+    def _targets(
+        self, reading: HandReading, goal: Sequence[float], now_s: float, dt_s: float
+    ) -> tuple[dict[int, float], str]:
+        """Where joints are to go, by their numbers, and in words why."""
+        if self._behaviour is None:
+            with self._lock:
+                fresh = now_s - self._commanded_s <= self._config.command_stale_after_s
+                return (dict(self._target), "moving as commanded") if fresh else ({}, "holding")
+        wanted = [float(angle) for angle in self._behaviour.step(reading, goal, now_s, dt_s)]
+        joints = self._hand.joints
+        if len(wanted) != len(joints) or not all(map(isfinite, wanted)):
+            if self.status.reason != _NOT_FINITE:
+                self._log("error", f"{_NOT_FINITE}: {wanted}; needed are {len(joints)} finite angles")
+            return {}, _NOT_FINITE
+        return {k: joint.clipped(angle) for k, (joint, angle) in enumerate(zip(joints, wanted, strict=True))}, "acting"
 
     def _recover(self, reading: HandReading) -> None:
         """Motors have switched themselves off: start them anew, or give up what does it again and again."""
