@@ -20,6 +20,9 @@ _MAX_ADVANCE_S = 0.05
 # One stamped farther in the future is of another clock: it would never grow old.
 _FUTURE_S = 0.05
 
+# Where so many in a row are ahead by the same, but for `_FUTURE_S`, that is how far their clock is ahead.
+_CONFIRMED = 5
+
 
 class Reference(NamedTuple):
     """Where the ball should be in the skin's frame: position, velocity, acceleration, jerk [m, m/s, m/s^2, m/s^3]."""
@@ -81,8 +84,9 @@ class ReferenceFollower:
     """From the references that arrive to the one that holds now, with its jerk.
 
     A reference that cannot be meant is refused: the ball is led by the last good one, and held there when no better one
-    comes. What is remembered from one reference to the next, its stamp and acceleration, is used only where the next
-    one follows within 0.1 s; so nothing lasts of a wrong stamp or of a clock that was set.
+    comes. Stamps that stay ahead by the same are those of a clock that is ahead, and are corrected by that. What is
+    remembered from one reference to the next, its stamp and acceleration, is used only where the next one follows
+    within 0.1 s; so nothing lasts of a wrong stamp or of a clock that was set.
 
     Attributes
     ----------
@@ -97,6 +101,8 @@ class ReferenceFollower:
         self._newest: ReferenceReport | None = None
         self._good: ReferenceReport | None = None
         self._refused = ""
+        self._ahead_ns = 0
+        self._ahead_in_a_row = 0
         self.problem = ""
 
     def step(self, report: ReferenceReport | None, now_ns: int) -> Reference | None:
@@ -115,18 +121,34 @@ class ReferenceFollower:
             self._newest = report
             self._refused = self._why_refused(report.reference)
             if not self._refused:
-                self._good = self._with_jerk(report)
+                self._good = self._with_jerk(self._by_our_clock(report, now_ns))
         self.problem = self._refused
         if self._good is None:
             return None
         stamp_ns, reference = self._good
         age_s = (now_ns - stamp_ns) * 1e-9
         if -_FUTURE_S <= age_s <= self.limits.stale_after_s:
+            if not self.problem and self._ahead_in_a_row:
+                self.problem = "the reference is stamped in the future, the clocks differ: it counts as of when it came"
             return reference.after(min(max(age_s, 0.0), _MAX_ADVANCE_S))
         if not self.problem:
             why = "is stale" if age_s > 0.0 else "is stamped in the future, the clocks differ"
             self.problem = f"the reference {why}: its motion is left out"
         return reference.at_rest()
+
+    def _by_our_clock(self, report: ReferenceReport, now_ns: int) -> ReferenceReport:
+        """The report, with its stamp corrected where its clock has been ahead by the same for long enough."""
+        ahead_ns = report.stamp_ns - now_ns
+        if ahead_ns <= _FUTURE_S * 1e9:
+            self._ahead_in_a_row = 0
+            return report
+        if self._ahead_in_a_row and abs(ahead_ns - self._ahead_ns) <= _FUTURE_S * 1e9:
+            self._ahead_in_a_row += 1
+        else:
+            self._ahead_ns, self._ahead_in_a_row = ahead_ns, 1
+        if self._ahead_in_a_row < _CONFIRMED:
+            return report
+        return report._replace(stamp_ns=report.stamp_ns - self._ahead_ns)
 
     def _why_refused(self, reference: Reference) -> str:
         x, y, vx, vy, ax, ay, _, _ = reference

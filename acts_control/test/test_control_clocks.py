@@ -29,6 +29,11 @@ def test_the_clock_is_set_in_the_middle_of_a_stroke(step_s: float) -> None:
     assert_led(clock_off_s=lambda time_s: step_s if time_s > WHEN_S else 0.0)
 
 
+@pytest.mark.parametrize("ahead_ns", [100_000_000, HOUR_NS])
+def test_a_source_whose_clock_is_ahead_leads_the_ball_as_well_as_any(ahead_ns: int) -> None:
+    assert_led(refer=lambda _time_s, good: good._replace(stamp_ns=good.stamp_ns + ahead_ns))
+
+
 @pytest.mark.parametrize(
     "forge",
     [
