@@ -14,6 +14,7 @@ from rclpy.utilities import remove_ros_args
 
 from acts_core.errors import SettingsError
 from acts_core.settings import describe, from_text, unknown_key_message
+from acts_ros.middleware import telling_wrong_arguments
 from acts_ros.parameters import ros_value
 
 IN_PARAMS_FILE = "params_file"
@@ -38,12 +39,15 @@ def parameters_from(words: Sequence[str], nodes: Mapping[str, type]) -> dict[str
     Raises
     ------
     SettingsError
-        For an unknown node or parameter, with the nearest known name, or a value of the wrong type.
+        For an unknown node or parameter, with the nearest known name, a value of the wrong type, or ROS arguments that
+        ROS refuses.
     """
     # --help is answered before, see acts_ros.program.
     parser = argparse.ArgumentParser(add_help=False)
     parser.add_argument("--set", metavar="NODE.PARAMETER=VALUE", action="append", default=[])
-    options = parser.parse_args(remove_ros_args(list(words))[1:])
+    with telling_wrong_arguments():
+        own = remove_ros_args(list(words))[1:]
+    options = parser.parse_args(own)
     given: dict[str, dict[str, Parameter]] = {node: {} for node in nodes}
     for text in options.set:
         name, equals, value = text.partition("=")

@@ -10,13 +10,17 @@ all interfaces, and another machine that names this one as its peer gets and sen
 from __future__ import annotations
 
 import os
-from collections.abc import MutableMapping
+import re
+from collections.abc import Iterator, MutableMapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import rclpy
+from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.logging import get_logger
 
+from acts_core.errors import SettingsError
 from acts_ros.processes import packages
 
 _RANGE, _LOCALHOST_ONLY = "ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_LOCALHOST_ONLY"
@@ -31,14 +35,34 @@ _CHOICES = (_PROFILE, _JAZZY_PROFILE, "ROS_STATIC_PEERS", "ROS_DISCOVERY_SERVER"
 _FILES = ("DEFAULT_FASTDDS_PROFILES.xml", "DEFAULT_FASTRTPS_PROFILES.xml")
 
 
+# Where in its own source ROS found that something is wrong.
+_SOURCE_PLACE = re.compile(r", at \S+:\d+")
+
+
 def init(**options: Any) -> None:
-    """`rclpy.init`, before which `choose_transports` is called; what stands against that is logged."""
+    """`rclpy.init`, before which `choose_transports` is called; what stands against that is logged.
+
+    Raises
+    ------
+    SettingsError
+        As of `telling_wrong_arguments`.
+    """
     obstacle = choose_transports(os.environ, rclpy.get_rmw_implementation_identifier(), Path.cwd())
-    rclpy.init(**options)
+    with telling_wrong_arguments():
+        rclpy.init(**options)
     if obstacle is not None:
         get_logger("acts_ros").warning(
             f"{_RANGE} asks for this machine only, but {obstacle}: others may get in (docs/security.md)"
         )
+
+
+@contextmanager
+def telling_wrong_arguments() -> Iterator[None]:
+    """What ROS refuses of a command line, such as a params file that is no YAML, is raised as `SettingsError`."""
+    try:
+        yield
+    except rclpy_implementation.RCLInvalidROSArgsError as error:
+        raise SettingsError(_SOURCE_PLACE.sub("", str(error))) from None
 
 
 def choose_transports(environment: MutableMapping[str, str], rmw: str, folder: Path) -> str | None:

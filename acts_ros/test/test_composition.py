@@ -1,6 +1,7 @@
 """Parameters of the nodes of one process, from its command line."""
 
 from dataclasses import dataclass
+from pathlib import Path
 
 import pytest
 
@@ -68,3 +69,13 @@ def test_nothing_given_and_given_twice() -> None:
 def test_what_does_not_fit_is_refused(text: str, words: str) -> None:
     with pytest.raises(SettingsError, match=words.replace("[", r"\[")):
         given("--set", text)
+
+
+@pytest.mark.parametrize("text", ["/**:\n  ros__parameters:\n    rows: [32\n", "rows: 32\n", None])
+def test_a_params_file_that_ros_cannot_read_is_refused(tmp_path: Path, text: str | None) -> None:
+    path = tmp_path / "params.yaml"
+    if text is not None:
+        path.write_text(text)
+    with pytest.raises(SettingsError, match=f"params file: '--params-file {path}'") as caught:
+        given("--ros-args", "--params-file", str(path))
+    assert ".c:" not in str(caught.value)
