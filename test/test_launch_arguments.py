@@ -25,10 +25,11 @@ from acts_tools.launch.evaluate import Plan, declarations, evaluate
 from acts_tools.launch.parser import parse_file
 
 FILES = sorted((Path(get_package_share_directory(PACKAGE)) / "launch").glob("*.launch.xml"))
+PARAMS_ARGUMENT = '<arg name="params_file"'
 
 # Arguments that take any text, by launch file.
 TEXTS = {
-    "tactile": ("port", "frame_id", "dictionary", "pitch", "recording", "replay", "run_dir", "cpu_affinity"),
+    "tactile": ("port", "frame_id", "layout", "dictionary", "pitch", "recording", "replay", "run_dir", "cpu_affinity"),
     "ball_balancing": ("port", "robot_ip", "trajectory", "frame_id", "dictionary", "pitch", "run_dir", "cpu_affinity"),
     "skins": ("skins_file", "base_frame", "run_dir"),
     "simulated_board": ("recording", "run_dir", "cpu_affinity"),
@@ -124,25 +125,26 @@ def test_a_board_is_simulated_unless_something_is_replayed(launch: Callable[...,
 def test_only_with_sim_is_the_robot_held_to_be_a_simulated_one(launch: Callable[..., Printed]) -> None:
     file = TACTILE.with_name("ball_balancing.launch.xml")
     for sim, expected in (("true", "true"), ("1", "true"), ("false", "false"), ("0", "false")):
-        words = repr(launch(file, sim=sim, robot_ip="192.168.1.10"))
-        assert re.findall(r"loopback_only=(\w+)", words) == [expected]
-        (separate,) = re.findall(r"'loopback_only': (\w+)", repr(launch(file, sim=sim, composed="false")))
-        assert separate.lower() == expected
+        for composed in ("true", "false"):
+            words = repr(launch(file, sim=sim, composed=composed, robot_ip="192.168.1.10"))
+            assert re.findall(r"loopback_only=(\w+)", words) == [expected]
 
 
+# Of every file that takes a params file; the simulated board takes none.
 CHOICES = {
     "scheme": tuple(word for word in describe(DriverSettings)["scheme"].choices if word),
     "protocol": describe(DriverSettings)["protocol"].choices,
-    "layout": describe(ReconstructionSettings)["layout"].choices,
-    "method": (*describe(ReconstructionSettings)["method"].choices, IN_PARAMS_FILE),
-    "autostart": ("true", "false", IN_PARAMS_FILE),
+    "method": describe(ReconstructionSettings)["method"].choices,
+    "autostart": ("true", "false"),
+    "replay_loop": ("true", "false"),
 }
 
 
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.name)
 def test_choices_are_those_of_the_nodes(file: Path, launch: Callable[..., Printed]) -> None:
     for argument, _ in declarations(parse_file(file)):
-        assert set(argument.choices) == set(CHOICES.get(argument.name, ())), argument.name
+        more = {IN_PARAMS_FILE} if argument.choices and PARAMS_ARGUMENT in file.read_text() else set()
+        assert set(argument.choices) == {*CHOICES.get(argument.name, ()), *more}, argument.name
         for choice in argument.choices:
             launch(file, **{argument.name: choice})
         if argument.choices:
@@ -182,7 +184,46 @@ def test_the_array_and_the_method_reach_every_process_that_needs_them(
 def test_what_is_not_given_is_left_to_the_params_file(launch: Callable[..., Printed]) -> None:
     started = launch(TACTILE)
     (board,) = [" ".join(words) for words, _ in started if words[0].endswith("/virtual_board")]
-    assert "--rows 32 --cols 32" in board
+    assert "--rows 32 --cols 32 --scheme tracking --m 55 " in board
+    assert "--threshold 60 --protocol binary " in board
+    assert board.endswith("--realtime-priority 0 --cpu-affinity none")
     reconstruction = settings_of(started, "reconstruction")
     names = ("rows", "cols", "pitch_m", "method", "dictionary")
     assert {reconstruction[name] for name in names} == {IN_PARAMS_FILE}
+
+
+# What a simulation is made of, and what keeps it from a robot's own address.
+OF_THE_SIMULATION = {"ball_world.field_ring", "ball_world.joint_ring", "driver.port", "ball_control.robot_ip"}
+ALWAYS_SET = {"ball_control.loopback_only"}
+
+
+@pytest.mark.parametrize("composed", ["true", "false"])
+@pytest.mark.parametrize("sim", ["true", "false"])
+@pytest.mark.parametrize(
+    "file", [file for file in FILES if PARAMS_ARGUMENT in file.read_text()], ids=lambda file: file.name
+)
+def test_an_argument_that_is_not_given_overrides_no_params_file(
+    launch: Callable[..., Printed], file: Path, sim: str, composed: str
+) -> None:
+    declared = {argument.name for argument, _ in declarations(parse_file(file))}
+    switches = {name: value for name, value in (("sim", sim), ("composed", composed)) if name in declared}
+    set_here: set[str] = set()
+    for command, contents in launch(file, **switches):
+        words = [word.partition("=") for word in command if re.match(r"\w+\.\w+=", word)]
+        set_here.update(name for name, _, value in words if value != IN_PARAMS_FILE)
+        # Parameters of the launch file's own, which go before those of a params file whatever they say.
+        assert contents == []
+    is_simulated = switches.get("sim") != "false"
+    assert set_here <= ALWAYS_SET | (OF_THE_SIMULATION if is_simulated else set())
+
+
+def test_a_simulated_robot_is_where_nothing_else_is_said_whatever_a_params_file_says(
+    launch: Callable[..., Printed],
+) -> None:
+    file = TACTILE.with_name("ball_balancing.launch.xml")
+    for arguments, expected in (({}, "127.0.0.1"), ({"robot_ip": "127.0.0.9"}, "127.0.0.9")):
+        started = launch(file, **arguments)
+        (robot,) = [" ".join(words) for words, _ in started if words[0].endswith("/ur_controller")]
+        assert f"--host {expected} " in robot
+        assert settings_of(started, "ball_control")["robot_ip"] == expected
+    assert settings_of(launch(file, sim="false"), "ball_control")["robot_ip"] == IN_PARAMS_FILE

@@ -8,8 +8,9 @@ from collections.abc import Sequence
 from importlib import import_module
 from pathlib import Path
 
-from acts_core.errors import ActsError, exit_code
+from acts_core.errors import REFUSED_EXIT_CODE, ActsError, exit_code
 from acts_core.stop_signals import StopSignals
+from acts_ros.refused import stay, take_stay_word
 
 
 class Program:
@@ -28,6 +29,13 @@ class Program:
 
     def __call__(self) -> int:
         """Run it; the exit code."""
+        stays = take_stay_word(sys.argv)
+        code = self._run()
+        if code == REFUSED_EXIT_CODE and stays:
+            stay()
+        return code
+
+    def _run(self) -> int:
         signals = StopSignals()
         try:
             with signals.interrupting():

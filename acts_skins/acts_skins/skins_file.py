@@ -33,7 +33,7 @@ _NODES_OF: dict[str, tuple[str, ...]] = {
 }
 """Parameters with a key of their own, and the nodes they go to."""
 
-# As of tactile.launch.xml: the board's own are for the paper's scheme.
+# As of the params file of tactile.launch.xml: the board's own are for the paper's scheme.
 _DEFAULTS: dict[str, Any] = {"scheme": "tracking", "m": 55, "threshold_counts": 60}
 
 _FILE_KEYS = ("base_frame", "frames", "skins")

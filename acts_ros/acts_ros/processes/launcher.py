@@ -20,6 +20,7 @@ from acts_core.errors import REFUSED_EXIT_CODE
 from acts_ros.processes.console import Console
 from acts_ros.processes.process import Process
 from acts_ros.processes.respawn import RespawnWait
+from acts_ros.refused import LAUNCHER_VARIABLE
 
 _STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT)
 # How a process may end once it has been asked to; shells report a signal as 128 + its number.
@@ -181,7 +182,7 @@ class Launcher:
         try:
             child.popen = subprocess.Popen(
                 child.process.command,
-                env=child.process.environment,
+                env={**child.process.environment, LAUNCHER_VARIABLE: "1"},
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.PIPE,

@@ -1,0 +1,74 @@
+"""A process that refuses what it was given, under a launcher that would start it again and again, and otherwise."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from acts_core.errors import REFUSED_EXIT_CODE
+from acts_ros.refused import LAUNCHER_VARIABLE, STAY_WORD
+
+DEADLINE_S = 30.0
+# Refuses the word that it must be told; with another error it might fare better the next time.
+NODE = """
+import sys
+from acts_core import errors
+
+def main(signals):
+    try:
+        assert sys.argv[1:] == ["--set", "driver.scheme=trackin"], sys.argv
+        raise errors.{error}("scheme = 'trackin': allowed is tracking")
+    finally:
+        # As the executor leaves it: signals are ignored.
+        signals.ended()
+"""
+
+
+def started(folder: Path, error: str, *words: str, **environment: str) -> subprocess.Popen[str]:
+    (folder / "refusing_node.py").write_text(NODE.format(error=error))
+    inherited = {name: value for name, value in os.environ.items() if name != LAUNCHER_VARIABLE}
+    path = os.pathsep.join([str(folder), os.environ.get("PYTHONPATH", "")])
+    command = [sys.executable, "-m", "acts_ros.program", "refusing_node", *words, "--set", "driver.scheme=trackin"]
+    return subprocess.Popen(
+        command, env={**inherited, "PYTHONPATH": path, **environment}, stderr=subprocess.PIPE, text=True
+    )
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_what_would_be_started_again_stays_and_says_so_until_it_is_told_to_end(
+    tmp_path: Path, number: signal.Signals
+) -> None:
+    with started(tmp_path, "SettingsError", STAY_WORD) as process:
+        try:
+            assert process.stderr is not None
+            assert "scheme = 'trackin'" in process.stderr.readline()
+            assert "does nothing" in process.stderr.readline()
+            assert process.poll() is None
+            process.send_signal(number)
+            assert process.wait(DEADLINE_S) == REFUSED_EXIT_CODE
+        finally:
+            process.kill()
+
+
+@pytest.mark.parametrize(
+    ("error", "words", "environment", "code"),
+    [
+        ("SettingsError", [], {}, REFUSED_EXIT_CODE),
+        ("SettingsError", [STAY_WORD], {LAUNCHER_VARIABLE: "1"}, REFUSED_EXIT_CODE),
+        ("PortError", [STAY_WORD], {}, 1),
+    ],
+    ids=["by hand", "acts launch", "an error that may pass"],
+)
+def test_otherwise_it_ends(
+    tmp_path: Path, error: str, words: list[str], environment: dict[str, str], code: int
+) -> None:
+    with started(tmp_path, error, *words, **environment) as process:
+        try:
+            assert process.wait(DEADLINE_S) == code
+        finally:
+            process.kill()
