@@ -27,7 +27,7 @@ KEYS = {
     "yaml": "python3-yaml",
 }
 # Without a key: they are in requirements-ros.txt.
-WITHOUT_KEY = {"dashboard_client", "rosbags", "rtde_control", "rtde_receive"}
+WITHOUT_KEY = {"dashboard_client", "mujoco", "rosbags", "rtde_control", "rtde_receive"}
 EXECUTION = ("depend", "exec_depend")
 TESTS = (*EXECUTION, "test_depend")
 

@@ -1,0 +1,69 @@
+"""What happens to the hand and its object from outside: the object is pulled, the hand is shaken."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+class Disturbances:
+    """Pulls at the object and shakes the hand.
+
+    Parameters
+    ----------
+    weight_n : float
+        Of the object.
+    down : np.ndarray [shape=(3,)]
+        In the palm's frame.
+
+    Attributes
+    ----------
+    load_n : np.ndarray [shape=(3,)]
+        What pulls at the object now, in the palm's frame [N].
+    """
+
+    def __init__(self, weight_n: float, down: NDArray[np.float64]) -> None:
+        self.load_n = np.zeros(3)
+        self._weight_n = weight_n
+        self._down = down
+        self._goal_n = np.zeros(3)
+        self._rate_n_s = 0.0
+        self._shake_direction = np.zeros(3)
+        self._amplitude_m = self._omega_rad_s = 0.0
+        self._shaken_s = self._shake_s = 0.0
+
+    def pull(self, force_n: NDArray[np.float64], ramp_s: float) -> None:
+        """Pull at the object with a force that is reached after `ramp_s` and stays."""
+        self._goal_n = force_n.copy()
+        self._rate_n_s = float(np.linalg.norm(self._goal_n - self.load_n)) / max(ramp_s, 1e-6)
+
+    def load(self, times_weight: float, ramp_s: float) -> None:
+        """Pull at the object downwards with a multiple of its weight, reached after `ramp_s`."""
+        self.pull(times_weight * self._weight_n * self._down, ramp_s)
+
+    def shake(self, direction: NDArray[np.float64], amplitude_m: float, frequency_hz: float, duration_s: float) -> None:
+        """Move the whole hand to and fro along a direction."""
+        self._shake_direction = direction / np.linalg.norm(direction)
+        self._amplitude_m, self._omega_rad_s = amplitude_m, math.tau * frequency_hz
+        self._shaken_s, self._shake_s = 0.0, duration_s
+
+    def advance(self, dt_s: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Let time pass; the pull at the object [N] and the acceleration of the hand [m/s^2], both shape (3,)."""
+        if self._rate_n_s:
+            missing = self._goal_n - self.load_n
+            distance = float(np.linalg.norm(missing))
+            step = self._rate_n_s * dt_s
+            if distance <= step:
+                self.load_n, self._rate_n_s = self._goal_n, 0.0
+            else:
+                self.load_n = self.load_n + missing * (step / distance)
+        if self._shaken_s >= self._shake_s:
+            return self.load_n, np.zeros(3)
+        self._shaken_s += dt_s
+        # Its strength grows and fades over a tenth of a second, so that the hand ends where it was.
+        left_s = self._shake_s - self._shaken_s
+        strength = min(1.0, self._shaken_s / 0.1, max(left_s, 0.0) / 0.1)
+        swing = -self._amplitude_m * self._omega_rad_s**2 * math.sin(self._omega_rad_s * self._shaken_s)
+        return self.load_n, strength * swing * self._shake_direction

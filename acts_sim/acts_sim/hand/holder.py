@@ -1,0 +1,109 @@
+"""What holds the object besides the hand: springs to a place, as of somebody's arm, which may move."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+_STIFFNESS_N_M = 800.0
+_TURN_STIFFNESS_NM = 3.0
+# A gyration radius of this [m] tells how to damp turns.
+_GYRATION_M = 0.03
+_LET_GO_S = 0.1
+
+
+class Holder:
+    """Springs and dampers between the object and a pose, and that pose on its way.
+
+    Parameters
+    ----------
+    mass_kg : float
+        Of the object.
+    """
+
+    def __init__(self, mass_kg: float) -> None:
+        self._damping = 2.0 * math.sqrt(_STIFFNESS_N_M * mass_kg)
+        self._turn_damping = 2.0 * math.sqrt(_TURN_STIFFNESS_NM * mass_kg) * _GYRATION_M
+        self._start = self._position = self._end = np.zeros(3)
+        self._quaternion = self._start_quaternion = np.array([1.0, 0.0, 0.0, 0.0])
+        self._turn = np.zeros(3)
+        self._elapsed_s = self._duration_s = 0.0
+        self._strength = 0.0
+        self._letting_go = False
+
+    @property
+    def holding(self) -> bool:
+        """Whether the object is held; until it has been let go wholly."""
+        return self._strength > 0.0
+
+    def hold(self, position_m: NDArray[np.float64], quaternion: NDArray[np.float64]) -> None:
+        """Hold the object at a pose in the palm's frame; orientation as w, x, y, z."""
+        self._position = self._start = self._end = position_m.copy()
+        self._quaternion = self._start_quaternion = quaternion.copy()
+        self._turn = np.zeros(3)
+        self._duration_s = 0.0
+        self._strength, self._letting_go = 1.0, False
+
+    def let_go(self) -> None:
+        """Hold it no longer; the springs fade away within a tenth of a second."""
+        self._letting_go = True
+
+    def move(self, by_m: NDArray[np.float64], turn_rad: NDArray[np.float64], duration_s: float) -> None:
+        """Move the pose by a way [m] and a turn about a vector [rad], smoothly within a time [s]."""
+        self._start, self._end = self._position, self._position + by_m
+        self._start_quaternion, self._turn = self._quaternion, turn_rad.copy()
+        self._elapsed_s, self._duration_s = 0.0, max(duration_s, 1e-3)
+
+    def wrench(
+        self,
+        position_m: NDArray[np.float64],
+        quaternion: NDArray[np.float64],
+        velocity_m_s: NDArray[np.float64],
+        turn_rad_s: NDArray[np.float64],
+        dt_s: float,
+    ) -> NDArray[np.float64]:
+        """Let time pass; force [N] and torque [N m] on the object, np.ndarray [shape=(6,)]."""
+        if self._letting_go:
+            self._strength = max(self._strength - dt_s / _LET_GO_S, 0.0)
+        if self._duration_s:
+            self._advance(dt_s)
+        difference = _product(self._quaternion, quaternion * (1.0, -1.0, -1.0, -1.0))
+        if difference[0] < 0.0:
+            difference = -difference
+        return self._strength * np.concatenate(
+            (
+                _STIFFNESS_N_M * (self._position - position_m) - self._damping * velocity_m_s,
+                _TURN_STIFFNESS_NM * 2.0 * difference[1:] - self._turn_damping * turn_rad_s,
+            )
+        )
+
+    def _advance(self, dt_s: float) -> None:
+        self._elapsed_s = min(self._elapsed_s + dt_s, self._duration_s)
+        x = self._elapsed_s / self._duration_s
+        share = x * x * x * (10.0 - 15.0 * x + 6.0 * x * x)  # no jerk at its begin and end
+        self._position = self._start + share * (self._end - self._start)
+        self._quaternion = _product(_turned(share * self._turn), self._start_quaternion)
+        if x >= 1.0:
+            self._duration_s = 0.0
+
+
+def _turned(vector_rad: NDArray[np.float64]) -> NDArray[np.float64]:
+    angle = float(np.linalg.norm(vector_rad))
+    if angle == 0.0:
+        return np.array([1.0, 0.0, 0.0, 0.0])
+    return np.concatenate(([math.cos(angle / 2.0)], math.sin(angle / 2.0) / angle * vector_rad))
+
+
+def _product(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+    aw, ax, ay, az = a.tolist()
+    bw, bx, by, bz = b.tolist()
+    return np.array(
+        [
+            aw * bw - ax * bx - ay * by - az * bz,
+            aw * bx + ax * bw + ay * bz - az * by,
+            aw * by - ax * bz + ay * bw + az * bx,
+            aw * bz + ax * by - ay * bx + az * bw,
+        ]
+    )

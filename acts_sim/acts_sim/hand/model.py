@@ -1,0 +1,171 @@
+"""Hand, object and tip as a MuJoCo model, whose world is the palm's frame: gravity turns, the hand does not."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from xml.etree import ElementTree
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_sim.hand.kinematics import FINGERS, LINKS, PALM, PALM_MASS_KG, SOLIDS, Solid, open_frames
+from acts_sim.hand.objects import HeldObject, Piece
+from acts_sim.hand.skin_kernels import BOX, CAPSULE, CYLINDER
+
+OBJECT = "object"
+TIP = "tip"
+
+PARKED_M = (0.0, 0.0, 2.0)
+"""Where the tip is while there is none, in the palm's frame [m]."""
+
+# Of every joint: a finger about its root, with the gearbox, as in acts_sim/dynamixel/joints.py.
+_ARMATURE_KG_M2 = 1e-3
+_DAMPING_NM_S = 0.03
+_FRICTION_NM = 0.01
+
+# Who collides with whom, as bits: a geom's own, and those that it takes.
+_COLLISION = {"finger": ("9", "6"), "thumb": ("5", "2"), "root": ("1", "6"), "palm": ("1", "10"), "object": ("2", "1")}
+
+_COLOURS = {
+    "palm": "0.55 0.57 0.60 1",
+    "finger": "0.62 0.64 0.67 1",
+    "thumb": "0.62 0.64 0.67 1",
+    "root": "0.50 0.52 0.55 1",
+    "object": "0.90 0.62 0.25 1",
+}
+
+
+def build(thing: HeldObject | None, timestep_s: float) -> mujoco.MjModel:
+    """The model.
+
+    Parameters
+    ----------
+    thing : HeldObject or None
+        What is in the hand: a free body ``object``.
+    timestep_s : float
+
+    Returns
+    -------
+    mujoco.MjModel
+        Joints have the names of `kinematics.LINKS`, bodies those of the links; the tip is the mocap body ``tip``.
+    """
+    return mujoco.MjModel.from_xml_string(ElementTree.tostring(_document(thing, timestep_s), encoding="unicode"))
+
+
+def _document(thing: HeldObject | None, timestep_s: float) -> ElementTree.Element:
+    root = ElementTree.Element("mujoco", model="leap_right")
+    ElementTree.SubElement(root, "compiler", angle="radian", autolimits="true", inertiafromgeom="true")
+    ElementTree.SubElement(
+        root, "option", timestep=str(timestep_s), integrator="implicitfast", cone="pyramidal", iterations="20"
+    )
+    visual = ElementTree.SubElement(root, "visual")
+    ElementTree.SubElement(visual, "global", offwidth="1280", offheight="960")
+    ElementTree.SubElement(visual, "headlight", ambient="0.45 0.45 0.45", diffuse="0.6 0.6 0.6", specular="0.1 0.1 0.1")
+    world = ElementTree.SubElement(root, "worldbody")
+    frames = open_frames()
+    bodies = {PALM: ElementTree.SubElement(world, "body", name=PALM)}
+    masses = {PALM: PALM_MASS_KG, **{link.name: link.mass_kg for link in LINKS}}
+    for link in LINKS:
+        body = ElementTree.SubElement(
+            bodies[link.parent], "body", name=link.name, pos=_text(link.offset_m), quat=_text(link.quaternion)
+        )
+        bodies[link.name] = body
+        ElementTree.SubElement(
+            body,
+            "joint",
+            name=link.joint,
+            axis="0 0 -1",
+            range=_text(link.limits_rad),
+            armature=str(_ARMATURE_KG_M2),
+            damping=str(_DAMPING_NM_S),
+            frictionloss=str(_FRICTION_NM),
+        )
+    for solid in SOLIDS:
+        of_link = sum(other.link == solid.link for other in SOLIDS)
+        _add_solid(bodies[solid.link], solid, frames[solid.link], masses[solid.link] / of_link)
+    if thing is not None:
+        _add_object(world, thing)
+    tip = ElementTree.SubElement(world, "body", name=TIP, mocap="true", pos=_text(PARKED_M))
+    contype, conaffinity = _COLLISION["object"]
+    ElementTree.SubElement(
+        tip,
+        "geom",
+        name=TIP,
+        type="capsule",
+        size="0.0005 0.0195",
+        pos="0 0 -0.02",
+        contype=contype,
+        conaffinity=conaffinity,
+        rgba="0.8 0.1 0.1 1",
+    )
+    return root
+
+
+def _kind_of(link: str) -> str:
+    if link == PALM:
+        return "palm"
+    if link.endswith(("_base", "_proximal")):
+        return "root"
+    return "finger" if link.startswith(FINGERS) else "thumb"
+
+
+def _add_solid(
+    body: ElementTree.Element,
+    solid: Solid,
+    frame: tuple[NDArray[np.float64], NDArray[np.float64]],
+    mass_kg: float,
+) -> None:
+    origin_m, rotation = frame
+    start, end = ((np.array(point) - origin_m) @ rotation for point in (solid.start_m, solid.end_m))
+    contype, conaffinity = _COLLISION[_kind_of(solid.link)]
+    common = {
+        "mass": str(mass_kg),
+        "contype": contype,
+        "conaffinity": conaffinity,
+        "friction": "0.3",
+        "rgba": _COLOURS[_kind_of(solid.link)],
+    }
+    if solid.radius_m:
+        ElementTree.SubElement(
+            body, "geom", type="capsule", fromto=_text((*start, *end)), size=str(solid.radius_m), attrib=common
+        )
+    else:
+        ElementTree.SubElement(
+            body, "geom", type="box", pos=_text((start + end) / 2), size=_text(np.abs(end - start) / 2), attrib=common
+        )
+
+
+def _add_object(world: ElementTree.Element, thing: HeldObject) -> None:
+    body = ElementTree.SubElement(world, "body", name=OBJECT)
+    ElementTree.SubElement(body, "freejoint", name=OBJECT)
+    contype, conaffinity = _COLLISION["object"]
+    for piece in thing.pieces:
+        kind, size = _shape_of(piece)
+        ElementTree.SubElement(
+            body,
+            "geom",
+            type=kind,
+            size=_text(size),
+            pos=_text(piece.offset_m),
+            quat=_text(piece.quaternion),
+            mass=str(thing.mass_kg / len(thing.pieces)),
+            contype=contype,
+            conaffinity=conaffinity,
+            friction="0.3",
+            rgba=_COLOURS["object"],
+        )
+
+
+def _shape_of(piece: Piece) -> tuple[str, Sequence[float]]:
+    if piece.kind == BOX:
+        return "box", piece.size_m[:3]
+    if piece.kind == CYLINDER:
+        return "cylinder", piece.size_m[:2]
+    if piece.kind == CAPSULE:
+        return "capsule", piece.size_m
+    return "sphere", piece.size_m
+
+
+def _text(numbers: Sequence[float] | NDArray[np.float64]) -> str:
+    return " ".join(f"{number:.9g}" for number in numbers)

@@ -1,0 +1,144 @@
+"""What the skin is poked with: a rod with a round tip that moves straight onto a patch."""
+
+from __future__ import annotations
+
+import math
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.layouts import Layout, SkinPatch
+from acts_sim.hand import model as hand_model
+from acts_sim.hand.solids import Solids
+
+SHARP_RADIUS_M = 0.0005
+"""Of a tip of a millimetre."""
+
+BLUNT_RADIUS_M = 0.008
+
+_ROD_M = 0.04  # as in the model
+
+
+class Tip:
+    """Moves the tip and knows how deep it is in the skin.
+
+    Attributes
+    ----------
+    patch : str
+        The patch that it is pushed into; empty without a tip.
+    depth_m : float
+        How far its end is below the untouched surface of that patch [m]; negative above it, NaN without a tip.
+    """
+
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, solids: Solids, layout: Layout) -> None:
+        self.patch = ""
+        self.depth_m = math.nan
+        self._model, self._data, self._solids = model, data, solids
+        self._patches = {patch.name: patch for patch in layout.patches}
+        self._mocap = int(model.body_mocapid[_id(model, mujoco.mjtObj.mjOBJ_BODY, hand_model.TIP)])
+        self._geom = _id(model, mujoco.mjtObj.mjOBJ_GEOM, hand_model.TIP)
+        self._end = np.array(hand_model.PARKED_M)
+        self._along = np.array([0.0, 0.0, 1.0])
+        self._speed_m_s = 0.0
+        self._left_m = 0.0
+
+    def poke(
+        self,
+        patch: str,
+        radius_m: float,
+        speed_m_s: float,
+        travel_m: float,
+        start_m: float = 0.005,
+        row: float | None = None,
+        col: float | None = None,
+    ) -> None:
+        """Push a tip into a patch, against its normal where it is now.
+
+        Parameters
+        ----------
+        patch : str
+            Name of the patch.
+        radius_m : float
+            Of the tip.
+        speed_m_s : float
+            It moves with, without yielding.
+        travel_m : float
+            How far it moves beyond the surface, where that was at the begin; then it stands.
+        start_m : float
+            How far above the surface it begins.
+        row, col : float, optional
+            Where on the patch, as fractional indices of its taxels; its middle unless told otherwise.
+        """
+        where = self._patches[patch]
+        row = (where.rows - 1) / 2 if row is None else row
+        col = (where.cols - 1) / 2 if col is None else col
+        point, normal = self._surface(where, row, col)
+        self.patch = patch
+        self._along = -normal
+        self._end = point + start_m * normal
+        self._speed_m_s, self._left_m = speed_m_s, start_m + travel_m
+        self._model.geom_size[self._geom, :2] = radius_m, (_ROD_M - 2.0 * radius_m) / 2.0
+        self._model.geom_rbound[self._geom] = _ROD_M / 2.0
+        self._solids.set_tip(radius_m, _ROD_M)
+        self._place()
+
+    def withdraw(self) -> None:
+        """Take the tip away."""
+        self.patch, self.depth_m = "", math.nan
+        self._end, self._left_m = np.array(hand_model.PARKED_M), 0.0
+        self._solids.remove_tip()
+        self._place()
+
+    def advance(self, dt_s: float) -> None:
+        """Let time pass."""
+        if not self.patch:
+            return
+        step_m = min(self._speed_m_s * dt_s, self._left_m)
+        self._left_m -= step_m
+        self._end = self._end + step_m * self._along
+        self._solids.travel[-1] = step_m / dt_s * self._along
+        self._place()
+        self.depth_m = self._depth(self._patches[self.patch])
+
+    def _place(self) -> None:
+        self._data.mocap_pos[self._mocap] = self._end
+        self._data.mocap_quat[self._mocap] = _quaternion_to(self._along)
+
+    def _surface(self, patch: SkinPatch, row: float, col: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """A place on a patch and the normal there, in the palm's frame, both shape (3,)."""
+        origin, rotation = self._frame(patch)
+        x_m = float(patch.geometry.x_m(col))
+        y_m = float(patch.geometry.y_m(row))
+        radius_m = patch.radius_m
+        if not radius_m:
+            return origin + rotation @ (x_m, y_m, 0.0), rotation[:, 2]
+        angle = x_m / radius_m
+        local = np.array([radius_m * math.sin(angle), y_m, radius_m * (math.cos(angle) - 1.0)])
+        return origin + rotation @ local, rotation @ (math.sin(angle), 0.0, math.cos(angle))
+
+    def _depth(self, patch: SkinPatch) -> float:
+        origin, rotation = self._frame(patch)
+        x_m, _, z_m = ((self._end - origin) @ rotation).tolist()
+        if not patch.radius_m:
+            return float(-z_m)
+        return float(patch.radius_m - math.hypot(x_m, z_m + patch.radius_m))
+
+    def _frame(self, patch: SkinPatch) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Of a patch, in the palm's frame."""
+        body = _id(self._model, mujoco.mjtObj.mjOBJ_BODY, patch.link)
+        turn = self._data.xmat[body].reshape(3, 3)
+        return self._data.xpos[body] + turn @ patch.origin_m, turn @ patch.rotation
+
+
+def _quaternion_to(direction: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Quaternion w, x, y, z that brings the z axis to a direction."""
+    x, y, z = direction.tolist()
+    if z < -0.999999:
+        return np.array([0.0, 1.0, 0.0, 0.0])
+    quaternion = np.array([1.0 + z, -y, x, 0.0])
+    return quaternion / np.linalg.norm(quaternion)
+
+
+def _id(model: mujoco.MjModel, kind: mujoco.mjtObj, name: str) -> int:
+    return int(mujoco.mj_name2id(model, kind, name))

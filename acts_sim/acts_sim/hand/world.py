@@ -1,0 +1,264 @@
+"""The hand's world: motors move joints, joints move links, links and object press on each other through the skin.
+
+No clock and no process inside: the same seed and the same commands to motors and world give the same bits.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.layouts import layout
+from acts_core.settings import setting, validate
+from acts_sim.dynamixel.control_table import MODELS
+from acts_sim.dynamixel.motor import Motor
+from acts_sim.hand import model as hand_model
+from acts_sim.hand.disturbances import Disturbances
+from acts_sim.hand.holder import Holder
+from acts_sim.hand.kinematics import LINKS
+from acts_sim.hand.objects import OBJECTS, HeldObject, held_object
+from acts_sim.hand.skin import Skin, SkinConfig
+from acts_sim.hand.skin_kernels import FORCE, SLIDING_FORCE, SLIDING_SPEED, TIP_FORCE
+from acts_sim.hand.solids import Solids
+from acts_sim.hand.tip import Tip
+from acts_sim.hand.truth import HandTruth, PatchTruth
+
+STEP_S = 0.002
+"""Length of a step [s]."""
+
+_SUBSTEPS = 2
+
+_GRAVITY_M_S2 = 9.81
+
+# Where down is in the palm's frame.
+_DOWN = {
+    "palm_up": (0.0, 0.0, 1.0),
+    "palm_down": (0.0, 0.0, -1.0),
+    "thumb_up": (0.0, -1.0, 0.0),
+    "thumb_down": (0.0, 1.0, 0.0),
+    "fingers_up": (-1.0, 0.0, 0.0),
+    "fingers_down": (1.0, 0.0, 0.0),
+}
+
+_LOST_M = 0.15
+"""An object further than this from where the hand can hold it has fallen out."""
+
+_GRASP_MIDDLE_M = np.array([-0.02, -0.037, -0.07])
+
+
+@dataclass(frozen=True)
+class HandWorldConfig(SkinConfig):
+    """Everything that can be set about the hand's world."""
+
+    layout: str = setting("leap_right", "name or file of the layout that says where the taxels are")
+    pose: str = setting("palm_up", "how the hand is held", choices=tuple(_DOWN))
+    object: str = setting("sphere", "what is in the hand", choices=("none", *OBJECTS))
+    object_size_m: float = setting(
+        0.0, "radius, or half the width of a box [m]; 0: as usual", minimum=0.0, maximum=0.045
+    )
+    object_mass_kg: float = setting(0.0, "mass of the object [kg]; 0: as usual", minimum=0.0, maximum=2.0)
+    object_x_m: float = setting(
+        0.0, "where the object is put: off the palm's middle, towards the fingers [m]", minimum=-0.1, maximum=0.1
+    )
+    object_y_m: float = setting(0.0, "and towards the thumb's side [m]", minimum=-0.1, maximum=0.1)
+    object_height_m: float = setting(0.0, "and above the palm [m]", minimum=0.0, maximum=0.1)
+    object_held: bool = setting(False, "whether the object is held there until it is let go")
+    motor_model: str = setting("xc330", "kind of the motors", choices=tuple(sorted(MODELS)))
+    return_delay_time: int = setting(250, "of the motors, in their EEPROM at the start [2 us]", minimum=0, maximum=254)
+    overload_after_s: float = setting(
+        0.0, "a motor that has stalled for so long switches itself off [s]; 0: never", minimum=0.0, maximum=1000.0
+    )
+    overload_ma: float = setting(
+        300.0, "stalled is a motor that stands still with at least this current [mA]", minimum=1.0, maximum=2000.0
+    )
+    seed: int = setting(1, "of the taxels' sensitivities and the object's unevenness", minimum=0, maximum=2**31 - 1)
+
+    def __post_init__(self) -> None:
+        validate(self)
+
+
+class HandWorld:
+    """Steps the world.
+
+    Parameters
+    ----------
+    config : HandWorldConfig
+
+    Attributes
+    ----------
+    motors : list of Motor
+        Sixteen, by their IDs.
+    blocked : set of int
+        Indices of joints that something holds where they are.
+    holder : Holder
+        What may hold the object besides the hand.
+    tip : Tip
+        What the skin may be poked with.
+    disturbances : Disturbances
+        What else may happen to hand and object.
+    """
+
+    def __init__(self, config: HandWorldConfig | None = None) -> None:
+        self.config = config = config or HandWorldConfig()
+        rng = np.random.default_rng(config.seed)
+        self._thing: HeldObject | None = None
+        if config.object != "none":
+            self._thing = held_object(config.object, config.object_size_m, config.object_mass_kg)
+        self._model = hand_model.build(self._thing, STEP_S / _SUBSTEPS)
+        self._data = mujoco.MjData(self._model)
+        self.layout = layout(config.layout)
+        self.motors = [Motor(MODELS[config.motor_model], k, config.return_delay_time) for k in range(len(LINKS))]
+        self.blocked: set[int] = set()
+        joints = [_joint(self._model, name) for _, name in sorted((link.motor_id, link.joint) for link in LINKS)]
+        self._q = np.array([self._model.jnt_qposadr[joint] for joint in joints])
+        self._dof = np.array([self._model.jnt_dofadr[joint] for joint in joints])
+        self._body = _body(self._model, hand_model.OBJECT)
+        tip_body = _body(self._model, hand_model.TIP)
+        solids = Solids(self._model, self._thing, max(self._body, 0), tip_body, config.cover_m, config.unevenness_m)
+        self._skin = Skin(self._model, self.layout, solids, config, rng)
+        self.tip = Tip(self._model, self._data, solids, self.layout)
+        self.holder = Holder(self._thing.mass_kg if self._thing else 0.0)
+        self.disturbances = Disturbances(self.weight_n, self.down)
+        self.time_s = 0.0
+        self._lost = False
+        self.put(config.object_x_m, config.object_y_m, config.object_height_m, held=config.object_held)
+        self._give_shafts()
+        self._model.opt.gravity[:] = _GRAVITY_M_S2 * self.down
+        mujoco.mj_step1(self._model, self._data)
+        # Compiles now what would otherwise hold up the first step.
+        self._skin.press(self._data, 0.0)
+
+    @property
+    def down(self) -> NDArray[np.float64]:
+        """Where down is in the palm's frame; np.ndarray [shape=(3,)], a unit vector."""
+        return np.array(_DOWN[self.config.pose])
+
+    @property
+    def weight_n(self) -> float:
+        """Of the object [N]; 0 without."""
+        return self._thing.mass_kg * _GRAVITY_M_S2 if self._thing else 0.0
+
+    @property
+    def counts(self) -> NDArray[np.float64]:
+        """What the skin reads, before noise and rounding; np.ndarray [shape=(1024,)] in the order of the matrix."""
+        return self._skin.counts()
+
+    @property
+    def forces_n(self) -> NDArray[np.float64]:
+        """Force on every taxel [N]; np.ndarray [shape=(1024,)] in the order of the matrix, overwritten by `step`."""
+        return self._skin.forces_n
+
+    @property
+    def model(self) -> mujoco.MjModel:
+        """For pictures."""
+        return self._model
+
+    @property
+    def data(self) -> mujoco.MjData:
+        """For pictures."""
+        return self._data
+
+    def put(self, x_m: float, y_m: float, height_m: float = 0.0, *, held: bool = False) -> None:
+        """Put the object on the palm, off its middle; held, or to lie there by itself."""
+        if self._thing is None:
+            return
+        start = self._model.jnt_qposadr[_joint(self._model, hand_model.OBJECT)]
+        where = self._thing.on_palm(x_m, y_m)
+        where[2] -= height_m
+        self._data.qpos[start : start + 7] = (*where, 1.0, 0.0, 0.0, 0.0)
+        dof = self._model.jnt_dofadr[_joint(self._model, hand_model.OBJECT)]
+        self._data.qvel[dof : dof + 6] = 0.0
+        self._lost = False
+        if held:
+            self.holder.hold(where, np.array([1.0, 0.0, 0.0, 0.0]))
+        else:
+            self.holder.let_go()
+        mujoco.mj_step1(self._model, self._data)
+
+    def step(self, dt_s: float = STEP_S) -> None:
+        """Let `STEP_S` pass."""
+        for k, motor in enumerate(self.motors):
+            self._data.qfrc_applied[self._dof[k]] = motor.step(dt_s)
+        for _ in range(_SUBSTEPS):
+            self._substep(dt_s / _SUBSTEPS)
+        self._give_shafts()
+
+    def _substep(self, dt_s: float) -> None:
+        model, data = self._model, self._data
+        self.time_s += dt_s
+        load_n, shaking = self.disturbances.advance(dt_s)
+        model.opt.gravity[:] = _GRAVITY_M_S2 * self.down - shaking
+        self.tip.advance(dt_s)
+        mujoco.mj_step1(model, data)
+        data.xfrc_applied[:] = 0.0
+        self._skin.press(data, dt_s)
+        if self._body >= 0:
+            self._push_object(load_n, dt_s)
+        mujoco.mj_step2(model, data)
+        if self.blocked:
+            held = list(self.blocked)
+            data.qvel[self._dof[held]] = 0.0
+            data.qpos[self._q[held]] = [self.motors[k].shaft.position_rad - math.pi for k in held]
+
+    def _push_object(self, load_n: NDArray[np.float64], dt_s: float) -> None:
+        data, body = self._data, self._body
+        wrench = data.xfrc_applied[body]
+        wrench[:3] += load_n
+        if self.holder.holding:
+            turn_rad_s = data.xmat[body].reshape(3, 3) @ data.qvel[-3:]
+            wrench += self.holder.wrench(data.xpos[body], data.xquat[body], data.qvel[-6:-3], turn_rad_s, dt_s)
+            wrench[:3] -= self._thing.mass_kg * self._model.opt.gravity if self._thing else 0.0
+        offset = data.xpos[body] - _GRASP_MIDDLE_M
+        if float(offset @ offset) > _LOST_M**2:
+            self._lost = True
+        if self._lost:
+            # It rests where it is, out of reach.
+            data.qvel[-6:] = 0.0
+            wrench[:3] = -self._thing.mass_kg * self._model.opt.gravity if self._thing else 0.0
+            wrench[3:] = 0.0
+
+    def _give_shafts(self) -> None:
+        angles = self._data.qpos[self._q].tolist()
+        speeds = self._data.qvel[self._dof].tolist()
+        for motor, angle, speed in zip(self.motors, angles, speeds, strict=True):
+            motor.shaft.position_rad = math.pi + angle
+            motor.shaft.velocity_rad_s = speed
+
+    @property
+    def truth(self) -> HandTruth:
+        """What is true now."""
+        data, body = self._data, self._body
+        there = body >= 0
+        results = self._skin.results.tolist()
+        return HandTruth(
+            time_s=self.time_s,
+            object_position_m=tuple(data.xpos[body].tolist()) if there else (0.0,) * 3,
+            object_velocity_m_s=tuple(data.qvel[-6:-3].tolist()) if there else (0.0,) * 3,
+            object_turn_rad_s=tuple((data.xmat[body].reshape(3, 3) @ data.qvel[-3:]).tolist()) if there else (0.0,) * 3,
+            object_quaternion=tuple(data.xquat[body].tolist()) if there else (1.0, 0.0, 0.0, 0.0),
+            object_held=self.holder.holding,
+            object_lost=self._lost,
+            load_n=tuple(self.disturbances.load_n.tolist()),
+            gravity_m_s2=tuple(self._model.opt.gravity.tolist()),
+            tip_depth_m=self.tip.depth_m,
+            tip_patch=self.tip.patch,
+            patches={
+                patch.name: PatchTruth(
+                    of[FORCE], of[SLIDING_FORCE] / max(of[FORCE], 1e-12), of[SLIDING_SPEED], of[TIP_FORCE]
+                )
+                for patch, of in zip(self.layout.patches, results, strict=True)
+            },
+            q_rad=tuple(data.qpos[self._q].tolist()),
+        )
+
+
+def _joint(model: mujoco.MjModel, name: str) -> int:
+    return int(mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, name))
+
+
+def _body(model: mujoco.MjModel, name: str) -> int:
+    return int(mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, name))
