@@ -16,7 +16,7 @@ setup(
     zip_safe=False,
     maintainer="ACTS maintainers",
     maintainer_email="acts-maintainers@example.org",
-    description="Control by touch: ball balancing on a UR5e.",
+    description="Control by touch: ball balancing on a UR5e, reflexes of a LEAP hand.",
     license="Apache-2.0",
     entry_points={
         "console_scripts": [
@@ -25,6 +25,7 @@ setup(
             "ball_state = acts_control.programs:ball_state",
             "ball_trajectory = acts_control.programs:ball_trajectory",
             "hand = acts_control.programs:hand",
+            "hand_reflexes = acts_control.programs:hand_reflexes",
         ],
     },
 )

@@ -20,6 +20,7 @@ NODES = (
     ("acts_control", "ball_trajectory", "acts_control.ball_trajectory_node", "BallTrajectorySettings"),
     ("acts_control", "ball_control", "acts_control.ball_control_node", "BallControlSettings"),
     ("acts_control", "hand", "acts_control.hand.node", "HandSettings"),
+    ("acts_control", "hand_reflexes", "acts_control.hand.reflexes_node", "HandReflexesSettings"),
     ("acts_skins", "skin_contacts", "acts_skins.contacts.node", "SkinContactsSettings"),
     ("acts_skins", "skin_diagnostics", "acts_skins.overview.diagnostics_node", "SkinDiagnosticsSettings"),
     ("acts_skins", "skin_frames", "acts_skins.overview.frames_node", "SkinFramesSettings"),

@@ -158,11 +158,14 @@ def test_a_motor_that_falls_silent_is_waited_for_and_named(bus: Bus, running: Ru
 
 
 @contextmanager
-def node_and_user(domain_id: int, *parameters: str) -> Iterator[tuple[subprocess.Popen[str], Node, Spin]]:
+def node_and_user(
+    domain_id: int, *parameters: str, program: str = "hand"
+) -> Iterator[tuple[subprocess.Popen[str], Node, Spin]]:
     """The node as a process, a user's node, and how to wait for something."""
     process = subprocess.Popen(
         [
-            *(sys.executable, "-c", "from acts_control.programs import hand; raise SystemExit(hand())", "--ros-args"),
+            *(sys.executable, "-c", f"from acts_control.programs import {program}; raise SystemExit({program}())"),
+            "--ros-args",
             *(word for parameter in parameters for word in ("-p", parameter)),
         ],
         env={**os.environ, "ROS_DOMAIN_ID": str(domain_id)},

@@ -1,0 +1,136 @@
+"""Hand-to-hand grasp: every phalanx of a finger presses about as much, while the held hand moves; never above a limit.
+
+Each joint that closes a finger carries one phalanx. Where that phalanx presses less than is wanted the joint closes,
+where it presses more the joint opens, so force goes from phalanges with much to those with little, and one that has
+lost touch looks for it. Above the comfort limit of force or pressure, the whole finger gives way.
+
+ISO/TS 15066:2016, table A.2, allows 140 N of quasi-static force on hand and fingers and, where it presses hardest,
+about 200 to 300 N/cm^2 (2 to 3 MPa). Those are limits of pain; comfort is a small part of them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from acts_control.hand.reflexes.reflex import HandState, Reflex, Sensed, Wish
+from acts_core.settings import setting, validate
+
+
+@dataclass(frozen=True)
+class HandToHandConfig:
+    """How hard another hand is held."""
+
+    hand_to_hand_force_n: float = setting(0.8, "what each phalanx is to press with [N]", minimum=0.05, maximum=20.0)
+    hand_to_hand_max_force_n: float = setting(
+        10.0,
+        "a finger gives way where one of its phalanges presses with more; ISO/TS 15066 allows 140 [N]",
+        minimum=0.5,
+        maximum=100.0,
+    )
+    hand_to_hand_max_pressure_n_m2: float = setting(
+        3e5, "or with more on its most pressed taxel; ISO/TS 15066 allows about 2e6 [N/m^2]", minimum=1e4, maximum=1e6
+    )
+    hand_to_hand_steps_per_n: float = setting(0.6, "steps for each newton of difference", minimum=0.01, maximum=20.0)
+    hand_to_hand_search_steps: float = setting(0.3, "steps of a phalanx that looks for touch", minimum=0.0, maximum=5.0)
+    hand_to_hand_max_steps: float = setting(2.0, "most steps at once", minimum=0.1, maximum=20.0)
+    hand_to_hand_deadband_n: float = setting(0.2, "differences of less are none [N]", minimum=0.0, maximum=5.0)
+
+    def __post_init__(self) -> None:
+        validate(self)
+
+
+@dataclass
+class HandToHandState:
+    """What is remembered.
+
+    Attributes
+    ----------
+    largest_n : float
+        Largest force that a phalanx has pressed with [N].
+    yielded : int
+        Steps in which a finger gave way.
+    phalanges : int
+        Phalanges in touch at the last step.
+    moves : dict
+        For each region of a finger, the joint that moves its link and closes the finger.
+    """
+
+    largest_n: float = 0.0
+    yielded: int = 0
+    phalanges: int = 0
+    moves: dict[str, int] = field(default_factory=dict)
+
+
+class HandToHand(Reflex):
+    """See the module."""
+
+    Config = HandToHandConfig
+    priority = 30
+    states = frozenset({HandState.HOLDING, HandState.AVOIDING})
+
+    config: HandToHandConfig
+
+    def reset(self) -> None:
+        """Forget what was."""
+        self.state = HandToHandState()
+
+    def step(self, sensed: Sensed) -> Wish | None:
+        """Steps of each finger that touches."""
+        config, state = self.config, self.state
+        if not state.moves:
+            state.moves = _moving_joints(sensed)
+        steps, why = sensed.steps(), ""
+        state.phalanges = 0
+        for finger in sensed.hand.fingers:
+            regions = sensed.of_finger(finger)
+            if not any(one.in_contact for one in regions):
+                continue
+            closing = sensed.closing(finger)
+            pressed = max(regions, key=lambda one: one.force_n)
+            state.largest_n = max(state.largest_n, pressed.force_n)
+            if any(self._is_too_much(one.force_n, one.peak_n, one.area_m2, one.active_taxels) for one in regions):
+                state.yielded += 1
+                steps -= config.hand_to_hand_max_steps * closing
+                why = f"{finger} gives way at {pressed.force_n:.1f} N"
+                continue
+            for region in regions:
+                state.phalanges += region.in_contact
+                joint = state.moves.get(region.name)
+                if joint is not None:
+                    steps[joint] += self._wanted(region.force_n, region.in_contact) * closing[joint]
+        np.clip(steps, -config.hand_to_hand_max_steps, config.hand_to_hand_max_steps, out=steps)
+        if not steps.any():
+            return None
+        return Wish(steps, why or f"force shared among {state.phalanges} phalanges")
+
+    def _wanted(self, force_n: float, in_contact: bool) -> float:
+        config = self.config
+        if not in_contact:
+            return config.hand_to_hand_search_steps
+        error = config.hand_to_hand_force_n - force_n
+        return config.hand_to_hand_steps_per_n * error if abs(error) > config.hand_to_hand_deadband_n else 0.0
+
+    def _is_too_much(self, force_n: float, peak_n: float, area_m2: float, taxels: int) -> bool:
+        if taxels == 0:
+            return False
+        config = self.config
+        pressure = peak_n * taxels / area_m2 if area_m2 > 0.0 else 0.0
+        return force_n > config.hand_to_hand_max_force_n or pressure > config.hand_to_hand_max_pressure_n_m2
+
+
+def _moving_joints(sensed: Sensed) -> dict[str, int]:
+    """For each region of a finger, the last joint before its link that closes the finger."""
+    hand = sensed.hand
+    links = {link.name: link for link in hand.links}
+    number = {name: k for k, name in enumerate(hand.names)}
+    found = {}
+    for name, region in hand.regions.items():
+        link = links.get(region.link)
+        while link is not None and region.finger:
+            if link.joint in hand.fingers[region.finger].closes:
+                found[name] = number[link.joint]
+                break
+            link = links.get(link.parent)
+    return found

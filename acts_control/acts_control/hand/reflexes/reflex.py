@@ -1,0 +1,161 @@
+"""What a reflex is given, and what it answers with."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import IntEnum
+from functools import cached_property
+from typing import Any, ClassVar, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_control.hand.description import HandDescription, Role
+from acts_control.hand.kinematics import HandKinematics, HandPose
+from acts_core.region_contact import RegionContact
+
+Array = NDArray[np.float64]
+
+
+class HandState(IntEnum):
+    """What the hand is about; the numbers are those of the message HandStatus."""
+
+    STOPPED = 0
+    OPEN = 1
+    CLOSING = 2
+    HOLDING = 3
+    AVOIDING = 4
+
+
+@dataclass(frozen=True)
+class Sensed:
+    """One moment of the hand, in the order of its joints.
+
+    Attributes
+    ----------
+    time_s : float
+        By a clock that never goes back [s].
+    dt_s : float
+        Since the step before [s].
+    state : HandState
+    kinematics : HandKinematics
+    q_rad, goal_rad : np.ndarray [shape=(joints,)]
+        Where each joint is, and where it was sent last [rad].
+    current_ma : np.ndarray [shape=(joints,)]
+        Positive where the motor closes the joint [mA].
+    step_rad_s : np.ndarray [shape=(joints,)]
+        How fast one step moves each joint's goal [rad/s].
+    regions : mapping of str to RegionContact
+        The newest of each patch; those that the hand's description does not have are left out.
+    is_new : bool
+        Whether they have come since the step before.
+    """
+
+    time_s: float
+    dt_s: float
+    state: HandState
+    kinematics: HandKinematics
+    q_rad: Array
+    goal_rad: Array
+    current_ma: Array
+    step_rad_s: Array
+    regions: Mapping[str, RegionContact]
+    is_new: bool = True
+
+    @property
+    def hand(self) -> HandDescription:
+        """The hand."""
+        return self.kinematics.hand
+
+    @cached_property
+    def pose(self) -> HandPose:
+        """Where its links are; worked out when somebody asks."""
+        return self.kinematics.at(self.q_rad)
+
+    def role(self, region: str) -> Role:
+        """What part of the hand a region is."""
+        return self.hand.regions[region].role
+
+    def finger(self, region: str) -> str:
+        """Whose region it is; empty for the palm."""
+        return self.hand.regions[region].finger
+
+    def of_finger(self, finger: str) -> list[RegionContact]:
+        """The regions of one finger, in the order of the description; of the palm for an empty name."""
+        return [one for name, one in self.regions.items() if self.hand.regions[name].finger == finger]
+
+    def steps(self) -> Array:
+        """An answer of no step, to be filled in."""
+        return np.zeros(len(self.q_rad))
+
+    def closing(self, finger: str) -> Array:
+        """How much each joint takes part when a finger closes, shape (joints,)."""
+        return _closing(self.hand, finger)
+
+
+class Wish(NamedTuple):
+    """What a reflex asks for in one step.
+
+    Attributes
+    ----------
+    steps : np.ndarray [shape=(joints,)]
+        How many base steps each joint's goal is to move; positive closes. See `acts_control.hand.step_rule`.
+    why : str
+        In words, for a person.
+    claimed : np.ndarray [shape=(joints,), dtype=bool] or None
+        Joints that reflexes of lower priority are to leave alone.
+    at_once : bool
+        Whether the steps are made without the rate shaping.
+    avoids : bool
+        Whether the hand is to count as avoiding something.
+    """
+
+    steps: Array
+    why: str
+    claimed: NDArray[np.bool_] | None = None
+    at_once: bool = False
+    avoids: bool = False
+
+
+class Reflex(ABC):
+    """A behaviour; `config` is an instance of its `Config`, or one object with the settings of several.
+
+    Attributes
+    ----------
+    events : int
+        How often it has been set off, for those that count that.
+    """
+
+    Config: ClassVar[type]
+    """Dataclass of `acts_core.settings.setting` fields; their names begin with its own, for all become parameters."""
+    priority: ClassVar[int]
+    """The highest is asked first."""
+    states: ClassVar[frozenset[HandState]]
+    """In which it is asked."""
+
+    def __init__(self, config: Any) -> None:
+        self.config = config
+        self.events = 0
+        self.reset()
+
+    @abstractmethod
+    def reset(self) -> None:
+        """Forget what was: a new grasp begins, or touch has come back after a pause."""
+
+    @abstractmethod
+    def step(self, sensed: Sensed) -> Wish | None:
+        """What it asks for now; None for nothing."""
+
+
+_CLOSING: dict[tuple[int, str], Array] = {}
+
+
+def _closing(hand: HandDescription, finger: str) -> Array:
+    # Asked for many times a step, and the same for the life of a description.
+    key = (id(hand), finger)
+    if key not in _CLOSING:
+        shares = hand.fingers[finger].closes
+        _CLOSING[key] = np.array([shares.get(name, 0.0) for name in hand.names])
+    return _CLOSING[key]

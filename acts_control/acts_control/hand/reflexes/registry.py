@@ -1,0 +1,35 @@
+"""All reflexes by name: a new one is a file beside this and a line here (docs/reflexes.md)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from acts_control.hand.reflexes.hand_to_hand import HandToHand
+from acts_control.hand.reflexes.reflex import Reflex
+from acts_control.hand.reflexes.sharp_avoidance import SharpAvoidance
+from acts_control.hand.reflexes.slip_prevention import SlipPrevention
+from acts_control.hand.reflexes.sphere_balancing import SphereBalancing
+from acts_core.errors import SettingsError
+from acts_core.settings import unknown_key_message
+
+REFLEXES: dict[str, type[Reflex]] = {
+    "sharp": SharpAvoidance,
+    "slip": SlipPrevention,
+    "sphere": SphereBalancing,
+    "hand_to_hand": HandToHand,
+}
+
+
+def make_reflexes(names: str, settings: Any) -> dict[str, Reflex]:
+    """The reflexes of these names, with blanks or commas between them, made from one object with all their settings.
+
+    Raises
+    ------
+    SettingsError
+        For a name that is not in the registry.
+    """
+    wanted = names.replace(",", " ").split()
+    for name in wanted:
+        if name not in REFLEXES:
+            raise SettingsError(unknown_key_message(name, list(REFLEXES), "reflexes"))
+    return {name: REFLEXES[name](settings) for name in wanted}

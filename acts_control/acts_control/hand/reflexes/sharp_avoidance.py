@@ -1,0 +1,118 @@
+"""Sharp-object avoidance: the finger that feels a tip opens at once, its neighbours keep holding.
+
+A tip presses one taxel or two, however hard it presses; what is blunt spreads over more the harder it presses. So a
+contact is sharp where the peak is large and the area small, both at once: a blunt object that has only just touched
+has a small area, too, but no large peak yet.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from acts_control.hand.reflexes.reflex import HandState, Reflex, Sensed, Wish
+from acts_core.region_contact import RegionContact
+from acts_core.settings import setting, validate
+
+
+@dataclass(frozen=True)
+class SharpAvoidanceConfig:
+    """What counts as sharp, and how the finger gives way."""
+
+    sharp_min_peak_n: float = setting(
+        0.1, "a taxel that feels less is no sign of a tip [N]", minimum=0.001, maximum=10.0
+    )
+    sharp_min_peak_per_area_n_m2: float = setting(
+        15e3, "a tip's peak over its area is larger [N/m^2]", minimum=1.0, maximum=1e7
+    )
+    sharp_min_concentration: float = setting(
+        0.3, "and so is the part of the force that the most pressed taxel has", minimum=0.0, maximum=1.0
+    )
+    sharp_max_taxels: int = setting(5, "no more taxels than these are pressed", minimum=1, maximum=1024)
+    sharp_touches: int = setting(1, "so many times in succession", minimum=1, maximum=100)
+    sharp_open_steps: float = setting(20.0, "steps by which the finger opens", minimum=0.1, maximum=100.0)
+    sharp_open_rad: float = setting(
+        0.5, "how far each joint that closes the finger is opened at most [rad]", minimum=0.01, maximum=3.0
+    )
+    sharp_away_s: float = setting(
+        0.5, "how long the finger stays away once the tip is not felt any more [s]", minimum=0.0, maximum=60.0
+    )
+
+    def __post_init__(self) -> None:
+        validate(self)
+
+
+@dataclass
+class SharpAvoidanceState:
+    """What is remembered.
+
+    Attributes
+    ----------
+    touches : dict
+        How many times in succession each region has felt a tip.
+    until_s : dict
+        Until when each finger stays away; the palm is the empty name.
+    from_rad : dict
+        Joint angles when it began [rad].
+    """
+
+    touches: dict[str, int] = field(default_factory=dict)
+    until_s: dict[str, float] = field(default_factory=dict)
+    from_rad: dict[str, np.ndarray] = field(default_factory=dict)
+
+
+class SharpAvoidance(Reflex):
+    """See the module."""
+
+    Config = SharpAvoidanceConfig
+    priority = 100
+    states = frozenset({HandState.OPEN, HandState.CLOSING, HandState.HOLDING, HandState.AVOIDING})
+
+    config: SharpAvoidanceConfig
+
+    def reset(self) -> None:
+        """Forget what was."""
+        self.state = SharpAvoidanceState()
+
+    def is_sharp(self, region: RegionContact) -> bool:
+        """Whether what touches a region is a tip."""
+        config = self.config
+        return (
+            0 < region.active_taxels <= config.sharp_max_taxels
+            and region.peak_n >= config.sharp_min_peak_n
+            and region.concentration >= config.sharp_min_concentration
+            and region.peak_n >= config.sharp_min_peak_per_area_n_m2 * region.area_m2
+        )
+
+    def step(self, sensed: Sensed) -> Wish | None:
+        """Open the fingers concerned, and keep them for a while from whatever else asks for them."""
+        state, config = self.state, self.config
+        if sensed.is_new:
+            self._look(sensed)
+        away = [finger for finger, until_s in state.until_s.items() if sensed.time_s <= until_s]
+        state.until_s = {finger: state.until_s[finger] for finger in away}
+        if not away:
+            return None
+        steps = sensed.steps()
+        claimed = np.zeros(len(steps), dtype=bool)
+        # A tip in the palm: whatever holds it there lets go.
+        fingers = list(sensed.hand.fingers) if "" in away else away
+        for finger in fingers:
+            closing = sensed.closing(finger)
+            opened = state.from_rad[finger if finger in away else ""] - sensed.goal_rad
+            steps -= np.where(opened < config.sharp_open_rad, config.sharp_open_steps * closing, 0.0)
+            claimed |= closing > 0.0
+        return Wish(steps, f"{', '.join(fingers)} away from a tip", claimed, at_once=True, avoids=True)
+
+    def _look(self, sensed: Sensed) -> None:
+        state, config = self.state, self.config
+        for name, region in sensed.regions.items():
+            state.touches[name] = state.touches.get(name, 0) + 1 if self.is_sharp(region) else 0
+            if state.touches[name] < config.sharp_touches:
+                continue
+            finger = sensed.finger(name)
+            if finger not in state.until_s:
+                self.events += 1
+                state.from_rad[finger] = sensed.q_rad.copy()
+            state.until_s[finger] = sensed.time_s + config.sharp_away_s

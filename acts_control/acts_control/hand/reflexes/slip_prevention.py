@@ -1,0 +1,116 @@
+"""Slip prevention: grip up while what is held slips, then ease slowly to what holds.
+
+Slip is told by the regions (docs/slip.md). They look back over a window, so slip is told for a while after it has
+ceased; whether the pattern still moves is seen by its distance in the window still growing. All fingers that touch grip
+together, for one that grips alone pushes the object away. What was added is kept for a while, then taken back until a
+share of it is left, or to just above where the object last began to slip.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from acts_control.hand.reflexes.reflex import HandState, Reflex, Sensed, Wish
+from acts_core.settings import setting, validate
+
+
+@dataclass(frozen=True)
+class SlipPreventionConfig:
+    """How a slip is answered."""
+
+    slip_grip_steps: float = setting(6.0, "steps by which fingers grip up while it slips", minimum=0.1, maximum=50.0)
+    slip_max_added_steps: float = setting(
+        12.0, "most that is added to the grip, in steps of a cycle at 60 Hz", minimum=0.1, maximum=200.0
+    )
+    slip_growth_m: float = setting(
+        1e-5, "a distance that has grown by less between two touches has not [m]", minimum=0.0, maximum=1e-3
+    )
+    slip_quiet_s: float = setting(
+        0.012, "slip has ceased when the distance has not grown for longer [s]", minimum=0.0, maximum=1.0
+    )
+    slip_min_force_n: float = setting(0.1, "a region that feels less is not listened to [N]", minimum=0.0, maximum=10.0)
+    slip_keep_s: float = setting(1.0, "how long the added grip is kept [s]", minimum=0.0, maximum=60.0)
+    slip_ease_steps: float = setting(0.03, "steps by which it is eased then", minimum=0.0, maximum=5.0)
+    slip_kept_share: float = setting(0.6, "of what was added, the part that is not eased", minimum=0.0, maximum=1.0)
+
+    def __post_init__(self) -> None:
+        validate(self)
+
+
+@dataclass
+class SlipPreventionState:
+    """What is remembered.
+
+    Attributes
+    ----------
+    distance_m : dict
+        Of each region when it was last looked at.
+    grown_s : float
+        When one of them has last grown.
+    added, peak, floor : float
+        Added grip now, the most of it, and where easing ends, in steps of a cycle at 60 Hz.
+    is_slipping : bool
+    """
+
+    distance_m: dict[str, float] = field(default_factory=dict)
+    grown_s: float = -1e9
+    added: float = 0.0
+    peak: float = 0.0
+    floor: float = 0.0
+    is_slipping: bool = False
+
+
+class SlipPrevention(Reflex):
+    """See the module."""
+
+    Config = SlipPreventionConfig
+    priority = 60
+    states = frozenset({HandState.HOLDING, HandState.AVOIDING})
+
+    config: SlipPreventionConfig
+
+    def reset(self) -> None:
+        """Forget what was."""
+        self.state = SlipPreventionState()
+
+    def step(self, sensed: Sensed) -> Wish | None:
+        """Steps of all fingers that touch; None while nothing slips and nothing is to be eased."""
+        config, state = self.config, self.state
+        told = self._grown(sensed) if sensed.is_new else ""
+        if told:
+            if not state.is_slipping:
+                self.events += 1
+                # It did not hold with this: easing ends above.
+                state.floor = max(state.floor, state.added)
+            state.is_slipping = True
+            state.grown_s = sensed.time_s
+        elif sensed.time_s - state.grown_s > config.slip_quiet_s:
+            state.is_slipping = False
+        cycles = sensed.dt_s * 60.0
+        if state.is_slipping:
+            steps = min(config.slip_grip_steps, (config.slip_max_added_steps - state.added) / cycles)
+            why = f"{told or 'object'} slips: grip up"
+        elif state.added > self._end() and sensed.time_s - state.grown_s > config.slip_keep_s:
+            steps, why = -min(config.slip_ease_steps, (state.added - self._end()) / cycles), "easing the grip"
+        else:
+            return None
+        state.added += steps * cycles
+        state.peak = max(state.peak, state.added)
+        wanted = sensed.steps()
+        for finger in sensed.hand.fingers:
+            if any(one.in_contact for one in sensed.of_finger(finger)):
+                wanted += steps * sensed.closing(finger)
+        return Wish(wanted, why, at_once=steps > 0.0)
+
+    def _end(self) -> float:
+        return max(self.config.slip_kept_share * self.state.peak, self.state.floor)
+
+    def _grown(self, sensed: Sensed) -> str:
+        """A region in which the pattern moves on; empty where there is none."""
+        state, found = self.state, ""
+        for name, region in sensed.regions.items():
+            distance = region.slip_m if region.slipping and region.force_n >= self.config.slip_min_force_n else 0.0
+            if distance > state.distance_m.get(name, 0.0) + self.config.slip_growth_m:
+                found = found or name
+            state.distance_m[name] = distance
+        return found

@@ -1,0 +1,80 @@
+"""A hand for tests of reflexes: what its regions feel is made, its joints follow their goals at once."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from acts_control.hand.bus import HandReading
+from acts_control.hand.description_file import LEAP_RIGHT
+from acts_control.hand.kinematics import HandKinematics
+from acts_control.hand.reflexes.reflex import HandState, Reflex, Sensed
+from acts_control.hand.supervisor import HandSupervisor, SupervisorConfig
+from acts_core.region_contact import RegionContact
+
+LEAP = HandKinematics(LEAP_RIGHT)
+NAMES = LEAP_RIGHT.names
+DT_S = 0.004
+TAXEL_M2 = 9e-6
+
+
+def region(name: str, force_n: float = 0.0, taxels: int = 9, **more: Any) -> RegionContact:
+    """A region of the LEAP hand that feels a blunt contact."""
+    link = LEAP_RIGHT.regions[name].link
+    if force_n == 0.0:
+        return RegionContact(name, link)
+    share = min(1.0, 2.0 / taxels)
+    given = {
+        "area_m2": taxels * TAXEL_M2,
+        "peak_n": share * force_n,
+        "concentration": share,
+        "normal": (-1.0, 0.0, 0.0),
+    }
+    return RegionContact(name, link, taxels, force_n, **{**given, **more})
+
+
+def all_regions(*pressed: RegionContact) -> list[RegionContact]:
+    """All 13, of which those given feel something."""
+    given = {one.name: one for one in pressed}
+    return [given.get(name, region(name)) for name in LEAP_RIGHT.regions]
+
+
+def sensed(*pressed: RegionContact, time_s: float = 0.0, state: HandState = HandState.HOLDING, **more: Any) -> Sensed:
+    """One moment of the hand."""
+    q = more.pop("q_rad", np.full(16, 0.3))
+    given = {"q_rad": q, "goal_rad": q + 0.03, "current_ma": np.full(16, 100.0), "step_rad_s": np.full(16, 1.2)}
+    regions = {one.name: one for one in all_regions(*pressed)}
+    return Sensed(time_s, DT_S, state, LEAP, regions=regions, **{**given, **more})
+
+
+class RigidHand:
+    """A supervisor whose joints are where they were sent, up to where something stops them."""
+
+    def __init__(self, *reflexes: tuple[str, Reflex], **settings: Any) -> None:
+        self.supervisor = HandSupervisor(LEAP, dict(reflexes), SupervisorConfig(**settings))
+        self.q = np.zeros(16)
+        self.goal = np.zeros(16)
+        self.stops: dict[str, float] = {}
+        self.now_s = 10.0
+
+    def reading(self) -> HandReading:
+        current = np.clip((self.goal - self.q) * 3000.0, -350.0, 350.0)
+        return HandReading(tuple(self.q), (0.0,) * 16, tuple(current), (30,) * 16, ("",) * 16)
+
+    def step(self, pressed: Sequence[RegionContact] | None = (), steps: int = 1) -> HandState:
+        """Go on; None: no touch comes."""
+        for _ in range(steps):
+            self.now_s += DT_S
+            if pressed is not None:
+                self.supervisor.touch(all_regions(*pressed), self.now_s - 0.002)
+            self.goal = np.asarray(self.supervisor.step(self.reading(), self.goal, self.now_s, DT_S))
+            self.q = self.goal.copy()
+            for name, stop in self.stops.items():
+                k = NAMES.index(name)
+                self.q[k] = min(self.q[k], stop)
+        return self.supervisor.status.state
+
+    def angle(self, joint: str) -> float:
+        return float(self.goal[NAMES.index(joint)])

@@ -1,0 +1,265 @@
+"""The reflexes and the step rule, on made contacts."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hand_rig import DT_S, NAMES, TAXEL_M2, region, sensed
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from acts_control.hand.description_file import LEAP_RIGHT
+from acts_control.hand.reflexes.hand_to_hand import HandToHand, HandToHandConfig
+from acts_control.hand.reflexes.reflex import Wish
+from acts_control.hand.reflexes.registry import REFLEXES, make_reflexes
+from acts_control.hand.reflexes.sharp_avoidance import SharpAvoidance, SharpAvoidanceConfig
+from acts_control.hand.reflexes.slip_prevention import SlipPrevention, SlipPreventionConfig
+from acts_control.hand.reflexes.sphere_balancing import fitted_sphere
+from acts_control.hand.step_rule import StepRule, StepRuleConfig
+from acts_core.errors import SettingsError
+
+PIP, DIP = NAMES.index("index_pip"), NAMES.index("index_dip")
+
+
+def joints_of(finger: str) -> list[int]:
+    return [NAMES.index(name) for name in LEAP_RIGHT.fingers[finger].closes]
+
+
+# --- the step rule
+
+
+def goals(wishes: list[Wish], goal: float = 0.3, q: float = 0.3, current: float = 0.0, **config: float) -> np.ndarray:
+    rule = StepRule(LEAP_RIGHT, StepRuleConfig(**config))
+    return rule.goals(np.full(16, goal), np.full(16, q), np.full(16, current), wishes, DT_S)
+
+
+def test_a_step_moves_a_goal_as_far_as_one_at_60_hz_in_the_same_time() -> None:
+    wish = Wish(np.eye(16)[PIP] * 2.0, "", at_once=True)
+    moved = goals([wish], base_step_rad=0.02) - 0.3
+    assert moved[PIP] == pytest.approx(2.0 * 0.02 * 60.0 * DT_S)
+    assert np.count_nonzero(moved) == 1
+
+
+def test_the_number_of_steps_rises_as_shaped_for_each_motor() -> None:
+    rule = StepRule(LEAP_RIGHT, StepRuleConfig(steps_rise_per_s=100.0, base_step_rad=0.01))
+    goal, seen = np.zeros(16), []
+    for _ in range(4):
+        goal = rule.goals(goal, goal, np.zeros(16), [Wish(np.full(16, 1.0), "")], DT_S)
+        seen.append(goal[PIP])
+    assert np.diff([0.0, *seen]) / (0.01 * 60 * DT_S) == pytest.approx([0.4, 0.8, 1.0, 1.0])
+
+
+def test_claimed_joints_are_left_alone_by_those_that_come_after() -> None:
+    claimed = np.zeros(16, dtype=bool)
+    claimed[PIP] = True
+    first = Wish(np.eye(16)[PIP] * -1.0, "", claimed, at_once=True)
+    moved = goals([first, Wish(np.ones(16), "", at_once=True)]) - 0.3
+    assert moved[PIP] < 0.0
+    assert moved[DIP] > 0.0
+
+
+@settings(max_examples=100, deadline=None)
+@given(
+    steps=st.lists(st.floats(allow_nan=True, allow_infinity=True), min_size=16, max_size=16),
+    q=st.floats(-0.3, 1.5),
+    goal=st.floats(-3.0, 3.0),
+    current=st.floats(-2000.0, 2000.0),
+)
+def test_goals_are_finite_within_limits_and_near_their_joints_whatever_is_asked(
+    steps: list[float], q: float, goal: float, current: float
+) -> None:
+    moved = goals([Wish(np.array(steps), "", at_once=True)], goal, q, current, max_lead_rad=0.1)
+    for joint, angle in zip(LEAP_RIGHT.joints, moved, strict=True):
+        assert joint.clipped(angle) == angle
+        assert abs(angle - joint.clipped(q)) <= 0.1 / joint.gain_scale + 1e-12
+
+
+def test_a_motor_at_its_current_limit_is_closed_no_further_but_may_open() -> None:
+    closing, opening = Wish(np.ones(16), "", at_once=True), Wish(-np.ones(16), "", at_once=True)
+    assert goals([closing], current=349.0) == pytest.approx(np.full(16, 0.3))
+    assert (goals([opening], current=349.0) < 0.3).all()
+
+
+# --- slip
+
+
+def slipping(name: str, distance_m: float) -> object:
+    return region(name, 0.5, slip_m=distance_m, slipping=True)
+
+
+def test_all_fingers_that_touch_grip_up_while_the_object_moves_and_not_longer() -> None:
+    reflex = SlipPrevention(SlipPreventionConfig(slip_quiet_s=0.01))
+    held = [region("thumb_distal", 0.5), region("middle_distal", 0.5)]
+    assert reflex.step(sensed(region("index_distal", 0.5), *held)) is None
+    wish = reflex.step(sensed(slipping("index_distal", 2e-4), *held, time_s=0.004))
+    assert wish is not None
+    assert wish.at_once
+    for finger in ("index", "middle", "thumb"):
+        assert (wish.steps[joints_of(finger)] > 0.0).all()
+    assert not wish.steps[joints_of("ring")].any()
+    # It is told on, for the window still holds the motion, but nothing moves any more.
+    assert reflex.step(sensed(slipping("index_distal", 2e-4), *held, time_s=0.010)) is not None
+    assert reflex.step(sensed(slipping("index_distal", 2e-4), *held, time_s=0.020)) is None
+    assert reflex.events == 1
+
+
+def test_the_added_grip_is_eased_slowly_to_a_share_and_not_below_where_it_slipped_again() -> None:
+    reflex = SlipPrevention(SlipPreventionConfig(slip_keep_s=0.5, slip_kept_share=0.5, slip_ease_steps=0.2))
+    reflex.step(sensed(slipping("index_distal", 2e-4)))
+    time_s = 0.0
+    while time_s < 3.0:
+        time_s += DT_S
+        wish = reflex.step(sensed(region("index_distal", 0.5), time_s=time_s))
+        if 0.02 < time_s < 0.5:
+            assert wish is None
+    assert reflex.state.added == pytest.approx(0.5 * reflex.state.peak)
+    eased = reflex.state.added
+    reflex.step(sensed(slipping("index_distal", 2e-4), time_s=time_s))
+    assert reflex.events == 2
+    assert reflex.state.floor == pytest.approx(eased)
+
+
+def test_the_grip_that_is_added_has_an_end() -> None:
+    reflex = SlipPrevention(SlipPreventionConfig(slip_max_added_steps=3.0))
+    for k in range(100):
+        reflex.step(sensed(slipping("index_distal", 1e-4 * (k + 1)), time_s=k * DT_S))
+    assert reflex.state.added == pytest.approx(3.0)
+
+
+# --- sharp
+
+
+def felt(radius_m: float, depth_m: float, at: tuple[float, float], pitch_m: float = 0.003) -> object:
+    """What an 8 x 8 patch feels of a sphere that is pressed into an elastic skin, at a place within a taxel."""
+    grid = (np.arange(80) + 0.5) * pitch_m / 10
+    x, y = np.meshgrid(grid - (4 + at[0]) * pitch_m, grid - (4 + at[1]) * pitch_m)
+    stiffness_n_m3 = 1.5e8
+    deep = np.maximum(depth_m - radius_m + np.sqrt(np.maximum(radius_m**2 - x**2 - y**2, 0.0)), 0.0)
+    deep[x**2 + y**2 > radius_m**2] = 0.0
+    forces = (stiffness_n_m3 * (pitch_m / 10) ** 2 * deep).reshape(8, 10, 8, 10).sum(axis=(1, 3))
+    taxels = int((forces > 0.002).sum())
+    total, peak = float(forces.sum()), float(forces.max())
+    return region(
+        "index_distal",
+        total,
+        max(taxels, 1),
+        area_m2=max(taxels, 1) * pitch_m**2,
+        peak_n=peak,
+        concentration=peak / total if total else 0.0,
+    )
+
+
+def test_the_finger_at_a_tip_opens_at_once_and_the_others_keep_what_they_have() -> None:
+    reflex = SharpAvoidance(SharpAvoidanceConfig())
+    tip = region("index_distal", 0.5, 1, area_m2=TAXEL_M2, peak_n=0.5, concentration=1.0)
+    wish = reflex.step(sensed(tip, region("middle_distal", 0.8)))
+    assert wish is not None
+    assert wish.at_once
+    assert wish.avoids
+    assert (wish.steps[joints_of("index")] < 0.0).all()
+    others = [k for k in range(16) if k not in joints_of("index")]
+    assert not wish.steps[others].any()
+    assert wish.claimed is not None
+    assert np.flatnonzero(wish.claimed).tolist() == joints_of("index")
+    # It stays away for a while, then is free again.
+    assert reflex.step(sensed(time_s=0.4)) is not None
+    assert reflex.step(sensed(time_s=0.6)) is None
+    assert reflex.events == 1
+
+
+def test_a_finger_opens_so_far_and_no_farther() -> None:
+    reflex = SharpAvoidance(SharpAvoidanceConfig(sharp_open_rad=0.2))
+    tip = region("index_distal", 0.5, 1, area_m2=TAXEL_M2, peak_n=0.5, concentration=1.0)
+    reflex.step(sensed(tip))
+    wish = reflex.step(sensed(tip, goal_rad=np.full(16, 0.05), time_s=0.1))
+    assert wish is not None
+    assert not wish.steps.any()
+
+
+def test_a_tip_in_the_palm_opens_all_fingers() -> None:
+    reflex = SharpAvoidance(SharpAvoidanceConfig())
+    wish = reflex.step(sensed(region("palm", 0.5, 1, area_m2=TAXEL_M2, peak_n=0.5, concentration=1.0)))
+    assert wish is not None
+    for finger in LEAP_RIGHT.fingers:
+        assert (wish.steps[joints_of(finger)] < 0.0).all()
+
+
+# --- sphere
+
+
+def test_a_sphere_is_fitted_to_places_and_normals() -> None:
+    centre, radius = np.array([0.01, -0.02, -0.07]), 0.031
+    normals = np.array([[0.0, 0.0, -1.0], [-1.0, 0.0, 0.0], [0.0, 0.6, 0.8]])
+    points = centre - radius * normals
+    found, size = fitted_sphere(points, normals, np.array([1.0, 0.5, 2.0]), 0.03)
+    assert size == pytest.approx(radius, abs=5e-4)
+    assert found == pytest.approx(centre, abs=5e-4)
+
+
+def test_contacts_that_say_nothing_of_the_size_leave_the_usual_one() -> None:
+    normals = np.array([[0.0, 0.0, -1.0], [0.0, 0.0, -1.0]])
+    _, size = fitted_sphere(np.zeros((2, 3)), normals, np.ones(2), 0.03)
+    assert size == pytest.approx(0.03)
+
+
+# --- hand to hand
+
+
+def test_force_goes_from_phalanges_with_much_to_those_with_little() -> None:
+    reflex = HandToHand(HandToHandConfig(hand_to_hand_force_n=1.0))
+    wish = reflex.step(sensed(region("index_proximal", 3.0), region("index_medial", 0.2)))
+    assert wish is not None
+    assert wish.steps[NAMES.index("index_mcp_forward")] < 0.0
+    assert wish.steps[PIP] > 0.0
+    assert wish.steps[DIP] > 0.0  # looks for touch
+    assert not wish.steps[joints_of("ring")].any()
+
+
+@pytest.mark.parametrize(
+    "contact",
+    [
+        region("ring_medial", 12.0),
+        # 3 N on a taxel of 9 mm^2 are 3.3e5 N/m^2.
+        region("ring_medial", 4.0, 4, peak_n=3.0),
+    ],
+)
+def test_a_finger_gives_way_above_the_comfort_limit_of_force_or_pressure(contact: object) -> None:
+    reflex = HandToHand(HandToHandConfig(hand_to_hand_max_force_n=10.0, hand_to_hand_max_pressure_n_m2=3e5))
+    wish = reflex.step(sensed(contact))
+    assert wish is not None
+    assert (wish.steps[joints_of("ring")] < 0.0).all()
+    assert reflex.state.yielded == 1
+
+
+# --- all of them
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    data=st.lists(
+        st.tuples(
+            st.sampled_from(list(LEAP_RIGHT.regions)),
+            st.floats(0.0, 200.0),
+            st.integers(1, 64),
+            st.tuples(*[st.floats(-0.2, 0.2)] * 3),
+            st.floats(0.0, 0.02),
+        ),
+        max_size=13,
+    ),
+    q=st.lists(st.floats(-0.3, 1.8), min_size=16, max_size=16),
+)
+def test_no_reflex_answers_with_what_is_not_finite(data: list[tuple], q: list[float]) -> None:
+    pressed = [
+        region(name, force, taxels, centre_m=centre, slip_m=slip, slipping=slip > 0.0)
+        for name, force, taxels, centre, slip in data
+    ]
+    for name, kind in REFLEXES.items():
+        reflex = kind(kind.Config())
+        for k in range(3):
+            wish = reflex.step(sensed(*pressed, time_s=k * DT_S, q_rad=np.array(q)))
+            assert wish is None or np.isfinite(wish.steps).all(), name
+
+
+def test_a_reflex_that_does_not_exist_is_refused_with_the_nearest_name() -> None:
+    with pytest.raises(SettingsError, match="did you mean 'sphere'"):
+        make_reflexes("slip sphre", None)
