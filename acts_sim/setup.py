@@ -22,6 +22,7 @@ setup(
         "console_scripts": [
             "dynamixel_bus = acts_sim.programs:dynamixel_bus",
             "ball_world = acts_sim.programs:ball_world",
+            "hand_world = acts_sim.programs:hand_world",
             "ur_controller = acts_sim.programs:ur_controller",
         ],
     },

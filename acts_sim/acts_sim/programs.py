@@ -4,4 +4,5 @@ from acts_ros.program import Program
 
 ball_world = Program("acts_sim.ball_world_node")
 dynamixel_bus = Program("acts_sim.dynamixel.main")
+hand_world = Program("acts_sim.hand.main")
 ur_controller = Program("acts_sim.ur.main")

@@ -259,6 +259,27 @@ class TimedRingReader:
             return early[1] + share * (late[1] - early[1])
         raise self._stuck()
 
+    def since(self, time_ns: int) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+        """All slots later than a time that are still there, oldest first.
+
+        Parameters
+        ----------
+        time_ns : int
+            CLOCK_MONOTONIC [ns].
+
+        Returns
+        -------
+        times_ns : np.ndarray [shape=(n,), dtype=int64]
+        values : np.ndarray [shape=(n, width), dtype=float64]
+        """
+        count, slots = self._follow(), len(self._slots)
+        # The oldest slot is the one that is written next.
+        numbers = np.arange(max(count - slots + 1, 0), count)
+        later = numbers[np.searchsorted(self._time_ns[numbers % slots], time_ns, side="right") :]
+        times_ns, values = self._time_ns[later % slots], self._values[later % slots]
+        whole = later > self.written - slots
+        return times_ns[whole], values[whole]
+
     def age_s(self) -> float:
         """Time since the newest slot [s], negative for one in the future; infinite before the first."""
         newest = self.newest()

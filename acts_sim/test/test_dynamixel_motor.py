@@ -12,7 +12,7 @@ from acts_sim.dynamixel.bus import Bus
 from acts_sim.dynamixel.control_table import SIZE, XC330, XL330
 from acts_sim.dynamixel.drive import RAD_PER_TICK
 from acts_sim.dynamixel.joints import FreeJoints
-from acts_sim.dynamixel.motor import HardwareError, Motor, OperatingMode, StatusError
+from acts_sim.dynamixel.motor import HardwareError, Motor, OperatingMode, OverloadLaw, StatusError
 from acts_sim.dynamixel.packets import Instruction, Packet
 
 MODE, TORQUE, ERROR, WATCHDOG, CURRENT, GOAL, PRESENT_CURRENT, POSITION = 11, 64, 70, 98, 102, 116, 126, 132
@@ -195,3 +195,21 @@ def test_a_position_in_pulses_is_that_of_the_shaft() -> None:
     motor.shaft.position_rad = -0.5
     motor.step(0.002)
     assert value(motor, POSITION, 4) == math.floor(-0.5 / RAD_PER_TICK)
+
+
+def test_a_motor_that_stalls_for_long_switches_itself_off_where_that_is_wanted() -> None:
+    for overload, expected in ((OverloadLaw(), 0), (OverloadLaw(0.5, 300.0), HardwareError.OVERLOAD)):
+        motor = Motor(XC330, 0, overload=overload)
+        write(motor, MODE, OperatingMode.CURRENT_BASED_POSITION)
+        write(motor, CURRENT, 350, 2)
+        write(motor, TORQUE, 1)
+        write(motor, GOAL, 3000, 4)
+        for _ in range(240):
+            motor.step(0.002)  # nothing turns the shaft
+        assert motor["hardware_error_status"] == 0
+        for _ in range(20):
+            motor.step(0.002)
+        assert motor["hardware_error_status"] == expected
+        assert motor["torque_enable"] == (0 if expected else 1)
+        motor.reboot()
+        assert motor["hardware_error_status"] == 0

@@ -48,6 +48,22 @@ def test_newest_is_what_was_written_last(path: Path) -> None:
         assert reader.written == 10
 
 
+def test_since_gives_all_that_is_later_and_still_there(path: Path) -> None:
+    with TimedRingWriter(path, 3, slots=4) as writer:
+        reader = TimedRingReader(path, 3)
+        times_ns, values = reader.since(0)
+        assert (times_ns.shape, values.shape) == ((0,), (0, 3))
+        for time_ns in (1000, 2000):
+            writer.write(time_ns, line(time_ns))
+        assert reader.since(1000)[0].tolist() == [2000]
+        for time_ns in range(3000, 9000, 1000):
+            writer.write(time_ns, line(time_ns))
+        times_ns, values = reader.since(1000)
+        assert times_ns.tolist() == [6000, 7000, 8000]  # one slot is always the next to be written
+        np.testing.assert_array_equal(values, [line(time_ns) for time_ns in times_ns.tolist()])
+        assert reader.since(8000)[0].size == 0
+
+
 def test_newest_is_a_copy(path: Path) -> None:
     with TimedRingWriter(path, 3, slots=2) as writer:
         reader = TimedRingReader(path, 3)

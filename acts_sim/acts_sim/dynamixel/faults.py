@@ -3,13 +3,29 @@
 from __future__ import annotations
 
 import json
+from typing import Protocol
 
+from acts_core.errors import SettingsError
 from acts_sim.dynamixel.bus import Bus
-from acts_sim.dynamixel.joints import FreeJoints
 from acts_sim.dynamixel.motor import HardwareError, Motor
 from acts_sim.dynamixel.port import BusPort
 
-_KNOWN = "lose ID, find ID, overload ID, overheat ID, block ID, release ID, unplug, plug_in, state"
+MOTOR_FAULTS = ("lose", "find", "overload", "overheat", "block", "release")
+"""What can happen to one motor: words that are followed by its ID."""
+
+_KNOWN = ", ".join((*(f"{word} ID" for word in MOTOR_FAULTS), "unplug", "plug_in", "state"))
+
+
+class Mechanics(Protocol):
+    """What is behind the motors.
+
+    Attributes
+    ----------
+    blocked : set of int
+        Indices of joints that something holds where they are.
+    """
+
+    blocked: set[int]
 
 
 class Faults:
@@ -18,11 +34,11 @@ class Faults:
     Parameters
     ----------
     bus : Bus
-    joints : FreeJoints
+    joints : Mechanics
     port : BusPort
     """
 
-    def __init__(self, bus: Bus, joints: FreeJoints, port: BusPort) -> None:
+    def __init__(self, bus: Bus, joints: Mechanics, port: BusPort) -> None:
         self._bus = bus
         self._joints = joints
         self._port = port
@@ -37,33 +53,44 @@ class Faults:
             self._port.plug_in()
             return "ok"
         if word == "state":
-            return json.dumps({"connected": self._port.connected, "motors": [_state(one) for one in self._bus.motors]})
-        index = next((k for k, motor in enumerate(self._bus.motors) if str(motor.motor_id) == rest.strip()), None)
-        if word not in ("lose", "find", "overload", "overheat", "block", "release"):
+            return json.dumps({"connected": self._port.connected, "motors": [state(one) for one in self._bus.motors]})
+        if word not in MOTOR_FAULTS:
             return f"error: unknown {word!r}; known are {_KNOWN}"
-        if index is None:
-            ids = ", ".join(str(motor.motor_id) for motor in self._bus.motors)
-            return f"error: no motor {rest.strip()!r}; there are {ids}"
-        self._to_motor(word, index)
+        try:
+            do_to_motor(self._bus, self._joints, word, rest.strip())
+        except SettingsError as error:
+            return f"error: {error}"
         return "ok"
 
-    def _to_motor(self, word: str, index: int) -> None:
-        motor = self._bus.motors[index]
-        if word == "lose":
-            self._bus.lost.add(motor.motor_id)
-        elif word == "find":
-            self._bus.lost.discard(motor.motor_id)
-        elif word == "overload":
-            motor.fail(HardwareError.OVERLOAD)
-        elif word == "overheat":
-            motor.fail(HardwareError.OVERHEATING)
-        elif word == "block":
-            self._joints.blocked.add(index)
-        else:
-            self._joints.blocked.discard(index)
+
+def do_to_motor(bus: Bus, joints: Mechanics, word: str, motor_id: str) -> None:
+    """Let one of `MOTOR_FAULTS` happen.
+
+    Raises
+    ------
+    SettingsError
+        When there is no such motor.
+    """
+    index = next((k for k, motor in enumerate(bus.motors) if str(motor.motor_id) == motor_id), None)
+    if index is None:
+        raise SettingsError(f"no motor {motor_id!r}; there are {', '.join(str(one.motor_id) for one in bus.motors)}")
+    motor = bus.motors[index]
+    if word == "lose":
+        bus.lost.add(motor.motor_id)
+    elif word == "find":
+        bus.lost.discard(motor.motor_id)
+    elif word == "overload":
+        motor.fail(HardwareError.OVERLOAD)
+    elif word == "overheat":
+        motor.fail(HardwareError.OVERHEATING)
+    elif word == "block":
+        joints.blocked.add(index)
+    else:
+        joints.blocked.discard(index)
 
 
-def _state(motor: Motor) -> dict[str, float]:
+def state(motor: Motor) -> dict[str, float]:
+    """What a motor does, for JSON."""
     return {
         "id": motor.motor_id,
         "position_rad": motor.shaft.position_rad,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from enum import IntEnum, IntFlag
 
 from acts_sim.dynamixel.control_table import EEPROM_END, INDIRECT_COUNT, INDIRECT_DATA, SIZE, Model
@@ -28,6 +29,7 @@ _GOALS = {"goal_pwm", "goal_current", "goal_velocity", "goal_position"}
 _MEASURED = {"present_position", "present_velocity", "moving", "position_trajectory", "realtime_tick"}
 
 _MOVING_RAD_S = 10 * RAD_S_PER_VELOCITY_UNIT
+_STILL_RAD_S = 0.05
 
 
 class StatusError(IntEnum):
@@ -63,6 +65,22 @@ class OperatingMode(IntEnum):
     CURRENT_BASED_POSITION = 5
 
 
+@dataclass(frozen=True)
+class OverloadLaw:
+    """When a motor takes itself for overloaded: an assumption, the manual does not say.
+
+    Attributes
+    ----------
+    after_s : float
+        It has stood still for so long [s]; 0: never.
+    current_ma : float
+        With at least this current all the while [mA].
+    """
+
+    after_s: float = 0.0
+    current_ma: float = 300.0
+
+
 class Motor:
     """A motor on the bus.
 
@@ -75,6 +93,7 @@ class Motor:
         In the EEPROM at the start, in units of 2 us.
     operating_mode : OperatingMode
         Likewise.
+    overload : OverloadLaw
 
     Attributes
     ----------
@@ -90,6 +109,7 @@ class Motor:
         motor_id: int,
         return_delay_time: int = 250,
         operating_mode: OperatingMode = OperatingMode.POSITION,
+        overload: OverloadLaw = OverloadLaw(),
     ) -> None:
         self.model = model
         self.shaft = Shaft()
@@ -99,6 +119,8 @@ class Motor:
         self._at = {one.address + k: (one, k) for one in model.registers.values() for k in range(one.size)}
         self._control = PositionControl()
         self._trajectory = Trajectory(0.0)
+        self._overload = overload
+        self._stalled_s = 0.0
         self._silent_s = 0.0
         self._since_start_s = 0.0
         self._registered: tuple[int, bytes] | None = None
@@ -250,7 +272,7 @@ class Motor:
             if register.address >= EEPROM_END:
                 self._values[register.name] = register.initial
         self._registered = None
-        self._since_start_s = self._silent_s = 0.0
+        self._since_start_s = self._silent_s = self._stalled_s = 0.0
         self._hold_still()
 
     # --- time
@@ -268,6 +290,7 @@ class Motor:
         current_ma = self._wanted_current_ma(dt_s) if self["torque_enable"] else 0.0
         current_ma, self.torque_nm = torque_nm(self.model, current_ma, self.shaft.velocity_rad_s)
         self._values["present_current"] = round(current_ma)
+        self._watch_load(current_ma, dt_s)
         if self._values["present_temperature"] > self._values["temperature_limit"]:
             self.fail(HardwareError.OVERHEATING)
         return self.torque_nm
@@ -284,6 +307,15 @@ class Motor:
         error_ticks = where - self.shaft.position_rad / RAD_PER_TICK
         gains = (self["position_p_gain"], self["position_i_gain"], self["position_d_gain"])
         return self._control.current_ma(error_ticks, gains, cap, dt_s)
+
+    def _watch_load(self, current_ma: float, dt_s: float) -> None:
+        law = self._overload
+        if law.after_s == 0.0:
+            return
+        stalls = abs(current_ma) >= law.current_ma and abs(self.shaft.velocity_rad_s) < _STILL_RAD_S
+        self._stalled_s = self._stalled_s + dt_s if stalls else 0.0
+        if self._stalled_s > law.after_s:
+            self.fail(HardwareError.OVERLOAD)
 
     def _watch_bus(self, dt_s: float) -> None:
         allowed = self["bus_watchdog"]

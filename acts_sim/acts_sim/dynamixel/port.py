@@ -6,6 +6,7 @@ import os
 import select
 import time
 import tty
+from collections import deque
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
@@ -53,6 +54,8 @@ class BusPort:
         self._s_per_byte = BITS_PER_BYTE / baud if baud else 0.0
         self._reader = PacketReader()
         self._heard_s = 0.0
+        # Answers on the wire: when each has come through, oldest first.
+        self._answers: deque[tuple[float, bytes]] = deque()
         self._stopping = False
         self._master = self._slave = -1
         self.path = ""
@@ -72,6 +75,7 @@ class BusPort:
         tty.setraw(self._slave)
         os.set_blocking(self._master, False)
         self._reader.forget()
+        self._answers.clear()
         self.path = os.ttyname(self._slave)
         if self._link is not None:
             try:
@@ -89,6 +93,7 @@ class BusPort:
             if descriptor >= 0:
                 os.close(descriptor)
         self._master = self._slave = -1
+        self._answers.clear()
         if self._link is not None and self._link.is_symlink() and str(self._link.readlink()) == self.path:
             self._link.unlink()
 
@@ -110,11 +115,13 @@ class BusPort:
                     due_s = now_s
                 self._step(self._step_s)
                 due_s += self._step_s
+            self._send_due()
+            next_s = min(due_s, self._answers[0][0]) if self._answers else due_s
             # Looked at after every step: whoever waits for an answer must not wait until time has been made up for.
             waiting = control.descriptors() if control is not None else []
             if self._master >= 0:
                 waiting.append(self._master)
-            readable, _, _ = select.select(waiting, [], [], max(0.0, due_s - time.monotonic()))
+            readable, _, _ = select.select(waiting, [], [], max(0.0, next_s - time.monotonic()))
             for descriptor in readable:
                 if descriptor == self._master:
                     self._receive()
@@ -135,10 +142,11 @@ class BusPort:
             if not answer.data:
                 continue
             wire_s = (len(data) + len(answer.data)) * self._s_per_byte
-            due_s = arrival_s + wire_s + (answer.delay_s if self._s_per_byte else 0.0)
-            wait_s = due_s - time.monotonic()
-            if wait_s > 0.0:
-                time.sleep(wait_s)
+            self._answers.append((arrival_s + wire_s + (answer.delay_s if self._s_per_byte else 0.0), answer.data))
+
+    def _send_due(self) -> None:
+        while self._answers and self._answers[0][0] <= time.monotonic():
+            _, data = self._answers.popleft()
             # What does not fit into the terminal's buffer is lost, as where nobody reads a serial port.
             with suppress(BlockingIOError):
-                os.write(self._master, answer.data)
+                os.write(self._master, data)

@@ -17,7 +17,7 @@ from acts_sim.hand.skin_kernels import PATCH_RESULTS, WAVES, press
 from acts_sim.hand.solids import Solids
 
 # Points of the foam along the side of a taxel: no further apart than this.
-_POINT_SPACING_M = 0.0022
+_POINT_SPACING_M = 0.0018
 
 # A point is felt by the taxel that it is in and its neighbours.
 _NEIGHBOURS = (-1, 0, 1)
@@ -177,8 +177,8 @@ class Skin:
 def _waves(solids: Solids, config: SkinConfig, rng: np.random.Generator) -> NDArray[np.float64]:
     """The waves of the object's unevenness in the frame of each solid; see `skin_kernels.press`."""
     direction = rng.standard_normal((WAVES, 3))
-    direction *= math.tau / config.unevenness_wavelength_m / np.linalg.norm(direction, axis=1, keepdims=True)
-    phase = rng.uniform(0.0, math.tau, WAVES)
+    direction /= config.unevenness_wavelength_m * np.linalg.norm(direction, axis=1, keepdims=True)
+    phase = rng.uniform(0.0, 1.0, WAVES)
     waves = np.empty((len(solids.kind), WAVES, 4))
     for k, (offset, mat) in enumerate(zip(solids.pos, solids.mat, strict=True)):
         waves[k, :, :3] = direction @ mat.reshape(3, 3)

@@ -157,7 +157,7 @@ def press(
         Of each solid that may press: its kind, body, pose in the body's frame, size, whether it is there at all,
         velocity that MuJoCo does not know of [m/s], height of its unevenness [m].
     wave : np.ndarray [shape=(solids, 3, 4), dtype=float64]
-        Of the waves that make the unevenness: wave vectors in the solid's frame [rad/m], and phases.
+        Of the waves that make the unevenness: wave vectors in the solid's frame [turns/m], and phases [turns].
     dt : float
         [s]
     forces : np.ndarray [shape=(taxels,), dtype=float64]
@@ -240,7 +240,9 @@ def press(
                 if uneven > 0.0:
                     height = 0.0
                     for w in range(WAVES):
-                        height += math.sin(wave[s, w, 0] * x + wave[s, w, 1] * y + wave[s, w, 2] * z + wave[s, w, 3])
+                        turns = wave[s, w, 0] * x + wave[s, w, 1] * y + wave[s, w, 2] * z + wave[s, w, 3]
+                        turns -= math.floor(turns + 0.5)
+                        height += turns * (8.0 - 16.0 * abs(turns))  # a sine of parabolas
                     gap -= uneven * height / WAVES
                 if cover - gap > depth:
                     depth, by = cover - gap, k

@@ -99,7 +99,11 @@ class Tip:
         self._end = self._end + step_m * self._along
         self._solids.travel[-1] = step_m / dt_s * self._along
         self._place()
-        self.depth_m = self._depth(self._patches[self.patch])
+
+    def measure(self) -> None:
+        """See how deep the tip is, where the links are now."""
+        if self.patch:
+            self.depth_m = self._depth(self._patches[self.patch])
 
     def _place(self) -> None:
         self._data.mocap_pos[self._mocap] = self._end

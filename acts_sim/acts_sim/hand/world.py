@@ -14,18 +14,19 @@ from numpy.typing import NDArray
 
 from acts_core.layouts import layout
 from acts_core.settings import setting, validate
+from acts_sim.dynamixel.bus import Bus
 from acts_sim.dynamixel.control_table import MODELS
-from acts_sim.dynamixel.motor import Motor
+from acts_sim.dynamixel.motor import Motor, OverloadLaw
+from acts_sim.hand import commands
 from acts_sim.hand import model as hand_model
 from acts_sim.hand.disturbances import Disturbances
 from acts_sim.hand.holder import Holder
 from acts_sim.hand.kinematics import LINKS
 from acts_sim.hand.objects import OBJECTS, HeldObject, held_object
 from acts_sim.hand.skin import Skin, SkinConfig
-from acts_sim.hand.skin_kernels import FORCE, SLIDING_FORCE, SLIDING_SPEED, TIP_FORCE
 from acts_sim.hand.solids import Solids
 from acts_sim.hand.tip import Tip
-from acts_sim.hand.truth import HandTruth, PatchTruth
+from acts_sim.hand.truth import COLUMN, PATCH_COLUMNS, PATCHES_FROM, HandTruth, row_width
 
 STEP_S = 0.002
 """Length of a step [s]."""
@@ -92,6 +93,8 @@ class HandWorld:
     ----------
     motors : list of Motor
         Sixteen, by their IDs.
+    bus : Bus
+        With these motors.
     blocked : set of int
         Indices of joints that something holds where they are.
     holder : Holder
@@ -111,7 +114,11 @@ class HandWorld:
         self._model = hand_model.build(self._thing, STEP_S / _SUBSTEPS)
         self._data = mujoco.MjData(self._model)
         self.layout = layout(config.layout)
-        self.motors = [Motor(MODELS[config.motor_model], k, config.return_delay_time) for k in range(len(LINKS))]
+        overload = OverloadLaw(config.overload_after_s, config.overload_ma)
+        self.motors = [
+            Motor(MODELS[config.motor_model], k, config.return_delay_time, overload=overload) for k in range(len(LINKS))
+        ]
+        self.bus: Bus = Bus(self.motors)
         self.blocked: set[int] = set()
         joints = [_joint(self._model, name) for _, name in sorted((link.motor_id, link.joint) for link in LINKS)]
         self._q = np.array([self._model.jnt_qposadr[joint] for joint in joints])
@@ -125,6 +132,9 @@ class HandWorld:
         self.disturbances = Disturbances(self.weight_n, self.down)
         self.time_s = 0.0
         self._lost = False
+        self._patch_index = {patch.name: k for k, patch in enumerate(self.layout.patches)}
+        self._row = np.zeros(row_width(len(self.layout.patches)))
+        self._row[COLUMN["object_quaternion"]] = 1.0, 0.0, 0.0, 0.0
         self.put(config.object_x_m, config.object_y_m, config.object_height_m, held=config.object_held)
         self._give_shafts()
         self._model.opt.gravity[:] = _GRAVITY_M_S2 * self.down
@@ -162,6 +172,26 @@ class HandWorld:
         """For pictures."""
         return self._data
 
+    @property
+    def has_object(self) -> bool:
+        """Whether there is one."""
+        return self._thing is not None
+
+    def do(self, command: str) -> None:
+        """Let something happen to hand or object: a line of words, see `acts_sim.hand.commands`.
+
+        Raises
+        ------
+        SettingsError
+            For a command that is not allowed; nothing has happened then.
+        """
+        commands.carry_out(self, command)
+
+    def hold(self) -> None:
+        """Let something hold the object where it is."""
+        if self._thing is not None:
+            self.holder.hold(self._data.xpos[self._body], self._data.xquat[self._body])
+
     def put(self, x_m: float, y_m: float, height_m: float = 0.0, *, held: bool = False) -> None:
         """Put the object on the palm, off its middle; held, or to lie there by itself."""
         if self._thing is None:
@@ -194,6 +224,7 @@ class HandWorld:
         model.opt.gravity[:] = _GRAVITY_M_S2 * self.down - shaking
         self.tip.advance(dt_s)
         mujoco.mj_step1(model, data)
+        self.tip.measure()
         data.xfrc_applied[:] = 0.0
         self._skin.press(data, dt_s)
         if self._body >= 0:
@@ -231,29 +262,28 @@ class HandWorld:
     @property
     def truth(self) -> HandTruth:
         """What is true now."""
-        data, body = self._data, self._body
-        there = body >= 0
-        results = self._skin.results.tolist()
-        return HandTruth(
-            time_s=self.time_s,
-            object_position_m=tuple(data.xpos[body].tolist()) if there else (0.0,) * 3,
-            object_velocity_m_s=tuple(data.qvel[-6:-3].tolist()) if there else (0.0,) * 3,
-            object_turn_rad_s=tuple((data.xmat[body].reshape(3, 3) @ data.qvel[-3:]).tolist()) if there else (0.0,) * 3,
-            object_quaternion=tuple(data.xquat[body].tolist()) if there else (1.0, 0.0, 0.0, 0.0),
-            object_held=self.holder.holding,
-            object_lost=self._lost,
-            load_n=tuple(self.disturbances.load_n.tolist()),
-            gravity_m_s2=tuple(self._model.opt.gravity.tolist()),
-            tip_depth_m=self.tip.depth_m,
-            tip_patch=self.tip.patch,
-            patches={
-                patch.name: PatchTruth(
-                    of[FORCE], of[SLIDING_FORCE] / max(of[FORCE], 1e-12), of[SLIDING_SPEED], of[TIP_FORCE]
-                )
-                for patch, of in zip(self.layout.patches, results, strict=True)
-            },
-            q_rad=tuple(data.qpos[self._q].tolist()),
-        )
+        return HandTruth.from_row(self.truth_row(), [patch.name for patch in self.layout.patches])
+
+    def truth_row(self) -> NDArray[np.float64]:
+        """What is true now as a row of numbers, see `acts_sim.hand.truth`; overwritten by the next call."""
+        row, data, body = self._row, self._data, self._body
+        row[COLUMN["time_s"]] = self.time_s
+        if body >= 0:
+            row[COLUMN["object_position_m"]] = data.qpos[-7:-4]
+            row[COLUMN["object_velocity_m_s"]] = data.qvel[-6:-3]
+            row[COLUMN["object_turn_rad_s"]] = data.xmat[body].reshape(3, 3) @ data.qvel[-3:]
+            row[COLUMN["object_quaternion"]] = data.qpos[-4:]
+        row[COLUMN["object_held"]] = self.holder.holding
+        row[COLUMN["object_lost"]] = self._lost
+        row[COLUMN["load_n"]] = self.disturbances.load_n
+        row[COLUMN["gravity_m_s2"]] = self._model.opt.gravity
+        row[COLUMN["tip_depth_m"]] = self.tip.depth_m
+        row[COLUMN["tip_patch"]] = self._patch_index.get(self.tip.patch, -1)
+        row[COLUMN["q_rad"]] = data.qpos[self._q]
+        patches = row[PATCHES_FROM:].reshape(-1, len(PATCH_COLUMNS))
+        patches[:] = self._skin.results
+        patches[:, 1] /= np.maximum(patches[:, 0], 1e-12)
+        return row
 
 
 def _joint(model: mujoco.MjModel, name: str) -> int:
