@@ -16,7 +16,7 @@ from test_hand_loop import Spin, node_and_user
 
 from acts_control.hand.description_file import LEAP_RIGHT
 from acts_core.region_contact import RegionContact as Touch
-from acts_msgs.msg import HandStatus, RegionContact, RegionContacts
+from acts_msgs.msg import HandStatus, HandTiming, RegionContact, RegionContacts
 from acts_ros.qos import STREAM
 
 DOMAIN_ID = 215
@@ -56,7 +56,9 @@ def test_the_hand_grasps_avoids_and_opens_by_touch_and_ends_in_order(bus: Bus) -
         statuses: list[HandStatus] = []
         reports: list[DiagnosticArray] = []
         node.create_subscription(HandStatus, "hand/status", statuses.append, 10)
+        timings: list[HandTiming] = []
         node.create_subscription(DiagnosticArray, "/diagnostics", reports.append, 10)
+        node.create_subscription(HandTiming, "hand/timing", timings.append, 10)
         regions = node.create_publisher(RegionContacts, "regions", STREAM)
 
         def feel(*touches: Touch) -> None:
@@ -91,6 +93,10 @@ def test_the_hand_grasps_avoids_and_opens_by_touch_and_ends_in_order(bus: Bus) -
         opening = until_state(HandStatus.STATE_OPEN)
         assert len(opening.goals) == 16
         until(lambda: any(dict_of(report).get("hand") == "OPEN" for report in reports))
+        until(lambda: not feel() and any(timing.latencies for timing in timings))
+        told = next(timing for timing in timings if timing.latencies)
+        assert all(duration > 0.0 for duration in told.durations)
+        assert 0 < len(told.latencies) <= len(told.durations) <= told.cycles
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=DEADLINE_S)
         assert process.returncode == 0

@@ -103,6 +103,9 @@ class Behaviour(Protocol):
             Where every joint is to go [rad].
         """
 
+    def sent(self, began_s: float, sent_s: float) -> None:
+        """What `step` asked for has been sent; when its cycle began, and now, by `time.monotonic` [s]."""
+
 
 class HandLoop:
     """Runs a hand in a thread of its own.
@@ -287,6 +290,8 @@ class HandLoop:
         for k, target in targets.items():
             goal[k] += min(max(target - goal[k], -step), step)
         self._bus.command(goal)
+        if self._behaviour is not None:
+            self._behaviour.sent(now_s, time.monotonic())
         self._set(HandPhase.ENABLED, reason, goal_rad=tuple(goal))
         return goal
 

@@ -1,12 +1,13 @@
 """The node `hand_reflexes`: what the hand's skin feels in, the motors' bus out; it opens, grasps, holds and avoids.
 
-Topics: regions in; joint_states and hand/status out. Services: ~/grasp, ~/release, ~/stop; ~/enable and ~/disable for
-the torque.
+Topics: regions in; joint_states, hand/status and hand/timing out. Services: ~/grasp, ~/release, ~/stop; ~/enable and
+~/disable for the torque.
 """
 
 from __future__ import annotations
 
 import sys
+import time
 from collections.abc import Callable, Sequence
 from dataclasses import make_dataclass
 from typing import Any
@@ -14,6 +15,7 @@ from typing import Any
 from std_srvs.srv import Trigger
 
 from acts_control.hand.bus import HandReading
+from acts_control.hand.cycle_times import CycleTimes
 from acts_control.hand.description_file import hand_description
 from acts_control.hand.kinematics import HandKinematics
 from acts_control.hand.loop import HandPhase
@@ -24,7 +26,7 @@ from acts_control.names import set_stamp
 from acts_core.errors import PacketError
 from acts_core.settings import setting
 from acts_core.stop_signals import StopSignals
-from acts_msgs.msg import HandStatus, RegionContacts
+from acts_msgs.msg import HandStatus, HandTiming, RegionContacts
 from acts_ros.clocks import steady_timer
 from acts_ros.composition import parameters_from
 from acts_ros.diagnostics import OK, WARN, Report
@@ -37,6 +39,7 @@ from acts_ros.regions_cdr import read_regions
 _LONG_AGO_S = 1e6
 # Touch that has come while the loop was held up: the newest counts, the others are dropped.
 _TOUCH_DEPTH = 64
+_TIMING_PERIOD_S = 1.0
 
 
 def settings_class() -> type:
@@ -60,14 +63,21 @@ HandReflexesSettings = settings_class()
 
 
 class TouchedHand:
-    """A supervisor that takes the newest touch at each cycle of the hand's loop, from the loop's own thread."""
+    """A supervisor that takes the newest touch at each cycle of the hand's loop, from the loop's own thread.
+
+    Attributes
+    ----------
+    times : CycleTimes
+    """
 
     def __init__(
         self, supervisor: HandSupervisor, regions: PolledSubscription[bytes], now_ns: Callable[[], int]
     ) -> None:
+        self.times = CycleTimes()
         self._supervisor = supervisor
         self._regions = regions
         self._now_ns = now_ns
+        self._touched_ns: int | None = None
 
     def restart(self, *, recovered: bool) -> None:
         """See `acts_control.hand.loop.Behaviour`."""
@@ -76,14 +86,21 @@ class TouchedHand:
     def step(self, reading: HandReading, goal_rad: Sequence[float], now_s: float, dt_s: float) -> Sequence[float]:
         """See `acts_control.hand.loop.Behaviour`."""
         taken = self._regions.take_all()
+        self._touched_ns = None
         if taken:
             try:
                 touch = read_regions(taken[-1][0])
             except PacketError:
                 self._supervisor.refuse()
             else:
+                self._touched_ns = touch.stamp_ns
                 self._supervisor.touch(touch.regions, now_s - 1e-9 * (self._now_ns() - touch.stamp_ns))
         return [float(angle) for angle in self._supervisor.step(reading, goal_rad, now_s, dt_s)]
+
+    def sent(self, began_s: float, sent_s: float) -> None:
+        """See `acts_control.hand.loop.Behaviour`."""
+        latency_s = None if self._touched_ns is None else 1e-9 * (self._now_ns() - self._touched_ns)
+        self.times.add(sent_s - began_s, latency_s)
 
 
 class HandReflexesNode(MotorNode):
@@ -97,14 +114,21 @@ class HandReflexesNode(MotorNode):
         self._status = HandStatus()
         self._status.header.frame_id = settings.frame_id
         self._status_publisher = self.create_publisher(HandStatus, "hand/status", STATE)
+        self._timing = HandTiming()
+        self._timing.header.frame_id = settings.frame_id
+        self._timing_publisher = self.create_publisher(HandTiming, "hand/timing", STATE)
         regions = self.create_raw_polled_subscription(RegionContacts, "regions", STREAM, depth=_TOUCH_DEPTH)
         clock = self.get_clock()
         touched = TouchedHand(self._supervisor, regions, lambda: clock.now().nanoseconds)
+        self._times, self._timed_s = touched.times, time.monotonic()
         self._told = SupervisorStatus()
         self.start_with(settings, touched, "disable")
         for name in ("grasp", "release", "stop"):
             self.create_service(Trigger, f"~/{name}", self._answer(name))
-        self._timer = steady_timer(self, 1.0 / settings.status_rate_hz, self._publish_status)
+        self._steady_timers = (
+            steady_timer(self, 1.0 / settings.status_rate_hz, self._publish_status),
+            steady_timer(self, _TIMING_PERIOD_S, self._publish_timing),
+        )
 
     def report(self) -> Report:
         """What the diagnostics say: of the motors, and of what the hand is about."""
@@ -145,6 +169,17 @@ class HandReflexesNode(MotorNode):
         message.steps = status.steps
         message.late_steps = loop.late
         self._status_publisher.publish(message)
+
+    def _publish_timing(self) -> None:
+        message = self._timing
+        before_s, self._timed_s = self._timed_s, time.monotonic()
+        message.durations, message.latencies = self._times.take()
+        if not message.durations:
+            return
+        set_stamp(message.header.stamp, self.get_clock().now().nanoseconds)
+        message.interval = self._timed_s - before_s
+        message.cycles = self._times.cycles
+        self._timing_publisher.publish(message)
 
 
 SETTINGS: dict[str, type] = {"hand_reflexes": HandReflexesSettings}
