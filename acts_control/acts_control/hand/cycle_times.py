@@ -27,7 +27,7 @@ class CycleTimes:
         duration_s : float
             From its begin until the goals were sent [s].
         latency_s : float or None
-            From the last measurement of the newest touch until then [s]; None where none has come since the cycle before.
+            From the last measurement of the newest touch until then [s]; None without new touch.
         """
         self.cycles += 1
         self._durations.append(duration_s)
