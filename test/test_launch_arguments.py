@@ -21,6 +21,7 @@ from acts_core.settings import describe
 from acts_driver.settings import DriverSettings
 from acts_recon.reconstruction_settings import ReconstructionSettings
 from acts_ros.composition import IN_PARAMS_FILE
+from acts_sim.hand.world import HandWorldConfig
 from acts_tools.launch.evaluate import Plan, declarations, evaluate
 from acts_tools.launch.parser import parse_file
 
@@ -31,8 +32,10 @@ PARAMS_ARGUMENT = '<arg name="params_file"'
 TEXTS = {
     "tactile": ("port", "frame_id", "layout", "dictionary", "pitch", "recording", "replay", "run_dir", "cpu_affinity"),
     "ball_balancing": ("port", "robot_ip", "trajectory", "frame_id", "dictionary", "pitch", "run_dir", "cpu_affinity"),
+    "hand_reflexes": ("port", "hand_port", "hand", "reflexes", "layout", "seed", "run_dir", "cpu_affinity"),
     "skins": ("skins_file", "base_frame", "run_dir"),
     "simulated_board": ("recording", "run_dir", "cpu_affinity"),
+    "simulated_hand": ("layout", "seed", "run_dir", "cpu_affinity"),
     "simulated_robot": ("robot_ip", "frame_id", "run_dir", "cpu_affinity"),
 }
 MEAN = (
@@ -130,6 +133,8 @@ def test_only_with_sim_is_the_robot_held_to_be_a_simulated_one(launch: Callable[
             assert re.findall(r"loopback_only=(\w+)", words) == [expected]
 
 
+# What is simulated reads no params file.
+OF_SIMULATED_ALONE = ("object",)
 # Of every file that takes a params file; the simulated board takes none.
 CHOICES = {
     "scheme": tuple(word for word in describe(DriverSettings)["scheme"].choices if word),
@@ -137,13 +142,15 @@ CHOICES = {
     "method": describe(ReconstructionSettings)["method"].choices,
     "autostart": ("true", "false"),
     "replay_loop": ("true", "false"),
+    "object": describe(HandWorldConfig)["object"].choices,
 }
 
 
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.name)
 def test_choices_are_those_of_the_nodes(file: Path, launch: Callable[..., Printed]) -> None:
     for argument, _ in declarations(parse_file(file)):
-        more = {IN_PARAMS_FILE} if argument.choices and PARAMS_ARGUMENT in file.read_text() else set()
+        in_params_file = PARAMS_ARGUMENT in file.read_text() and argument.name not in OF_SIMULATED_ALONE
+        more = {IN_PARAMS_FILE} if argument.choices and in_params_file else set()
         assert set(argument.choices) == {*CHOICES.get(argument.name, ()), *more}, argument.name
         for choice in argument.choices:
             launch(file, **{argument.name: choice})
@@ -193,7 +200,10 @@ def test_what_is_not_given_is_left_to_the_params_file(launch: Callable[..., Prin
 
 
 # What a simulation is made of, and what keeps it from a robot's own address.
-OF_THE_SIMULATION = {"ball_world.field_ring", "ball_world.joint_ring", "driver.port", "ball_control.robot_ip"}
+OF_THE_SIMULATION = {
+    *("ball_world.field_ring", "ball_world.joint_ring", "driver.port", "ball_control.robot_ip"),
+    *("hand_reflexes.port", "hand_reflexes.interface"),
+}
 ALWAYS_SET = {"ball_control.loopback_only"}
 
 
@@ -227,3 +237,31 @@ def test_a_simulated_robot_is_where_nothing_else_is_said_whatever_a_params_file_
         assert f"--host {expected} " in robot
         assert settings_of(started, "ball_control")["robot_ip"] == expected
     assert settings_of(launch(file, sim="false"), "ball_control")["robot_ip"] == IN_PARAMS_FILE
+
+
+@pytest.mark.parametrize("sim", ["true", "1"])
+def test_what_a_simulated_skin_feels_moves_no_real_hand(launch: Callable[..., Printed], sim: str) -> None:
+    file = TACTILE.with_name("hand_reflexes.launch.xml")
+    real = {"port": "/dev/ttyACM0", "hand_port": "/dev/ttyUSB0"}
+    started = launch(file, sim=sim, run_dir="/tmp/run", **real)
+    assert "/dev/tty" not in repr(started)
+    hand = settings_of(started, "hand_reflexes")
+    assert (hand["port"], hand["interface"]) == ("/tmp/run/hand", "dynamixel")
+    (world,) = [" ".join(words) for words, _ in started if words[0].endswith("/hand_world")]
+    assert "--link /tmp/run/hand " in world
+    started = launch(file, sim="false", **real)
+    assert not any(words[0].endswith(("/hand_world", "/virtual_board")) for words, _ in started)
+    assert settings_of(started, "hand_reflexes")["port"] == "/dev/ttyUSB0"
+    assert settings_of(started, "driver")["port"] == "/dev/ttyACM0"
+
+
+@pytest.mark.parametrize("composed", ["true", "false"])
+def test_the_arguments_of_the_hand_reach_what_they_are_for(launch: Callable[..., Printed], composed: str) -> None:
+    file = TACTILE.with_name("hand_reflexes.launch.xml")
+    of_the_node = {"reflexes": "sharp, slip", "rate_hz": "60.0", "autostart": "false", "hand": "mine.yaml"}
+    started = launch(file, composed=composed, object="box", seed="7", layout="mine_layout.yaml", **of_the_node)
+    assert settings_of(started, "hand_reflexes").items() >= of_the_node.items()
+    assert settings_of(started, "reconstruction")["layout"] == "mine_layout.yaml"
+    assert settings_of(started, "driver")["autostart"] == IN_PARAMS_FILE
+    (world,) = [" ".join(words) for words, _ in started if words[0].endswith("/hand_world")]
+    assert "--object box --seed 7 --layout mine_layout.yaml " in world
