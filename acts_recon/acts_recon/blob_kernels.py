@@ -34,6 +34,8 @@ BLOB = np.dtype(
         # Where its taxels stand in `members`.
         ("first", "i8"),
         ("last", "i8"),
+        # Index of the first taxel of the rectangle that it lies in: borders part contacts.
+        ("patch", "i8"),
     ]
 )
 """What `find_blobs` writes of each contact."""
@@ -45,6 +47,7 @@ _TINY_N = 1e-30
 def find_blobs(
     image: NDArray[np.float32],
     sigma: NDArray[np.float32],
+    bounds: NDArray[np.int32],
     cols: int,
     touch_counts: float,
     release_counts: float,
@@ -68,6 +71,8 @@ def find_blobs(
         Counts.
     sigma : np.ndarray [shape=(rows * cols,) or (0,), dtype=float32]
         Standard deviations of the taxels [counts]; empty where not known, the variances are then 0.
+    bounds : np.ndarray [shape=(rows * cols, 4), dtype=int32]
+        See `acts_recon.borders.Borders`.
     cols : int
     touch_counts, release_counts : float
         Above the first a taxel becomes pressed, at or below the second it ceases to be.
@@ -108,13 +113,14 @@ def find_blobs(
         n_members += 1
         label[seed] = groups
         n_border = 0
+        top, bottom, left, right = bounds[seed, 0], bounds[seed, 1], bounds[seed, 2], bounds[seed, 3]
         i = first
         while i < n_members:
             row = members[i] // cols
             col = members[i] - row * cols
             i += 1
-            for r in range(max(row - 1, 0), min(row + 2, rows)):
-                for c in range(max(col - 1, 0), min(col + 2, cols)):
+            for r in range(max(row - 1, top), min(row + 2, bottom)):
+                for c in range(max(col - 1, left), min(col + 2, right)):
                     other = r * cols + c
                     if state[other]:
                         if label[other] == 0:
@@ -133,6 +139,7 @@ def find_blobs(
         blob = blobs[place]
         blob.first = first
         blob.last = n_members
+        blob.patch = top * cols + left
         # What only the hysteresis holds joins, but does not count, unless there is nothing else.
         least = release_counts
         for i in range(first, n_members):

@@ -180,6 +180,8 @@ def _weigh(
         reach = FASTEST_M_S * min(time_s - track.seen_s, bridge_s)
         gate = GATE_TAXELS * pitch + min(3.0 * math.sqrt(max(track.x_pp, track.y_pp)), reach)
         for b in range(n):
+            if blobs[b].patch != track.patch:
+                continue
             distance = math.hypot(blobs[b].x_m - x, blobs[b].y_m - y)
             if overlap[b, t] > 0:
                 cost[b, t] = distance
@@ -273,6 +275,7 @@ def _begin(time_s: float, b: int, blobs: NDArray[Any], tracks: NDArray[Any], nex
     track.state = ACTIVE
     track.host = NONE
     track.blob = b
+    track.patch = blobs[b].patch
     track.x = track.y = math.inf
     track.vx = track.vy = 0.0
     track.began_s = time_s

@@ -24,6 +24,7 @@ from acts_recon.blob_motion_kernels import (
 from acts_recon.blob_track_kernels import FASTEST_M_S, GATE_TAXELS, LEAST_SHARE, direction
 from acts_recon.blob_tracks import MAX_TRACKS
 from acts_recon.blobs import Blob, BlobConfig, TrackedBlob, find_blobs
+from acts_recon.borders import Borders
 from acts_recon.uncertainty import root_deviation
 
 Vector = NDArray[np.float64]
@@ -41,6 +42,7 @@ class Track:
 
     number: int
     began_s: float
+    patch: int = 0
     state: str = ACTIVE
     blob: int | None = None
     # None: follows from the contact.
@@ -67,11 +69,17 @@ class PlainTracker:
     geometry : ArrayGeometry
     response : ForceResponse or MeasuredForceResponse
     config : BlobConfig
+    borders : Borders, optional
     """
 
     def __init__(
-        self, geometry: ArrayGeometry, response: ForceResponse | MeasuredForceResponse, config: BlobConfig
+        self,
+        geometry: ArrayGeometry,
+        response: ForceResponse | MeasuredForceResponse,
+        config: BlobConfig,
+        borders: Borders | None = None,
     ) -> None:
+        self._borders = borders
         self._geometry = geometry
         self._response = response
         self._config = config
@@ -87,7 +95,15 @@ class PlainTracker:
     ) -> list[TrackedBlob]:
         """Find the contacts of the next frame, `dt_s` after the one before."""
         config = self._config
-        blobs = find_blobs(image, self._geometry, self._response, config, sigma=sigma, pressed_before=self._pressed)
+        blobs = find_blobs(
+            image,
+            self._geometry,
+            self._response,
+            config,
+            sigma=sigma,
+            pressed_before=self._pressed,
+            borders=self._borders,
+        )
         self._pressed = image > np.where(self._pressed, config.release_counts, config.touch_counts)
         self._predict(time_s, dt_s)
         overlap = [self._count_owners(blob) for blob in blobs]
@@ -105,7 +121,7 @@ class PlainTracker:
                 track.state = AWAY
             else:
                 self._merge(time_s, track, host, blobs)
-        named = [track_of[b] or self._begin(time_s, b) for b in range(len(blobs))]
+        named = [track_of[b] or self._begin(time_s, b, blob.patch) for b, blob in enumerate(blobs)]
         for track, blob in zip(named, blobs, strict=True):
             self._update(time_s, dt_s, track, blob, sigma is not None)
         # Taxels of a contact that is away stay its own until another takes them.
@@ -188,6 +204,8 @@ class PlainTracker:
             reach = FASTEST_M_S * min(time_s - track.seen_s, self._config.bridge_s)
             gate = GATE_TAXELS * pitch + min(3 * math.sqrt(track.position_var.max()), reach)
             for b, blob in enumerate(blobs):
+                if blob.patch != track.patch:
+                    continue
                 distance = math.hypot(blob.x_m - at[0], blob.y_m - at[1])
                 if b in covering:
                     pairs.append((distance, track.number, b, track))
@@ -275,7 +293,7 @@ class PlainTracker:
             track.offset_rate = np.zeros(2)
         host.position = None
 
-    def _begin(self, time_s: float, b: int) -> Track:
+    def _begin(self, time_s: float, b: int, patch: int) -> Track:
         if None not in self._places:
             # There are twice as many places as active tracks; the one merged or away for longest goes.
             oldest = min(
@@ -285,7 +303,7 @@ class PlainTracker:
             if oldest.state == MERGED:
                 self._leave(oldest)
             self._forget(oldest, *self._guests(oldest))
-        track = Track(self._next_number, time_s, blob=b)
+        track = Track(self._next_number, time_s, patch, blob=b)
         self._next_number += 1
         self._places[self._places.index(None)] = track
         return track

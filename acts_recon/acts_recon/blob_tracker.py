@@ -12,6 +12,7 @@ from acts_recon import blob_kernels, blob_track_kernels
 from acts_recon.blob_kernels import MAX_BLOBS
 from acts_recon.blob_tracks import FREE, MAX_TRACKS, TRACK
 from acts_recon.blobs import BlobConfig, TrackedBlob
+from acts_recon.borders import Borders, borders_of
 from acts_recon.uncertainty import slope_table
 
 _LONGEST_PAUSE_S = 1.0
@@ -28,6 +29,8 @@ class BlobTracker:
     response : ForceResponse or MeasuredForceResponse, optional
         From counts to newtons.
     config : BlobConfig, optional
+    borders : Borders, optional
+        No contact reaches over one, or goes from one side to the other.
     """
 
     def __init__(
@@ -35,6 +38,7 @@ class BlobTracker:
         geometry: ArrayGeometry,
         response: ForceResponse | MeasuredForceResponse | None = None,
         config: BlobConfig | None = None,
+        borders: Borders | None = None,
     ) -> None:
         self.geometry = geometry
         self.config = config or BlobConfig()
@@ -42,6 +46,7 @@ class BlobTracker:
         """Contacts of the last frame that were left out because there were more than `MAX_BLOBS`: the weakest."""
         self._force_n = force_table(response or ForceResponse())
         self._slope_n = slope_table(self._force_n)
+        self._bounds = (borders or borders_of(geometry.rows, geometry.cols)).bounds()
         size = geometry.size
         self._state = np.zeros(size, dtype=np.uint8)
         self._work = tuple(np.zeros(size, dtype=np.int32) for _ in range(3))
@@ -91,6 +96,7 @@ class BlobTracker:
         n, self.dropped = blob_kernels.find_blobs(
             flat,
             deviations,
+            self._bounds,
             geometry.cols,
             float(config.touch_counts),
             float(config.release_counts),

@@ -18,6 +18,8 @@ TRACK = np.dtype(
         ("state", "i8"),
         ("host", "i8"),
         ("blob", "i8"),
+        # Of its contacts, see `acts_recon.blob_kernels.BLOB`.
+        ("patch", "i8"),
         # Filter of position and velocity, and its covariances, axis by axis [m, s].
         ("x", "f8"),
         ("y", "f8"),

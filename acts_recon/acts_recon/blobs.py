@@ -12,6 +12,7 @@ from acts_core.array import COUNT_MAX, ArrayGeometry
 from acts_core.force import ForceResponse, MeasuredForceResponse
 from acts_core.settings import setting, validate
 from acts_recon.blob_kernels import MAX_BLOBS
+from acts_recon.borders import Borders, borders_of, grown
 from acts_recon.uncertainty import ERR_TOGETHER, NOISE_COUNTS, Variances, variances
 
 
@@ -120,6 +121,8 @@ class Blob:
         Central second moments of the force, xx, xy and yy [m^2].
     x_var, y_var, force_var, taxels_var, spread_square_var : float
         Variances of position [m^2], force [N^2], number of taxels and square of the spread [m^4].
+    patch : int
+        Index of the rectangle that it lies in, see `acts_recon.borders.Borders`.
     """
 
     taxels: NDArray[np.intp]
@@ -134,6 +137,7 @@ class Blob:
     force_var: float
     taxels_var: float
     spread_square_var: float
+    patch: int = 0
 
 
 def find_blobs(
@@ -144,6 +148,7 @@ def find_blobs(
     *,
     sigma: NDArray[np.floating] | None = None,
     pressed_before: NDArray[np.bool_] | None = None,
+    borders: Borders | None = None,
 ) -> list[Blob]:
     """Find the contacts in an image; the plain twin of `acts_recon.blob_kernels.find_blobs`.
 
@@ -164,27 +169,25 @@ def find_blobs(
         Standard deviations of the taxels [counts]; without them variances are 0.
     pressed_before : np.ndarray [shape=(rows, cols), dtype=bool], optional
         Which taxels were pressed in the frame before, for the hysteresis.
+    borders : Borders, optional
+        No contact reaches over one.
 
     Returns
     -------
     list of Blob
         In the order of their first taxels.
     """
-    # Here: half the time a node takes to start would go by importing it, and nodes use the kernels.
-    from scipy import ndimage
-
+    borders = borders or borders_of(geometry.rows, geometry.cols)
     config = config or BlobConfig()
     before = np.zeros(image.shape, dtype=np.bool_) if pressed_before is None else pressed_before
     threshold = np.where(before, config.release_counts, config.touch_counts).astype(np.float64)
-    neighbours = np.ones((3, 3))
-    groups, n_groups = ndimage.label(image > threshold, structure=neighbours)
+    pressed = image > threshold
     blobs = []
-    for group in range(1, n_groups + 1):
-        whole = groups == group
+    for whole in _groups(pressed, borders):
         touched = whole & (image > config.touch_counts)
         inside = touched if touched.any() else whole
         least = float(config.touch_counts if touched.any() else config.release_counts)
-        edge = ndimage.binary_dilation(whole, structure=neighbours) & ((groups == 0) | whole) & ~inside
+        edge = grown(whole, borders) & (~pressed | whole) & ~inside
         row, col = np.nonzero(inside)
         x, y = geometry.x_m(col), geometry.y_m(row)
         counts = np.clip(image[inside], 0, COUNT_MAX).astype(np.float64)
@@ -213,7 +216,26 @@ def find_blobs(
                 force_var=unsure.force,
                 taxels_var=unsure.taxels,
                 spread_square_var=unsure.spread_square,
+                patch=int(borders.rectangle_of[np.flatnonzero(whole)[0]]),
             )
         )
     strongest = sorted(blobs, key=lambda blob: -blob.force_n)[:MAX_BLOBS]
     return [blob for blob in blobs if any(blob is kept for kept in strongest)]
+
+
+def _groups(pressed: NDArray[np.bool_], borders: Borders) -> list[NDArray[np.bool_]]:
+    """Groups of pressed taxels that touch along a side or at a corner, in the order of their first taxels."""
+    # Here: half the time a node takes to start would go by importing it, and nodes use the kernels.
+    from scipy import ndimage
+
+    groups = []
+    for first_row, end_row, first_col, end_col in borders.rectangles.tolist():
+        there = np.s_[first_row:end_row, first_col:end_col]
+        if not pressed[there].any():
+            continue
+        labels, n_groups = ndimage.label(pressed[there], structure=np.ones((3, 3)))
+        for group in range(1, n_groups + 1):
+            whole = np.zeros_like(pressed)
+            whole[there] = labels == group
+            groups.append(whole)
+    return sorted(groups, key=lambda whole: int(np.flatnonzero(whole)[0]))

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
 from acts_core.force import ForceResponse, MeasuredForceResponse
+from acts_recon.borders import Borders, borders_of, grown
 from acts_recon.uncertainty import ERR_TOGETHER, NOISE_COUNTS, Variances, root_deviation, variances
 
 
@@ -65,6 +66,7 @@ def find_contact(
     sigma: NDArray[np.floating] | None = None,
     noise_counts: float = NOISE_COUNTS,
     err_together: float = ERR_TOGETHER,
+    borders: Borders | None = None,
 ) -> Contact:
     """Describe the contact in an image; the plain twin of `acts_recon.contact_kernels.find_contact`.
 
@@ -84,10 +86,9 @@ def find_contact(
         Standard deviations of the taxels [counts]; without them those of the contact are 0.
     noise_counts, err_together : float
         See `acts_recon.uncertainty`.
+    borders : Borders, optional
+        What lies behind one is not beside the contact.
     """
-    # Here: half the time a node takes to start would go by importing it, and nodes use the kernels.
-    from scipy import ndimage
-
     pressed = image > touch_counts
     if not pressed.any():
         return NO_CONTACT
@@ -100,7 +101,7 @@ def find_contact(
     square = float(weight @ ((x - x_m) ** 2 + (y - y_m) ** 2)) / total
     unsure = Variances()
     if sigma is not None:
-        edge = ndimage.binary_dilation(pressed, structure=np.ones((3, 3))) & ~pressed
+        edge = grown(pressed, borders or borders_of(*image.shape)) & ~pressed
         unsure = variances(image, sigma, pressed, edge, touch_counts, geometry, response, noise_counts, err_together)
     return Contact(
         in_contact=True,

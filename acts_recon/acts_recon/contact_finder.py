@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from acts_core.array import ArrayGeometry
 from acts_core.force import ForceResponse, MeasuredForceResponse, force_table
 from acts_recon import contact_kernels
+from acts_recon.borders import Borders, borders_of
 from acts_recon.contact import NO_CONTACT, Contact
 from acts_recon.uncertainty import ERR_TOGETHER, NOISE_COUNTS, root_deviation, slope_table
 
@@ -27,6 +28,8 @@ class ContactFinder:
         A taxel above it is pressed.
     noise_counts, err_together : float
         See `acts_recon.uncertainty`.
+    borders : Borders, optional
+        What lies behind one is not beside the contact.
     """
 
     def __init__(
@@ -36,7 +39,9 @@ class ContactFinder:
         touch_counts: float,
         noise_counts: float = NOISE_COUNTS,
         err_together: float = ERR_TOGETHER,
+        borders: Borders | None = None,
     ) -> None:
+        self._bounds = (borders or borders_of(geometry.rows, geometry.cols)).bounds()
         self._geometry = geometry
         self._thresholds = touch_counts, noise_counts, err_together
         force_n = force_table(response)
@@ -58,6 +63,7 @@ class ContactFinder:
         contact_kernels.find_contact(
             image,
             _UNKNOWN if sigma is None else sigma,
+            self._bounds,
             geometry.cols,
             *self._thresholds,
             *self._tables,

@@ -19,6 +19,7 @@ _TINY_N = 1e-30
 def find_contact(
     image: NDArray[np.float32],
     sigma: NDArray[np.float32],
+    bounds: NDArray[np.int32],
     cols: int,
     touch_counts: float,
     noise_counts: float,
@@ -37,6 +38,8 @@ def find_contact(
         Counts, 0 to 1023.
     sigma : np.ndarray [shape=(rows * cols,) or (0,), dtype=float32]
         Standard deviations of the taxels [counts]; empty where not known, the variances are then 0.
+    bounds : np.ndarray [shape=(rows * cols, 4), dtype=int32]
+        See `acts_recon.borders.Borders`.
     cols : int
     touch_counts : float
         A taxel above it is pressed.
@@ -95,7 +98,7 @@ def find_contact(
             inside = value > touch_counts
             if not deviation > 0.0 or (not inside and value + FAR * deviation < touch_counts):
                 continue
-            if not (inside or _beside(image, rows, cols, row, col, touch_counts)):
+            if not (inside or _beside(image, bounds[t], cols, row, col, touch_counts)):
                 continue
             square, wrong = taxel_variances(
                 max(value, 0.0), deviation, inside, touch_counts, noise_counts, together, force_n, slope_n
@@ -113,10 +116,12 @@ def find_contact(
 
 
 @kernel
-def _beside(image: NDArray[np.float32], rows: int, cols: int, row: int, col: int, touch_counts: float) -> bool:
-    """Whether a taxel around this one is pressed."""
-    for r in range(max(row - 1, 0), min(row + 2, rows)):
-        for c in range(max(col - 1, 0), min(col + 2, cols)):
+def _beside(
+    image: NDArray[np.float32], bounds: NDArray[np.int32], cols: int, row: int, col: int, touch_counts: float
+) -> bool:
+    """Whether a taxel around this one is pressed, on the same side of all borders."""
+    for r in range(max(row - 1, bounds[0]), min(row + 2, bounds[1])):
+        for c in range(max(col - 1, bounds[2]), min(col + 2, bounds[3])):
             if image[r * cols + c] > touch_counts:
                 return True
     return False

@@ -18,6 +18,7 @@ from acts_msgs.msg import Contacts, TrackedContact
 from acts_recon.blob_kernels import MAX_BLOBS
 from acts_recon.blob_tracker import BlobTracker
 from acts_recon.blobs import BlobConfig, TrackedBlob
+from acts_recon.borders import Borders
 from acts_ros import qos
 
 _VIEW_RATE_HZ = 30.0
@@ -39,6 +40,8 @@ class ContactsPublisher:
         Of the images.
     response : ForceResponse or MeasuredForceResponse
     config : BlobConfig
+    borders : Borders, optional
+        Of the images.
     """
 
     def __init__(
@@ -47,8 +50,9 @@ class ContactsPublisher:
         geometry: ArrayGeometry,
         response: ForceResponse | MeasuredForceResponse,
         config: BlobConfig,
+        borders: Borders | None = None,
     ) -> None:
-        self._tracker = BlobTracker(geometry, response, config)
+        self._tracker = BlobTracker(geometry, response, config, borders)
         self._publisher = node.create_publisher(Contacts, "contacts", **qos.overridable(qos.STREAM))
         self._view_publisher = node.create_publisher(MarkerArray, "contacts_view", **qos.overridable(qos.VIEW))
         self._view_limit = RateLimit(_VIEW_RATE_HZ)

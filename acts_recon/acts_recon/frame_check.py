@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX, ArrayGeometry
 from acts_core.errors import ArrayError
-from acts_core.layouts import Layout
+from acts_core.layouts import NO_PATCH, Layout
 from acts_recon.fastomp_kernels import COUNT_OUT_OF_RANGE, INDEX_OUT_OF_RANGE
 
 
@@ -37,6 +37,18 @@ def place_table(layout: Layout, geometry: ArrayGeometry) -> NDArray[np.uint16]:
         )
     table = np.arange(2**16, dtype=np.uint16)
     table[: layout.places.size] = layout.places
+    return table
+
+
+def skin_table(layout: Layout) -> NDArray[np.uint16] | None:
+    """1 for matrix indices with skin, 0 for those without, which count as untouched; None where all have it.
+
+    Shape (65536,), uint16.
+    """
+    if not (layout.patch_of == NO_PATCH).any():
+        return None
+    table = np.ones(2**16, dtype=np.uint16)
+    table[: layout.places.size] = layout.patch_of_taxel.ravel() != NO_PATCH
     return table
 
 

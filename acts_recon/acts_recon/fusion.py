@@ -30,8 +30,9 @@ from acts_core.errors import ArrayError
 from acts_core.layouts import Layout
 from acts_core.settings import setting, validate
 from acts_recon import fusion_kernels as kernels
+from acts_recon.borders import borders_of
 from acts_recon.fastomp_kernels import OK
-from acts_recon.frame_check import place_table, require_samples, why_refused
+from acts_recon.frame_check import place_table, require_samples, skin_table, why_refused
 from acts_recon.fusion_state import Tuning, forget, new_memory, state_of
 
 
@@ -84,6 +85,8 @@ class FusionEstimator:
     config : FusionConfig
     layout : Layout, optional
         Where the taxels of the matrix lie in the picture. `step` takes matrix indices, all results are the picture's.
+        Its patches are skins of their own, taken together: none learns anything from another. Where there is no skin
+        the image is 0.
 
     Raises
     ------
@@ -99,10 +102,13 @@ class FusionEstimator:
         self._tuning = self.config.tuning
         self._matrix_size = (geometry.rows, geometry.cols)
         self._places: NDArray[np.uint16] | None = None
+        self._skin: NDArray[np.uint16] | None = None
         if layout is not None:
             self._places = place_table(layout, geometry)
+            self._skin = skin_table(layout)
             self._matrix_size = (layout.matrix_rows, layout.matrix_cols)
-        self._memory = new_memory(geometry.rows, geometry.cols)
+        self.borders = borders_of(geometry.rows, geometry.cols, layout)
+        self._memory = new_memory(geometry.rows, geometry.cols, self.borders)
         self._state = state_of(self._memory)
         self._confidence = np.zeros(geometry.size, dtype=np.uint8)
         self._end_s: float | None = None
@@ -159,6 +165,8 @@ class FusionEstimator:
         code = kernels.check(places, counts, self._state.seen)
         if code != OK:
             raise ArrayError(why_refused(code, indices, counts, *self._matrix_size))
+        if self._skin is not None:
+            counts = counts * self._skin[indices]
         period_s = duration_s
         if self._end_s is not None:
             period_s = end_s - self._end_s
@@ -166,8 +174,7 @@ class FusionEstimator:
                 self.reset()
                 period_s = duration_s
         self._end_s = end_s
-        geometry = self.geometry
-        kernels.fuse(self._memory, places, counts, period_s, duration_s, geometry.rows, geometry.cols, self._tuning)
+        kernels.fuse(self._memory, places, counts, period_s, duration_s, self.geometry.cols, self._tuning)
         return self.image
 
     def confidence(self) -> NDArray[np.uint8]:

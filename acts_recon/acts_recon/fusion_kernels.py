@@ -2,7 +2,8 @@
 
 One frame goes through `fuse`: find how the contacts move, carry the image on to the end of the frame, take the samples,
 tell the taxels around them what they taught, and say how sure all of it is. `acts_recon.fusion` explains the method.
-(Indices are made signed before anything is taken away from them: numba keeps them unsigned.)
+(Indices are made signed before anything is taken away from them: numba keeps them unsigned.) The patches of a layout
+are skins of their own, taken together: none learns anything from another.
 """
 
 from __future__ import annotations
@@ -90,7 +91,6 @@ def _observe_motion(
     counts: NDArray[np.uint16],
     period_s: float,
     lag_step_s: float,
-    rows: int,
     cols: int,
     tuning: Tuning,
 ) -> None:
@@ -99,11 +99,11 @@ def _observe_motion(
     fade = _F(math.exp(-period_s / tuning.motion_memory_s))
     image, evidence = state.image, state.evidence
     for a in range(evidence.shape[0]):
-        for b in range(evidence.shape[1]):
-            for q in range(6):
-                faded = evidence[a, b, q] * fade
-                # What fades for ever ends in numbers so small that they are slow.
-                evidence[a, b, q] = faded if abs(faded) > _TINY else _F(0)
+        for q in range(6):
+            faded = evidence[a, q] * fade
+            # What fades for ever ends in numbers so small that they are slow.
+            evidence[a, q] = faded if abs(faded) > _TINY else _F(0)
+    patches, patch_of = state.patches, state.patch_of
     horizon = _F(tuning.horizon_s)
     for k in range(m):
         i = int(np.int64(indices[k]))
@@ -113,9 +113,11 @@ def _observe_motion(
         row = i // cols
         col = i - row * cols
         change = (_F(counts[k]) - state.value[i]) / since
-        along_cols = (image[row * cols + min(col + 1, cols - 1)] - image[row * cols + max(col - 1, 0)]) * _F(0.5)
-        along_rows = (image[min(row + 1, rows - 1) * cols + col] - image[max(row - 1, 0) * cols + col]) * _F(0.5)
-        tile = evidence[row // TILE, col // TILE]
+        p = patch_of[i]
+        top, bottom, left, right = patches[p, 0], patches[p, 1] - 1, patches[p, 2], patches[p, 3] - 1
+        along_cols = (image[row * cols + min(col + 1, right)] - image[row * cols + max(col - 1, left)]) * _F(0.5)
+        along_rows = (image[min(row + 1, bottom) * cols + col] - image[max(row - 1, top) * cols + col]) * _F(0.5)
+        tile = evidence[patches[p, 4] + (row - top) // TILE * patches[p, 6] + (col - left) // TILE]
         tile[0] += along_cols * along_cols
         tile[1] += along_cols * along_rows
         tile[2] += along_rows * along_rows
@@ -127,7 +129,22 @@ def _observe_motion(
 @kernel(fastmath=_FASTMATH)
 def _find_velocities(state: State, tuning: Tuning) -> None:
     """Solve for the velocity of every tile that explains most of the changes around it."""
-    evidence, row_sums = state.evidence, state.row_sums
+    for p in range(state.patches.shape[0]):
+        first, tile_rows, tile_cols = state.patches[p, 4], state.patches[p, 5], state.patches[p, 6]
+        last = first + tile_rows * tile_cols
+        _find_velocities_of(
+            state.evidence[first:last].reshape((tile_rows, tile_cols, 6)),
+            state.row_sums[first:last].reshape((tile_rows, tile_cols, 6)),
+            state.velocity[first:last].reshape((tile_rows, tile_cols, 3)),
+            tuning,
+        )
+
+
+@kernel(fastmath=_FASTMATH)
+def _find_velocities_of(
+    evidence: NDArray[np.float32], row_sums: NDArray[np.float32], velocities: NDArray[np.float32], tuning: Tuning
+) -> None:
+    """`_find_velocities` of one patch; arrays are (tile rows, tile columns, ...)."""
     tile_rows, tile_cols = evidence.shape[0], evidence.shape[1]
     for a in range(tile_rows):
         for b in range(tile_cols):
@@ -147,7 +164,7 @@ def _find_velocities(state: State, tuning: Tuning) -> None:
                 ct += sums[3]
                 rt += sums[4]
                 tt += sums[5]
-            velocity = state.velocity[a, b]
+            velocity = velocities[a, b]
             velocity[0], velocity[1], velocity[2] = _F(0), _F(0), _F(0)
             if not tt > _F(0):
                 continue
@@ -165,13 +182,22 @@ def _find_velocities(state: State, tuning: Tuning) -> None:
 
 @kernel(fastmath=_FASTMATH)
 def _moved(
-    before: NDArray[np.float32], row: int, col: int, back_rows: np.float32, back_cols: np.float32, rows: int, cols: int
+    before: NDArray[np.float32],
+    row: int,
+    col: int,
+    back_rows: np.float32,
+    back_cols: np.float32,
+    first_row: int,
+    end_row: int,
+    first_col: int,
+    end_col: int,
+    cols: int,
 ) -> np.float32:
-    """What stood `back_rows` and `back_cols` away, between four taxels; the edge goes on outside."""
-    c = min(max(_F(col) - back_cols, _F(0)), _F(cols - 1))
-    r = min(max(_F(row) - back_rows, _F(0)), _F(rows - 1))
+    """What stood `back_rows` and `back_cols` away, between four taxels; the edge of the patch goes on outside."""
+    c = min(max(_F(col) - back_cols, _F(first_col)), _F(end_col - 1))
+    r = min(max(_F(row) - back_rows, _F(first_row)), _F(end_row - 1))
     left, top = int(c), int(r)
-    right, bottom = min(left + 1, cols - 1), min(top + 1, rows - 1)
+    right, bottom = min(left + 1, end_col - 1), min(top + 1, end_row - 1)
     c -= _F(left)
     r -= _F(top)
     above = before[top * cols + left] * (_F(1) - c) + before[top * cols + right] * c
@@ -180,7 +206,7 @@ def _moved(
 
 
 @kernel(fastmath=_FASTMATH)
-def _predict(state: State, period_s: float, rows: int, cols: int, tuning: Tuning) -> None:
+def _predict(state: State, period_s: float, cols: int, tuning: Tuning) -> None:
     """Carry the image on to the end of the frame by motion and, for the share it does not explain, by slopes.
 
     First all taxels by their slopes, without a branch, so that the compiler takes several at once; then anew those that
@@ -199,17 +225,23 @@ def _predict(state: State, period_s: float, rows: int, cols: int, tuning: Tuning
         state.fade[i] = faded if faded > _TINY else _F(0)
         rate[i] = state.slope[i] * state.fade[i] if age[i] < horizon and elapsed[i] > _F(0) else _F(0)
         image[i] = min(max(before[i] + rate[i] * elapsed[i], _F(0)), _TOP)
-    for a in range(state.velocity.shape[0]):
-        for b in range(state.velocity.shape[1]):
-            velocity = state.velocity[a, b]
+    patches = state.patches
+    for p in range(patches.shape[0]):
+        top, bottom, left, right = patches[p, 0], patches[p, 1], patches[p, 2], patches[p, 3]
+        tile_cols = patches[p, 6]
+        for tile in range(patches[p, 5] * tile_cols):
+            velocity = state.velocity[patches[p, 4] + tile]
             share = velocity[2]
             if not share > _F(0):
                 continue
-            for row in range(a * TILE, min((a + 1) * TILE, rows)):
-                for col in range(b * TILE, min((b + 1) * TILE, cols)):
+            first_row, first_col = top + tile // tile_cols * TILE, left + tile % tile_cols * TILE
+            for row in range(first_row, min(first_row + TILE, bottom)):
+                for col in range(first_col, min(first_col + TILE, right)):
                     i = row * cols + col
                     time = elapsed[i]
-                    moved = _moved(before, row, col, velocity[1] * time, velocity[0] * time, rows, cols)
+                    moved = _moved(
+                        before, row, col, velocity[1] * time, velocity[0] * time, top, bottom, left, right, cols
+                    )
                     change = share * (moved - before[i]) + (_F(1) - share) * rate[i] * time
                     rate[i] = change / time if time > _F(0) else _F(0)
                     image[i] = min(max(before[i] + change, _F(0)), _TOP)
@@ -222,11 +254,13 @@ def _take(
     """Compare every sample with what was predicted for its own time, and take it over."""
     m = indices.shape[0]
     horizon, noise_variance = _F(tuning.horizon_s), _F(tuning.noise_counts) ** 2
-    scale = _F(math.exp(state.log_scale[0]))
-    surprise = _F(0)
-    compared = _F(0)
+    scale, surprise, compared = state.scale, state.surprise, state.compared
+    for p in range(scale.shape[0]):
+        scale[p] = _F(math.exp(state.log_scale[p]))
+        surprise[p], compared[p] = _F(0), _F(0)
     for k in range(m):
         i = int(np.int64(indices[k]))
+        p = int(np.int64(state.patch_of[i]))
         lag = _F(lag_step_s * (m - 1 - k))
         since = state.age[i] - lag
         count = _F(counts[k])
@@ -235,9 +269,9 @@ def _take(
         if _F(0) < since < horizon:
             gathered = state.unrest[i] * since * since
             if gathered > noise_variance:
-                ratio = innovation * innovation / (_F(2) * noise_variance + scale * gathered)
-                surprise += min(ratio, _F(OUTLIER)) - _F(1)
-                compared += _F(1)
+                ratio = innovation * innovation / (_F(2) * noise_variance + scale[p] * gathered)
+                surprise[p] += min(ratio, _F(OUTLIER)) - _F(1)
+                compared[p] += _F(1)
             share = since / (since + _F(tuning.slope_memory_s))
             state.slope[i] += share * ((count - state.value[i]) / since - state.slope[i])
         elif not since < horizon:
@@ -250,9 +284,10 @@ def _take(
         state.age[i] = lag
         state.fade[i] = _F(math.exp(-lag / _F(tuning.damping_s)))
         state.fresh[i] = True
-    log_scale = state.log_scale[0] + _F(SCALE_STEP) * surprise
-    state.log_scale[0] = min(max(log_scale, -_F(SCALE_LIMIT)), _F(SCALE_LIMIT))
-    state.frame_scale[0] = max(_F(1) + surprise / (compared + _F(CALM_SAMPLES)), _F(1))
+    for p in range(scale.shape[0]):
+        log_scale = state.log_scale[p] + _F(SCALE_STEP) * surprise[p]
+        state.log_scale[p] = min(max(log_scale, -_F(SCALE_LIMIT)), _F(SCALE_LIMIT))
+        state.frame_scale[p] = max(_F(1) + surprise[p] / (compared[p] + _F(CALM_SAMPLES)), _F(1))
 
 
 @kernel(fastmath=_FASTMATH)
@@ -263,11 +298,12 @@ def _excess(innovation: np.float32, since: np.float32, noise_variance: np.float3
 
 
 @kernel(fastmath=_FASTMATH)
-def _spread(state: State, indices: NDArray[np.uint16], rows: int, cols: int, tuning: Tuning) -> None:
+def _spread(state: State, indices: NDArray[np.uint16], cols: int, tuning: Tuning) -> None:
     """Correct the taxels around the samples by the samples' innovations, the near ones most."""
     m = indices.shape[0]
     total, unrest_total, weight = state.total, state.unrest_total, state.weight
     image, unrest, fresh = state.image, state.unrest, state.fresh
+    patches, patch_of = state.patches, state.patch_of
     for k in range(m):
         i = int(np.int64(indices[k]))
         row = i // cols
@@ -275,8 +311,10 @@ def _spread(state: State, indices: NDArray[np.uint16], rows: int, cols: int, tun
         innovation = state.innovation[k]
         if abs(innovation) <= _F(tuning.quiet_counts):
             innovation = _F(0)
-        for r in range(max(row - REACH, 0), min(row + REACH + 1, rows)):
-            for c in range(max(col - REACH, 0), min(col + REACH + 1, cols)):
+        p = patch_of[i]
+        top, bottom, left, right = patches[p, 0], patches[p, 1], patches[p, 2], patches[p, 3]
+        for r in range(max(row - REACH, top), min(row + REACH + 1, bottom)):
+            for c in range(max(col - REACH, left), min(col + REACH + 1, right)):
                 j = r * cols + c
                 near = _F(0) if fresh[j] else _NEAR[r - row + REACH, c - col + REACH]
                 total[j] += near * innovation
@@ -295,53 +333,72 @@ def _spread(state: State, indices: NDArray[np.uint16], rows: int, cols: int, tun
 
 
 @kernel(fastmath=_FASTMATH)
-def _look_around(state: State, values: NDArray[np.float32], rows: int, cols: int) -> NDArray[np.float32]:
-    """The largest of every taxel and the eight around it; overwritten by the next call."""
+def _look_around(state: State, values: NDArray[np.float32], cols: int) -> NDArray[np.float32]:
+    """The largest of every taxel and the eight around it in its patch; overwritten by the next call."""
     in_row, around = state.in_row, state.around
-    for row in range(rows):
-        first, last = row * cols, (row + 1) * cols - 1
-        in_row[first] = max(values[first], values[min(first + 1, last)])
-        for i in range(first + 1, last):
-            in_row[i] = max(values[i], values[i - 1], values[i + 1])
-        in_row[last] = max(values[last], values[max(last - 1, first)])
-    for row in range(rows):
-        # Slices, so that the compiler sees that no index is negative, and takes several taxels at once.
-        here = in_row[row * cols : (row + 1) * cols]
-        above = in_row[max(row - 1, 0) * cols : (max(row - 1, 0) + 1) * cols]
-        below = in_row[min(row + 1, rows - 1) * cols : (min(row + 1, rows - 1) + 1) * cols]
-        largest = around[row * cols : (row + 1) * cols]
-        for c in range(cols):
-            largest[c] = max(here[c], above[c], below[c])
+    for p in range(state.patches.shape[0]):
+        top, bottom, left, right = state.patches[p, 0], state.patches[p, 1], state.patches[p, 2], state.patches[p, 3]
+        width = right - left
+        for row in range(top, bottom):
+            first, last = row * cols + left, row * cols + right - 1
+            in_row[first] = max(values[first], values[min(first + 1, last)])
+            for i in range(first + 1, last):
+                in_row[i] = max(values[i], values[i - 1], values[i + 1])
+            in_row[last] = max(values[last], values[max(last - 1, first)])
+        for row in range(top, bottom):
+            # Slices, so that the compiler sees that no index is negative, and takes several taxels at once.
+            here = in_row[row * cols + left : row * cols + right]
+            before, behind = max(row - 1, top) * cols, min(row + 1, bottom - 1) * cols
+            above = in_row[before + left : before + right]
+            below = in_row[behind + left : behind + right]
+            largest = around[row * cols + left : row * cols + right]
+            for c in range(width):
+                largest[c] = max(here[c], above[c], below[c])
     return around
 
 
 @kernel(fastmath=_FASTMATH)
-def _keep_quiet(state: State, rows: int, cols: int, tuning: Tuning) -> None:
+def _keep_quiet(state: State, cols: int, tuning: Tuning) -> None:
     """A taxel measured untouched, with none beside it pressed, is 0: lately, or as long as nothing was added."""
     image, age, fresh = state.image, state.age, state.fresh
     quiet, quiet_s = _F(tuning.quiet_counts), _F(tuning.quiet_s)
-    around = _look_around(state, state.value, rows, cols)
+    around = _look_around(state, state.value, cols)
     for i in range(image.shape[0]):
         is_settled = image[i] <= quiet or age[i] < quiet_s
         image[i] = _F(0) if around[i] <= quiet and is_settled and not fresh[i] else image[i]
 
 
 @kernel(fastmath=_FASTMATH)
-def _doubt(state: State, rows: int, cols: int, tuning: Tuning) -> None:
+def _doubt(state: State, cols: int, tuning: Tuning) -> None:
     """Standard deviations from noise, age, what predictions of the taxel gathered, and how well all have held.
 
     Where a taxel was not measured, what moves beside it may have come to it: half of its doubt is that of the most
     doubtful around it.
     """
-    scale = _F(math.exp(state.log_scale[0])) * state.frame_scale[0]
+    around = _look_around(state, state.unrest, cols)
+    for p in range(state.patches.shape[0]):
+        top, bottom, left, right = state.patches[p, 0], state.patches[p, 1], state.patches[p, 2], state.patches[p, 3]
+        scale = _F(math.exp(state.log_scale[p])) * state.frame_scale[p]
+        if right - left == cols:
+            _doubt_of(state, around, top * cols, bottom * cols, scale, tuning)
+            continue
+        for row in range(top, bottom):
+            _doubt_of(state, around, row * cols + left, row * cols + right, scale, tuning)
+
+
+@kernel(fastmath=_FASTMATH)
+def _doubt_of(
+    state: State, around: NDArray[np.float32], first: int, end: int, scale: np.float32, tuning: Tuning
+) -> None:
+    """`_doubt` of taxels that follow one another."""
     idle, horizon = _F(IDLE_COUNTS_PER_S), _F(tuning.horizon_s)
     noise_variance = _F(tuning.noise_counts) ** 2
     limit = _F(UNKNOWN_COUNTS)
-    unrest, rate, sigma = state.unrest, state.rate, state.sigma
-    around = _look_around(state, unrest, rows, cols)
+    unrest, rate, sigma = state.unrest[first:end], state.rate[first:end], state.sigma[first:end]
+    fresh_ones, ages, around = state.fresh[first:end], state.age[first:end], around[first:end]
     for i in range(sigma.shape[0]):
         # A fresh taxel's value is kept as measured, though it has been changing since.
-        fresh, age = state.fresh[i], state.age[i]
+        fresh, age = fresh_ones[i], ages[i]
         gathers = unrest[i] if fresh else _F(0.5) * (unrest[i] + around[i])
         lag_error = rate[i] * age if fresh else _F(0)
         gathering = min(age, horizon)
@@ -357,7 +414,6 @@ def fuse(
     counts: NDArray[np.uint16],
     period_s: float,
     duration_s: float,
-    rows: int,
     cols: int,
     tuning: Tuning,
 ) -> None:
@@ -373,18 +429,18 @@ def fuse(
         From the end of the last frame to the end of this one, at least 0.
     duration_s : float
         Sample k of m was taken ``duration_s * (m - 1 - k) / m`` before the end.
-    rows, cols : int
+    cols : int
     tuning : Tuning
     """
     state = _state_of(memory)
     lag_step_s = duration_s / indices.shape[0]
-    _observe_motion(state, indices, counts, period_s, lag_step_s, rows, cols, tuning)
+    _observe_motion(state, indices, counts, period_s, lag_step_s, cols, tuning)
     _find_velocities(state, tuning)
-    _predict(state, period_s, rows, cols, tuning)
+    _predict(state, period_s, cols, tuning)
     _take(state, indices, counts, lag_step_s, tuning)
-    _spread(state, indices, rows, cols, tuning)
-    _keep_quiet(state, rows, cols, tuning)
-    _doubt(state, rows, cols, tuning)
+    _spread(state, indices, cols, tuning)
+    _keep_quiet(state, cols, tuning)
+    _doubt(state, cols, tuning)
 
 
 @kernel(fastmath=_FASTMATH)

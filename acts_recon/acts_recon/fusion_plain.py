@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from acts_core.array import COUNT_MAX
+from acts_recon.borders import Borders
 from acts_recon.fusion_kernels import (
     AROUND,
     CALM_SAMPLES,
@@ -55,10 +56,12 @@ class PlainFusion:
         self, indices: NDArray[np.integer], counts: NDArray[np.integer], period_s: float, duration_s: float
     ) -> None:
         """Take one frame that fits the array; parameters as of `acts_recon.fusion_kernels.fuse`."""
-        m = indices.size
-        at = np.unravel_index(indices, self.image.shape)
+        self.take(indices, counts, lags(indices.size, duration_s), period_s)
+
+    def take(self, indices: NDArray[np.integer], counts: NDArray[np.integer], lag: Floats, period_s: float) -> None:
+        """Take samples that were measured so long before the end of a frame [s]; none where nothing was measured."""
+        at = np.unravel_index(indices.astype(np.intp), self.image.shape)
         y = counts.astype(np.float64)
-        lag = np.arange(m - 1, -1, -1, dtype=np.float64) * (duration_s / m)
 
         self._observe_motion(at, y, self.age[at] + period_s - lag, period_s)
         rate = self._predict(period_s)
@@ -178,3 +181,41 @@ class PlainFusion:
         variance += (IDLE_COUNTS_PER_S * np.minimum(self.age, 1e3)) ** 2
         variance += np.where(self.fresh, rate * np.where(self.fresh, self.age, 0), 0) ** 2
         self.sigma = np.minimum(np.sqrt(variance), UNKNOWN_COUNTS)
+
+
+class PlainFusions:
+    """What is known of a skin with borders: one `PlainFusion` for each of its rectangles.
+
+    Parameters
+    ----------
+    rows, cols : int
+    borders : Borders
+    tuning : Tuning
+    """
+
+    def __init__(self, rows: int, cols: int, borders: Borders, tuning: Tuning) -> None:
+        self._shape = (rows, cols)
+        self._rectangles = borders.rectangles.tolist()
+        self.parts = [PlainFusion(r1 - r0, c1 - c0, tuning) for r0, r1, c0, c1 in self._rectangles]
+
+    def step(
+        self, indices: NDArray[np.integer], counts: NDArray[np.integer], period_s: float, duration_s: float
+    ) -> None:
+        """As `PlainFusion.step`, every sample for the rectangle that holds it."""
+        lag = lags(indices.size, duration_s)
+        row, col = np.unravel_index(indices.astype(np.intp), self._shape)
+        for part, (r0, r1, c0, c1) in zip(self.parts, self._rectangles, strict=True):
+            own = (row >= r0) & (row < r1) & (col >= c0) & (col < c1)
+            part.take((row[own] - r0) * (c1 - c0) + col[own] - c0, counts[own], lag[own], period_s)
+
+    def field(self, name: str) -> Floats:
+        """One of the arrays of `PlainFusion`, of the whole skin."""
+        whole = np.zeros(self._shape)
+        for part, (r0, r1, c0, c1) in zip(self.parts, self._rectangles, strict=True):
+            whole[r0:r1, c0:c1] = getattr(part, name)
+        return whole
+
+
+def lags(m: int, duration_s: float) -> Floats:
+    """How long before the end of a frame each of its m samples was measured [s]."""
+    return np.arange(m - 1, -1, -1, dtype=np.float64) * (duration_s / m)

@@ -7,8 +7,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_recon.borders import Borders
+
 TILE = 4
 """Side of the tiles in which the motion is summed up [taxels]."""
+
+PATCH_COLUMNS = 7
+"""Numbers that `State` has of every patch."""
 
 UNKNOWN_COUNTS = 300.0
 """Sigma of a taxel of which nothing is known: that of any count being equally likely."""
@@ -43,15 +48,18 @@ class State(NamedTuple):
         What is left of the slope since the measurement; 1 at its time.
     fresh : np.ndarray [shape=(taxels,), dtype=bool]
         Whether the taxel was measured in the last frame.
-    evidence, row_sums : np.ndarray [shape=(tile_rows, tile_cols, 6), dtype=float32]
+    evidence, row_sums : np.ndarray [shape=(tiles, 6), dtype=float32]
         Sums of gradients and changes over the last milliseconds, and over the tiles beside.
-    velocity : np.ndarray [shape=(tile_rows, tile_cols, 3), dtype=float32]
+    velocity : np.ndarray [shape=(tiles, 3), dtype=float32]
         Columns and rows per second, and the share of the changes that they explain; 0: not used.
-    log_scale : np.ndarray [shape=(1,), dtype=float32]
-        Logarithm of what all error variances are multiplied by, from how well predictions have held.
-    frame_scale : np.ndarray [shape=(1,), dtype=float32]
+    log_scale : np.ndarray [shape=(patches,), dtype=float32]
+        Logarithm of what all error variances of a patch are multiplied by, from how well predictions have held.
+    frame_scale : np.ndarray [shape=(patches,), dtype=float32]
         What they are multiplied by besides, for the surprise of the last frame; at least 1.
-    before, elapsed, rate, innovation, total, unrest_total, weight, in_row, around, seen
+    patches : np.ndarray [shape=(patches, PATCH_COLUMNS), dtype=int64]
+        First row, row behind the last, first column, column behind the last, first tile, rows and columns of tiles.
+    patch_of : np.ndarray [shape=(taxels,), dtype=uint16]
+    scale, surprise, compared, before, elapsed, rate, innovation, total, unrest_total, weight, in_row, around, seen
         Scratch.
     """
 
@@ -68,6 +76,11 @@ class State(NamedTuple):
     velocity: NDArray[np.float32]
     log_scale: NDArray[np.float32]
     frame_scale: NDArray[np.float32]
+    patches: NDArray[np.int64]
+    patch_of: NDArray[np.uint16]
+    scale: NDArray[np.float32]
+    surprise: NDArray[np.float32]
+    compared: NDArray[np.float32]
     before: NDArray[np.float32]
     elapsed: NDArray[np.float32]
     rate: NDArray[np.float32]
@@ -87,9 +100,11 @@ class Memory(NamedTuple):
     ----------
     taxels : np.ndarray [shape=(16, taxels), dtype=float32]
     flags : np.ndarray [shape=(2, taxels), dtype=bool]
-    tiles : np.ndarray [shape=(2, tile_rows, tile_cols, 6), dtype=float32]
-    velocity : np.ndarray [shape=(tile_rows, tile_cols, 3), dtype=float32]
-    scales : np.ndarray [shape=(2,), dtype=float32]
+    tiles : np.ndarray [shape=(2, tiles, 6), dtype=float32]
+    velocity : np.ndarray [shape=(tiles, 3), dtype=float32]
+    scales : np.ndarray [shape=(5, patches), dtype=float32]
+    patches : np.ndarray [shape=(patches, PATCH_COLUMNS), dtype=int64]
+    patch_of : np.ndarray [shape=(taxels,), dtype=uint16]
     """
 
     taxels: NDArray[np.float32]
@@ -97,20 +112,33 @@ class Memory(NamedTuple):
     tiles: NDArray[np.float32]
     velocity: NDArray[np.float32]
     scales: NDArray[np.float32]
+    patches: NDArray[np.int64]
+    patch_of: NDArray[np.uint16]
 
 
-def new_memory(rows: int, cols: int) -> Memory:
+def new_memory(rows: int, cols: int, borders: Borders) -> Memory:
     """Allocate everything for an array of which nothing is known yet."""
-    tiles = (-(-rows // TILE), -(-cols // TILE))
+    patches = _with_tiles(borders.rectangles)
+    tiles = int((patches[:, 5] * patches[:, 6]).sum())
     memory = Memory(
         taxels=np.zeros((16, rows * cols), dtype=np.float32),
         flags=np.zeros((2, rows * cols), dtype=np.bool_),
-        tiles=np.zeros((2, *tiles, 6), dtype=np.float32),
-        velocity=np.zeros((*tiles, 3), dtype=np.float32),
-        scales=np.zeros(2, dtype=np.float32),
+        tiles=np.zeros((2, tiles, 6), dtype=np.float32),
+        velocity=np.zeros((tiles, 3), dtype=np.float32),
+        scales=np.zeros((5, len(patches)), dtype=np.float32),
+        patches=patches,
+        patch_of=borders.rectangle_of.copy(),
     )
     forget(memory)
     return memory
+
+
+def _with_tiles(rectangles: NDArray[np.int32]) -> NDArray[np.int64]:
+    """Rectangles with the tiles of each: every one is tiled by itself."""
+    tile_rows = -(-(rectangles[:, 1] - rectangles[:, 0]) // TILE)
+    tile_cols = -(-(rectangles[:, 3] - rectangles[:, 2]) // TILE)
+    first = np.cumsum(tile_rows * tile_cols) - tile_rows * tile_cols
+    return np.column_stack((rectangles, first, tile_rows, tile_cols)).astype(np.int64)
 
 
 def state_of(memory: Memory) -> State:
@@ -128,8 +156,13 @@ def state_of(memory: Memory) -> State:
         evidence=tiles[0],
         row_sums=tiles[1],
         velocity=memory.velocity,
-        log_scale=scales[0:1],
-        frame_scale=scales[1:2],
+        log_scale=scales[0],
+        frame_scale=scales[1],
+        patches=memory.patches,
+        patch_of=memory.patch_of,
+        scale=scales[2],
+        surprise=scales[3],
+        compared=scales[4],
         before=taxels[7],
         elapsed=taxels[8],
         rate=taxels[9],
@@ -145,7 +178,7 @@ def state_of(memory: Memory) -> State:
 
 def forget(memory: Memory) -> None:
     """Make a memory as good as new."""
-    for array in memory:
+    for array in (memory.taxels, memory.flags, memory.tiles, memory.velocity, memory.scales):
         array.fill(0)
     state = state_of(memory)
     state.age.fill(np.inf)

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import ArrayError
+from acts_recon.borders import Borders, borders_of
 
 
 @dataclass(frozen=True)
@@ -26,7 +27,7 @@ class PatchLayout:
     taxels : np.ndarray [shape=(n_patches, size * size), dtype=int32]
         Row-major taxel index of every pixel of every patch.
     overlap : np.ndarray [shape=(rows * cols,), dtype=float32]
-        Number of patches that hold a taxel; at least 1.
+        Number of patches that hold a taxel; 1 also where none does.
     entry_start : np.ndarray [shape=(rows * cols + 1,), dtype=int32]
     entry_patch, entry_pixel : np.ndarray [shape=(n_patches * size * size,), dtype=int32]
         The inverse of `taxels`: taxel t is pixel ``entry_pixel[e]`` of patch ``entry_patch[e]`` for e from
@@ -67,15 +68,29 @@ def patch_starts(length: int, size: int, step: int) -> list[int]:
     return starts
 
 
-def patch_layout(rows: int, cols: int, *, size: int = 8, step: int = 4) -> PatchLayout:
+def patch_layout(rows: int, cols: int, *, size: int = 8, step: int = 4, borders: Borders | None = None) -> PatchLayout:
     """Cover an array with patches; the defaults are the paper's ("Sparse Recovery and Tactile Reconstruction").
+
+    Parameters
+    ----------
+    rows, cols, size, step : int
+    borders : Borders, optional
+        No patch reaches over one. A single taxel among borders, which is no skin, is covered by none.
 
     Raises
     ------
     ArrayError
         See `patch_starts`.
     """
-    corners = [(row, col) for row in patch_starts(rows, size, step) for col in patch_starts(cols, size, step)]
+    corners = [
+        (first_row + row, first_col + col)
+        for first_row, end_row, first_col, end_col in (borders or borders_of(rows, cols)).rectangles.tolist()
+        if borders is None or (end_row - first_row, end_col - first_col) != (1, 1)
+        for row in patch_starts(end_row - first_row, size, step)
+        for col in patch_starts(end_col - first_col, size, step)
+    ]
+    if not corners:
+        raise ArrayError("patches of the skin of a single taxel: none holds a patch of the recovery; use method fusion")
     pixel = np.arange(size * size)
     in_patch = (pixel % size) * cols + pixel // size
     taxels = np.array([row * cols + col + in_patch for row, col in corners], dtype=np.int32)
@@ -88,7 +103,7 @@ def patch_layout(rows: int, cols: int, *, size: int = 8, step: int = 4) -> Patch
         size=size,
         step=step,
         taxels=taxels,
-        overlap=overlap.astype(np.float32),
+        overlap=np.maximum(overlap, 1).astype(np.float32),
         entry_start=np.concatenate(([0], np.cumsum(overlap))).astype(np.int32),
         entry_patch=(order // (size * size)).astype(np.int32),
         entry_pixel=(order % (size * size)).astype(np.int32),

@@ -96,7 +96,7 @@ class ReconstructionNode(Node):
         if recogniser is not None:
             self._objects = ObjectPublisher(self, recogniser, self._settings.object_rate_hz)
         self._contacts = ContactsPublisher(
-            self, self._recovery.geometry, self._recovery.response, self._settings.blob_config()
+            self, self._recovery.geometry, self._recovery.response, self._settings.blob_config(), self._recovery.borders
         )
 
         self._frames = 0

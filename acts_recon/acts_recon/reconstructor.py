@@ -13,12 +13,13 @@ from acts_core.force import ForceResponse, MeasuredForceResponse
 from acts_core.layouts import Layout
 from acts_core.settings import setting, validate
 from acts_recon import fastomp_kernels as kernels
+from acts_recon.borders import borders_of
 from acts_recon.contact import Contact
 from acts_recon.contact_finder import ContactFinder
 from acts_recon.dictionary import Dictionary
 from acts_recon.fastomp import SPARSITY_RATIO
 from acts_recon.fastomp_model import PatchModel, Workspace
-from acts_recon.frame_check import place_table, require_samples, why_refused
+from acts_recon.frame_check import place_table, require_samples, skin_table, why_refused
 from acts_recon.patches import patch_layout
 
 
@@ -48,7 +49,7 @@ class Reconstructor:
         From counts to newtons.
     layout : Layout, optional
         Where the taxels of the matrix lie in the picture. `step` takes matrix indices; patches are laid over the
-        picture, where neighbours are neighbours, and `image` and contacts are the picture's.
+        picture, where neighbours are neighbours, and over none of its borders; `image` and contacts are the picture's.
 
     Raises
     ------
@@ -67,13 +68,18 @@ class Reconstructor:
         self.geometry = geometry
         self.config = config or ReconstructorConfig()
         self.response = response or ForceResponse()
-        self._finder = ContactFinder(geometry, self.response, float(self.config.touch_counts))
         self._matrix_size = (geometry.rows, geometry.cols)
         self._places: NDArray[np.uint16] | None = None
+        self._skin: NDArray[np.uint16] | None = None
         if layout is not None:
             self._places = place_table(layout, geometry)
+            self._skin = skin_table(layout)
             self._matrix_size = (layout.matrix_rows, layout.matrix_cols)
-        patches = patch_layout(geometry.rows, geometry.cols, size=dictionary.patch_size, step=self.config.patch_step)
+        self.borders = borders_of(geometry.rows, geometry.cols, layout)
+        self._finder = ContactFinder(geometry, self.response, float(self.config.touch_counts), borders=self.borders)
+        patches = patch_layout(
+            geometry.rows, geometry.cols, size=dictionary.patch_size, step=self.config.patch_step, borders=self.borders
+        )
         self._model = PatchModel(patches, dictionary.atoms).arguments()
         self._workspace = Workspace(patches, self.config.sparsity_ratio).arrays()
         self._flat = np.zeros(geometry.size, dtype=np.float32)
@@ -104,7 +110,8 @@ class Reconstructor:
         code = kernels.recover_image(
             *self._model,
             indices if self._places is None else self._places[indices],
-            counts,
+            # What is out of range stays so, to be refused.
+            counts if self._skin is None else np.where(counts > COUNT_MAX, counts, counts * self._skin[indices]),
             config.touch_counts,
             COUNT_MAX,
             config.sparsity_ratio,

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
 from acts_core.force import ForceResponse, MeasuredForceResponse
+from acts_recon.borders import Borders
 from acts_recon.contact import Contact
 from acts_recon.contact_finder import ContactFinder
 from acts_recon.fusion import FusionEstimator
@@ -23,6 +24,8 @@ class Recovery(Protocol):
 
     geometry: ArrayGeometry
     """Of the image."""
+    borders: Borders
+    """Likewise."""
     response: ForceResponse | MeasuredForceResponse
     """From counts to newtons."""
     image: NDArray[np.float32]
@@ -58,8 +61,11 @@ class FusedRecovery:
         self, estimator: FusionEstimator, response: ForceResponse | MeasuredForceResponse, touch_counts: float
     ) -> None:
         self._estimator = estimator
-        self._finder = ContactFinder(estimator.geometry, response, touch_counts, estimator.config.noise_counts)
+        self._finder = ContactFinder(
+            estimator.geometry, response, touch_counts, estimator.config.noise_counts, borders=estimator.borders
+        )
         self.geometry = estimator.geometry
+        self.borders = estimator.borders
         self.response = response
         self.image = estimator.image
         self.sigma: NDArray[np.float32] | None = estimator.sigma
@@ -90,6 +96,7 @@ class PerFrameRecovery:
     def __init__(self, reconstructor: Reconstructor) -> None:
         self._reconstructor = reconstructor
         self.geometry = reconstructor.geometry
+        self.borders = reconstructor.borders
         self.response = reconstructor.response
         self.image = reconstructor.image
         self.sigma: NDArray[np.float32] | None = None

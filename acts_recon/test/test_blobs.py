@@ -9,12 +9,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as st_numpy
 from numpy.typing import NDArray
-from recon_samples import bump
+from recon_samples import bump, layouts
 
 from acts_core.array import ArrayGeometry
 from acts_core.force import ForceResponse, MeasuredForceResponse, force_table
+from acts_core.layouts import Layout
 from acts_recon import blob_kernels
 from acts_recon.blobs import BlobConfig, find_blobs
+from acts_recon.borders import Borders, borders_of
 from acts_recon.contact import find_contact
 from acts_recon.uncertainty import root_deviation, slope_table
 
@@ -33,6 +35,7 @@ def by_kernel(
     *,
     sigma: NDArray[np.floating] | None = None,
     before: NDArray[np.bool_] | None = None,
+    borders: Borders | None = None,
 ) -> tuple[list[tuple[NDArray[np.int32], Any]], int]:
     """Taxels and numbers of every contact, and how many were left out."""
     size = image.size
@@ -42,6 +45,7 @@ def by_kernel(
     n, dropped = blob_kernels.find_blobs(
         image.ravel().astype(np.float32),
         np.empty(0, np.float32) if sigma is None else sigma.ravel().astype(np.float32),
+        (borders or borders_of(geometry.rows, geometry.cols)).bounds(),
         geometry.cols,
         float(config.touch_counts),
         float(config.release_counts),
@@ -62,6 +66,7 @@ def by_kernel(
 
 @settings(max_examples=150, deadline=None)
 @given(
+    layouts(12, 9),
     st_numpy.arrays(np.float32, (12, 9), elements=st.floats(0, 1023, width=32), fill=st.just(0.0)),
     st_numpy.arrays(np.float32, (12, 9), elements=st.floats(0, 50, width=32)),
     st_numpy.arrays(np.bool_, (12, 9)),
@@ -70,6 +75,7 @@ def by_kernel(
     st.booleans(),
 )
 def test_kernel_equals_twin(
+    arranged: Layout | None,
     image: NDArray[np.float32],
     sigma: NDArray[np.float32],
     before: NDArray[np.bool_],
@@ -81,14 +87,16 @@ def test_kernel_equals_twin(
         touch_counts=touch_counts, hysteresis_counts=min(hysteresis_counts, touch_counts - 1), noise_counts=20.0
     )
     deviations = sigma if sigma_known else None
-    expected = find_blobs(image, GEOMETRY, BY_TABLE, config, sigma=deviations, pressed_before=before)
-    found, dropped = by_kernel(image, config, sigma=deviations, before=before)
+    borders = borders_of(12, 9, arranged)
+    expected = find_blobs(image, GEOMETRY, BY_TABLE, config, sigma=deviations, pressed_before=before, borders=borders)
+    found, dropped = by_kernel(image, config, sigma=deviations, before=before, borders=borders)
     # The kernel puts a stronger one that comes late in the place of the weakest.
     found.sort(key=lambda one: int(one[0][0]))
     assert len(found) == len(expected)
     assert dropped == 0 or len(found) == blob_kernels.MAX_BLOBS
     for (taxels, blob), twin in zip(found, expected, strict=True):
         assert np.array_equal(taxels, twin.taxels)
+        assert np.unique(borders.rectangle_of[taxels]).tolist() == [twin.patch]
         assert blob["taxels"] == twin.active_taxels
         for field in FIELDS:
             assert blob[field] == pytest.approx(getattr(twin, field), rel=1e-5, abs=1e-9), field

@@ -12,6 +12,7 @@ from acts_core.array import ArrayGeometry
 from acts_core.force import ForceResponse, MeasuredForceResponse, force_table
 from acts_recon import contact_kernels
 from acts_recon.blobs import find_blobs
+from acts_recon.borders import borders_of
 from acts_recon.contact import NO_CONTACT, Contact, find_contact
 from acts_recon.uncertainty import root_deviation, slope_table
 
@@ -33,6 +34,7 @@ def by_kernel(
     contact_kernels.find_contact(
         image.ravel(),
         np.empty(0, np.float32) if sigma is None else sigma.ravel(),
+        borders_of(geometry.rows, geometry.cols).bounds(),
         geometry.cols,
         touch_counts,
         noise_counts,

@@ -8,14 +8,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
-from recon_samples import bump
+from recon_samples import bump, layouts
 
 from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError, SettingsError
-from acts_core.layouts import layout
+from acts_core.layouts import NO_PATCH, Layout, layout
 from acts_core.sampling import Sampler, SamplingConfig, measure_in
+from acts_recon.borders import borders_of
 from acts_recon.fusion import FusionConfig, FusionEstimator
-from acts_recon.fusion_plain import PlainFusion
+from acts_recon.fusion_plain import PlainFusion, PlainFusions
 from acts_recon.fusion_state import UNKNOWN_COUNTS
 
 DURATION_S = 55 * 17.877e-6
@@ -387,3 +388,51 @@ def test_settings_out_of_range_are_refused() -> None:
         FusionConfig(spread_gain=2.0)
     with pytest.raises(ArrayError, match="the layout glove is 32 x 32"):
         FusionEstimator(SMALL, layout=layout("glove"))
+
+
+@given(layouts(9, 13), streams())
+@settings(max_examples=15, deadline=None)
+def test_patches_are_skins_of_their_own(
+    estimator_of: Callable[[Layout | None], FusionEstimator],
+    arranged: Layout | None,
+    frames: list[tuple[Frame, float, float]],
+) -> None:
+    estimator = estimator_of(arranged)
+    borders, tuning = borders_of(9, 13, arranged), estimator.config.tuning
+    twin, last_s = PlainFusions(9, 13, borders, tuning), None
+    for (indices, counts), end_s, duration_s in frames:
+        image = estimator.step(indices, counts, end_s, duration_s)
+        period_s = duration_s if last_s is None else end_s - last_s
+        if not 0 <= period_s <= estimator.config.reset_after_s:
+            twin, period_s = PlainFusions(9, 13, borders, tuning), duration_s
+        last_s = end_s
+        if arranged is not None:
+            counts = counts * (arranged.patch_of_taxel.ravel()[indices] != NO_PATCH)
+            indices = arranged.places[indices]
+        twin.step(indices, counts, period_s, duration_s)
+        assert image == pytest.approx(twin.field("image"), abs=0.5)
+        assert estimator.sigma == pytest.approx(twin.field("sigma"), rel=0.02, abs=0.05)
+        assert estimator.age_s == pytest.approx(twin.field("age"), rel=1e-4, abs=1e-6)
+
+
+@pytest.fixture(scope="module")
+def estimator_of() -> Callable[[Layout | None], FusionEstimator]:
+    return lambda arranged: FusionEstimator(SMALL, layout=arranged)
+
+
+@pytest.mark.parametrize("name", ["glove", "leap_right"])
+def test_what_happens_on_one_patch_changes_nothing_on_the_others(name: str) -> None:
+    hand = layout(name)
+    rng = np.random.default_rng(4)
+    busy, calm = FusionEstimator(hand.geometry(), layout=hand), FusionEstimator(hand.geometry(), layout=hand)
+    for k in range(1, 60):
+        indices = rng.permutation(1024)[:200].astype(np.uint16)
+        counts = rng.integers(0, 200, 200).astype(np.uint16)
+        on_one = hand.patch_of_taxel.ravel()[indices] == 2
+        noisy = np.where(on_one, rng.integers(0, 1024, 200), counts).astype(np.uint16)
+        calm.step(indices, counts, 0.001 * k, DURATION_S)
+        busy.step(indices, noisy, 0.001 * k, DURATION_S)
+    others = hand.patch_of != 2
+    assert not np.array_equal(busy.image[~others], calm.image[~others])
+    assert np.array_equal(busy.image[others], calm.image[others])
+    assert np.array_equal(busy.sigma[others], calm.sigma[others])

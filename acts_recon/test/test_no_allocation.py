@@ -68,8 +68,8 @@ def test_finding_and_following_contacts_allocates_nothing(allocations: Count) ->
     finder, tracker = ContactFinder(GEOMETRY, ForceResponse(), 60.0), BlobTracker(GEOMETRY)
     image = (bump(GEOMETRY, 12, 14) + bump(GEOMETRY, 25, 5)).astype(np.float32)
     sigma = np.full(image.shape, 10, dtype=np.float32)
-    assert allocations(lambda k: finder.find(image.ravel(), sigma.ravel())) == 5
-    found, followed = 9, 9
+    assert allocations(lambda k: finder.find(image.ravel(), sigma.ravel())) == 6
+    found, followed = 10, 9
     assert allocations(lambda k: tracker.step(image, 1e-3 * k, sigma)) == found + followed
 
 

@@ -18,21 +18,24 @@ from acts_recon.reconstructor import Reconstructor
 def test_the_samples_of_the_matrix_are_recovered_in_the_picture(dictionary: Dictionary, name: str) -> None:
     shape = layout(name)
     geometry = shape.geometry()
-    picture = bump(geometry, shape.rows / 2 - 0.3, shape.cols / 2 + 1.2, width=2.0)
+    # In the middle of the insole, of the glove's palm.
+    row, col = (31.7, 9.2) if name == "insole" else (23.7, 20.2)
+    picture = bump(geometry, row, col, width=2.0)
     indices = np.random.default_rng(3).permutation(1024)[:600].astype(np.uint16)
     counts = shape.matrix(picture).ravel()[indices].astype(np.uint16)
 
     arranged = Reconstructor(geometry, dictionary, layout=shape)
     contact = arranged.step(indices, counts)
-    # The same as if the board had given places of the picture.
-    plain = Reconstructor(geometry, dictionary)
-    assert contact == plain.step(shape.places[indices], counts)
-    assert np.array_equal(arranged.image, plain.image)
+    if len(shape.patches) == 1:
+        # The same as if the board had given places of the picture.
+        plain = Reconstructor(geometry, dictionary)
+        assert contact == plain.step(shape.places[indices], counts)
+        assert np.array_equal(arranged.image, plain.image)
 
     truth = np.where(picture > 60, picture, 0)
     assert np.linalg.norm(arranged.image - truth) < 0.2 * np.linalg.norm(truth)
-    assert contact.x_m == pytest.approx(float(geometry.x_m(shape.cols / 2 + 1.2)), abs=0.1 * geometry.pitch_m)
-    assert contact.y_m == pytest.approx(float(geometry.y_m(shape.rows / 2 - 0.3)), abs=0.1 * geometry.pitch_y_m)
+    assert contact.x_m == pytest.approx(float(geometry.x_m(col)), abs=0.1 * geometry.pitch_m)
+    assert contact.y_m == pytest.approx(float(geometry.y_m(row)), abs=0.1 * geometry.pitch_y_m)
 
 
 def test_patches_over_the_matrix_would_not_do(dictionary: Dictionary) -> None:
