@@ -104,7 +104,7 @@ def _pull(world: HandWorld, words: list[str]) -> None:
 
 def _load(world: HandWorld, words: list[str]) -> None:
     _needs_object(world)
-    world.disturbances.load(_number(words, 0, 0.0, 100.0), _number(words, 1, 50.0, _MOST_S / _MS, 0.0) * _MS)
+    world.disturbances.pull_down(_number(words, 0, 0.0, 100.0), _number(words, 1, 50.0, _MOST_S / _MS, 0.0) * _MS)
 
 
 def _shake(world: HandWorld, words: list[str]) -> None:

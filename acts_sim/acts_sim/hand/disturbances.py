@@ -39,7 +39,7 @@ class Disturbances:
         self._goal_n = force_n.copy()
         self._rate_n_s = float(np.linalg.norm(self._goal_n - self.load_n)) / max(ramp_s, 1e-6)
 
-    def load(self, times_weight: float, ramp_s: float) -> None:
+    def pull_down(self, times_weight: float, ramp_s: float) -> None:
         """Pull at the object downwards with a multiple of its weight, reached after `ramp_s`."""
         self.pull(times_weight * self._weight_n * self._down, ramp_s)
 
@@ -49,8 +49,8 @@ class Disturbances:
         self._amplitude_m, self._omega_rad_s = amplitude_m, math.tau * frequency_hz
         self._shaken_s, self._shake_s = 0.0, duration_s
 
-    def advance(self, dt_s: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Let time pass; the pull at the object [N] and the acceleration of the hand [m/s^2], both shape (3,)."""
+    def load(self, dt_s: float) -> NDArray[np.float64]:
+        """Let time pass; the pull at the object [N], np.ndarray [shape=(3,)]."""
         if self._rate_n_s:
             missing = self._goal_n - self.load_n
             distance = float(np.linalg.norm(missing))
@@ -59,11 +59,18 @@ class Disturbances:
                 self.load_n, self._rate_n_s = self._goal_n, 0.0
             else:
                 self.load_n = self.load_n + missing * (step / distance)
-        if self._shaken_s >= self._shake_s:
-            return self.load_n, np.zeros(3)
+        return self.load_n
+
+    @property
+    def is_shaking(self) -> bool:
+        """Whether the hand is being shaken."""
+        return self._shaken_s < self._shake_s
+
+    def shaking(self, dt_s: float) -> NDArray[np.float64]:
+        """Let time pass; the acceleration of the hand [m/s^2], np.ndarray [shape=(3,)]."""
         self._shaken_s += dt_s
         # Its strength grows and fades over a tenth of a second, so that the hand ends where it was.
         left_s = self._shake_s - self._shaken_s
         strength = min(1.0, self._shaken_s / 0.1, max(left_s, 0.0) / 0.1)
         swing = -self._amplitude_m * self._omega_rad_s**2 * math.sin(self._omega_rad_s * self._shaken_s)
-        return self.load_n, strength * swing * self._shake_direction
+        return strength * swing * self._shake_direction

@@ -38,6 +38,11 @@ class Holder:
         """Whether the object is held; until it has been let go wholly."""
         return self._strength > 0.0
 
+    @property
+    def strength(self) -> float:
+        """How much of the springs there is: 1, or less while it lets go."""
+        return self._strength
+
     def hold(self, position_m: NDArray[np.float64], quaternion: NDArray[np.float64]) -> None:
         """Hold the object at a pose in the palm's frame; orientation as w, x, y, z."""
         self._position = self._start = self._end = position_m.copy()
@@ -49,6 +54,10 @@ class Holder:
     def let_go(self) -> None:
         """Hold it no longer; the springs fade away within a tenth of a second."""
         self._letting_go = True
+
+    def drop(self) -> None:
+        """Hold it no longer, at once."""
+        self._strength = 0.0
 
     def move(self, by_m: NDArray[np.float64], turn_rad: NDArray[np.float64], duration_s: float) -> None:
         """Move the pose by a way [m] and a turn about a vector [rad], smoothly within a time [s]."""

@@ -61,7 +61,7 @@ class HandLoop:
         self._lead_ns = lead_ns
         self._world_ns = 0
 
-    def step(self, dt_s: float) -> None:
+    def step(self, _dt_s: float) -> None:
         """Let a step of the world happen: the one that is due now."""
         start_ns = time.monotonic_ns()
         before = self.statistics
@@ -71,7 +71,7 @@ class HandLoop:
             skipped = 0 if before.steps == 0 else behind_ns // STEP_NS
             self._world_ns += behind_ns
         self._world_ns += STEP_NS
-        self._world.step(dt_s)
+        self._world.step()
         self._field.write(self._world_ns, self._world.counts)
         self._truth.write(self._world_ns, self._world.truth_row())
         self.statistics = LoopStatistics(

@@ -48,7 +48,7 @@ _DOWN = {
 _LOST_M = 0.15
 """An object further than this from where the hand can hold it has fallen out."""
 
-_GRASP_MIDDLE_M = np.array([-0.02, -0.037, -0.07])
+_GRASP_MIDDLE_M = (-0.02, -0.037, -0.07)
 
 
 @dataclass(frozen=True)
@@ -123,6 +123,7 @@ class HandWorld:
         joints = [_joint(self._model, name) for _, name in sorted((link.motor_id, link.joint) for link in LINKS)]
         self._q = np.array([self._model.jnt_qposadr[joint] for joint in joints])
         self._dof = np.array([self._model.jnt_dofadr[joint] for joint in joints])
+        # The object's joint is the model's last one.
         self._body = _body(self._model, hand_model.OBJECT)
         tip_body = _body(self._model, hand_model.TIP)
         solids = Solids(self._model, self._thing, max(self._body, 0), tip_body, config.cover_m, config.unevenness_m)
@@ -137,7 +138,8 @@ class HandWorld:
         self._row[COLUMN["object_quaternion"]] = 1.0, 0.0, 0.0, 0.0
         self.put(config.object_x_m, config.object_y_m, config.object_height_m, held=config.object_held)
         self._give_shafts()
-        self._model.opt.gravity[:] = _GRAVITY_M_S2 * self.down
+        self._gravity = _GRAVITY_M_S2 * self.down
+        self._model.opt.gravity[:] = self._gravity
         mujoco.mj_step1(self._model, self._data)
         # Compiles now what would otherwise hold up the first step.
         self._skin.press(self._data, 0.0)
@@ -196,60 +198,59 @@ class HandWorld:
         """Put the object on the palm, off its middle; held, or to lie there by itself."""
         if self._thing is None:
             return
-        start = self._model.jnt_qposadr[_joint(self._model, hand_model.OBJECT)]
         where = self._thing.on_palm(x_m, y_m)
         where[2] -= height_m
-        self._data.qpos[start : start + 7] = (*where, 1.0, 0.0, 0.0, 0.0)
-        dof = self._model.jnt_dofadr[_joint(self._model, hand_model.OBJECT)]
-        self._data.qvel[dof : dof + 6] = 0.0
+        self._data.qpos[-7:] = (*where, 1.0, 0.0, 0.0, 0.0)
+        self._data.qvel[-6:] = 0.0
         self._lost = False
         if held:
             self.holder.hold(where, np.array([1.0, 0.0, 0.0, 0.0]))
         else:
-            self.holder.let_go()
+            self.holder.drop()
         mujoco.mj_step1(self._model, self._data)
 
-    def step(self, dt_s: float = STEP_S) -> None:
+    def step(self) -> None:
         """Let `STEP_S` pass."""
-        for k, motor in enumerate(self.motors):
-            self._data.qfrc_applied[self._dof[k]] = motor.step(dt_s)
+        data = self._data
+        data.qfrc_applied[self._dof] = [motor.step(STEP_S) for motor in self.motors]
         for _ in range(_SUBSTEPS):
-            self._substep(dt_s / _SUBSTEPS)
+            self._substep(STEP_S / _SUBSTEPS)
         self._give_shafts()
+        if self._body >= 0 and not self._lost:
+            self._lost = math.dist(data.qpos[-7:-4].tolist(), _GRASP_MIDDLE_M) > _LOST_M
 
     def _substep(self, dt_s: float) -> None:
         model, data = self._model, self._data
         self.time_s += dt_s
-        load_n, shaking = self.disturbances.advance(dt_s)
-        model.opt.gravity[:] = _GRAVITY_M_S2 * self.down - shaking
+        if self.disturbances.is_shaking:
+            model.opt.gravity[:] = self._gravity - self.disturbances.shaking(dt_s)
+            if not self.disturbances.is_shaking:
+                model.opt.gravity[:] = self._gravity
         self.tip.advance(dt_s)
         mujoco.mj_step1(model, data)
         self.tip.measure()
         data.xfrc_applied[:] = 0.0
         self._skin.press(data, dt_s)
-        if self._body >= 0:
-            self._push_object(load_n, dt_s)
+        if self._thing is not None:
+            self._push_object(self._thing.mass_kg, dt_s)
         mujoco.mj_step2(model, data)
         if self.blocked:
             held = list(self.blocked)
             data.qvel[self._dof[held]] = 0.0
             data.qpos[self._q[held]] = [self.motors[k].shaft.position_rad - math.pi for k in held]
 
-    def _push_object(self, load_n: NDArray[np.float64], dt_s: float) -> None:
+    def _push_object(self, mass_kg: float, dt_s: float) -> None:
         data, body = self._data, self._body
         wrench = data.xfrc_applied[body]
-        wrench[:3] += load_n
+        wrench[:3] += self.disturbances.load(dt_s)
         if self.holder.holding:
             turn_rad_s = data.xmat[body].reshape(3, 3) @ data.qvel[-3:]
             wrench += self.holder.wrench(data.xpos[body], data.xquat[body], data.qvel[-6:-3], turn_rad_s, dt_s)
-            wrench[:3] -= self._thing.mass_kg * self._model.opt.gravity if self._thing else 0.0
-        offset = data.xpos[body] - _GRASP_MIDDLE_M
-        if float(offset @ offset) > _LOST_M**2:
-            self._lost = True
+            wrench[:3] -= self.holder.strength * mass_kg * self._model.opt.gravity
         if self._lost:
             # It rests where it is, out of reach.
             data.qvel[-6:] = 0.0
-            wrench[:3] = -self._thing.mass_kg * self._model.opt.gravity if self._thing else 0.0
+            wrench[:3] = -mass_kg * self._model.opt.gravity
             wrench[3:] = 0.0
 
     def _give_shafts(self) -> None:
