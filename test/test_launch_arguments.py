@@ -265,3 +265,6 @@ def test_the_arguments_of_the_hand_reach_what_they_are_for(launch: Callable[...,
     assert settings_of(started, "driver")["autostart"] == IN_PARAMS_FILE
     (world,) = [" ".join(words) for words, _ in started if words[0].endswith("/hand_world")]
     assert "--object box --seed 7 --layout mine_layout.yaml " in world
+    (board,) = [" ".join(words) for words, _ in started if words[0].endswith("/virtual_board")]
+    assert "--rate-hz 1000 " in board
+    assert "--seed 7 " in board
