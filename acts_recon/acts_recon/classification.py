@@ -22,7 +22,7 @@ from acts_core.residuals import confidence_of
 from acts_core.settings import setting, validate
 from acts_recon import classification_kernels as kernels
 from acts_recon.fastomp import SPARSITY_RATIO, fast_omp, sparsity
-from acts_recon.fastomp_model import Grouped, Problems, in_blocks
+from acts_recon.fastomp_model import Problems, in_blocks
 from acts_recon.object_library import ObjectLibrary
 
 BOARD_COLUMNS = 2
@@ -101,7 +101,6 @@ class Classifier:
         taxels = library.rows * library.cols
         self._model = (
             in_blocks(library.columns),
-            *Grouped(library.columns[:, :0]).arrays(),
             np.ascontiguousarray(library.columns.T),
             library.classes,
         )

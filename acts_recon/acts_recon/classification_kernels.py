@@ -18,9 +18,6 @@ _FASTMATH = {"nnan", "ninf", "nsz", "contract", "reassoc", "arcp"}
 @kernel(fastmath=_FASTMATH)
 def class_residuals(
     blocks: NDArray[np.float32],
-    groups: NDArray[np.float32],
-    numbers: NDArray[np.int32],
-    bounds: NDArray[np.float32],
     columns: NDArray[np.float32],
     classes: NDArray[np.int64],
     indices: NDArray[np.uint16],
@@ -31,13 +28,14 @@ def class_residuals(
     table: NDArray[np.int32],
     rows: NDArray[np.float32],
     systems: NDArray[np.float32],
-    lanes: NDArray[np.float32],
+    sums: NDArray[np.float32],
+    largest: NDArray[np.float32],
     residuals: NDArray[np.float32],
 ) -> bool:
     """Compute what every class leaves of one frame into `residuals`; returns whether anything was pressed.
 
-    The library is given as the dictionary is to `acts_recon.fastomp_kernels.pursue`, without groups, then come the
-    classes of its columns, the frame, whose indices must be in range, the settings, and the buffers of
+    The library is given as the dictionary is to `acts_recon.fastomp_kernels.pursue`. Then come the classes of its
+    columns, the frame, whose indices must be in range, the settings, and the buffers of
     `acts_recon.fastomp_model.Problems` for a single problem.
     """
     m = indices.shape[0]
@@ -64,7 +62,7 @@ def class_residuals(
     table[PRESSED, 0] = pressed
     table[ALLOWED, 0] = n_columns
     table[ORDER, 0] = 0
-    pursue(blocks, groups, numbers, bounds, 0, columns, 1, taxels, table, rows, systems, lanes)
+    pursue(blocks, columns, 1, taxels, table, rows, systems, sums, largest)
     s = table[N_CHOSEN, 0]
     solve(0, s, systems)
     coefficients = systems[0, :, systems.shape[1]]

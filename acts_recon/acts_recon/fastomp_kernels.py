@@ -1,25 +1,21 @@
 """FastOMP in numba: the same as `acts_recon.fastomp`, in single precision and without allocation.
 
-Most of the time goes into finding the atom that correlates most with a residual (`acts_recon.fastomp_choice`). All
-patches of a frame choose their first atom together, then their second one, and so on: a block of the dictionary is
-fetched once for all of them, and while the processor waits for one patch's numbers it computes another's.
+Most of the time goes into finding the atom that correlates most with a residual. All patches of a frame choose their
+first atom together, then their second one, and so on: a block of the dictionary is fetched once for all of them.
 """
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.kernels import kernel
 from acts_recon.fastomp import REGULARISATION
-from acts_recon.fastomp_choice import best_by_bounds, best_columns
 from acts_recon.fastomp_model import (
     ALLOWED,
     BEST,
+    BLOCK,
     CHOSEN,
-    FEW,
-    MANY,
     MEASURED,
     N_CHOSEN,
     ORDER,
@@ -28,7 +24,6 @@ from acts_recon.fastomp_model import (
     RESIDUAL_ROWS,
     Y_ROWS,
 )
-from acts_recon.fastomp_vectors import add_square, clear, dot, padded, subtract
 
 OK = 0
 INDEX_OUT_OF_RANGE = 1
@@ -37,59 +32,128 @@ COUNT_OUT_OF_RANGE = 3
 
 _REGULARISATION = np.float32(REGULARISATION)
 _FASTMATH = {"nnan", "ninf", "nsz", "contract", "reassoc", "arcp"}
-_padded = numba.njit(inline="always")(padded)
 
 
 @kernel(fastmath=_FASTMATH)
 def pursue(
     blocks: NDArray[np.float32],
-    groups: NDArray[np.float32],
-    numbers: NDArray[np.int32],
-    bounds: NDArray[np.float32],
-    few_pixels: int,
     atoms: NDArray[np.float32],
     n_problems: int,
     pixels: NDArray[np.uint32],
     table: NDArray[np.int32],
     rows: NDArray[np.float32],
     systems: NDArray[np.float32],
-    lanes: NDArray[np.float32],
+    sums: NDArray[np.float32],
+    largest: NDArray[np.float32],
 ) -> None:
     """`acts_recon.fastomp.fast_omp` on several problems with the same dictionary, in step.
 
-    The dictionary: as `acts_recon.fastomp_model.in_blocks` lays it out; as `Grouped`, which is used for problems of at
-    most `few_pixels` pixels; and with an atom a row. Then the buffers of `acts_recon.fastomp_model.Problems`, filled in
-    for the first `n_problems` of ``table[ORDER]``, whose contents are overwritten.
+    The dictionary: as `acts_recon.fastomp_model.in_blocks` lays it out, and with an atom a row. Then the buffers of
+    `acts_recon.fastomp_model.Problems`, filled in for the first `n_problems` of ``table[ORDER]``, whose contents are
+    overwritten.
     """
-    order, few, many, best = table[ORDER], table[FEW], table[MANY], table[BEST]
     active = n_problems
     i = 0
     while active > 0:
         # Pixels that read 0 come last and add nothing to the first correlations, which leave them out.
         counts = table[PRESSED if i == 0 else MEASURED]
         residuals = rows[Y_ROWS if i == 0 else RESIDUAL_ROWS]
-        n_few = n_many = 0
-        for k in range(active):
-            problem = order[k]
-            few[n_few] = problem
-            many[n_many] = problem
-            if counts[problem] <= few_pixels:
-                n_few += 1
-            else:
-                n_many += 1
-        best_by_bounds(groups, numbers, bounds, pixels, residuals, counts, few, n_few, lanes, best)
-        best_columns(blocks, pixels, residuals, counts, many, n_many, lanes, best)
-        # Values are fetched in one loop and computed with in the next: a vector has to wait for elements just written.
-        active = _take_atoms(i, active, atoms, pixels, table, rows, systems)
-        active = _use_atoms(i, active, table, rows, systems)
+        choose(blocks, pixels, residuals, counts, table[ORDER], active, sums, largest, table[BEST])
+        active = _explain(i, active, atoms, pixels, table, rows, systems)
         i += 1
 
 
-# A call with arrays costs as much as a patch of few pixels: the loops over problems are in the functions below.
+@kernel(fastmath=_FASTMATH)
+def choose(
+    blocks: NDArray[np.float32],
+    pixels: NDArray[np.uint32],
+    residuals: NDArray[np.float32],
+    counts: NDArray[np.int32],
+    problems: NDArray[np.int32],
+    n: int,
+    sums: NDArray[np.float32],
+    largest: NDArray[np.float32],
+    best: NDArray[np.int32],
+) -> None:
+    """Find the atom whose correlation with the residual is largest in magnitude, for each of `n` problems.
+
+    Written to `best`: the first of equally good atoms, -1 where all correlations are 0; and its size to `largest`.
+    """
+    for k in range(n):
+        best[problems[k]] = -1
+        largest[problems[k]] = 0.0
+    for b in range(blocks.shape[0]):
+        for k in range(n):
+            problem = problems[k]
+            _correlate(blocks, b, pixels, residuals, problem, counts[problem], sums)
+            top = _largest(sums)
+            if top > largest[problem]:
+                largest[problem] = top
+                column = 0
+                while abs(sums[column]) < top:
+                    column += 1
+                best[problem] = b * BLOCK + column
 
 
 @kernel(fastmath=_FASTMATH)
-def _take_atoms(
+def _correlate(
+    blocks: NDArray[np.float32],
+    block: int,
+    pixels: NDArray[np.uint32],
+    residuals: NDArray[np.float32],
+    problem: int,
+    m: int,
+    sums: NDArray[np.float32],
+) -> None:
+    """Correlate a residual with the atoms of a block; four pixels at a time, so that sums are fetched less often.
+
+    (Whole arrays with indices: a slice would be counted as a new reference in every call.)
+    """
+    for column in range(BLOCK):
+        sums[column] = 0.0
+    p = 0
+    while p + 4 <= m:
+        a, b, c, d = pixels[problem, p], pixels[problem, p + 1], pixels[problem, p + 2], pixels[problem, p + 3]
+        at_a, at_b = residuals[problem, p], residuals[problem, p + 1]
+        at_c, at_d = residuals[problem, p + 2], residuals[problem, p + 3]
+        for column in range(BLOCK):
+            first = at_a * blocks[block, a, column] + at_b * blocks[block, b, column]
+            sums[column] += first + at_c * blocks[block, c, column] + at_d * blocks[block, d, column]
+        p += 4
+    while p < m:
+        a, at_a = pixels[problem, p], residuals[problem, p]
+        for column in range(BLOCK):
+            sums[column] += at_a * blocks[block, a, column]
+        p += 1
+
+
+@kernel(fastmath=_FASTMATH)
+def _largest(sums: NDArray[np.float32]) -> np.float32:
+    """The largest magnitude. Eight maxima, for each comparison waits for the one before it."""
+    a = b = c = d = e = f = g = h = np.float32(0.0)
+    for column in range(0, BLOCK, 8):
+        a = max(a, abs(sums[column]))
+        b = max(b, abs(sums[column + 1]))
+        c = max(c, abs(sums[column + 2]))
+        d = max(d, abs(sums[column + 3]))
+        e = max(e, abs(sums[column + 4]))
+        f = max(f, abs(sums[column + 5]))
+        g = max(g, abs(sums[column + 6]))
+        h = max(h, abs(sums[column + 7]))
+    return max(max(max(a, b), max(c, d)), max(max(e, f), max(g, h)))
+
+
+@kernel(fastmath=_FASTMATH)
+def _dot(x: NDArray[np.float32], y: NDArray[np.float32], m: int) -> np.float32:
+    """Inner product of the first `m` elements."""
+    total = np.float32(0.0)
+    for p in range(m):
+        total += x[p] * y[p]
+    return total
+
+
+@kernel(fastmath=_FASTMATH)
+def _explain(
     i: int,
     active: int,
     atoms: NDArray[np.float32],
@@ -98,8 +162,10 @@ def _take_atoms(
     rows: NDArray[np.float32],
     systems: NDArray[np.float32],
 ) -> int:
-    """Fetch the measured pixels of the atoms that were chosen; keep and count the problems that have to go on."""
-    n = rows.shape[1]
+    """Take over the `i`-th atoms: make them orthogonal to those before, and take what they explain off the residuals.
+
+    Keeps and counts the problems that are allowed another atom.
+    """
     last = systems.shape[1]
     going_on = 0
     for k in range(active):
@@ -110,54 +176,25 @@ def _take_atoms(
             continue
         table[N_CHOSEN, problem] = i + 1
         table[CHOSEN + i, problem] = best
-        atom = np.uint32(best)
         m = table[MEASURED, problem]
-        if i == 0:
-            # Nothing to orthogonalise. Most patches of a fully pressed skin have few pixels and need no other atom.
-            square = np.float32(0.0)
-            projection = np.float32(0.0)
-            for p in range(m):
-                value = atoms[atom, pixels[problem, p]]
-                square += value * value
-                projection += value * rows[Y_ROWS, problem, p]
-            systems[problem, 0, 0] = square + _REGULARISATION
-            systems[problem, 0, last] = projection
-            if table[ALLOWED, problem] == 1:
-                continue
-        clear(rows, (Q_ROWS + i) * n + problem, _padded(m))
+        atom, places, new = atoms[np.uint32(best)], pixels[problem], rows[Q_ROWS + i, problem]
         for p in range(m):
-            rows[Q_ROWS + i, problem, p] = atoms[atom, pixels[problem, p]]
-        table[ORDER, going_on] = problem
-        going_on += 1
-    return going_on
-
-
-@kernel(fastmath=_FASTMATH)
-def _use_atoms(
-    i: int, active: int, table: NDArray[np.int32], rows: NDArray[np.float32], systems: NDArray[np.float32]
-) -> int:
-    """Make the `i`-th atoms orthogonal to those before and take what they explain off the residuals.
-
-    Keeps and counts the problems that are allowed another atom.
-    """
-    n = rows.shape[1]
-    last = systems.shape[1]
-    going_on = 0
-    for k in range(active):
-        problem = table[ORDER, k]
-        length = _padded(table[MEASURED, problem])
-        y, residual, new = Y_ROWS * n + problem, RESIDUAL_ROWS * n + problem, (Q_ROWS + i) * n + problem
-        if i > 0:
-            for j in range(i):
-                old = (Q_ROWS + j) * n + problem
-                systems[problem, j, i] = dot(rows, old, rows, new, length)
-                subtract(rows, new, new, systems[problem, j, i] / systems[problem, j, j], old, length)
-            systems[problem, i, i] = dot(rows, new, rows, new, length) + _REGULARISATION
-            systems[problem, i, last] = dot(rows, new, rows, y, length)
+            new[p] = atom[places[p]]
+        system = systems[problem]
+        for j in range(i):
+            old = rows[Q_ROWS + j, problem]
+            system[j, i] = _dot(old, new, m)
+            share = system[j, i] / system[j, j]
+            for p in range(m):
+                new[p] -= share * old[p]
+        y, residual = rows[Y_ROWS, problem], rows[RESIDUAL_ROWS, problem]
+        system[i, i] = _dot(new, new, m) + _REGULARISATION
+        system[i, last] = _dot(new, y, m)
         if i + 1 < table[ALLOWED, problem]:
             before = residual if i > 0 else y
-            share = dot(rows, new, rows, before, length) / systems[problem, i, i]
-            subtract(rows, residual, before, share, new, length)
+            share = _dot(new, before, m) / system[i, i]
+            for p in range(m):
+                residual[p] = before[p] - share * new[p]
             table[ORDER, going_on] = problem
             going_on += 1
     return going_on
@@ -177,10 +214,6 @@ def solve(problem: int, s: int, systems: NDArray[np.float32]) -> None:
 @kernel(fastmath=_FASTMATH)
 def recover_image(
     blocks: NDArray[np.float32],
-    groups: NDArray[np.float32],
-    numbers: NDArray[np.int32],
-    bounds: NDArray[np.float32],
-    few_pixels: int,
     atoms: NDArray[np.float32],
     corners: NDArray[np.uint32],
     holders: NDArray[np.uint32],
@@ -198,7 +231,8 @@ def recover_image(
     table: NDArray[np.int32],
     rows: NDArray[np.float32],
     systems: NDArray[np.float32],
-    lanes: NDArray[np.float32],
+    sums: NDArray[np.float32],
+    largest: NDArray[np.float32],
     image: NDArray[np.float32],
 ) -> int:
     """Check one frame and recover its image into `image`.
@@ -240,7 +274,7 @@ def recover_image(
     _hand_out(False, touch_counts, indices, counts, holders, measured, pixels, y)
     for patch in range(n_patches):
         table[ALLOWED, patch] = max(1, int(ratio * measured[patch] + 0.5))
-    pursue(blocks, groups, numbers, bounds, few_pixels, atoms, n_pressed, pixels, table, rows, systems, lanes)
+    pursue(blocks, atoms, n_pressed, pixels, table, rows, systems, sums, largest)
 
     for t in range(size):
         image[t] = 0.0
@@ -251,7 +285,12 @@ def recover_image(
         solve(patch, s, systems)
         for j in range(s):
             coefficient = systems[patch, j, systems.shape[1]]
-            add_square(image, corners[patch], stride, coefficient, atoms, table[CHOSEN + j, patch], side)
+            atom = atoms[np.uint32(table[CHOSEN + j, patch])]
+            for row in range(side):
+                first = int(corners[patch]) + row * stride
+                line, part = image[first : first + side], atom[row * side : (row + 1) * side]
+                for column in range(side):
+                    line[column] += coefficient * part[column]
     top = np.float32(count_max)
     for t in range(size):
         image[t] = min(max(image[t] * share[t], np.float32(0.0)), top)

@@ -8,25 +8,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_recon.fastomp import SPARSITY_RATIO, sparsity
-from acts_recon.fastomp_choice import BLOCK, GROUPS
-from acts_recon.fastomp_ir import LANES
-from acts_recon.fastomp_vectors import padded
 from acts_recon.patches import PatchLayout
 
 _CACHE_LINE_BYTES = 64
 
-MEASURED, PRESSED, ALLOWED, N_CHOSEN, ORDER, FEW, MANY, BEST, CHOSEN = range(9)
+MEASURED, PRESSED, ALLOWED, N_CHOSEN, ORDER, BEST, CHOSEN = range(7)
 """Rows of `Problems.table`, see there; from `CHOSEN` on a row for each atom."""
 
 Y_ROWS, RESIDUAL_ROWS, Q_ROWS = range(3)
 """First index of `Problems.rows`, see there; from `Q_ROWS` on one for each atom."""
 
-FEW_PIXELS = 16
-"""Up to so many measured pixels bounds rule out most atoms of a patch (measured, on the shipped dictionary)."""
+BLOCK = 512
+"""Atoms whose correlations are computed together. (Of 128 to 1024 all are about as fast.)"""
 
 
 def in_blocks(atoms: NDArray[np.floating]) -> NDArray[np.float32]:
-    """Lay a dictionary out for `acts_recon.fastomp_choice.best_columns`.
+    """Lay a dictionary out for `acts_recon.fastomp_kernels.choose`.
 
     Parameters
     ----------
@@ -44,34 +41,6 @@ def in_blocks(atoms: NDArray[np.floating]) -> NDArray[np.float32]:
     return _aligned(filled.reshape(n_pixels, n_blocks, BLOCK).transpose(1, 0, 2))
 
 
-class Grouped:
-    """A dictionary in groups of similar atoms, for `acts_recon.fastomp_choice.best_by_bounds`.
-
-    Parameters
-    ----------
-    atoms : np.ndarray [shape=(n_pixels, n_atoms), dtype=float]
-        Without any atom all arrays are empty.
-    """
-
-    def __init__(self, atoms: NDArray[np.floating]) -> None:
-        n_pixels, n_atoms = atoms.shape
-        n_chunks = -(-n_atoms // (GROUPS * LANES))
-        n_groups = n_chunks * GROUPS
-        # Roots, so that an atom's few largest pixels do not alone decide where it goes: bounds are tighter by a tenth.
-        order = _similar_together(np.sqrt(np.abs(atoms)), np.arange(n_atoms))
-        filled = np.zeros((n_pixels, n_groups * LANES), dtype=np.float32)
-        filled[:, :n_atoms] = atoms[:, order]
-        self.groups = _aligned(filled.reshape(n_pixels, n_groups, LANES).transpose(1, 0, 2))
-        self.numbers = np.zeros((n_groups, LANES), dtype=np.int32)
-        self.numbers.ravel()[:n_atoms] = order
-        largest = np.abs(self.groups).max(axis=2)
-        self.bounds = _aligned(largest.reshape(n_chunks, GROUPS, n_pixels).transpose(0, 2, 1))
-
-    def arrays(self) -> tuple[NDArray, ...]:
-        """In the order in which the kernels take them."""
-        return (self.groups, self.numbers, self.bounds)
-
-
 class PatchModel:
     """A dictionary and a layout as `acts_recon.fastomp_kernels.recover_image` takes them.
 
@@ -82,18 +51,14 @@ class PatchModel:
     layout : PatchLayout
     atoms : np.ndarray [shape=(size * size, n_atoms), dtype=float]
         Dictionary, pixels numbered as by `PatchLayout`.
-    few_pixels : int
-        Patches with at most so many measured pixels leave out atoms by their bounds; 0: none does.
     """
 
-    def __init__(self, layout: PatchLayout, atoms: NDArray[np.floating], few_pixels: int = FEW_PIXELS) -> None:
+    def __init__(self, layout: PatchLayout, atoms: NDArray[np.floating]) -> None:
         # This numbering is its own inverse.
         column_first = np.arange(layout.size**2).reshape(layout.size, layout.size).T.ravel()
         by_rows = atoms[column_first]
         self._arguments: tuple[NDArray | int, ...] = (
             in_blocks(by_rows),
-            *Grouped(by_rows).arrays(),
-            few_pixels,
             _aligned(by_rows.T),
             layout.taxels[:, 0].astype(np.uint32),
             _holders(layout, column_first),
@@ -121,32 +86,33 @@ class Problems:
 
     Attributes
     ----------
-    pixels : np.ndarray [shape=(n, width), dtype=uint32]
+    pixels : np.ndarray [shape=(n, n_pixels), dtype=uint32]
         Given: which pixels of each problem were measured, those that do not read 0 first.
     table : np.ndarray [shape=(CHOSEN + n_atoms, n), dtype=int32]
         Given: how many pixels were measured (`MEASURED`), how many of them do not read 0 (`PRESSED`), how many atoms
         are `ALLOWED`, and which problems there are (`ORDER`; overwritten). Found: how many atoms were chosen
         (`N_CHOSEN`), and which (from `CHOSEN` on). The others are for work.
-    rows : np.ndarray [shape=(Q_ROWS + n_atoms, n, width), dtype=float32]
+    rows : np.ndarray [shape=(Q_ROWS + n_atoms, n, n_pixels), dtype=float32]
         Given: what was measured (`Y_ROWS`). For work: what is left to explain (`RESIDUAL_ROWS`), and the orthogonalised
-        atoms (from `Q_ROWS` on). Behind the measured pixels atoms are 0, the others any finite numbers.
+        atoms (from `Q_ROWS` on).
     systems : np.ndarray [shape=(n, n_atoms, n_atoms + 1), dtype=float32]
         Found: the triangular system of equations, the right side in the last column.
-    lanes : np.ndarray [shape=(n, 3, LANES), dtype=float32]
-        See `acts_recon.fastomp_choice`.
+    sums : np.ndarray [shape=(BLOCK,), dtype=float32]
+    largest : np.ndarray [shape=(n,), dtype=float32]
+        For work: correlations with the atoms of a block, and the largest of each problem.
     """
 
     def __init__(self, n: int, n_pixels: int, n_atoms: int) -> None:
-        width = padded(n_pixels) + LANES
-        self.pixels = np.zeros((n, width), dtype=np.uint32)
+        self.pixels = np.zeros((n, n_pixels), dtype=np.uint32)
         self.table = np.zeros((CHOSEN + n_atoms, n), dtype=np.int32)
-        self.rows = _aligned(np.zeros((Q_ROWS + n_atoms, n, width)))
+        self.rows = _aligned(np.zeros((Q_ROWS + n_atoms, n, n_pixels)))
         self.systems = np.zeros((n, n_atoms, n_atoms + 1), dtype=np.float32)
-        self.lanes = _aligned(np.zeros((n, 3, LANES)))
+        self.sums = _aligned(np.zeros(BLOCK))
+        self.largest = np.zeros(n, dtype=np.float32)
 
     def arrays(self) -> tuple[NDArray, ...]:
         """In the order in which `pursue` takes them."""
-        return (self.pixels, self.table, self.rows, self.systems, self.lanes)
+        return (self.pixels, self.table, self.rows, self.systems, self.sums, self.largest)
 
 
 class Workspace:
@@ -169,20 +135,6 @@ class Workspace:
     def arrays(self) -> tuple[NDArray, ...]:
         """In the order in which `recover_image` takes them."""
         return self._arrays
-
-
-def _similar_together(sizes: NDArray[np.floating], some: NDArray[np.intp]) -> NDArray[np.intp]:
-    """Order atoms so that those of whole groups of `LANES` have their large pixels in common.
-
-    They are halved again and again along the direction in which their magnitudes differ most.
-    """
-    if some.size <= LANES:
-        return some
-    own = sizes[:, some]
-    direction = np.linalg.svd(own - own.mean(axis=1, keepdims=True), full_matrices=False)[0][:, 0]
-    some = some[np.argsort(direction @ own, kind="stable")]
-    half = padded(some.size // 2)
-    return np.concatenate([_similar_together(sizes, part) for part in (some[:half], some[half:])])
 
 
 def _holders(layout: PatchLayout, pixel_of: NDArray[np.integer]) -> NDArray[np.uint32]:

@@ -9,7 +9,7 @@ from acts_core.array import ArrayGeometry
 from acts_recon import fastomp_kernels as kernels
 from acts_recon.dictionary import Dictionary
 from acts_recon.fastomp import fast_omp, recover_image, sparsity
-from acts_recon.fastomp_model import FEW_PIXELS, PatchModel, Workspace
+from acts_recon.fastomp_model import PatchModel, Workspace
 from acts_recon.patches import PatchLayout, patch_layout
 
 Frame = NDArray[np.uint16]
@@ -60,11 +60,10 @@ def recover_by_kernel(
     *,
     keep: bool = False,
     ratio: float = 0.25,
-    few_pixels: int = FEW_PIXELS,
 ) -> NDArray[np.float32]:
     image = np.zeros(layout.rows * layout.cols, dtype=np.float32)
     code = kernels.recover_image(
-        *PatchModel(layout, atoms, few_pixels).arguments(),
+        *PatchModel(layout, atoms).arguments(),
         indices,
         counts,
         60,
@@ -94,17 +93,6 @@ def test_kernel_equals_twin_on_random_data(rows: int, cols: int, step: int) -> N
         m = int(rng.integers(1, rows * cols // 2))
         indices = rng.permutation(rows * cols)[:m].astype(np.uint16)
         assert_kernel_equals_twin(layout, atoms, indices, rng.integers(0, 1024, m).astype(np.uint16))
-
-
-def test_leaving_atoms_out_by_bounds_changes_nothing(dictionary: Dictionary) -> None:
-    frame = bump(ArrayGeometry(), 12, 9, peak=1023, width=6)
-    layout = patch_layout(32, 32)
-    for m in (20, 90, 400):
-        indices, counts = sample(frame, m)
-        images = [recover_by_kernel(layout, dictionary.atoms, indices, counts, few_pixels=few) for few in (0, 16, 64)]
-        assert images[0].any()
-        np.testing.assert_allclose(images[1], images[0], rtol=1e-4, atol=0.05)
-        np.testing.assert_allclose(images[2], images[0], rtol=1e-4, atol=0.05)
 
 
 @pytest.mark.parametrize("ratio", [0.05, 1.0])

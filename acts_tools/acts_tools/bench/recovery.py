@@ -8,9 +8,7 @@ Our time is that of a whole frame, from its samples to the image. The peers get 
 the dictionary cut out, for SPAMS also normalised) and are timed for the pursuit alone: a call for each patch, as many
 atoms as we take. All take turns on the same frames, in CPU time of one thread.
 
-The limit is the multiply-adds that FastOMP is made of, over the most that this core does in registers. It counts every
-correlation; our kernels leave out those that cannot be the largest (`acts_recon.fastomp_choice`), so how long they take
-with all of them is told beside.
+The limit is the multiply-adds that FastOMP is made of, over the most that this core does in registers.
 """
 
 from __future__ import annotations
@@ -29,7 +27,7 @@ from acts_core.sampling import Sampler, SamplingConfig, measure_in
 from acts_recon import fastomp_kernels as kernels
 from acts_recon.dictionary import load_dictionary
 from acts_recon.fastomp import SPARSITY_RATIO, fast_omp, sparsity
-from acts_recon.fastomp_model import FEW_PIXELS, PatchModel, Workspace
+from acts_recon.fastomp_model import PatchModel, Workspace
 from acts_recon.patches import PatchLayout, patch_layout
 from acts_recon.shipped import shipped_dictionary_path
 from acts_sim.objects import OBJECTS
@@ -111,10 +109,8 @@ def _compare(
 ) -> list[Figure]:
     work = [patch_problems(layout, atoms, samples) for samples in frames]
     recover = _recovery(layout, atoms)
-    with_all = _recovery(layout, atoms, few_pixels=0)
     contenders: dict[str, Callable[[], Any]] = {
         "ours": lambda: [recover(samples) for _ in range(CALLS) for samples in frames],
-        "all": lambda: [with_all(samples) for _ in range(CALLS) for samples in frames],
     }
     linear_model, spams = peer(SCIKIT_LEARN, "linear_model"), peer(SPAMS)
     if linear_model is not None:
@@ -127,17 +123,14 @@ def _compare(
         warnings.simplefilter("ignore")
         problems += _disagreements(work[0], linear_model, spams)
         seconds = _take_turns(contenders, workbench)
-    for name in ("ours", "all"):
-        seconds[name] /= CALLS
-    ours_us, all_us = (1e6 * float(np.median(seconds[name])) / len(frames) for name in ("ours", "all"))
+    seconds["ours"] /= CALLS
+    ours_us = 1e6 * float(np.median(seconds["ours"])) / len(frames)
     limit_us = 1e6 * sum(multiply_adds(one) for patches in work for one in patches) / len(frames) / peak
     n_patches = sum(map(len, work)) / len(frames)
     figures = [
         Figure(f"{kind}.us", f"FastOMP, {title}: {n_patches:.0f} of 49 patches pressed", ours_us, "us"),
         Figure(f"{kind}.limit_us", "    the arithmetic limit", limit_us, "us"),
         Figure(f"{kind}.to_limit", "    to the arithmetic limit", ours_us / limit_us, "times", is_ratio=True),
-        Figure(f"{kind}.all_us", "    with every correlation computed", all_us, "us"),
-        Figure(f"{kind}.all_to_limit", "    that to the arithmetic limit", all_us / limit_us, "times", is_ratio=True),
     ]
     for name, library, label in (
         ("sklearn", SCIKIT_LEARN, "scikit-learn, orthogonal_mp"),
@@ -153,10 +146,8 @@ def _compare(
     return figures
 
 
-def _recovery(
-    layout: PatchLayout, atoms: NDArray[np.float32], few_pixels: int = FEW_PIXELS
-) -> Callable[[Samples], None]:
-    model = PatchModel(layout, atoms, few_pixels).arguments()
+def _recovery(layout: PatchLayout, atoms: NDArray[np.float32]) -> Callable[[Samples], None]:
+    model = PatchModel(layout, atoms).arguments()
     workspace = Workspace(layout).arrays()
     image = np.zeros(layout.rows * layout.cols, dtype=np.float32)
 
