@@ -11,7 +11,7 @@ setup(
         ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
         (f"share/{PACKAGE}", ["package.xml"]),
     ],
-    install_requires=["acts_core", "llvmlite", "numba", "numpy", "scipy"],
+    install_requires=["acts_core", "numba", "numpy", "scipy"],
     extras_require={"test": ["pytest"]},
     zip_safe=False,
     maintainer="ACTS maintainers",

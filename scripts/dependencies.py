@@ -16,7 +16,6 @@ ROOT = Path(__file__).resolve().parent.parent
 # rosdep keys of what is imported by another name; packages of ROS and our own are keys themselves.
 KEYS = {
     "hypothesis": "python3-hypothesis",
-    "llvmlite": "python3-numba",
     "matplotlib": "python3-matplotlib",
     "numba": "python3-numba",
     "numpy": "python3-numpy",
