@@ -116,12 +116,14 @@ class FusionEstimator:
         self.image: NDArray[np.float32] = self._state.image.reshape(shape)
         """The image at the end of the last frame [counts, 0 to 1023]; np.ndarray [shape=(rows, cols), dtype=float32].
 
-        Overwritten by the next frame, as are `sigma` and `age_s`: copy what is to be kept.
+        Overwritten by the next frame, as are `sigma`, `age_s` and `measured`: copy what is to be kept.
         """
         self.sigma: NDArray[np.float32] = self._state.sigma.reshape(shape)
         """Standard deviation of `image` [counts]; np.ndarray [shape=(rows, cols), dtype=float32]."""
         self.age_s: NDArray[np.float32] = self._state.age.reshape(shape)
         """Time since each taxel was measured [s], inf: never; np.ndarray [shape=(rows, cols), dtype=float32]."""
+        self.measured: NDArray[np.float32] = self._state.value.reshape(shape)
+        """What was measured then [counts]; np.ndarray [shape=(rows, cols), dtype=float32]."""
         self._warm_up()
 
     def reset(self) -> None:

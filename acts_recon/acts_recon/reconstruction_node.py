@@ -1,6 +1,6 @@
 """Node ``reconstruction``: samples in; full images and the contact in them out, as fast as the samples come.
 
-Topics: samples and baseline in; contact, contacts, cop, image_raw, image, confidence and object out.
+Topics: samples and baseline in; contact, contacts, regions, cop, image_raw, image, confidence and object out.
 """
 
 from __future__ import annotations
@@ -32,6 +32,7 @@ from acts_recon.contacts_publisher import ContactsPublisher
 from acts_recon.image import mono16, rgb8
 from acts_recon.object_publisher import ObjectPublisher
 from acts_recon.reconstruction_settings import ReconstructionSettings
+from acts_recon.regions.publisher import RegionsPublisher
 from acts_ros import qos
 from acts_ros.cdr import ContactFields, write_contact
 from acts_ros.clocks import steady_timer
@@ -60,7 +61,8 @@ class ReconstructionNode(Node):
     Publishes for every frame ``contact`` (acts_msgs/Contact), while
     in contact ``cop`` (geometry_msgs/PointStamped), and where somebody listens ``image_raw`` (sensor_msgs/Image,
     mono16, counts), ``confidence`` (mono8, with the method ``fusion``), ``image`` (rgb8, for viewers), ``contacts``
-    and, with an object library, ``object`` (acts_msgs/ObjectClass).
+    with a layout of several patches, or of one on a link, ``regions`` (acts_msgs/RegionContacts), and, with an object
+    library, ``object`` (acts_msgs/ObjectClass).
 
     Parameters
     ----------
@@ -98,6 +100,10 @@ class ReconstructionNode(Node):
         self._contacts = ContactsPublisher(
             self, self._recovery.geometry, self._recovery.response, self._settings.blob_config(), self._recovery.borders
         )
+        regions = self._settings.regions(self._recovery)
+        self._regions: RegionsPublisher | None = None
+        if regions is not None:
+            self._regions = RegionsPublisher(self, regions, self._settings.regions_rate_hz)
 
         self._frames = 0
         self._lost = 0
@@ -131,6 +137,8 @@ class ReconstructionNode(Node):
         self._view_limit.set_rate(settings.image_rate_hz)
         if self._objects is not None:
             self._objects.set_rate(settings.object_rate_hz)
+        if self._regions is not None:
+            self._regions.set_rate(settings.regions_rate_hz)
         return ""
 
     def _look_for_subscribers(self) -> None:
@@ -141,6 +149,8 @@ class ReconstructionNode(Node):
         self._contacts.look_for_subscribers()
         if self._objects is not None:
             self._objects.look_for_subscribers()
+        if self._regions is not None:
+            self._regions.look_for_subscribers()
 
     def _on_samples(self, samples: TactileSamples) -> None:
         try:
@@ -213,6 +223,8 @@ class ReconstructionNode(Node):
         header.frame_id = frame_id
         header.stamp.sec, header.stamp.nanosec = divmod(stamp_ns, _NS_PER_S)
         self._publish_contact(stamp_ns, frame_id, frame.sequence, contact)
+        if self._regions is not None:
+            self._regions.publish(stamp_ns, frame_id, frame.sequence, self._recovery)
         self._publish_images()
         self._contacts.publish(header, frame.sequence, self._recovery.image, self._recovery.sigma)
         if self._objects is not None:
@@ -277,6 +289,8 @@ class ReconstructionNode(Node):
             self._recovery.reset()
             if self._objects is not None:
                 self._objects.reset()
+            if self._regions is not None:
+                self._regions.reset()
 
     def _began_anew(self, sequence: int) -> bool:
         """Whether the board counts from the start again: half the range back is no gap."""

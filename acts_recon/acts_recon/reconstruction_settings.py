@@ -20,10 +20,14 @@ from acts_recon.object_library import load_object_library
 from acts_recon.object_recognition import FusedObjects, ObjectRecogniser, PerFrameObjects
 from acts_recon.reconstructor import Reconstructor, ReconstructorConfig
 from acts_recon.recovery import METHODS, FusedRecovery, PerFrameRecovery, Recovery
+from acts_recon.regions.regions import Regions
 from acts_recon.shipped import shipped_dictionary_path
 
 _ARRAY = ArrayGeometry()
 _RESPONSE = ForceResponse()
+
+# Of a reading in whole counts.
+_LEAST_NOISE_COUNTS = 0.3
 
 # Parameters that one method alone uses.
 _OF_METHOD = {
@@ -136,6 +140,19 @@ class ReconstructionSettings(RealtimeConfig):
     contacts_memory_s: float = setting(
         default_of(BlobConfig, "memory_s"),
         "topic contacts: contacts that became one get their numbers back within this time [s]",
+        minimum=0.0,
+        maximum=1000.0,
+    )
+    regions_rate_hz: float = setting(
+        0.0,
+        "largest rate of the topic regions [Hz]; 0: every frame",
+        minimum=0.0,
+        maximum=1000.0,
+        changeable=Changeable.RUNNING,
+    )
+    regions_slip_rate_hz: float = setting(
+        250.0,
+        "topic regions: motion and slip are looked for so often at most [Hz]; 0: in every frame",
         minimum=0.0,
         maximum=1000.0,
     )
@@ -257,6 +274,23 @@ class ReconstructionSettings(RealtimeConfig):
             bridge_s=self.contacts_bridge_s,
             memory_s=self.contacts_memory_s,
             noise_counts=self.noise_counts,
+        )
+
+    def regions(self, recovery: Recovery) -> Regions | None:
+        """Make ready what finds the contact on each patch; None where the skin is one patch that lies on no link.
+
+        Parameters
+        ----------
+        recovery : Recovery
+            What `recovery` returned.
+        """
+        arranged = self.arranged()
+        if len(arranged.patches) == 1 and not arranged.patches[0].link:
+            return None
+        # Noise of 0 would let anything be slip.
+        noise_counts = max(self.noise_counts, _LEAST_NOISE_COUNTS)
+        return Regions(
+            arranged, recovery.response, self.touch_counts, noise_counts, slip_rate_hz=self.regions_slip_rate_hz
         )
 
     def recogniser(self, recovery: Recovery) -> ObjectRecogniser | None:

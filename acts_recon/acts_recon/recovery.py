@@ -34,6 +34,8 @@ class Recovery(Protocol):
     """Standard deviation of the image [counts], likewise; None from a method that does not know."""
     age_s: NDArray[np.float32] | None
     """Time since each taxel was measured [s], inf: never; likewise."""
+    measured: NDArray[np.float32] | None
+    """What was measured then [counts]; likewise."""
 
     def reset(self) -> None:
         """Forget all frames: the next one is not of the same board, or long after."""
@@ -70,6 +72,7 @@ class FusedRecovery:
         self.image = estimator.image
         self.sigma: NDArray[np.float32] | None = estimator.sigma
         self.age_s: NDArray[np.float32] | None = estimator.age_s
+        self.measured: NDArray[np.float32] | None = estimator.measured
 
     def reset(self) -> None:
         """See `Recovery.reset`."""
@@ -101,6 +104,7 @@ class PerFrameRecovery:
         self.image = reconstructor.image
         self.sigma: NDArray[np.float32] | None = None
         self.age_s: NDArray[np.float32] | None = None
+        self.measured: NDArray[np.float32] | None = None
 
     def reset(self) -> None:
         """Nothing is kept."""

@@ -24,6 +24,9 @@ from acts_recon.slip.motion_kernels import normal_equations, solve
 # Keeps a pattern that shows no motion, such as one of equal pressure all over, from dividing by nothing.
 RIDGE = 1e-6
 
+SMALLEST_SIDE = 3
+"""Of a patch, in taxels."""
+
 
 class Motion(NamedTuple):
     """From the reference to the image.
@@ -69,8 +72,10 @@ class MotionEstimator:
     """
 
     def __init__(self, rows: int, cols: int, noise_counts: float = 1.5) -> None:
-        if rows < 3 or cols < 3:
-            raise ArrayError(f"a patch of {rows} x {cols} taxels: motion is seen on 3 x 3 and more")
+        if min(rows, cols) < SMALLEST_SIDE:
+            raise ArrayError(
+                f"a patch of {rows} x {cols} taxels: motion is seen on {SMALLEST_SIDE} x {SMALLEST_SIDE} and more"
+            )
         if not noise_counts > 0.0:
             raise ArrayError(f"noise_counts = {noise_counts}: allowed is a number above 0")
         self._shape = (rows, cols)

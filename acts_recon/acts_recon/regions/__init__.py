@@ -1,0 +1,1 @@
+"""What each patch of a skin feels: contact maps, motion and slip, patch by patch."""

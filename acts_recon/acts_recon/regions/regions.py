@@ -1,0 +1,175 @@
+"""What every patch of a skin feels, image after image."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.errors import ArrayError
+from acts_core.force import ForceResponse, MeasuredForceResponse, force_table
+from acts_core.layouts import Layout
+from acts_core.region_contact import RegionContact, Vector
+from acts_recon.regions import region_kernels as kernels
+from acts_recon.slip.config import SlipConfig
+from acts_recon.slip.motion import SMALLEST_SIDE
+from acts_recon.slip.watch import NO_SLIP, Slip, SlipWatch
+
+# Of a slip rate, so that a time that is a little early counts as due.
+_EARLY = 0.9
+
+
+class Regions:
+    """Finds the contact on each patch of a layout, how it moves, and whether it slips.
+
+    Of patches of fewer than 3 x 3 taxels motion and slip are not known, they stay 0.
+
+    Parameters
+    ----------
+    layout : Layout
+    response : ForceResponse or MeasuredForceResponse
+        From counts to newtons.
+    touch_counts : float
+        A taxel above it is pressed.
+    noise_counts : float
+        Standard deviation of a measurement [counts].
+    slip : SlipConfig, optional
+    slip_rate_hz : float
+        Motion and slip are looked for so often at most [Hz]; 0: in every image.
+
+    Raises
+    ------
+    ArrayError
+        For noise that is not above 0.
+    """
+
+    def __init__(
+        self,
+        layout: Layout,
+        response: ForceResponse | MeasuredForceResponse,
+        touch_counts: float = 60.0,
+        noise_counts: float = 2.0,
+        slip: SlipConfig | None = None,
+        slip_rate_hz: float = 250.0,
+    ) -> None:
+        patches = layout.patches
+        self._shape = (layout.rows, layout.cols)
+        self._sigmas = (SlipConfig() if slip is None else slip).slip_sigmas
+        self._untouched = [RegionContact(patch.name, patch.link) for patch in patches]
+        self._regions = list(self._untouched)
+        self._bounds = np.array(
+            [(patch.first_row, patch.end_row, patch.first_col, patch.end_col) for patch in patches], dtype=np.int64
+        )
+        self._points_m = np.zeros((*self._shape, 3))
+        self._normals = np.zeros((*self._shape, 3))
+        for patch in patches:
+            place = np.s_[patch.first_row : patch.end_row, patch.first_col : patch.end_col]
+            self._points_m[place], self._normals[place] = patch.points_m(), patch.normals()
+        self._areas_m2 = np.array([patch.geometry.taxel_area_m2 for patch in patches])
+        self._touch_counts = float(touch_counts)
+        self._force_n = force_table(response)
+        self._results = np.zeros((len(patches), kernels.RESULTS))
+        watched = [p for p, patch in enumerate(patches) if min(patch.rows, patch.cols) >= SMALLEST_SIDE]
+        self._watched = np.array(watched, dtype=np.intp)
+        self._slips = [NO_SLIP] * len(patches)
+        self._watch = SlipWatch(
+            *self._shape, [patches[p] for p in watched], slip, noise_counts, pressed_counts=touch_counts
+        )
+        self._slip_period_s = _EARLY / slip_rate_hz if slip_rate_hz else 0.0
+        self._slip_s = -math.inf
+        self.step(0.0, np.zeros(self._shape, dtype=np.float32))  # compiles, or loads from the cache
+        self.reset()
+
+    def reset(self) -> None:
+        """Forget what was, for instance after a pause."""
+        self._watch.reset()
+        self._slips = [NO_SLIP] * len(self._slips)
+        self._slip_s = -math.inf
+
+    def step(
+        self,
+        time_s: float,
+        image: NDArray[np.float32],
+        measured: NDArray[np.float32] | None = None,
+        age_s: NDArray[np.float32] | None = None,
+    ) -> list[RegionContact]:
+        """Describe the patches in an image.
+
+        Parameters
+        ----------
+        time_s : float
+            Of the image; where it goes back, slip begins anew [s].
+        image : np.ndarray [shape=(rows, cols), dtype=float32]
+            Counts, 0 to 1023.
+        measured, age_s : np.ndarray [shape=(rows, cols), dtype=float32], optional
+            Where the image is made of more than one frame: the last measurement of every taxel [counts], and how long
+            ago that was [s], inf: never. Without them all of the image was measured now.
+
+        Returns
+        -------
+        list of RegionContact
+            Of every patch, in the layout's order; overwritten by the next call, but not its entries.
+
+        Raises
+        ------
+        ArrayError
+            When an image has another shape or type.
+        """
+        if image.shape != self._shape or image.dtype != np.float32:
+            raise ArrayError(
+                f"an image of shape {image.shape}, {image.dtype}: needed is {self._shape}, float32 (counts)"
+            )
+        results, regions = self._results, self._regions
+        kernels.find_regions(
+            image,
+            self._bounds,
+            self._points_m,
+            self._normals,
+            self._areas_m2,
+            self._touch_counts,
+            self._force_n,
+            results,
+        )
+        if not self._slip_s <= time_s < self._slip_s + self._slip_period_s:
+            self._look_for_slip(time_s, image if measured is None else measured, age_s)
+        for p, numbers in enumerate(results.tolist()):
+            regions[p] = self._region(p, numbers) if numbers[0] else self._untouched[p]
+        return regions
+
+    def _look_for_slip(self, time_s: float, values: NDArray[np.float32], age_s: NDArray[np.float32] | None) -> None:
+        self._slip_s = time_s
+        found = self._watch.step(time_s, values, self._results[self._watched, kernels.COUNTS], age_s)
+        for p, slip in zip(self._watched.tolist(), found, strict=True):
+            self._slips[p] = slip
+
+    def _region(self, patch: int, numbers: list[float]) -> RegionContact:
+        pressed, force_n, x, y, z, nx, ny, nz, area_m2, peak_n, spread_m, share, _, *steps = numbers
+        slip = self._slips[patch]
+        return RegionContact(
+            *self._untouched[patch][:2],
+            int(pressed),
+            force_n,
+            (x, y, z),
+            (nx, ny, nz),
+            area_m2,
+            peak_n,
+            spread_m,
+            share,
+            self._velocity(slip, steps),
+            slip.distance_m,
+            slip.slipping,
+        )
+
+    def _velocity(self, slip: Slip, steps: list[float]) -> Vector:
+        """Along the skin in the link's frame [m/s]; `steps` is one taxel along the columns, and one along the rows."""
+        motion = slip.motion
+        # Written so that it holds for no NaN, which counts beyond all that a board sends lead to.
+        if motion is None or not motion.distance_taxels >= self._sigmas * motion.sd_taxels:
+            return 0.0, 0.0, 0.0
+        cols, rows = motion.cols / slip.elapsed_s, motion.rows / slip.elapsed_s
+        return (
+            cols * steps[0] + rows * steps[3],
+            cols * steps[1] + rows * steps[4],
+            cols * steps[2] + rows * steps[5],
+        )

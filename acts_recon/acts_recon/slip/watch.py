@@ -1,0 +1,199 @@
+"""Motion and slip on all patches of an image whose taxels were measured at different times.
+
+A board that measures a part of the taxels in each frame shows a scene as a rolling shutter does: while the force grows,
+what was measured last is pressed harder, which looks like motion. So the last two measurements of each taxel are
+interpolated to one moment for the whole patch, the one at which the last of its pressed taxels was measured; later than
+that nothing is known of it. Two such images, a window apart, are compared (`acts_recon.slip.motion`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.errors import ArrayError
+from acts_core.skin_patch import SkinPatch
+from acts_recon.slip import watch_kernels as kernels
+from acts_recon.slip.config import SlipConfig
+from acts_recon.slip.motion import RIDGE, SMALLEST_SIDE, Motion
+
+# Images kept of each patch, at least a window's worth at any rate.
+_KEPT = 64
+
+
+class Slip(NamedTuple):
+    """What one patch feels of motion.
+
+    Attributes
+    ----------
+    slipping : bool
+    motion : Motion or None
+        Within the window; None where nothing presses, or the window is not full yet.
+    elapsed_s : float
+        Time between the two images that were compared [s]; 0 without a motion.
+    distance_taxels, distance_m : float
+        Distance within the window where that counts as motion; else 0.
+    """
+
+    slipping: bool = False
+    motion: Motion | None = None
+    elapsed_s: float = 0.0
+    distance_taxels: float = 0.0
+    distance_m: float = 0.0
+
+
+NO_SLIP = Slip()
+
+
+class SlipWatch:
+    """Watches the patches of an image; everything is allocated and compiled before the first.
+
+    Parameters
+    ----------
+    rows, cols : int
+        Size of the image.
+    patches : sequence of SkinPatch
+        Those of the image; at least 3 by 3 taxels each.
+    config : SlipConfig, optional
+    noise_counts : float
+        Standard deviation of a measurement [counts].
+    pressed_counts : float
+        Taxels above are pressed: an image is of the moment at which all these have been measured.
+
+    Raises
+    ------
+    ArrayError
+        For a smaller patch, or noise that is not above 0.
+    """
+
+    def __init__(
+        self,
+        rows: int,
+        cols: int,
+        patches: Sequence[SkinPatch],
+        config: SlipConfig | None = None,
+        noise_counts: float = 1.5,
+        pressed_counts: float = 60.0,
+    ) -> None:
+        self.config = config = SlipConfig() if config is None else config
+        for patch in patches:
+            if min(patch.rows, patch.cols) < SMALLEST_SIDE:
+                raise ArrayError(
+                    f"a patch of {patch.rows} x {patch.cols} taxels: motion is seen on {SMALLEST_SIDE} x "
+                    f"{SMALLEST_SIDE} and more"
+                )
+        if not noise_counts > 0.0:
+            raise ArrayError(f"noise_counts = {noise_counts}: allowed is a number above 0")
+        self._pitches_m = [(patch.pitch_m, patch.row_pitch_m) for patch in patches]
+        self._bounds = np.array(
+            [(patch.first_row, patch.end_row, patch.first_col, patch.end_col) for patch in patches], dtype=np.int64
+        ).reshape(-1, 4)
+        self._tuning = kernels.Tuning(
+            config.slip_window_s,
+            config.slip_window_s / (_KEPT - 8),
+            config.slip_max_lag_s,
+            config.slip_min_counts,
+            float(pressed_counts),
+            float(noise_counts),
+            RIDGE,
+        )
+        self._shape = (rows, cols)
+        self._no_age = np.zeros(self._shape, dtype=np.float32)
+        shape = self._shape
+        self._memory = kernels.Memory(
+            last=np.zeros(shape, dtype=np.float32),
+            before=np.zeros(shape, dtype=np.float32),
+            last_s=np.zeros(shape),
+            before_s=np.zeros(shape),
+            now=np.zeros(shape, dtype=np.float32),
+            past=np.zeros((_KEPT, *shape), dtype=np.float32),
+            past_s=np.zeros((len(patches), _KEPT)),
+            newest=np.zeros(len(patches), dtype=np.int64),
+            matrix=np.zeros((4, 5)),
+            inverse=np.zeros((4, 4)),
+        )
+        self._results = np.zeros((len(patches), kernels.RESULTS))
+        self._told_s = [-math.inf] * len(patches)
+        self._time_s = -math.inf
+        self._warm_up()
+
+    def reset(self) -> None:
+        """Forget what was, for instance after a pause."""
+        memory = self._memory
+        for times in (memory.last_s, memory.before_s, memory.past_s):
+            times.fill(-np.inf)
+        self._results.fill(0.0)
+        self._told_s = [-math.inf] * len(self._told_s)
+        self._time_s = -math.inf
+
+    def step(
+        self,
+        time_s: float,
+        values: NDArray[np.float32],
+        counts: NDArray[np.float64],
+        age_s: NDArray[np.float32] | None = None,
+    ) -> list[Slip]:
+        """Take the next image.
+
+        Parameters
+        ----------
+        time_s : float
+            Its time, later than that of the one before; after one that is not, everything begins anew [s].
+        values : np.ndarray [shape=(rows, cols), dtype=float32]
+            Last measurement of every taxel, counts above the baseline, finite; not kept.
+        counts : np.ndarray [shape=(patches,), dtype=float64]
+            Sum of the counts on each patch: whether anything presses.
+        age_s : np.ndarray [shape=(rows, cols), dtype=float32], optional
+            How long ago that was [s], inf: never; without it all were measured now.
+
+        Returns
+        -------
+        list of Slip
+            Of every patch.
+
+        Raises
+        ------
+        ArrayError
+            When an image has another shape or type.
+        """
+        ages = self._no_age if age_s is None else age_s
+        for given in (values, ages):
+            if given.shape != self._shape or given.dtype != np.float32:
+                raise ArrayError(
+                    f"an image of shape {given.shape}, {given.dtype}: needed is {self._shape}, float32 (counts)"
+                )
+        if not time_s > self._time_s:
+            self.reset()
+        self._time_s = time_s
+        kernels.take(time_s, values, ages, self._memory)
+        kernels.watch(time_s, self._bounds, counts, self._memory, self._tuning, self._results)
+        return [self._slip(p, numbers) for p, numbers in enumerate(self._results.tolist())]
+
+    def _slip(self, patch: int, numbers: list[float]) -> Slip:
+        has_motion, cols, rows, sd_taxels, gain, growth, elapsed_s = numbers
+        if not has_motion:
+            return NO_SLIP if self._time_s - self._told_s[patch] > self.config.slip_hold_s else Slip(True)
+        motion = Motion(cols, rows, sd_taxels, gain, growth)
+        pitch_m, row_pitch_m = self._pitches_m[patch]
+        taxels, metres = motion.distance_taxels, math.hypot(cols * pitch_m, rows * row_pitch_m)
+        config = self.config
+        if (
+            taxels >= config.slip_distance_taxels
+            and metres >= config.slip_distance_m
+            and taxels >= config.slip_sigmas * sd_taxels
+            and 1.0 / config.slip_max_gain <= gain <= config.slip_max_gain
+        ):
+            self._told_s[patch] = self._time_s
+            return Slip(True, motion, elapsed_s, taxels, metres)
+        return Slip(self._time_s - self._told_s[patch] <= config.slip_hold_s, motion, elapsed_s)
+
+    def _warm_up(self) -> None:
+        """Compile, or load from the cache, what the first image would otherwise wait seconds for."""
+        empty = np.zeros(self._shape, dtype=np.float32)
+        self.reset()
+        self.step(0.0, empty, np.zeros(len(self._told_s)))
+        self.reset()

@@ -1,0 +1,163 @@
+"""What `acts_recon.slip.watch` does for every patch of an image, in numba; its twin in NumPy is in the tests."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.kernels import kernel
+from acts_recon.slip.motion_kernels import normal_equations, solve
+
+RESULTS = 7
+"""Numbers that `watch` writes of a patch: whether there is a motion, its five numbers, and in what time [s]."""
+
+# Times differ by more where a taxel was measured anew [s].
+_SAME_TIME_S = 1e-5
+
+
+class Memory(NamedTuple):
+    """What is known of an image of (rows, cols) with so many patches, and buffers.
+
+    Attributes
+    ----------
+    last, before : np.ndarray [shape=(rows, cols), dtype=float32]
+        The last two measurements of each taxel [counts].
+    last_s, before_s : np.ndarray [shape=(rows, cols), dtype=float64]
+        Their times, -inf: none yet [s].
+    now : np.ndarray [shape=(rows, cols), dtype=float32]
+        The image as it stood at one moment, patch by patch.
+    past : np.ndarray [shape=(kept, rows, cols), dtype=float32]
+        Such images of the past, in a ring for each patch.
+    past_s : np.ndarray [shape=(patches, kept), dtype=float64]
+        Their moments, -inf: none [s].
+    newest : np.ndarray [shape=(patches,), dtype=int64]
+        Which of them is the youngest.
+    matrix, inverse : np.ndarray [shape=(4, 5) and (4, 4), dtype=float64]
+        For `solve`.
+    """
+
+    last: NDArray[np.float32]
+    before: NDArray[np.float32]
+    last_s: NDArray[np.float64]
+    before_s: NDArray[np.float64]
+    now: NDArray[np.float32]
+    past: NDArray[np.float32]
+    past_s: NDArray[np.float64]
+    newest: NDArray[np.int64]
+    matrix: NDArray[np.float64]
+    inverse: NDArray[np.float64]
+
+
+class Tuning(NamedTuple):
+    """Settings for the kernel; times [s]."""
+
+    window_s: float
+    keep_s: float
+    max_lag_s: float
+    min_counts: float
+    pressed_counts: float
+    noise_counts: float
+    ridge: float
+
+
+@kernel
+def take(time_s: float, values: NDArray[np.float32], age_s: NDArray[np.float32], memory: Memory) -> None:
+    """Take over what was measured since the last call."""
+    last, before, last_s, before_s = memory.last, memory.before, memory.last_s, memory.before_s
+    for row in range(values.shape[0]):
+        for col in range(values.shape[1]):
+            measured_s = time_s - np.float64(age_s[row, col])
+            if measured_s > last_s[row, col] + _SAME_TIME_S:
+                before[row, col], before_s[row, col] = last[row, col], last_s[row, col]
+                last[row, col], last_s[row, col] = values[row, col], measured_s
+
+
+@kernel
+def _bring_to_one_moment(
+    time_s: float, top: int, end: int, left: int, right: int, memory: Memory, tuning: Tuning
+) -> float:
+    """Write the patch into `now` as it stood when the last of its pressed taxels was measured; returns that moment."""
+    last, before, last_s, before_s, now = memory.last, memory.before, memory.last_s, memory.before_s, memory.now
+    moment_s = time_s
+    for row in range(top, end):
+        for col in range(left, right):
+            if last[row, col] > tuning.pressed_counts:
+                moment_s = min(moment_s, last_s[row, col])
+    moment_s = max(moment_s, time_s - tuning.max_lag_s)
+    for row in range(top, end):
+        for col in range(left, right):
+            later_s, earlier_s = last_s[row, col], before_s[row, col]
+            if later_s <= moment_s or earlier_s == -np.inf:
+                now[row, col] = last[row, col]
+            elif earlier_s >= moment_s:
+                now[row, col] = before[row, col]
+            else:
+                share = (moment_s - earlier_s) / (later_s - earlier_s)
+                now[row, col] = before[row, col] + share * (last[row, col] - before[row, col])
+    return moment_s
+
+
+@kernel
+def watch(
+    time_s: float,
+    bounds: NDArray[np.int64],
+    counts: NDArray[np.float64],
+    memory: Memory,
+    tuning: Tuning,
+    results: NDArray[np.float64],
+) -> None:
+    """Estimate the motion on every patch that is pressed.
+
+    Parameters
+    ----------
+    time_s : float
+        Of what `take` was given last.
+    bounds : np.ndarray [shape=(patches, 4), dtype=int64]
+        First and end row, first and end column of every patch, at least 3 by 3.
+    counts : np.ndarray [shape=(patches,), dtype=float64]
+        Sum over each patch; with fewer than `min_counts` nothing is estimated, and the patch's past is forgotten.
+    memory : Memory
+        Written.
+    tuning : Tuning
+    results : np.ndarray [shape=(patches, RESULTS), dtype=float64]
+        Written; left as it is where no pressed taxel was measured since the last call.
+    """
+    past, past_s, newest = memory.past, memory.past_s, memory.newest
+    kept = past.shape[0]
+    for p in range(bounds.shape[0]):
+        if not counts[p] >= tuning.min_counts:
+            past_s[p] = -np.inf
+            results[p] = 0.0
+            continue
+        top, end, left, right = bounds[p]
+        moment_s = _bring_to_one_moment(time_s, top, end, left, right, memory, tuning)
+        youngest_s = past_s[p, newest[p]]
+        if not moment_s > youngest_s:
+            continue
+        now = memory.now[top:end, left:right]
+        reference = -1
+        for k in range(kept):
+            i = (newest[p] - k) % kept
+            if moment_s - past_s[p, i] >= tuning.window_s:
+                reference = i if past_s[p, i] > -np.inf else -1
+                break
+        results[p] = 0.0
+        if reference >= 0:
+            squares, taxels = normal_equations(past[reference, top:end, left:right], now, memory.matrix)
+            if taxels:
+                right_by, down_by, deviation, gain, growth = solve(
+                    memory.matrix, memory.inverse, squares, taxels, tuning.noise_counts, tuning.ridge
+                )
+                results[p, 0] = 1.0
+                results[p, 1] = right_by
+                results[p, 2] = down_by
+                results[p, 3] = deviation
+                results[p, 4] = gain
+                results[p, 5] = growth
+                results[p, 6] = moment_s - past_s[p, reference]
+        if moment_s - youngest_s >= tuning.keep_s:
+            newest[p] = (newest[p] + 1) % kept
+            past[newest[p], top:end, left:right] = now
+            past_s[p, newest[p]] = moment_s
