@@ -22,6 +22,7 @@ from acts_tools.demo.ball.collector import Collector
 from acts_tools.demo.ball.picture import draw
 from acts_tools.demo.ball.recording import Recording
 from acts_tools.demo.ball.score import score, table
+from acts_tools.demo.claims import claimed_folder, claimed_robot
 from acts_tools.demo.launched import launched
 from acts_tools.demo.watcher import Watcher
 from acts_tools.process_load import LoadMeter
@@ -158,6 +159,11 @@ def run(seconds: float | None, out: Path, robot_ip: str, realtime_priority: int 
         out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise ActsError(f"--out {out}: the folder cannot be made ({error.strerror})") from error
+    with claimed_folder(out), claimed_robot(robot_ip):
+        return _run(seconds, out, robot_ip, realtime_priority)
+
+
+def _run(seconds: float | None, out: Path, robot_ip: str, realtime_priority: int) -> int:
     trajectory, duration_s = plan(seconds)
     use_free_domain()
     print(f"Ball balancing with simulated skin, ball and UR5e: {trajectory.replace(',', ', ')}; {duration_s:.0f} s")

@@ -1,0 +1,36 @@
+"""A second demonstration in the same folder, or with the same robot, is told before anything is started."""
+
+from pathlib import Path
+
+import pytest
+
+from acts_core.errors import LaunchError
+from acts_tools.demo.ball.run import run
+from acts_tools.demo.claims import claimed_folder, claimed_robot
+
+ADDRESS = "127.0.6.12"
+
+
+def test_a_folder_has_one_demonstration_at_a_time(tmp_path: Path) -> None:
+    with claimed_folder(tmp_path):
+        with pytest.raises(LaunchError, match=f"writes to the folder {tmp_path}"):
+            run(10.0, tmp_path, ADDRESS)
+        with claimed_folder(tmp_path.parent):
+            pass
+    with claimed_folder(tmp_path):
+        pass
+
+
+def test_a_robot_has_one_demonstration_at_a_time_also_before_it_is_there(tmp_path: Path) -> None:
+    with claimed_robot(ADDRESS):
+        with pytest.raises(LaunchError, match=f"another demonstration is running with its robot at {ADDRESS}"):
+            run(10.0, tmp_path, ADDRESS)
+        with claimed_robot("127.0.6.13"):
+            pass
+    with claimed_robot(ADDRESS):
+        pass
+
+
+def test_what_goes_wrong_inside_is_not_taken_for_a_claim(tmp_path: Path) -> None:
+    with pytest.raises(BlockingIOError), claimed_folder(tmp_path), claimed_robot(ADDRESS):
+        raise BlockingIOError
