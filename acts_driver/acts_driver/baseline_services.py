@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import time
 from array import array
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
 from rclpy.node import Node
 from std_srvs.srv import Trigger
 
-from acts_core.errors import ActsError, CalibrationError
+from acts_core.background import within_patience
+from acts_core.errors import ActsError, CalibrationError, SettingsError
 from acts_core.frames import SampleFrame
 from acts_driver.baseline import Baseline
 from acts_driver.baseline_parameters import BaselineParameters
@@ -25,6 +26,9 @@ _PUBLISH_PERIOD_S = 1.0
 _MOVED_COUNTS = 0.5
 # Without a frame for so long, nothing is known of the skin of now [s].
 _FRESH_S = 0.5
+
+_WaitFor = Callable[[Callable[[], Baseline | None], str], Baseline | None]
+"""Does a work, of which it is told what it is for a person, and returns its result."""
 
 
 class BaselineServices:
@@ -58,7 +62,8 @@ class BaselineServices:
         self._publisher = node.create_publisher(BaselineMessage, "baseline", **overridable(LATCHED))
         node.create_service(Trigger, "~/calibrate", self._calibrate)
         node.create_service(Trigger, "~/tare", self._tare)
-        self.begin(parameters, rows, cols)
+        # Nobody is answered yet: a slow file has all the time it needs.
+        self._begin(parameters, rows, cols, lambda load, _what: load())
         self._timer = steady_timer(node, _PUBLISH_PERIOD_S, self._publish_where_moved)
 
     def begin(self, parameters: BaselineParameters, rows: int, cols: int) -> None:
@@ -67,12 +72,19 @@ class BaselineServices:
         Raises
         ------
         SettingsError
-            When the file holds no baseline of this array; nothing has changed then.
+            When the file holds no baseline of this array, or takes too long to be read; nothing has changed then.
         """
+        self._begin(parameters, rows, cols, lambda load, what: within_patience(load, SettingsError, what))
+
+    def _begin(self, parameters: BaselineParameters, rows: int, cols: int, wait_for: _WaitFor) -> None:
         file = parameters.calibration_file
         path = None if file in ("", "none") else Path(file).expanduser()
         tracker = BaselineTracker(rows, cols, parameters.baseline_config())
-        baseline = Baseline.load(path, rows, cols) if path is not None and path.exists() else None
+
+        def load() -> Baseline | None:
+            return Baseline.load(path, rows, cols) if path is not None and path.exists() else None
+
+        baseline = None if path is None else wait_for(load, f"reading calibration_file = {path}")
         self._path, self._tracker, self._published, self._heard_s = path, tracker, None, None
         if baseline is not None:
             tracker.set(baseline)
@@ -104,8 +116,9 @@ class BaselineServices:
             baseline = self._tracker.calibrate()
             # In force even where the file cannot be written.
             self._publish(baseline)
-            if self._path is not None:
-                baseline.save(self._path)
+            path = self._path
+            if path is not None:
+                within_patience(lambda: baseline.save(path), SettingsError, f"{path}: storing the baseline")
         except ActsError as error:
             return self._answer(response, False, str(error))
         noise = float(np.median(baseline.noise_counts[baseline.valid]))

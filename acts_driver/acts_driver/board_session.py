@@ -12,7 +12,7 @@ from acts_core.board_models import BoardModel
 from acts_core.commands import BoardSettings, BoardState, ReplyStatus
 from acts_core.errors import ActsError, BoardError, PortError
 from acts_driver.board import BoardLink, NoAnswerError, RefusedError
-from acts_driver.board_model_file import load_model
+from acts_driver.board_model_file import ModelFile
 from acts_driver.board_parameters import BoardParameters
 
 FIRMWARE = (0, 1)
@@ -52,7 +52,7 @@ class BoardSession:
 
     The board is asked every second, at once after `wake`, and brought to what the parameters want wherever it is not.
     What it had by itself when it was first seen after its start counts as its own. Models are uploaded on this thread
-    alone, so that nobody else waits for as long as that takes.
+    alone, and read on another one, so that nobody else waits for as long as that takes.
 
     Parameters
     ----------
@@ -90,8 +90,7 @@ class BoardSession:
         self._heard = -1
         self._settled: tuple[BoardSettings, BoardSettings] | None = None
         self._refused: object = None
-        self._model: BoardModel | None = None
-        self._model_path = ""
+        self._model = self._file_of(parameters)
         self._due: BoardModel | None = None
         self._uploading: BoardModel | None = None
         self._turn = threading.Lock()
@@ -153,22 +152,29 @@ class BoardSession:
         """Want something else from now on, and bring the board to it.
 
         While no board is connected the wish is only noted. A model is announced, which tells whether the board can hold
-        it; `status` tells when it is there.
+        it; `status` tells when it is there. One whose file cannot be read at once counts as wanted: `status` tells what
+        becomes of it.
 
         Raises
         ------
         BoardError, SettingsError
             It cannot be; the settings are as they were and the old wish stays.
         """
+        model = self._model
+        if parameters.model != self._parameters.model:
+            model = self._file_of(parameters)
+        if model is not None:
+            # The board may be asked meanwhile.
+            model.wait()
         with self._turn:
-            self._change(parameters)
+            self._change(parameters, model)
         self.wake()
 
-    def _change(self, parameters: BoardParameters) -> None:
-        before = self._parameters
+    def _change(self, parameters: BoardParameters, model: ModelFile | None) -> None:
+        before = self._parameters, self._model
         try:
             self._check_that_it_listens()
-            self._parameters = parameters
+            self._parameters, self._model = parameters, model
             self._refused = None
             self._wanted_model()
             if self.status.state is not None:
@@ -182,7 +188,7 @@ class BoardSession:
             # Just lost: told to the board when it is back.
             self._set(BoardStatus(problem=str(error)))
         except ActsError:
-            self._parameters = before
+            self._parameters, self._model = before
             # Part of it may have been done.
             self.wake()
             raise
@@ -304,13 +310,11 @@ class BoardSession:
                 self._see(reply.state)
 
     def _wanted_model(self) -> BoardModel | None:
-        path = self._parameters.model
-        if path in ("", "none"):
-            return None
-        if path != self._model_path or self._model is None:
-            self._model = load_model(Path(path))
-            self._model_path = path
-        return self._model
+        """The model that the parameters ask for, where there is one and it has been read."""
+        return None if self._model is None else self._model.model()
+
+    def _file_of(self, parameters: BoardParameters) -> ModelFile | None:
+        return None if parameters.model in ("", "none") else ModelFile(Path(parameters.model), self.wake)
 
     def _mismatch(self, state: BoardState) -> str:
         settings = state.settings
@@ -319,7 +323,9 @@ class BoardSession:
                 f"the board measures {settings.rows} x {settings.cols} taxels, the parameters rows and cols say "
                 f"{self._size[0]} x {self._size[1]}: set them alike"
             )
-        if state.samples_only and self._due is None:
+        if self._model is not None and self._model.problem:
+            return self._model.problem
+        if state.samples_only and self._due is None and (self._model is None or self._model.is_read):
             return (
                 f"the board holds no model for output {settings.output}, it sends samples only: set the parameter model"
             )

@@ -71,6 +71,7 @@ class DriverNode(LifecycleNode):
         keep_system_clock(self, "the board does not wait for simulated time, and frames are stamped as they arrive")
         self.consumers: list[FrameConsumer] = []
         self._source: Source | None = None
+        self._next_source: Source | None = None
         self._problem = ""
         # Of the last report on frames: when [s], level and sentence; None before the first.
         self._reported: tuple[float, int, str] | None = None
@@ -93,7 +94,8 @@ class DriverNode(LifecycleNode):
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Open the port and begin to read."""
         settings = self._settings
-        source = settings.make_source()
+        # The same for every attempt: a recording that takes long to read is ready for the next one.
+        source = self._next_source = self._next_source or settings.make_source()
         try:
             source.open()
         except ActsError as error:
@@ -103,7 +105,7 @@ class DriverNode(LifecycleNode):
             self._problem = str(error)
             return FAILURE
         self._problem = ""
-        self._source = source
+        self._source, self._next_source = source, None
         self.intake = Intake(settings, source, self._publish, log=log_of(self), on_board=self._board.publish)
         self._board.session = self.intake.session
         self.intake.start()
@@ -178,6 +180,7 @@ class DriverNode(LifecycleNode):
         except ActsError as error:
             return str(error)
         self._settings = settings
+        self._next_source = None
         self._diagnostics.hardware_id = self._what
         return ""
 

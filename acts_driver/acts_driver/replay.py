@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator
+from concurrent.futures import Future
 from dataclasses import dataclass
 
+from acts_core import background
 from acts_core.errors import PacketError, PortError, RecordingError
 from acts_core.frames import SampleFrame
 from acts_core.wire import encode_frame
@@ -41,7 +43,7 @@ class ReplaySource:
     name : str
         For a person.
     open_recording : callable
-        Opens the recording, or raises `RecordingError`.
+        Opens the recording, or raises `RecordingError`; on a thread of its own.
     speed : float
         2 replays twice as fast.
     loop : bool
@@ -70,6 +72,7 @@ class ReplaySource:
         self._loop = loop
         self._delay_us = round(delay_s * 1e6)
         self._recording: Recording | None = None
+        self._opening: Future[Recording] | None = None
         self.silence = ""
 
     @property
@@ -78,9 +81,18 @@ class ReplaySource:
         return self._name
 
     def open(self) -> None:
-        """Open the recording, or raise `RecordingError`."""
+        """Open the recording, or raise `RecordingError`.
+
+        Where that takes longer than `background.PATIENCE_S` it is an error, too; it goes on, for the next attempt.
+        """
         self.close()
-        self._recording = self._open_recording()
+        if self._opening is None:
+            self._opening = background.begin(self._open_recording)
+        opening = self._opening
+        if not background.is_done(opening):
+            raise RecordingError(f"{self._name} is still being read; try again until it is")
+        self._opening = None
+        self._recording = opening.result()
         self._pass: Iterator[SampleFrame] = iter(())
         self._in_pass = 0
         self._zero_us: int | None = None

@@ -14,9 +14,12 @@ from collections.abc import Callable
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
 from lifecycle_msgs.srv import ChangeState, GetState
+from rcl_interfaces.srv import SetParametersAtomically
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
+from rclpy.parameter import Parameter
+from std_srvs.srv import Trigger
 
 from acts_driver.driver_node import DriverNode
 from acts_msgs.msg import TactileSamples
@@ -104,6 +107,26 @@ class Rig:
         self.spin_until(future.done, "the state")
         self.listener.destroy_client(client)
         return str(future.result().current_state.label)
+
+    def set_parameters(self, **values: object) -> tuple[bool, str]:
+        """Set parameters of the driver as `ros2 param set` does; whether that succeeded, and the reason."""
+        client = self.listener.create_client(SetParametersAtomically, "driver/set_parameters_atomically")
+        self.spin_until(client.service_is_ready, "the parameter service")
+        request = SetParametersAtomically.Request()
+        request.parameters = [Parameter(name, value=value).to_parameter_msg() for name, value in values.items()]
+        future = client.call_async(request)
+        self.spin_until(future.done, "the answer")
+        self.listener.destroy_client(client)
+        return bool(future.result().result.successful), str(future.result().result.reason)
+
+    def query(self) -> tuple[bool, str]:
+        """Ask for the board; success and message of the answer."""
+        client = self.listener.create_client(Trigger, "driver/query_board")
+        self.spin_until(client.service_is_ready, "the query service")
+        future = client.call_async(Trigger.Request())
+        self.spin_until(future.done, "the answer")
+        self.listener.destroy_client(client)
+        return bool(future.result().success), str(future.result().message)
 
     def close(self) -> None:
         """Shut everything down."""

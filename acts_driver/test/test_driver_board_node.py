@@ -10,9 +10,6 @@ import pytest
 from driver_rig import Rig
 from lifecycle_msgs.msg import Transition
 from pty_board import PtyBoard, frame
-from rcl_interfaces.srv import SetParametersAtomically
-from rclpy.parameter import Parameter
-from std_srvs.srv import Trigger
 from virtual_board import VirtualBoard
 
 from acts_msgs.msg import BoardState
@@ -20,7 +17,7 @@ from acts_ros.qos import LATCHED
 
 
 class BoardRig(Rig):
-    """A rig that also listens to `board` and sets parameters as `ros2 param set` does."""
+    """A rig that also listens to `board`."""
 
     def __init__(self) -> None:
         super().__init__(36)
@@ -28,24 +25,6 @@ class BoardRig(Rig):
 
     def listen_to_board(self) -> None:
         self.listener.create_subscription(BoardState, "board", self.boards.append, LATCHED)
-
-    def set_parameters(self, **values: object) -> tuple[bool, str]:
-        client = self.listener.create_client(SetParametersAtomically, "driver/set_parameters_atomically")
-        self.spin_until(client.service_is_ready, "the parameter service")
-        request = SetParametersAtomically.Request()
-        request.parameters = [Parameter(name, value=value).to_parameter_msg() for name, value in values.items()]
-        future = client.call_async(request)
-        self.spin_until(future.done, "the answer")
-        self.listener.destroy_client(client)
-        return bool(future.result().result.successful), str(future.result().result.reason)
-
-    def query(self) -> tuple[bool, str]:
-        client = self.listener.create_client(Trigger, "driver/query_board")
-        self.spin_until(client.service_is_ready, "the query service")
-        future = client.call_async(Trigger.Request())
-        self.spin_until(future.done, "the answer")
-        self.listener.destroy_client(client)
-        return bool(future.result().success), str(future.result().message)
 
     def wait_for_size(self, m: int) -> None:
         self.spin_until(lambda: self.samples and len(self.samples[-1].indices) == m, f"frames of {m}")

@@ -10,8 +10,6 @@ import pytest
 from driver_rig import Rig
 from lifecycle_msgs.msg import Transition
 from pty_board import wait_for
-from rcl_interfaces.srv import SetParametersAtomically
-from rclpy.parameter import Parameter
 from virtual_board import VirtualBoard
 
 from acts_core.board_models import MODEL_CAPACITY, ModelKind
@@ -37,17 +35,6 @@ def dictionaries(folder: Path, n_atoms: int = SMALLER) -> list[Path]:
     return paths
 
 
-def set_parameters(rig: Rig, **values: object) -> tuple[bool, str]:
-    client = rig.listener.create_client(SetParametersAtomically, "driver/set_parameters_atomically")
-    rig.spin_until(client.service_is_ready, "the parameter service")
-    request = SetParametersAtomically.Request()
-    request.parameters = [Parameter(name, value=value).to_parameter_msg() for name, value in values.items()]
-    future = client.call_async(request)
-    rig.spin_until(future.done, "the answer")
-    rig.listener.destroy_client(client)
-    return bool(future.result().result.successful), str(future.result().result.reason)
-
-
 def status_of(rig: Rig) -> BoardStatus:
     assert rig.driver is not None
     assert rig.driver.intake is not None
@@ -68,7 +55,7 @@ def test_frames_and_reports_go_on_during_an_upload(tmp_path: Path, rig: Rig, cap
         rig.start_driver(port=board.link)
         rig.wait_until_active()
         rig.spin_until(lambda: rig.samples, "a frame")
-        assert set_parameters(rig, model=str(models[0]), output="image", m=64) == (True, "")
+        assert rig.set_parameters(model=str(models[0]), output="image", m=64) == (True, "")
         state = status_of(rig).state
         assert state is not None
         assert (state.settings.m, state.model.kind) == (64, ModelKind.NONE), "settings at once, the model on its way"
@@ -92,7 +79,7 @@ def test_nothing_is_lost_at_1_khz_during_an_upload(tmp_path: Path, rig: Rig) -> 
         rig.wait_until_active()
         rig.spin_until(lambda: rig.samples, "a frame")
         for path in models:
-            assert set_parameters(rig, model=str(path)) == (True, "")
+            assert rig.set_parameters(model=str(path)) == (True, "")
             wanted = load_model(path).crc32
             rig.spin_until(lambda wanted=wanted: held(rig) == wanted, "the model")
         status = rig.status_until(lambda status: True, "a report")
@@ -106,10 +93,10 @@ def test_another_wish_replaces_a_model_on_its_way(tmp_path: Path, rig: Rig) -> N
     with VirtualBoard(tmp_path / "board", "--rate-hz", "50") as board:
         rig.start_driver(port=board.link)
         rig.wait_until_active()
-        assert set_parameters(rig, model=str(models[0]))[0]
-        assert set_parameters(rig, model=str(models[1]), m=100)[0]
+        assert rig.set_parameters(model=str(models[0]))[0]
+        assert rig.set_parameters(model=str(models[1]), m=100)[0]
         # One that cannot be leaves the wish before it.
-        succeeded, reason = set_parameters(rig, model=str(tmp_path / "missing.npz"))
+        succeeded, reason = rig.set_parameters(model=str(tmp_path / "missing.npz"))
         assert not succeeded
         assert "cannot be read" in reason
         wanted = load_model(models[1]).crc32
@@ -125,7 +112,7 @@ def test_a_board_unplugged_during_an_upload_gets_it_when_it_is_back(tmp_path: Pa
     with VirtualBoard(tmp_path / "board", "--rate-hz", "50", "--control", str(control)) as board:
         rig.start_driver(port=board.link, reconnect_s=0.05)
         rig.wait_until_active()
-        assert set_parameters(rig, model=str(models[0]), m=100)[0]
+        assert rig.set_parameters(model=str(models[0]), m=100)[0]
         assert held(rig) == 0
         control.write_text("reset:0.2\n")
         intake = rig.driver.intake if rig.driver is not None else None
@@ -142,7 +129,7 @@ def test_the_driver_ends_during_an_upload(tmp_path: Path, rig: Rig) -> None:
     with VirtualBoard(tmp_path / "board", "--rate-hz", "20") as board:
         driver = rig.start_driver(port=board.link)
         rig.wait_until_active()
-        assert set_parameters(rig, model=str(models[0]))[0]
+        assert rig.set_parameters(model=str(models[0]))[0]
         session = driver.intake.session if driver.intake is not None else None
         assert session is not None
         assert rig.change_state(Transition.TRANSITION_ACTIVE_SHUTDOWN)

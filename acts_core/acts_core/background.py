@@ -1,0 +1,56 @@
+"""Work that may take long or never end, such as reading a file of a server that is away, on a thread of its own."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from concurrent.futures import Future, wait
+from typing import TypeVar
+
+from acts_core.errors import ActsError
+
+T = TypeVar("T")
+
+PATIENCE_S = 0.5
+"""How long a thread that answers others waits for such work [s]."""
+
+
+def begin(work: Callable[[], T]) -> Future[T]:
+    """Begin the work now; what it returns or raises is in the future.
+
+    A process does not wait for it at its end, as it would for the threads of `concurrent.futures`.
+    """
+    future: Future[T] = Future()
+
+    def run() -> None:
+        try:
+            future.set_result(work())
+        # For whoever asks for the result.
+        except BaseException as error:  # noqa: BLE001
+            future.set_exception(error)
+
+    threading.Thread(target=run, name="acts_background", daemon=True).start()
+    return future
+
+
+def is_done(future: Future[T], timeout_s: float = PATIENCE_S) -> bool:
+    """Whether the work has ended, with or without success; waits for it up to a time [s]."""
+    return bool(wait([future], timeout_s).done)
+
+
+def within_patience(work: Callable[[], T], error: type[ActsError], what: str) -> T:
+    """The result of the work; given up after `PATIENCE_S`.
+
+    Parameters
+    ----------
+    work : callable
+        What it raises is raised here.
+    error : type
+        What to raise where it takes longer; the work goes on, and its result is lost.
+    what : str
+        What takes long, for the message.
+    """
+    future = begin(work)
+    if not is_done(future):
+        raise error(f"{what} takes longer than {PATIENCE_S:g} s: is the disk or the server it lies on away?")
+    return future.result()
