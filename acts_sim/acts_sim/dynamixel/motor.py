@@ -65,6 +65,10 @@ class OperatingMode(IntEnum):
     CURRENT_BASED_POSITION = 5
 
 
+# Plain numbers: comparing with the members themselves takes several times as long.
+_CURRENT, _CURRENT_BASED_POSITION = int(OperatingMode.CURRENT), int(OperatingMode.CURRENT_BASED_POSITION)
+
+
 @dataclass(frozen=True)
 class OverloadLaw:
     """When a motor takes itself for overloaded: an assumption, the manual does not say.
@@ -287,7 +291,7 @@ class Motor:
         """
         self._since_start_s += dt_s
         self._watch_bus(dt_s)
-        current_ma = self._wanted_current_ma(dt_s) if self["torque_enable"] else 0.0
+        current_ma = self._wanted_current_ma(dt_s) if self._values["torque_enable"] else 0.0
         current_ma, self.torque_nm = torque_nm(self.model, current_ma, self.shaft.velocity_rad_s)
         self._values["present_current"] = round(current_ma)
         self._watch_load(current_ma, dt_s)
@@ -296,16 +300,18 @@ class Motor:
         return self.torque_nm
 
     def _wanted_current_ma(self, dt_s: float) -> float:
-        mode = self["operating_mode"]
-        limit = float(self["current_limit"])
-        if mode == OperatingMode.CURRENT:
-            return float(self["goal_current"])
-        cap = min(abs(float(self["goal_current"])), limit) if mode == OperatingMode.CURRENT_BASED_POSITION else limit
+        # Not by name from outside: this is done for every motor at every step.
+        values = self._values
+        mode = values["operating_mode"]
+        limit = float(values["current_limit"])
+        if mode == _CURRENT:
+            return float(values["goal_current"])
+        cap = min(abs(float(values["goal_current"])), limit) if mode == _CURRENT_BASED_POSITION else limit
         where = self._trajectory.advance(
-            self["goal_position"], self["profile_velocity"], self["profile_acceleration"], dt_s
+            values["goal_position"], values["profile_velocity"], values["profile_acceleration"], dt_s
         )
         error_ticks = where - self.shaft.position_rad / RAD_PER_TICK
-        gains = (self["position_p_gain"], self["position_i_gain"], self["position_d_gain"])
+        gains = (values["position_p_gain"], values["position_i_gain"], values["position_d_gain"])
         return self._control.current_ma(error_ticks, gains, cap, dt_s)
 
     def _watch_load(self, current_ma: float, dt_s: float) -> None:
@@ -318,8 +324,8 @@ class Motor:
             self.fail(HardwareError.OVERLOAD)
 
     def _watch_bus(self, dt_s: float) -> None:
-        allowed = self["bus_watchdog"]
-        if allowed in (0, _WATCHDOG_EXPIRED) or not self["torque_enable"]:
+        allowed = self._values["bus_watchdog"]
+        if allowed in (0, _WATCHDOG_EXPIRED) or not self._values["torque_enable"]:
             return
         self._silent_s += dt_s
         if self._silent_s > allowed * _WATCHDOG_UNIT_S:

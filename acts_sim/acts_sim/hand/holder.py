@@ -78,15 +78,13 @@ class Holder:
             self._strength = max(self._strength - dt_s / _LET_GO_S, 0.0)
         if self._duration_s:
             self._advance(dt_s)
-        difference = _product(self._quaternion, quaternion * (1.0, -1.0, -1.0, -1.0))
-        if difference[0] < 0.0:
-            difference = -difference
-        return self._strength * np.concatenate(
-            (
-                _STIFFNESS_N_M * (self._position - position_m) - self._damping * velocity_m_s,
-                _TURN_STIFFNESS_NM * 2.0 * difference[1:] - self._turn_damping * turn_rad_s,
-            )
-        )
+        w, x, y, z = quaternion.tolist()
+        difference = _product(self._quaternion, np.array((w, -x, -y, -z)))
+        turn = 2.0 * math.copysign(_TURN_STIFFNESS_NM, difference[0]) * difference[1:]
+        out = np.empty(6)
+        out[:3] = _STIFFNESS_N_M * (self._position - position_m) - self._damping * velocity_m_s
+        out[3:] = turn - self._turn_damping * turn_rad_s
+        return self._strength * out
 
     def _advance(self, dt_s: float) -> None:
         self._elapsed_s = min(self._elapsed_s + dt_s, self._duration_s)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -99,19 +100,27 @@ class Skin:
         self._solids = solids
         parts = [_foam_of(patch, layout, config) for patch in layout.patches]
         self._patch_body = np.array([_body(model, patch.link) for patch in layout.patches])
-        middles = [part.point_m.mean(axis=0) for part in parts]
-        self._patch_middle = np.array(middles)
+        middles = np.array([part.point_m.mean(axis=0) for part in parts])
+        self._patch_middle = middles
         self._patch_reach = np.array(
             [np.linalg.norm(part.point_m - middle, axis=1).max() for part, middle in zip(parts, middles, strict=True)]
         )
-        self._patch_first = np.concatenate(([0], np.cumsum([len(part.point_m) for part in parts])))
+        self._patch_first = np.cumsum([0, *(patch.rows * patch.cols for patch in layout.patches)])
+        blocks = [
+            block
+            for part, patch in zip(parts, layout.patches, strict=True)
+            for block in np.split(part.point_m, patch.rows * patch.cols)
+        ]
+        self._block_first = np.cumsum([0, *(len(block) for block in blocks)])
+        self._block_middle = np.array([block.mean(axis=0) for block in blocks])
+        self._block_reach = np.array([np.linalg.norm(block - block.mean(axis=0), axis=1).max() for block in blocks])
         self._point = np.concatenate([part.point_m for part in parts])
         self._normal = np.concatenate([part.normal for part in parts])
         self._area = np.concatenate([part.area_m2 for part in parts])
         self._taxel = np.concatenate([part.taxel for part in parts])
         self._share = np.concatenate([part.share for part in parts])
         self._bristle = np.zeros((len(self._point), 3))
-        self._touched = np.zeros(len(layout.patches), dtype=np.bool_)
+        self._block_touched = np.zeros(len(blocks), dtype=np.bool_)
         self._foam = np.array(
             [
                 config.foam_stiffness_n_per_m3,
@@ -140,13 +149,16 @@ class Skin:
             self._patch_middle,
             self._patch_reach,
             self._patch_first,
+            self._block_first,
+            self._block_middle,
+            self._block_reach,
             self._point,
             self._normal,
             self._area,
             self._taxel,
             self._share,
             self._bristle,
-            self._touched,
+            self._block_touched,
             self._foam,
             solids.kind,
             solids.body,
@@ -188,7 +200,7 @@ def _waves(solids: Solids, config: SkinConfig, rng: np.random.Generator) -> NDAr
 
 @dataclass(frozen=True)
 class _Foam:
-    """The foam of one patch; see `skin_kernels.press`."""
+    """The foam of one patch, taxel by taxel; see `skin_kernels.press`."""
 
     point_m: NDArray[np.float64]
     normal: NDArray[np.float64]
@@ -209,16 +221,22 @@ def _foam_of(patch: SkinPatch, layout: Layout, config: SkinConfig) -> _Foam:
         pitch_m=patch.pitch_m / across,
         row_pitch_m=patch.row_pitch_m / down,
     )
-    normal = fine.normals().reshape(-1, 3)
-    point_m = fine.points_m().reshape(-1, 3) - config.cover_m * normal
+
+    def by_taxel(fine_grid: NDArray[Any]) -> NDArray[Any]:
+        """What is of every point of the fine grid, taxel by taxel."""
+        whole = fine_grid.reshape(patch.rows, down, patch.cols, across, -1)
+        return np.ascontiguousarray(whole.swapaxes(1, 2)).reshape(fine.rows * fine.cols, -1)
+
+    normal = by_taxel(fine.normals())
+    point_m = by_taxel(fine.points_m()) - config.cover_m * normal
     col, col_share = _spreading(patch.cols, across, patch.pitch_m, config.foam_spread_m)
     row, row_share = _spreading(patch.rows, down, patch.row_pitch_m, config.foam_spread_m)
     matrix = patch.of(layout.taxels).astype(np.int64)
-    # Of every point: three rows by three columns of taxels.
+    # Of every point of the fine grid: three rows by three columns of taxels.
     taxel = matrix[row[:, None, :, None], col[None, :, None, :]]
     share = row_share[:, None, :, None] * col_share[None, :, None, :]
     area_m2 = np.full(len(point_m), fine.geometry.taxel_area_m2)
-    return _Foam(point_m, normal, area_m2, taxel.reshape(-1, 9), share.reshape(-1, 9))
+    return _Foam(point_m, normal, area_m2, by_taxel(taxel), by_taxel(share))
 
 
 def _spreading(

@@ -100,6 +100,15 @@ def _gap(
 
 
 @kernel(error_model="numpy")
+def _is_near(kind: int, size: NDArray[np.float64], s: int, x: float, y: float, z: float, within: float) -> bool:
+    """Whether a sphere of radius `within` about a point may meet a solid; arguments as of `_gap`."""
+    if kind == TIP:
+        reach = size[s, 0] + within
+        return x * x + y * y < reach * reach and -size[s, 1] - within < z < within
+    return _gap(kind, size, s, x, y, z, within)[0] < within
+
+
+@kernel(error_model="numpy")
 def press(
     body_pos: NDArray[np.float64],
     body_mat: NDArray[np.float64],
@@ -111,13 +120,16 @@ def press(
     patch_middle: NDArray[np.float64],
     patch_reach: NDArray[np.float64],
     patch_first: NDArray[np.int64],
+    block_first: NDArray[np.int64],
+    block_middle: NDArray[np.float64],
+    block_reach: NDArray[np.float64],
     point: NDArray[np.float64],
     normal: NDArray[np.float64],
     area: NDArray[np.float64],
     taxel: NDArray[np.int64],
     share: NDArray[np.float64],
     bristle: NDArray[np.float64],
-    patch_touched: NDArray[np.bool_],
+    block_touched: NDArray[np.bool_],
     foam: NDArray[np.float64],
     solid_kind: NDArray[np.int64],
     solid_body: NDArray[np.int64],
@@ -142,7 +154,10 @@ def press(
     root_of : np.ndarray [shape=(bodies,), dtype=int64]
         MuJoCo's body_rootid.
     patch_body, patch_middle, patch_reach, patch_first : np.ndarray
-        Of each patch: body, middle in its frame [m], radius about it [m], first point (one more at the end).
+        Of each patch: body, middle in its frame [m], radius about it [m], first block (one more at the end).
+    block_first, block_middle, block_reach : np.ndarray
+        Of each block, the points of one taxel: first point (one more at the end), middle in the link's frame [m],
+        radius about it [m].
     point, normal, area : np.ndarray
         Of each point of the foam: place in its link's frame [m] below the cover of the skin, direction out of the
         skin, area [m^2].
@@ -150,8 +165,8 @@ def press(
         Taxels that feel a point, and how much of it.
     bristle : np.ndarray [shape=(points, 3), dtype=float64]
         State: how far each point is drawn along, in its link's frame [m].
-    patch_touched : np.ndarray [shape=(patches,), dtype=bool]
-        State: whether any bristle of the patch is drawn.
+    block_touched : np.ndarray [shape=(blocks,), dtype=bool]
+        State: whether any bristle of the block may be drawn.
     foam : np.ndarray [shape=(8,), dtype=float64]
     solid_kind, solid_body, solid_pos, solid_mat, solid_size, solid_there, solid_travel, solid_uneven : np.ndarray
         Of each solid that may press: its kind, body, pose in the body's frame, size, whether it is there at all,
@@ -170,7 +185,7 @@ def press(
     forces[:] = 0.0
     patch_result[:] = 0.0
     solids = len(solid_kind)
-    near = np.empty(solids, dtype=np.int64)
+    near, here = np.empty(solids, dtype=np.int64), np.empty(solids, dtype=np.int64)
     middle = np.empty((solids, 3))
     # Of each solid that is near a patch, in the frame of its link: place, turn, motion, what the skin does to it.
     at, turn = np.empty((solids, 3)), np.empty((solids, 3, 3))
@@ -204,97 +219,109 @@ def press(
             x = turn[k, 0, 0] * dx + turn[k, 1, 0] * dy + turn[k, 2, 0] * dz
             y = turn[k, 0, 1] * dx + turn[k, 1, 1] * dy + turn[k, 2, 1] * dz
             z = turn[k, 0, 2] * dx + turn[k, 1, 2] * dy + turn[k, 2, 2] * dz
-            within = patch_reach[p] + cover + solid_uneven[s]
-            if solid_kind[s] == TIP:
-                beyond = within + solid_size[s, 0] + solid_size[s, 1]
-                is_near = dx * dx + dy * dy + dz * dz < beyond * beyond
-            else:
-                is_near = _gap(solid_kind[s], solid_size, s, x, y, z, within)[0] < within
-            if is_near:
+            if _is_near(solid_kind[s], solid_size, s, x, y, z, patch_reach[p] + cover + solid_uneven[s]):
                 near[k] = s
                 for i in range(3):
                     push[k, i] = 0.0
                     twist[k, i] = 0.0
                 count += 1
-        if count == 0:
-            if patch_touched[p]:
-                bristle[patch_first[p] : patch_first[p + 1]] = 0.0
-                patch_touched[p] = False
-            continue
-        touched = False
         total, tips, sliding, slid = 0.0, 0.0, 0.0, 0.0
-        for i in range(patch_first[p], patch_first[p + 1]):
-            px, py, pz = point[i, 0], point[i, 1], point[i, 2]
-            depth, by = 0.0, -1
-            nx, ny, nz = 0.0, 0.0, 0.0
+        for block in range(patch_first[p], patch_first[p + 1]):
+            close = 0
             for k in range(count):
                 s = near[k]
-                dx, dy, dz = px - at[k, 0], py - at[k, 1], pz - at[k, 2]
+                dx, dy, dz = (
+                    block_middle[block, 0] - at[k, 0],
+                    block_middle[block, 1] - at[k, 1],
+                    block_middle[block, 2] - at[k, 2],
+                )
                 x = turn[k, 0, 0] * dx + turn[k, 1, 0] * dy + turn[k, 2, 0] * dz
                 y = turn[k, 0, 1] * dx + turn[k, 1, 1] * dy + turn[k, 2, 1] * dz
                 z = turn[k, 0, 2] * dx + turn[k, 1, 2] * dy + turn[k, 2, 2] * dz
-                uneven = solid_uneven[s]
-                gap, ax, ay, az = _gap(solid_kind[s], solid_size, s, x, y, z, cover + uneven)
-                if gap >= cover + uneven:
-                    continue
-                if uneven > 0.0:
-                    height = 0.0
-                    for w in range(WAVES):
-                        turns = wave[s, w, 0] * x + wave[s, w, 1] * y + wave[s, w, 2] * z + wave[s, w, 3]
-                        turns -= math.floor(turns + 0.5)
-                        height += turns * (8.0 - 16.0 * abs(turns))  # a sine of parabolas
-                    gap -= uneven * height / WAVES
-                if cover - gap > depth:
-                    depth, by = cover - gap, k
-                    nx = turn[k, 0, 0] * ax + turn[k, 0, 1] * ay + turn[k, 0, 2] * az
-                    ny = turn[k, 1, 0] * ax + turn[k, 1, 1] * ay + turn[k, 1, 2] * az
-                    nz = turn[k, 2, 0] * ax + turn[k, 2, 1] * ay + turn[k, 2, 2] * az
-            # Something at the back of the link does not press its skin.
-            if by < 0 or nx * normal[i, 0] + ny * normal[i, 1] + nz * normal[i, 2] > 0.0:
-                bristle[i, 0] = bristle[i, 1] = bristle[i, 2] = 0.0
+                if _is_near(solid_kind[s], solid_size, s, x, y, z, block_reach[block] + cover + solid_uneven[s]):
+                    here[close] = k
+                    close += 1
+            if close == 0:
+                if block_touched[block]:
+                    bristle[block_first[block] : block_first[block + 1]] = 0.0
+                    block_touched[block] = False
                 continue
-            touched = True
-            # How what presses moves against the skin at this point.
-            vx = drift[by, 0] + spin[by, 1] * pz - spin[by, 2] * py
-            vy = drift[by, 1] + spin[by, 2] * px - spin[by, 0] * pz
-            vz = drift[by, 2] + spin[by, 0] * py - spin[by, 1] * px
-            deeper = vx * nx + vy * ny + vz * nz
-            vx, vy, vz = vx - deeper * nx, vy - deeper * ny, vz - deeper * nz
-            if depth > dense_depth:
-                depth += (dense_factor - 1.0) * (depth - dense_depth)
-            force = stiffness * area[i] * depth * min(max(1.0 + damping * deeper, 0.0), 2.0)
-            # The bristle, in the plane of the contact.
-            ux, uy, uz = bristle[i, 0] + vx * dt, bristle[i, 1] + vy * dt, bristle[i, 2] + vz * dt
-            along = ux * nx + uy * ny + uz * nz
-            ux, uy, uz = ux - along * nx, uy - along * ny, uz - along * nz
-            stiff = shear * area[i]
-            most = friction * force
-            drawn = stiff * math.sqrt(ux * ux + uy * uy + uz * uz)
-            if drawn > most:
-                scale = most / drawn
-                ux, uy, uz = ux * scale, uy * scale, uz * scale
-                sliding += force
-                slid += force * math.sqrt(vx * vx + vy * vy + vz * vz)
-            bristle[i, 0], bristle[i, 1], bristle[i, 2] = ux, uy, uz
-            fx, fy, fz = stiff * (ux + shear_time * vx), stiff * (uy + shear_time * vy), stiff * (uz + shear_time * vz)
-            drawn = math.sqrt(fx * fx + fy * fy + fz * fz)
-            if drawn > most:
-                scale = most / drawn
-                fx, fy, fz = fx * scale, fy * scale, fz * scale
-            fx, fy, fz = fx + force * nx, fy + force * ny, fz + force * nz
-            push[by, 0] += fx
-            push[by, 1] += fy
-            push[by, 2] += fz
-            twist[by, 0] += py * fz - pz * fy
-            twist[by, 1] += pz * fx - px * fz
-            twist[by, 2] += px * fy - py * fx
-            for k in range(9):
-                forces[taxel[i, k]] += force * share[i, k]
-            total += force
-            if solid_kind[near[by]] == TIP:
-                tips += force
-        patch_touched[p] = touched
-        if touched:
+            block_touched[block] = True
+            for i in range(block_first[block], block_first[block + 1]):
+                px, py, pz = point[i, 0], point[i, 1], point[i, 2]
+                depth, by = 0.0, -1
+                nx, ny, nz = 0.0, 0.0, 0.0
+                for one in range(close):
+                    k = here[one]
+                    s = near[k]
+                    dx, dy, dz = px - at[k, 0], py - at[k, 1], pz - at[k, 2]
+                    x = turn[k, 0, 0] * dx + turn[k, 1, 0] * dy + turn[k, 2, 0] * dz
+                    y = turn[k, 0, 1] * dx + turn[k, 1, 1] * dy + turn[k, 2, 1] * dz
+                    z = turn[k, 0, 2] * dx + turn[k, 1, 2] * dy + turn[k, 2, 2] * dz
+                    uneven = solid_uneven[s]
+                    gap, ax, ay, az = _gap(solid_kind[s], solid_size, s, x, y, z, cover + uneven)
+                    if gap >= cover + uneven:
+                        continue
+                    if uneven > 0.0:
+                        height = 0.0
+                        for w in range(WAVES):
+                            turns = wave[s, w, 0] * x + wave[s, w, 1] * y + wave[s, w, 2] * z + wave[s, w, 3]
+                            turns -= math.floor(turns + 0.5)
+                            height += turns * (8.0 - 16.0 * abs(turns))  # a sine of parabolas
+                        gap -= uneven * height / WAVES
+                    if cover - gap > depth:
+                        depth, by = cover - gap, k
+                        nx = turn[k, 0, 0] * ax + turn[k, 0, 1] * ay + turn[k, 0, 2] * az
+                        ny = turn[k, 1, 0] * ax + turn[k, 1, 1] * ay + turn[k, 1, 2] * az
+                        nz = turn[k, 2, 0] * ax + turn[k, 2, 1] * ay + turn[k, 2, 2] * az
+                # Something at the back of the link does not press its skin.
+                if by < 0 or nx * normal[i, 0] + ny * normal[i, 1] + nz * normal[i, 2] > 0.0:
+                    bristle[i, 0] = bristle[i, 1] = bristle[i, 2] = 0.0
+                    continue
+                # How what presses moves against the skin at this point.
+                vx = drift[by, 0] + spin[by, 1] * pz - spin[by, 2] * py
+                vy = drift[by, 1] + spin[by, 2] * px - spin[by, 0] * pz
+                vz = drift[by, 2] + spin[by, 0] * py - spin[by, 1] * px
+                deeper = vx * nx + vy * ny + vz * nz
+                vx, vy, vz = vx - deeper * nx, vy - deeper * ny, vz - deeper * nz
+                if depth > dense_depth:
+                    depth += (dense_factor - 1.0) * (depth - dense_depth)
+                force = stiffness * area[i] * depth * min(max(1.0 + damping * deeper, 0.0), 2.0)
+                # The bristle, in the plane of the contact.
+                ux, uy, uz = bristle[i, 0] + vx * dt, bristle[i, 1] + vy * dt, bristle[i, 2] + vz * dt
+                along = ux * nx + uy * ny + uz * nz
+                ux, uy, uz = ux - along * nx, uy - along * ny, uz - along * nz
+                stiff = shear * area[i]
+                most = friction * force
+                drawn = stiff * math.sqrt(ux * ux + uy * uy + uz * uz)
+                if drawn > most:
+                    scale = most / drawn
+                    ux, uy, uz = ux * scale, uy * scale, uz * scale
+                    sliding += force
+                    slid += force * math.sqrt(vx * vx + vy * vy + vz * vz)
+                bristle[i, 0], bristle[i, 1], bristle[i, 2] = ux, uy, uz
+                fx, fy, fz = (
+                    stiff * (ux + shear_time * vx),
+                    stiff * (uy + shear_time * vy),
+                    stiff * (uz + shear_time * vz),
+                )
+                drawn = math.sqrt(fx * fx + fy * fy + fz * fz)
+                if drawn > most:
+                    scale = most / drawn
+                    fx, fy, fz = fx * scale, fy * scale, fz * scale
+                fx, fy, fz = fx + force * nx, fy + force * ny, fz + force * nz
+                push[by, 0] += fx
+                push[by, 1] += fy
+                push[by, 2] += fz
+                twist[by, 0] += py * fz - pz * fy
+                twist[by, 1] += pz * fx - px * fz
+                twist[by, 2] += px * fy - py * fx
+                for k in range(9):
+                    forces[taxel[i, k]] += force * share[i, k]
+                total += force
+                if solid_kind[near[by]] == TIP:
+                    tips += force
+        if total > 0.0:
             patch_result[p, FORCE], patch_result[p, SLIDING_FORCE] = total, sliding
             patch_result[p, SLIDING_SPEED], patch_result[p, TIP_FORCE] = slid / max(total, 1e-12), tips
             for k in range(count):
