@@ -76,6 +76,18 @@ def test_limits_are_those_of_the_hand(hand: tuple[mujoco.MjModel, mujoco.MjData]
         assert tuple(made.jnt_range[joint]) == pytest.approx(link.limits_rad)
 
 
+def test_the_kinematics_are_those_of_the_model(hand: tuple[mujoco.MjModel, mujoco.MjData]) -> None:
+    made, _ = hand
+    data = mujoco.MjData(made)
+    q_rad = [0.1 + 0.05 * k for k in range(16)]
+    for link in LINKS:
+        data.joint(link.joint).qpos[0] = q_rad[link.motor_id]
+    mujoco.mj_kinematics(made, data)
+    for name, (origin_m, rotation) in kinematics.frames(q_rad).items():
+        assert data.body(name).xpos == pytest.approx(origin_m, abs=1e-9)
+        assert data.body(name).xmat.reshape(3, 3) == pytest.approx(rotation, abs=1e-9)
+
+
 def test_the_skin_lies_on_the_solids_of_its_links(hand: tuple[mujoco.MjModel, mujoco.MjData]) -> None:
     made, data = hand
     patches = layout("leap_right").patches

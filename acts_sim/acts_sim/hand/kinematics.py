@@ -7,6 +7,8 @@ capsules and boxes around the middle lines of the links.
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -180,13 +182,21 @@ def rotation_of(quaternion: tuple[float, float, float, float]) -> NDArray[np.flo
     )
 
 
-def open_frames() -> dict[str, tuple[NDArray[np.float64], NDArray[np.float64]]]:
-    """Origin [m] (3,) and rotation (3, 3) of every link in the palm's frame while all joints are at 0."""
-    frames = {PALM: (np.zeros(3), np.eye(3))}
+def frames(q_rad: Sequence[float] = (0.0,) * 16) -> dict[str, tuple[NDArray[np.float64], NDArray[np.float64]]]:
+    """Origin [m] (3,) and rotation (3, 3) of every link in the palm's frame.
+
+    Parameters
+    ----------
+    q_rad : sequence of float
+        Angles of the joints in the order of the motors; all at 0, the hand is open and flat.
+    """
+    found = {PALM: (np.zeros(3), np.eye(3))}
     for link in LINKS:
-        origin_m, rotation = frames[link.parent]
-        frames[link.name] = (
+        origin_m, rotation = found[link.parent]
+        c, s = math.cos(q_rad[link.motor_id]), math.sin(q_rad[link.motor_id])
+        turned = np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
+        found[link.name] = (
             origin_m + rotation @ np.array(link.offset_m),
-            rotation @ rotation_of(link.quaternion),
+            rotation @ rotation_of(link.quaternion) @ turned,
         )
-    return frames
+    return found

@@ -9,7 +9,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_sim.hand.kinematics import FINGERS, LINKS, PALM, PALM_MASS_KG, SOLIDS, Solid, open_frames
+from acts_sim.hand.kinematics import FINGERS, LINKS, PALM, PALM_MASS_KG, SOLIDS, Solid, frames
 from acts_sim.hand.objects import HeldObject, Piece
 from acts_sim.hand.skin_kernels import BOX, CAPSULE, CYLINDER
 
@@ -62,8 +62,12 @@ def _document(thing: HeldObject | None, timestep_s: float) -> ElementTree.Elemen
     visual = ElementTree.SubElement(root, "visual")
     ElementTree.SubElement(visual, "global", offwidth="1280", offheight="960")
     ElementTree.SubElement(visual, "headlight", ambient="0.45 0.45 0.45", diffuse="0.6 0.6 0.6", specular="0.1 0.1 0.1")
+    assets = ElementTree.SubElement(root, "asset")
+    ElementTree.SubElement(
+        assets, "texture", type="skybox", builtin="flat", rgb1="0.97 0.97 0.97", width="8", height="8"
+    )
     world = ElementTree.SubElement(root, "worldbody")
-    frames = open_frames()
+    at_rest = frames()
     bodies = {PALM: ElementTree.SubElement(world, "body", name=PALM)}
     masses = {PALM: PALM_MASS_KG, **{link.name: link.mass_kg for link in LINKS}}
     for link in LINKS:
@@ -83,7 +87,7 @@ def _document(thing: HeldObject | None, timestep_s: float) -> ElementTree.Elemen
         )
     for solid in SOLIDS:
         of_link = sum(other.link == solid.link for other in SOLIDS)
-        _add_solid(bodies[solid.link], solid, frames[solid.link], masses[solid.link] / of_link)
+        _add_solid(bodies[solid.link], solid, at_rest[solid.link], masses[solid.link] / of_link)
     if thing is not None:
         _add_object(world, thing)
     tip = ElementTree.SubElement(world, "body", name=TIP, mocap="true", pos=_text(PARKED_M))

@@ -65,7 +65,7 @@ class HandPicture:
         camera = mujoco.MjvCamera()
         camera.type = mujoco.mjtCamera.mjCAMERA_FREE
         camera.lookat[:] = _LOOK_AT_M
-        camera.distance = 0.42
+        camera.distance = 0.36
         camera.azimuth, camera.elevation = VIEWS[view]
         option, perturbation = mujoco.MjvOption(), mujoco.MjvPerturb()
         mujoco.mjv_updateScene(world.model, world.data, option, perturbation, camera, mujoco.mjtCatBit.mjCAT_ALL, scene)
