@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 from hand_motors import AROUND_SPHERE, close, switch_on
@@ -64,3 +67,9 @@ def test_motors_see_their_joints() -> None:
     close(world, [0.0] * 16, 50, 300)
     assert world.truth.q_rad[5] == pytest.approx(before)
     assert abs(world.truth.q_rad[1]) < 0.2
+
+
+def test_what_needs_no_hand_does_not_load_mujoco() -> None:
+    modules = "acts_sim.world_loop, acts_sim.timed_ring, acts_sim.dynamixel.main, acts_sim.ur.main"
+    code = f"import sys, {modules}; sys.exit('mujoco' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], timeout=60).returncode == 0

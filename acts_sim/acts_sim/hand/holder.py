@@ -29,6 +29,8 @@ class Holder:
         self._start = self._position = self._end = np.zeros(3)
         self._quaternion = self._start_quaternion = np.array([1.0, 0.0, 0.0, 0.0])
         self._turn = np.zeros(3)
+        # Of the pose, as share of the way [1/s].
+        self._speed_s = 0.0
         self._elapsed_s = self._duration_s = 0.0
         self._strength = 0.0
         self._letting_go = False
@@ -48,7 +50,7 @@ class Holder:
         self._position = self._start = self._end = position_m.copy()
         self._quaternion = self._start_quaternion = quaternion.copy()
         self._turn = np.zeros(3)
-        self._duration_s = 0.0
+        self._duration_s = self._speed_s = 0.0
         self._strength, self._letting_go = 1.0, False
 
     def let_go(self) -> None:
@@ -82,14 +84,17 @@ class Holder:
         difference = _product(self._quaternion, np.array((w, -x, -y, -z)))
         turn = 2.0 * math.copysign(_TURN_STIFFNESS_NM, difference[0]) * difference[1:]
         out = np.empty(6)
-        out[:3] = _STIFFNESS_N_M * (self._position - position_m) - self._damping * velocity_m_s
-        out[3:] = turn - self._turn_damping * turn_rad_s
+        out[:3] = _STIFFNESS_N_M * (self._position - position_m) + self._damping * (
+            self._speed_s * (self._end - self._start) - velocity_m_s
+        )
+        out[3:] = turn + self._turn_damping * (self._speed_s * self._turn - turn_rad_s)
         return self._strength * out
 
     def _advance(self, dt_s: float) -> None:
         self._elapsed_s = min(self._elapsed_s + dt_s, self._duration_s)
         x = self._elapsed_s / self._duration_s
         share = x * x * x * (10.0 - 15.0 * x + 6.0 * x * x)  # no jerk at its begin and end
+        self._speed_s = 30.0 * (x * (1.0 - x)) ** 2 / self._duration_s
         self._position = self._start + share * (self._end - self._start)
         self._quaternion = _product(_turned(share * self._turn), self._start_quaternion)
         if x >= 1.0:
