@@ -17,8 +17,10 @@ from acts_core.board_models import BoardModel, ModelKind
 from acts_core.board_settings import SETTINGS_SIZE, BoardSettings, SettingField
 from acts_core.errors import PacketError
 from acts_core.packets import PacketType, seal, wrong_release
+from acts_core.skin_map import SkinMap
 
 __all__ = [
+    "MAP_PIECE_MAX",
     "UPLOAD_PIECE_MAX",
     "BoardSettings",
     "BoardState",
@@ -28,6 +30,8 @@ __all__ = [
     "SettingField",
     "decode_reply",
     "encode_configure",
+    "encode_map_data",
+    "encode_map_end",
     "encode_query",
     "encode_reply",
     "encode_upload_begin",
@@ -38,6 +42,9 @@ __all__ = [
 UPLOAD_PIECE_MAX = 1024
 """Bytes of a model in one packet."""
 
+MAP_PIECE_MAX = 512
+"""Places of a layout in one packet."""
+
 _REQUEST = struct.Struct("<I")
 # kind, patch side, patch step, objects, rows, columns, bytes, crc32
 _UPLOAD_BEGIN = struct.Struct("<BBBBHHII")
@@ -46,6 +53,12 @@ _UPLOAD_DATA = struct.Struct("<I")
 _REPLY_HEAD = struct.Struct("<IBBHI3BBQQ")
 # model: kind, patch side, patch step, objects, rows, columns, crc32; capacity, overruns, bad commands
 _REPLY_TAIL = struct.Struct("<BBBBHHIIII")
+
+# Of the map in force; boards of earlier firmware end before.
+_REPLY_MAP = struct.Struct("<I")
+# first place; rows, columns, patch without skin, reserved, crc32
+_MAP_DATA = struct.Struct("<H")
+_MAP_END = struct.Struct("<4sI")
 
 _REPLY_SIZE = _REPLY_HEAD.size + SETTINGS_SIZE + _REPLY_TAIL.size
 _FLAG_SAMPLES_ONLY = 1
@@ -64,6 +77,7 @@ class ReplyStatus(IntEnum):
     MODEL_IMPOSSIBLE = 5
     UPLOAD_OUT_OF_ORDER = 6
     MODEL_CHECKSUM = 7
+    MAP_IMPOSSIBLE = 8
 
 
 @dataclass(frozen=True)
@@ -121,6 +135,9 @@ class BoardState:
         Frames the board had to drop since its start, wraps at 2**32.
     bad_commands : int
         Damaged packets from the host since the start, wraps at 2**32.
+    map_crc32 : int or None
+        `SkinMap.crc32` of the layout in force, 0 where that is the matrix itself; None from a board that knows no
+        layouts.
     """
 
     firmware_version: tuple[int, int, int]
@@ -133,6 +150,7 @@ class BoardState:
     model_capacity_bytes: int
     overruns: int
     bad_commands: int
+    map_crc32: int | None = None
 
 
 @dataclass(frozen=True)
@@ -181,6 +199,7 @@ _PROBLEMS = {
     ReplyStatus.BAD_LENGTH: "the board's firmware wants command {command} in another length: install the same release "
     "as the driver's",
     ReplyStatus.MODEL_IMPOSSIBLE: "the board cannot hold this model: finite numbers in up to {capacity} bytes",
+    ReplyStatus.MAP_IMPOSSIBLE: "the board cannot take this layout: not made for its matrix, or damaged on the way",
     ReplyStatus.MODEL_CHECKSUM: "the model's checksum is wrong on the board: upload it again",
 }
 
@@ -232,6 +251,18 @@ def encode_upload_end(request: int) -> bytes:
     return _command(PacketType.UPLOAD_END, request)
 
 
+def encode_map_data(request: int, skin_map: SkinMap, first: int) -> bytes:
+    """Send up to `MAP_PIECE_MAX` places of a layout, from the place `first` on."""
+    entries = skin_map.entries()[2 * first : 2 * (first + MAP_PIECE_MAX)]
+    return _command(PacketType.MAP_DATA, request, _MAP_DATA.pack(first) + entries)
+
+
+def encode_map_end(request: int, skin_map: SkinMap | None) -> bytes:
+    """Put the layout that was sent into force; None: the matrix itself."""
+    body = bytes(_MAP_END.size) if skin_map is None else _MAP_END.pack(skin_map.head(), skin_map.crc32)
+    return _command(PacketType.MAP_END, request, body)
+
+
 def _command(kind: PacketType, request: int, body: bytes = b"") -> bytes:
     return seal(kind, _REQUEST.pack(request & 0xFFFFFFFF) + body)
 
@@ -263,7 +294,8 @@ def encode_reply(reply: Reply) -> bytes:
         state.overruns,
         state.bad_commands,
     )
-    return seal(PacketType.REPLY, head + state.settings.to_bytes() + tail)
+    of_map = b"" if state.map_crc32 is None else _REPLY_MAP.pack(state.map_crc32)
+    return seal(PacketType.REPLY, head + state.settings.to_bytes() + tail + of_map)
 
 
 def decode_reply(content: bytes) -> Reply:
@@ -274,8 +306,10 @@ def decode_reply(content: bytes) -> Reply:
     PacketError
         When it is not a reply that this release knows.
     """
-    if len(content) != _REPLY_SIZE:
-        raise wrong_release(f"reply of {len(content)} bytes; this release knows {_REPLY_SIZE}")
+    if len(content) not in (_REPLY_SIZE, _REPLY_SIZE + _REPLY_MAP.size):
+        raise wrong_release(
+            f"reply of {len(content)} bytes; this release knows {_REPLY_SIZE} and {_REPLY_SIZE + _REPLY_MAP.size}"
+        )
     request, command, status, reserved, detail, major, minor, patch, flags, board_id, uptime_us = (
         _REPLY_HEAD.unpack_from(content)
     )
@@ -298,5 +332,6 @@ def decode_reply(content: bytes) -> Reply:
         model_capacity_bytes=capacity,
         overruns=overruns,
         bad_commands=bad_commands,
+        map_crc32=None if len(content) == _REPLY_SIZE else _REPLY_MAP.unpack_from(content, _REPLY_SIZE)[0],
     )
     return Reply(request, command, ReplyStatus(status), detail, state)

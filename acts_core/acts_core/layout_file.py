@@ -18,8 +18,8 @@ from acts_core.yaml_places import Section, is_number, read_yaml, shown
 NO_PATCH = 255
 """In place of the index of a patch, where there is no skin."""
 
-MAX_PATCHES = 15
-"""A board is told four bits for each taxel; one of their values stands for no patch."""
+MAX_PATCHES = 16
+"""A board is told four bits for each taxel (`acts_core.skin_map`); where some are no skin, one value is theirs."""
 
 _FILE_KEYS = ("matrix", "picture", "pitch_m", "row_pitch_m", "patches")
 _PATCH_KEYS = ("at", "wires", "link", "pose", "pitch_m", "row_pitch_m", "radius_m", "row_radius_m")
@@ -96,6 +96,10 @@ def read_layout(path: Path, rows: int, cols: int) -> LayoutFile:
                     "wires",
                 )
             owner[taxel] = one.patch.name
+    if len(wired) == MAX_PATCHES and (taxels < 0).any():
+        raise top.error(
+            f"patches: {len(wired)}, and places without skin; allowed are {MAX_PATCHES - 1} then", "patches"
+        )
     # Where there is no skin, the rest of the matrix in any order: every taxel has a place.
     taxels[taxels < 0] = np.setdiff1d(np.arange(rows * cols), taxels)
     geometry = ArrayGeometry(picture_rows, picture_cols, pitch_m, row_pitch_m)

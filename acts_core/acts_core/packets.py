@@ -36,6 +36,8 @@ class PacketType(IntEnum):
     UPLOAD_BEGIN = 18
     UPLOAD_DATA = 19
     UPLOAD_END = 20
+    MAP_DATA = 21
+    MAP_END = 22
 
 
 class ChecksumError(PacketError):

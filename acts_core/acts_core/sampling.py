@@ -23,6 +23,7 @@ from acts_core.errors import ArrayError, SettingsError
 from acts_core.frames import Scheme
 from acts_core.random_taxels import RandomTaxels
 from acts_core.settings import setting, validate
+from acts_core.skin_map import SkinMap
 from acts_core.tracking import Tracking
 from acts_core.uniform import uniform, uniform_spacing
 
@@ -92,15 +93,27 @@ class SamplingConfig:
 
 
 class Sampler:
-    """Samples frame after frame; holds what goes from one to the next (uniform offset, random numbers, flags)."""
+    """Samples frame after frame; holds what goes from one to the next (uniform offset, random numbers, flags).
 
-    def __init__(self, config: SamplingConfig) -> None:
+    Parameters
+    ----------
+    config : SamplingConfig
+    skin_map : SkinMap, optional
+        How the taxels lie on the skin, for the schemes that look for neighbours; without it, as in the matrix.
+    """
+
+    def __init__(self, config: SamplingConfig, skin_map: SkinMap | None = None) -> None:
         self.config = config
+        self._map = skin_map or SkinMap.of_matrix(config.rows, config.cols)
+        if len(self._map.taxels) != config.rows * config.cols:
+            raise ArrayError(
+                f"map of {len(self._map.taxels)} taxels: the matrix is {config.rows} x {config.cols}; give one of that"
+            )
         self._frame = 0
         self._random = RandomTaxels(config.rows, config.cols, config.seed)
         self._tracking = Tracking(
-            dither_order(config.rows, config.cols),
-            config.rows,
+            dither_order(self._map.rows, self._map.cols),
+            self._map,
             config.cols,
             config.m,
             search_quota=config.search_quota,
@@ -145,6 +158,7 @@ class Sampler:
             m,
             threshold_counts=config.threshold_counts,
             neighbour_order=config.neighbour_order,
+            skin_map=self._map,
         )
 
     def _hybrid(self, measure: Measure) -> tuple[NDArray[np.uint16], NDArray[np.uint16]]:
@@ -174,34 +188,44 @@ def measure_in(field: ArrayLike) -> Measure:
 
 
 def adaptive(
-    measure: Measure, rows: int, cols: int, m: int, *, threshold_counts: int = 180, neighbour_order: str = "columns"
+    measure: Measure,
+    rows: int,
+    cols: int,
+    m: int,
+    *,
+    threshold_counts: int = 180,
+    neighbour_order: str = "columns",
+    skin_map: SkinMap | None = None,
 ) -> tuple[NDArray[np.uint16], NDArray[np.uint16]]:
     """Walk the division order; around a taxel above the threshold search the neighbours first, depth first.
 
     Paper, Supplemental Algorithm 1, with the two points in which the published firmware differs from it: exactly `m`
-    taxels are measured, and the threshold itself does not count as a touch.
+    taxels are measured, and the threshold itself does not count as a touch. Order and neighbours are those of the skin
+    where there is a `skin_map`, and no neighbour is on another patch.
 
     Returns
     -------
     indices, counts : np.ndarray [shape=(m,), dtype=uint16]
         As in `Sampler.frame`.
     """
+    skin = skin_map or SkinMap.of_matrix(rows, cols)
     steps = NEIGHBOURS[neighbour_order]
-    measured = np.zeros((rows, cols), dtype=bool)
+    measured = np.zeros((skin.rows, skin.cols), dtype=bool)
     indices: list[int] = []
     counts: list[int] = []
 
     def touched(row: int, col: int) -> bool:
-        count = measure(row, col)
+        place = row * skin.cols + col
+        count = measure(*divmod(skin.taxels[place], cols))
         measured[row, col] = True
-        indices.append(row * cols + col)
+        indices.append(skin.taxels[place])
         counts.append(count)
-        return count > threshold_counts
+        return count > threshold_counts and skin.has_skin(place)
 
-    for index in division_order(rows, cols).tolist():
+    for place in division_order(skin.rows, skin.cols).tolist():
         if len(indices) == m:
             break
-        row, col = divmod(index, cols)
+        row, col = divmod(place, skin.cols)
         if measured[row, col] or not touched(row, col):
             continue
         # A stack instead of recursion, here and on the board: a palm on the skin is a thousand levels deep.
@@ -213,8 +237,10 @@ def adaptive(
                 stack.pop()
                 continue
             near_row, near_col = row + step[0], col + step[1]
-            outside = not (0 <= near_row < rows and 0 <= near_col < cols)
+            outside = not (0 <= near_row < skin.rows and 0 <= near_col < skin.cols)
             if outside or measured[near_row, near_col]:
+                continue
+            if not skin.joined(row * skin.cols + col, near_row * skin.cols + near_col):
                 continue
             if touched(near_row, near_col):
                 stack.append((near_row, near_col, iter(steps)))

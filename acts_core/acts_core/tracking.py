@@ -15,14 +15,17 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.skin_map import SkinMap
+
 
 class Tracking:
     """Chooses the taxels of tracking sampling, frame after frame (C++ twin: ``acts::Tracking``).
 
     A taxel is flagged as pressed when it was above the threshold the last time it was measured. Candidates are the
-    flagged taxels and their eight neighbours, as they stand when the frame begins. Of the `m` taxels of a frame, up to
-    ``m - search_quota`` are candidates: row by row, cyclically from the first one that the frame before left out. They
-    are measured at the end of the frame: an image is of that moment, and what is pressed is what changes.
+    flagged taxels and their eight neighbours on the same patch of skin, as they stand when the frame begins. Of the `m`
+    taxels of a frame, up to ``m - search_quota`` are candidates: row by row, cyclically from the first one that the
+    frame before left out. They are measured at the end of the frame: an image is of that moment, and what is pressed is
+    what changes.
 
     Before them `search_quota` or more follow the order of search from where it stopped, without the candidates of this
     frame and what it has measured already. What exceeds the quota goes to the neighbours of the taxels that the search
@@ -37,9 +40,11 @@ class Tracking:
     Parameters
     ----------
     order : np.ndarray [shape=(rows * cols,), dtype=uint16]
-        Order of search, every taxel once, as row-major indices.
-    rows, cols : int
-        Size of the array.
+        Order of search, every place of the picture once, as row-major indices.
+    skin_map : SkinMap
+        How the taxels lie on the skin.
+    cols : int
+        Columns of the matrix.
     m : int
         Taxels measured per frame, 1 to ``rows * cols``.
     search_quota : int
@@ -49,35 +54,46 @@ class Tracking:
     """
 
     def __init__(
-        self, order: NDArray[np.uint16], rows: int, cols: int, m: int, *, search_quota: int, threshold_counts: int
+        self,
+        order: NDArray[np.uint16],
+        skin_map: SkinMap,
+        cols: int,
+        m: int,
+        *,
+        search_quota: int,
+        threshold_counts: int,
     ) -> None:
+        self._map = skin_map
+        self._matrix_cols = cols
         self._order: list[int] = order.tolist()
         self._m = m
         self._search_quota = search_quota
         self._threshold_counts = threshold_counts
-        self._pressed = np.zeros((rows, cols), dtype=bool)
+        self._pressed = np.zeros((skin_map.rows, skin_map.cols), dtype=bool)
+        self._patches = np.array(skin_map.patches).reshape(self._pressed.shape)
         self._cursor = 0
         self._walk = 0
 
     def frame(self, measure: Callable[[int, int], int]) -> tuple[NDArray[np.uint16], NDArray[np.uint16]]:
         """Sample one frame; as `acts_core.sampling.Sampler.frame`."""
         rows, cols = self._pressed.shape
+        skin = self._map
         followed = self._follow()
         others = self._m - len(followed)
         reserved = set(followed)
         measured: dict[int, int] = {}
         found: deque[tuple[int, int]] = deque()
 
-        def take(index: int) -> None:
-            row, col = divmod(index, cols)
-            measured[index] = measure(row, col)
-            pressed = measured[index] > self._threshold_counts
+        def take(place: int) -> None:
+            row, col = divmod(place, cols)
+            measured[place] = measure(*divmod(skin.taxels[place], self._matrix_cols))
+            pressed = measured[place] > self._threshold_counts and skin.has_skin(place)
             if pressed and not self._pressed[row, col]:
                 found.append((row, col))
             self._pressed[row, col] = pressed
 
-        def is_free(index: int) -> bool:
-            return index not in measured and index not in reserved
+        def is_free(place: int) -> bool:
+            return place not in measured and place not in reserved
 
         searched = 0
         while len(measured) < others:
@@ -85,27 +101,30 @@ class Tracking:
                 row, col = found.popleft()
                 for near_row in range(max(row - 1, 0), min(row + 2, rows)):
                     for near_col in range(max(col - 1, 0), min(col + 2, cols)):
-                        index = near_row * cols + near_col
-                        if is_free(index) and len(measured) < others:
-                            take(index)
+                        near = near_row * cols + near_col
+                        if skin.joined(row * cols + col, near) and is_free(near) and len(measured) < others:
+                            take(near)
                 continue
-            index = self._order[self._walk]
+            place = self._order[self._walk]
             self._walk = (self._walk + 1) % len(self._order)
-            if is_free(index):
-                take(index)
+            if is_free(place):
+                take(place)
                 searched += 1
-        for index in followed:
-            take(index)
-        return np.array(list(measured), dtype=np.uint16), np.array(list(measured.values()), dtype=np.uint16)
+        for place in followed:
+            take(place)
+        taxels = [skin.taxels[place] for place in measured]
+        return np.array(taxels, dtype=np.uint16), np.array(list(measured.values()), dtype=np.uint16)
 
     def _follow(self) -> list[int]:
         """The candidates that this frame measures; moves the cursor to the first that it leaves out."""
         rows, cols = self._pressed.shape
         padded = np.pad(self._pressed, 1)
+        patches = np.pad(self._patches, 1, constant_values=-1)
         near = np.zeros_like(self._pressed)
         for row in range(3):
             for col in range(3):
-                near |= padded[row : row + rows, col : col + cols]
+                there = np.s_[row : row + rows, col : col + cols]
+                near |= padded[there] & (patches[there] == self._patches)
         candidates = np.flatnonzero(near)
         from_cursor = np.roll(candidates, -int(np.searchsorted(candidates, self._cursor))).tolist()
         limit = self._m - self._search_quota

@@ -121,7 +121,7 @@ def test_what_is_wrong_is_told_with_its_line(tmp_path: Path, old: str, new: str,
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("patches: {}", "0 of them; allowed are 1 to 15"),
+        ("patches: {}", "0 of them; allowed are 1 to 16"),
         ("pitch_m: 1", "0 of them"),
         ("patches: {a: {}}", "wires is missing"),
         ("patches: {a: {wires: []}}", "at least one block"),

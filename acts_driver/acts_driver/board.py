@@ -10,17 +10,21 @@ from functools import partial
 from acts_core.board_messages import BoardMessage
 from acts_core.board_models import BoardModel
 from acts_core.commands import (
+    MAP_PIECE_MAX,
     UPLOAD_PIECE_MAX,
     BoardSettings,
     Reply,
     ReplyStatus,
     encode_configure,
+    encode_map_data,
+    encode_map_end,
     encode_query,
     encode_upload_begin,
     encode_upload_data,
     encode_upload_end,
 )
 from acts_core.errors import BoardError
+from acts_core.skin_map import SkinMap
 
 REPLY_TIMEOUT_S = 0.1
 """How long one reply is waited for; a virtual board answers after a frame, within a millisecond or two."""
@@ -95,6 +99,13 @@ class BoardLink:
         """Tell the board its settings; raises as `query` does, `RefusedError` for a setting that it refuses."""
         return self._done(self._exchange(lambda request: encode_configure(request, settings)))
 
+    def arrange(self, skin_map: SkinMap | None) -> Reply:
+        """Tell the board how its taxels lie on the skin, None: as in the matrix; raises as `query` does."""
+        if skin_map is not None:
+            for first in range(0, len(skin_map.taxels), MAP_PIECE_MAX):
+                self._done(self._exchange(partial(_encode_places, skin_map, first)))
+        return self._done(self._exchange(lambda request: encode_map_end(request, skin_map)))
+
     def announce(self, model: BoardModel) -> Reply:
         """Begin an upload, which ends one under way; raises as `query` does, `RefusedError` where it cannot be held.
 
@@ -159,6 +170,10 @@ class BoardLink:
         if not reply.ok:
             raise RefusedError(reply)
         return reply
+
+
+def _encode_places(skin_map: SkinMap, first: int, request: int) -> bytes:
+    return encode_map_data(request, skin_map, first)
 
 
 def _encode_data(offset: int, piece: bytes, request: int) -> bytes:

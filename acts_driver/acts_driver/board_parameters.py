@@ -9,8 +9,10 @@ from typing import Any
 from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.board_settings import LEDS, OUTPUTS, BoardSettings
 from acts_core.errors import SettingsError
+from acts_core.layouts import LAYOUTS, layout, layout_path
 from acts_core.sampling import NEIGHBOURS, SCHEMES, SamplingConfig
 from acts_core.settings import Changeable, setting
+from acts_core.skin_map import SkinMap
 
 RATE_MIN_HZ = 1.0
 """Slowest frame rate that a board can be told."""
@@ -93,6 +95,12 @@ class BoardParameters:
         choices=("", *OUTPUTS),
         changeable=Changeable.RUNNING,
     )
+    layout: str = setting(
+        "",
+        "how the matrix of taxels lies on the skin, so that the board looks for neighbours there: "
+        f"{', '.join(LAYOUTS)}, or the path of a layout file; empty: the board's own",
+        changeable=Changeable.RUNNING,
+    )
     model: str = setting(
         "",
         "dictionary or object library (.npz) to upload to the board; empty or none: the board keeps what it has",
@@ -104,9 +112,11 @@ class BoardParameters:
 
         Raises
         ------
-        SettingsError
+        SettingsError, ArrayError
             Naming the parameter.
         """
+        if self.layout:
+            layout_path(self.layout)  # refuses what is neither a name nor a path
         if 0 < self.rate_cap_hz < RATE_MIN_HZ:
             raise SettingsError(
                 f"rate_cap_hz = {self.rate_cap_hz:g}: allowed is 0 (the board's own) or {RATE_MIN_HZ:g} and more"
@@ -146,6 +156,17 @@ class BoardParameters:
             frame_period_us=period_us,
             **{name: asked[name] for name in plain if name in asked},
         )
+
+    def skin_map(self, rows: int, cols: int) -> SkinMap | None:
+        """How the taxels of a board of this size are to lie on the skin; None: as in the matrix.
+
+        Raises
+        ------
+        SettingsError, ArrayError
+            When the layout cannot be read, is made for another matrix, or has too many patches for a board.
+        """
+        arranged = layout(self.layout or "square", rows, cols)
+        return None if arranged.is_matrix else SkinMap.of(arranged)
 
     def sampling(self, rows: int, cols: int) -> SamplingConfig:
         """How a board would sample that has the defaults of `SamplingConfig` where nothing is asked.

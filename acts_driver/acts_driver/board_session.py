@@ -12,6 +12,7 @@ from acts_core.board_models import BoardModel
 from acts_core.commands import BoardSettings, BoardState, ReplyStatus
 from acts_core.errors import ActsError, BoardError, PortError
 from acts_driver.board import BoardLink, NoAnswerError, RefusedError
+from acts_driver.board_layout import BoardLayout
 from acts_driver.board_model_file import ModelFile
 from acts_driver.board_parameters import BoardParameters
 
@@ -90,6 +91,7 @@ class BoardSession:
         self._heard = -1
         self._settled: tuple[BoardSettings, BoardSettings] | None = None
         self._refused: object = None
+        self._layout = BoardLayout(link, log)
         self._model = self._file_of(parameters)
         self._due: BoardModel | None = None
         self._uploading: BoardModel | None = None
@@ -176,6 +178,7 @@ class BoardSession:
             self._check_that_it_listens()
             self._parameters, self._model = parameters, model
             self._refused = None
+            self._layout.read_again()
             self._wanted_model()
             if self.status.state is not None:
                 state = self._link.query().state
@@ -248,6 +251,7 @@ class BoardSession:
         now_s = time.monotonic()
         if self._has_begun_anew(state, now_s):
             self._own = state.settings
+            self._layout.begin_anew()
             self._settled = None
             self._refused = None
         self._seen, self._seen_s = state, now_s
@@ -274,6 +278,7 @@ class BoardSession:
             # A board may take a setting in its own way; it is not told again and again then.
             self._settled = (wanted, state.settings)
             self._log("info", f"the board has taken its settings: {settings_in_words(state.settings)}")
+        state = self._layout.bring(self._parameters, state)
         model = self._wanted_model()
         self._due = model if model is not None and state.model.crc32 != model.crc32 else None
         self._set(BoardStatus(state, problem=self._mismatch(state)))

@@ -18,6 +18,8 @@ from acts_core.board_messages import BoardMessage
 from acts_core.board_models import BoardModel, ModelKind, object_library, patch_dictionary
 from acts_core.commands import BoardSettings, Reply
 from acts_core.errors import BoardError, PortError, SettingsError
+from acts_core.layouts import layout
+from acts_core.skin_map import SkinMap
 from acts_core.wire import StreamDecoder
 from acts_driver.board import BoardLink, NoAnswerError, RefusedError
 from acts_driver.board_model_file import load_model
@@ -216,6 +218,44 @@ def test_the_session_brings_the_board_to_what_is_wanted(host: Host) -> None:
     assert host.link.query().state.settings.scheme == "adaptive", "what is not asked is the board's own again"
     session.change(BoardParameters())
     assert host.link.query().state.settings == BoardSettings.from_sampling(BoardParameters().sampling(32, 32))
+
+
+def test_the_session_keeps_the_layout_of_the_board(board: VirtualBoard, host: Host) -> None:
+    session = host.start_session(layout="leap_right")
+    hand = SkinMap.of(layout("leap_right"))
+    assert host.link.query().state.map_crc32 == hand.crc32
+    # Somebody else has told it otherwise.
+    host.link.arrange(None)
+    session.wake()
+    wait_for(lambda: host.link.query().state.map_crc32 == hand.crc32, "the layout again")
+    session.change(BoardParameters(layout="square"))
+    assert host.link.query().state.map_crc32 == 0
+    with pytest.raises(SettingsError, match=r"none\.yaml: cannot be read"):
+        session.change(BoardParameters(layout="/none.yaml"))
+    assert session.status.problem == ""
+    assert [line for line in host.log if "layout" in line] == [
+        "the board has taken the layout leap_right",
+        "the board has taken the layout leap_right",
+        "the board has taken the layout square",
+    ]
+
+
+def test_a_board_that_knows_no_layouts_is_told_of_once() -> None:
+    board, log = SimpleBoard(), []
+    session = BoardSession(
+        LossyWay(board, []).link,
+        BoardParameters(layout="glove"),
+        size=SIZE,
+        log=lambda level, words: log.append((level, words)),
+    )
+    for _ in range(3):
+        session.ask()
+        session.change(BoardParameters(layout="glove"))
+    told = [words for level, words in log if level == "warning"]
+    assert len(told) == 1
+    assert "knows no layouts" in told[0]
+    session.change(BoardParameters(layout="square"))
+    assert session.status.problem == ""
 
 
 def test_a_change_that_cannot_be_leaves_the_old_wish(host: Host) -> None:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from acts_core.frames import SampleFrame
 from acts_core.sampling import SCHEMES, SamplingConfig
+from acts_core.skin_map import SkinMap
 
 NEIGHBOUR_ORDERS = {"columns": 0, "rows": 1}
 U16 = np.dtype("<u2")
@@ -41,6 +42,7 @@ def library() -> ctypes.CDLL:
     u32, u64, size = ctypes.c_uint32, ctypes.c_uint64, ctypes.c_size_t
     signatures = {
         "probe_new": (ctypes.c_void_p, [i32, i32, i32, i32, i32, i32, u64, i32, i32]),
+        "probe_arrange": (i32, [ctypes.c_void_p, i32, i32, i32, u32, u8]),
         "probe_free": (None, [ctypes.c_void_p]),
         "probe_sample": (i32, [ctypes.c_void_p, u16, u16, u16]),
         "probe_division_order": (i32, [i32, i32, u16]),
@@ -61,7 +63,7 @@ def library() -> ctypes.CDLL:
 class CoreSampler:
     """The C++ twin of `acts_core.sampling.Sampler`, measuring through the model of the board's wiring."""
 
-    def __init__(self, config: SamplingConfig) -> None:
+    def __init__(self, config: SamplingConfig, skin_map: SkinMap | None = None) -> None:
         self._size = config.rows * config.cols
         self._probe = library().probe_new(
             config.rows,
@@ -75,6 +77,10 @@ class CoreSampler:
             config.adaptive_quota,
         )
         assert self._probe, f"the core refuses {config}"
+        if skin_map is not None:
+            assert library().probe_arrange(
+                self._probe, skin_map.rows, skin_map.cols, skin_map.no_skin, skin_map.crc32, skin_map.entries()
+            ), "the core refuses the map"
 
     def __enter__(self) -> CoreSampler:
         return self

@@ -62,6 +62,12 @@ Probe* probe_new(int rows, int cols, int scheme, int m, int threshold, int neigh
   return probe->error == acts::ConfigError::kNone ? probe.release() : nullptr;
 }
 
+// `entries`: u16, little-endian. Non-zero where the map is in force.
+int probe_arrange(Probe* probe, int rows, int cols, int no_skin, std::uint32_t crc32, const std::uint8_t* entries) {
+  const bool taken = probe->sampler.put_map(0, entries, rows * cols);
+  return taken && probe->sampler.finish_map(rows, cols, no_skin, crc32) ? 1 : 0;
+}
+
 void probe_free(Probe* probe) {
   delete probe;
 }

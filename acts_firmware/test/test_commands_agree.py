@@ -17,18 +17,23 @@ from acts_core import cobs
 from acts_core.board_messages import BoardImage, BoardObject
 from acts_core.board_settings import LEDS, OUTPUTS, SETTINGS_SIZE
 from acts_core.commands import (
+    MAP_PIECE_MAX,
     NO_MODEL,
     BoardSettings,
     Reply,
     ReplyStatus,
     SettingField,
     encode_configure,
+    encode_map_data,
+    encode_map_end,
     encode_query,
 )
 from acts_core.errors import PacketError
 from acts_core.frames import Scheme
+from acts_core.layouts import layout
 from acts_core.packets import PacketType, seal
 from acts_core.sampling import SCHEMES
+from acts_core.skin_map import SkinMap
 from acts_core.wire import StreamDecoder
 
 FAST = settings(max_examples=60, deadline=None)
@@ -187,7 +192,7 @@ def test_commands_count_though_nobody_reads() -> None:
 @pytest.mark.parametrize(
     ("kind", "version", "body", "told", "status"),
     [
-        (21, 1, b"", 0, ReplyStatus.UNKNOWN_COMMAND),
+        (23, 1, b"", 0, ReplyStatus.UNKNOWN_COMMAND),
         (255, 1, b"anything", 0, ReplyStatus.UNKNOWN_COMMAND),
         (16, 2, b"", 0, ReplyStatus.WRONG_VERSION),
         (99, 2, b"", 0, ReplyStatus.WRONG_VERSION),
@@ -197,6 +202,8 @@ def test_commands_count_though_nobody_reads() -> None:
         (18, 1, bytes(15), 0, ReplyStatus.BAD_LENGTH),
         (19, 1, bytes(4), 0, ReplyStatus.BAD_LENGTH),
         (20, 1, bytes(4), 0, ReplyStatus.BAD_LENGTH),
+        (21, 1, bytes(2), 0, ReplyStatus.BAD_LENGTH),
+        (22, 1, bytes(7), 0, ReplyStatus.BAD_LENGTH),
     ],
 )
 def test_commands_that_cannot_be(kind: int, version: int, body: bytes, told: int, status: ReplyStatus) -> None:
@@ -354,3 +361,77 @@ def test_every_output_is_known_to_both() -> None:
             assert state.settings.output == output
             assert state.samples_only == (number > 0)  # no model is held
             assert firmware.active_output == 0
+
+
+def arrange(firmware: CoreFirmware, skin_map: SkinMap) -> Reply:
+    for first in range(0, len(skin_map.taxels), MAP_PIECE_MAX):
+        assert firmware.ask(encode_map_data(1, skin_map, first)).ok
+    return firmware.ask(encode_map_end(2, skin_map))
+
+
+@pytest.mark.parametrize("name", ["insole", "glove", "leap_right"])
+def test_a_layout_is_taken_kept_and_given_up(name: str) -> None:
+    skin_map = SkinMap.of(layout(name))
+    with CoreFirmware() as firmware:
+        assert firmware.ask(encode_query(1)).state.map_crc32 == 0
+        assert arrange(firmware, skin_map).ok
+        assert firmware.ask(encode_query(1)).state.map_crc32 == skin_map.crc32
+        assert firmware.ask(encode_configure(1, OTHERS)).state.map_crc32 == skin_map.crc32
+        # For another matrix it is none.
+        assert firmware.ask(encode_configure(1, BoardSettings(rows=30))).state.map_crc32 == 0
+        assert firmware.ask(encode_configure(1, OTHERS)).state.map_crc32 == 0
+        assert arrange(firmware, skin_map).state.map_crc32 == skin_map.crc32
+        assert firmware.ask(encode_map_end(3, None)).state.map_crc32 == 0
+
+
+def test_the_largest_layout_of_sixteen_patches_fits() -> None:
+    patches = tuple((np.arange(4096) // 256).tolist())
+    largest = SkinMap(64, 64, tuple(np.random.default_rng(3).permutation(4096).tolist()), patches)
+    with CoreFirmware() as firmware:
+        assert firmware.ask(encode_configure(1, BoardSettings(rows=64, cols=64))).ok
+        assert arrange(firmware, largest).state.map_crc32 == largest.crc32
+
+
+def test_a_layout_said_twice_disturbs_no_sampling() -> None:
+    skin_map, said = SkinMap.of(layout("insole")), BoardSettings(scheme="random", seed=3)
+    with CoreFirmware() as firmware, CoreFirmware() as twin:
+        for one in (firmware, twin):
+            assert one.ask(encode_configure(1, said)).ok
+            assert arrange(one, skin_map).ok
+            one.measure()
+            one.read()
+        assert firmware.ask(encode_map_end(9, skin_map)).ok
+        assert firmware.ask(encode_configure(9, said)).ok
+        firmware.measure()
+        twin.measure()
+        assert np.array_equal(firmware.read()[0].indices, twin.read()[0].indices)
+
+
+def test_layouts_that_are_none_are_refused_and_leave_the_matrix() -> None:
+    skin_map = SkinMap.of(layout("glove"))
+    twice = dataclasses.replace(skin_map, taxels=(*skin_map.taxels[:-1], skin_map.taxels[0]))
+    beyond = dataclasses.replace(skin_map, taxels=(*skin_map.taxels[:-1], 1024))
+    odd = dataclasses.replace(skin_map, no_skin=16)
+    small = SkinMap.of_matrix(16, 16)
+    with CoreFirmware() as firmware:
+        for wrong in (twice, beyond, odd, small):
+            reply = arrange(firmware, wrong)
+            assert (reply.status, reply.state.map_crc32) == (ReplyStatus.MAP_IMPOSSIBLE, 0)
+            assert "layout" in reply.problem
+        # Of another map than was sent.
+        assert firmware.ask(encode_map_data(1, SkinMap.of(layout("insole")), 0)).ok
+        assert firmware.ask(encode_map_end(1, skin_map)).status is ReplyStatus.MAP_IMPOSSIBLE
+        for body, status in ((b"\0\0\0", ReplyStatus.BAD_LENGTH), (b"\xff\xff\0\0", ReplyStatus.MAP_IMPOSSIBLE)):
+            assert firmware.ask(seal(PacketType.MAP_DATA, bytes(4) + body)).status is status
+        assert firmware.ask(seal(PacketType.MAP_DATA, bytes(4) + bytes(5))).status is ReplyStatus.BAD_LENGTH
+        firmware.measure()
+        assert len(firmware.read()) == 1
+
+
+@FAST
+@given(st.sampled_from([PacketType.MAP_DATA, PacketType.MAP_END]), st.binary(max_size=40))
+def test_any_bytes_about_a_layout_get_one_reply(kind: PacketType, body: bytes) -> None:
+    with CoreFirmware() as firmware:
+        assert isinstance(firmware.ask(seal(kind, bytes(4) + body)), Reply)
+        firmware.measure()
+        assert len(firmware.read()) == 1

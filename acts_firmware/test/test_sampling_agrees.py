@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from acts_core.errors import SettingsError
+from acts_core.layouts import layout
 from acts_core.random_taxels import Pcg32
 from acts_core.sampling import (
     NEIGHBOURS,
@@ -22,6 +23,7 @@ from acts_core.sampling import (
     division_order,
     measure_in,
 )
+from acts_core.skin_map import SkinMap
 from acts_core.uniform import uniform_spacing
 
 FRAMES = 3
@@ -52,9 +54,9 @@ PUBLISHED_SPACING = {
 }
 
 
-def compare(config: SamplingConfig, fields: NDArray[np.integer]) -> None:
-    reference = Sampler(config)
-    with CoreSampler(config) as core:
+def compare(config: SamplingConfig, fields: NDArray[np.integer], skin_map: SkinMap | None = None) -> None:
+    reference = Sampler(config, skin_map)
+    with CoreSampler(config, skin_map) as core:
         for field in fields:
             expected_indices, expected_counts = reference.frame(measure_in(field))
             indices, counts = core.frame(field)
@@ -98,6 +100,51 @@ def test_on_random_fields(
     }[kind]()
     config = SamplingConfig(scheme, rows, cols, m, threshold, order, seed, search_share=share, adaptive_share=share)
     compare(config, fields)
+
+
+def any_map(rng: np.random.Generator, rows: int, cols: int) -> SkinMap:
+    """Wires that run anyhow under patches of any shape, as many pictures as the number of taxels has divisors."""
+    taxels = rows * cols
+    sizes = [side for side in range(1, 65) if taxels % side == 0 and taxels // side <= 64]
+    picture_rows = int(rng.choice(sizes))
+    row, col = np.mgrid[:picture_rows, : taxels // picture_rows]
+    patches = (row // rng.integers(1, 20)) * int(rng.integers(1, 5)) + col // rng.integers(1, 20)
+    if rng.random() < 0.3:
+        patches = rng.integers(0, 16, row.shape)
+    order = rng.permutation(taxels) if rng.random() < 0.5 else np.arange(taxels)
+    no_skin = int(rng.choice([255, 0, 3, 15]))
+    return SkinMap(*row.shape, tuple(order.tolist()), tuple((patches.ravel() % 16).tolist()), no_skin)
+
+
+@settings(max_examples=200, deadline=None)
+@given(
+    st.integers(1, 64),
+    st.integers(1, 64),
+    st.sampled_from(["adaptive", "tracking", "hybrid", "random"]),
+    st.sampled_from(sorted(NEIGHBOURS)),
+    st.integers(0, 1023),
+    st.integers(0, 2**64 - 1),
+    st.floats(0.0001, 1.0),
+)
+def test_on_any_skin(rows: int, cols: int, scheme: str, order: str, threshold: int, seed: int, share: float) -> None:
+    rng = np.random.default_rng(seed)
+    skin_map = any_map(rng, rows, cols)
+    m = int(rng.integers(1, rows * cols + 1))
+    # Contacts of the skin, as the matrix has them.
+    pictures = [blobs(rng, skin_map.rows, skin_map.cols).ravel() for _ in range(FRAMES)]
+    fields = np.zeros((FRAMES, rows * cols), dtype=np.int64)
+    fields[:, list(skin_map.taxels)] = pictures
+    config = SamplingConfig(scheme, rows, cols, m, threshold, order, seed, search_share=share, adaptive_share=share)
+    compare(config, fields.reshape(FRAMES, rows, cols), skin_map)
+
+
+@pytest.mark.parametrize("name", ["insole", "glove", "leap_right"])
+@pytest.mark.parametrize("scheme", ["adaptive", "tracking", "hybrid", "uniform"])
+def test_on_the_layouts_that_come_with_us(name: str, scheme: str) -> None:
+    rng = np.random.default_rng(5)
+    shape = layout(name)
+    fields = np.stack([shape.matrix(blobs(rng, shape.rows, shape.cols)) for _ in range(10)])
+    compare(SamplingConfig(scheme, m=64, threshold_counts=60), fields, SkinMap.of(shape))
 
 
 @pytest.mark.parametrize("m", [1, 10, 55, 64, 1024])

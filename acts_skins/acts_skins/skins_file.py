@@ -27,7 +27,7 @@ _NODES_OF: dict[str, tuple[str, ...]] = {
     "scheme": ("driver",),
     "m": ("driver",),
     "threshold_counts": ("driver",),
-    "layout": ("reconstruction",),
+    "layout": ("driver", "reconstruction"),
     "pitch_m": ("reconstruction",),
     "row_pitch_m": ("reconstruction",),
 }

@@ -81,6 +81,7 @@ class Firmware {
   Answer execute(const Command& command);
   Answer take_settings(const Command& command, Answer answer);
   Answer take_upload(const Command& command, Answer answer);
+  Answer take_map(const Command& command, Answer answer);
   void send_answers();
 
   Board& board_;

@@ -77,6 +77,13 @@ Answer Firmware::execute(const Command& command) {
       shortest = kUploadOffsetBytes + 1;
       longest = kUploadOffsetBytes + kMaxUploadPiece;
       break;
+    case CommandType::kMapData:
+      shortest = kMapPlaceBytes + kMapEntryBytes;
+      longest = kMapPlaceBytes + kMapEntryBytes * kMaxMapPiece;
+      break;
+    case CommandType::kMapEnd:
+      shortest = longest = kMapEndBytes;
+      break;
     default:
       answer.status = Status::kUnknownCommand;
       return answer;
@@ -95,6 +102,9 @@ Answer Firmware::execute(const Command& command) {
     case CommandType::kUploadData:
     case CommandType::kUploadEnd:
       return take_upload(command, answer);
+    case CommandType::kMapData:
+    case CommandType::kMapEnd:
+      return take_map(command, answer);
   }
   return answer;
 }
@@ -104,6 +114,35 @@ Answer Firmware::take_settings(const Command& command, Answer answer) {
   if (refused != SettingField::kNone) {
     answer.status = Status::kSettingRefused;
     answer.detail = static_cast<std::uint32_t>(refused);
+  }
+  return answer;
+}
+
+Answer Firmware::take_map(const Command& command, Answer answer) {
+  Reader reader(command.body);
+  bool possible = true;
+  if (command.type == static_cast<std::uint8_t>(CommandType::kMapData)) {
+    const int place = reader.u16();
+    const std::size_t bytes = command.body_bytes - kMapPlaceBytes;
+    if (bytes % kMapEntryBytes != 0) {
+      answer.status = Status::kBadLength;
+      return answer;
+    }
+    possible = sampler_.put_map(place, command.body + kMapPlaceBytes, static_cast<int>(bytes / kMapEntryBytes));
+  } else {
+    const int rows = reader.u8();
+    const int cols = reader.u8();
+    const int no_skin = reader.u8();
+    reader.u8();  // reserved
+    const std::uint32_t checksum = reader.u32();
+    if (rows == 0 && cols == 0) {
+      sampler_.forget_map();
+    } else {
+      possible = sampler_.finish_map(rows, cols, no_skin, checksum);
+    }
+  }
+  if (!possible) {
+    answer.status = Status::kMapImpossible;
   }
   return answer;
 }
@@ -134,7 +173,8 @@ void Firmware::send_answers() {
                               active_output() != settings_.output,
                               models_.uploading(),
                               overruns_,
-                              bad_commands_};
+                              bad_commands_,
+                              sampler_.map().checksum()};
     if (!queue_packet(encode_reply(answers_[first_answer_], state, message_.data()))) {
       return;
     }

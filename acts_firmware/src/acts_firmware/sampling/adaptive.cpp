@@ -16,17 +16,23 @@ constexpr Steps kRowsOuter = {{{-1, -1}, {-1, 0}, {-1, 1}, {0, -1}, {0, 1}, {1, 
 
 }  // namespace
 
-void Adaptive::sample(const SamplingConfig& config, const DivisionOrder& order, int m, Measurement& frame) {
+void Adaptive::sample(const SamplingConfig& config, const SkinMap& map, const DivisionOrder& order, int m,
+                      Measurement& frame) {
   for (int rank = 0; rank < order.size() && frame.size() < m; ++rank) {
     const int centre = order[rank];
-    if (!frame.has(centre) && frame.take(centre) > config.threshold) {
-      search(config, centre, m, frame);
+    if (!frame.has(map.taxel(centre)) && is_pressed(config, map, centre, frame)) {
+      search(config, map, centre, m, frame);
     }
   }
 }
 
+// Measures a place.
+bool Adaptive::is_pressed(const SamplingConfig& config, const SkinMap& map, int place, Measurement& frame) {
+  return frame.take(map.taxel(place)) > config.threshold && map.has_skin(place);
+}
+
 // Depth first: the neighbours of a pressed neighbour come before the others.
-void Adaptive::search(const SamplingConfig& config, int pressed, int m, Measurement& frame) {
+void Adaptive::search(const SamplingConfig& config, const SkinMap& map, int pressed, int m, Measurement& frame) {
   const Steps& steps = config.neighbour_order == NeighbourOrder::kRows ? kRowsOuter : kColumnsOuter;
   std::size_t depth = 0;
   stack_[depth++] = {static_cast<std::uint16_t>(pressed), 0};
@@ -37,14 +43,14 @@ void Adaptive::search(const SamplingConfig& config, int pressed, int m, Measurem
       continue;
     }
     const Step step = steps[visit.next++];
-    const int row = visit.index / config.cols + step.row;
-    const int col = visit.index % config.cols + step.col;
-    if (row < 0 || row >= config.rows || col < 0 || col >= config.cols) {
+    const int row = visit.place / map.cols() + step.row;
+    const int col = visit.place % map.cols() + step.col;
+    if (row < 0 || row >= map.rows() || col < 0 || col >= map.cols()) {
       continue;
     }
-    const int index = row * config.cols + col;
-    if (!frame.has(index) && frame.take(index) > config.threshold) {
-      stack_[depth++] = {static_cast<std::uint16_t>(index), 0};
+    const int near = row * map.cols() + col;
+    if (map.joined(visit.place, near) && !frame.has(map.taxel(near)) && is_pressed(config, map, near, frame)) {
+      stack_[depth++] = {static_cast<std::uint16_t>(near), 0};
     }
   }
 }

@@ -3,6 +3,7 @@
 namespace acts {
 
 Sampler::Sampler() {
+  map_.reset(config_.rows, config_.cols);
   configure(config_);
 }
 
@@ -11,13 +12,45 @@ ConfigError Sampler::configure(const SamplingConfig& config) {
   if (error != ConfigError::kNone) {
     return error;
   }
+  if (config.rows != config_.rows || config.cols != config_.cols) {
+    map_.reset(config.rows, config.cols);
+  }
   config_ = config;
-  order_.build(config.rows, config.cols);
-  search_order_.build(config.rows, config.cols);
-  tracking_.reset();
-  uniform_.reset(uniform_spacing(config.rows, config.cols, config.m));
-  random_.reset(config.taxels(), config.seed);
+  begin();
   return ConfigError::kNone;
+}
+
+void Sampler::begin() {
+  order_.build(map_.rows(), map_.cols());
+  search_order_.build(map_.rows(), map_.cols());
+  tracking_.reset();
+  uniform_.reset(uniform_spacing(config_.rows, config_.cols, config_.m));
+  random_.reset(config_.taxels(), config_.seed);
+}
+
+bool Sampler::put_map(int place, const std::uint8_t* entries, int count) {
+  forget_map();
+  return map_.put(place, entries, count);
+}
+
+bool Sampler::finish_map(int rows, int cols, int no_skin, std::uint32_t crc32) {
+  // Said twice, because the reply was lost: nothing begins anew.
+  if (map_.in_force() && map_.checksum() == crc32) {
+    return true;
+  }
+  forget_map();
+  if (!map_.finish(rows, cols, no_skin, crc32, config_.taxels())) {
+    return false;
+  }
+  begin();
+  return true;
+}
+
+void Sampler::forget_map() {
+  if (map_.in_force()) {
+    map_.reset(config_.rows, config_.cols);
+    begin();
+  }
 }
 
 void Sampler::sample(TaxelReader& reader, SampleFrame& frame) {
@@ -28,13 +61,13 @@ void Sampler::sample(TaxelReader& reader, SampleFrame& frame) {
   Measurement measurement(reader, marks_, frame);
   switch (config_.scheme) {
     case Scheme::kAdaptive:
-      adaptive_.sample(config_, order_, config_.m, measurement);
+      adaptive_.sample(config_, map_, order_, config_.m, measurement);
       break;
     case Scheme::kTracking:
-      tracking_.sample(config_, search_order_, measurement);
+      tracking_.sample(config_, map_, search_order_, measurement);
       break;
     case Scheme::kHybrid:
-      adaptive_.sample(config_, order_, config_.adaptive_quota, measurement);
+      adaptive_.sample(config_, map_, order_, config_.adaptive_quota, measurement);
       random_.sample(config_.m, measurement);
       break;
     case Scheme::kUniform:

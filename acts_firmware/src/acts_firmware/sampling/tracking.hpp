@@ -7,6 +7,7 @@
 #include "acts_firmware/sampling/config.hpp"
 #include "acts_firmware/sampling/dither_order.hpp"
 #include "acts_firmware/sampling/measurement.hpp"
+#include "acts_firmware/sampling/skin_map.hpp"
 
 namespace acts {
 
@@ -20,22 +21,22 @@ class Tracking {
   // Forgets what was pressed and where the search stopped.
   void reset();
 
-  void sample(const SamplingConfig& config, const DitherOrder& order, Measurement& frame);
+  void sample(const SamplingConfig& config, const SkinMap& map, const DitherOrder& order, Measurement& frame);
 
  private:
-  int list_candidates(int taxels, int limit);
-  void look_around(const SamplingConfig& config, int others, int index, Measurement& frame);
-  bool is_free(int index, const Measurement& frame) const;
-  void track(const SamplingConfig& config, int index, Measurement& frame);
+  int list_candidates(int places, int limit);
+  void look_around(const SamplingConfig& config, const SkinMap& map, int others, int place, Measurement& frame);
+  bool is_free(const SkinMap& map, int place, const Measurement& frame) const;
+  void track(const SamplingConfig& config, const SkinMap& map, int place, Measurement& frame);
 
-  // What was pressed when last measured, and how many of a taxel and its neighbours were.
+  // By place on the skin: what was pressed when last measured, and how many of a place and its neighbours were.
   std::array<bool, kMaxTaxels> pressed_{};
   std::array<std::uint8_t, kMaxTaxels> pressed_near_{};
   std::array<std::uint16_t, kMaxTaxels> candidates_{};
   std::array<bool, kMaxTaxels> reserved_{};        // candidates that this frame has still to measure
   std::array<std::uint16_t, kMaxTaxels> found_{};  // newly pressed in this frame
   int found_count_ = 0;
-  int cursor_ = 0;  // the taxel from which candidates are taken
+  int cursor_ = 0;  // the place from which candidates are taken
   int walk_ = 0;    // rank in the order of search at which the search goes on
 };
 

@@ -115,6 +115,7 @@ std::size_t encode_reply(const Answer& answer, const BoardState& state, std::uin
   writer.u32(static_cast<std::uint32_t>(kModelBytes));
   writer.u32(state.overruns);
   writer.u32(state.bad_commands);
+  writer.u32(state.map_checksum);
   return end_packet(writer, out);
 }
 

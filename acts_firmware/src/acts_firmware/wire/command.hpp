@@ -16,6 +16,8 @@ enum class CommandType : std::uint8_t {
   kUploadBegin = 18,
   kUploadData = 19,
   kUploadEnd = 20,
+  kMapData = 21,
+  kMapEnd = 22,
 };
 constexpr std::uint8_t kFirstCommand = 16;  // smaller packet types are the board's own
 
@@ -28,6 +30,7 @@ enum class Status : std::uint8_t {
   kModelImpossible = 5,
   kUploadOutOfOrder = 6,
   kModelChecksum = 7,
+  kMapImpossible = 8,
 };
 
 constexpr std::size_t kCommandHeadBytes = 8;  // type, version, length, request
@@ -35,6 +38,10 @@ constexpr std::size_t kSettingsBytes = 28;
 constexpr std::size_t kUploadBeginBytes = 16;
 constexpr std::size_t kUploadOffsetBytes = 4;
 constexpr std::size_t kMaxUploadPiece = 1024;
+constexpr std::size_t kMapPlaceBytes = 2;
+constexpr std::size_t kMapEntryBytes = 2;
+constexpr std::size_t kMaxMapPiece = 512;  // entries
+constexpr std::size_t kMapEndBytes = 8;
 
 struct Command {
   std::uint8_t type = 0;
@@ -72,9 +79,10 @@ struct BoardState {
   bool uploading;
   std::uint32_t overruns;
   std::uint32_t bad_commands;
+  std::uint32_t map_checksum;  // of the skin's map in force, 0: none
 };
 
-constexpr std::size_t kReplyBytes = 92;
+constexpr std::size_t kReplyBytes = 96;
 
 // Writes the packet, CRC included, to `out` (kReplyBytes). Returns its length.
 std::size_t encode_reply(const Answer& answer, const BoardState& state, std::uint8_t* out);
