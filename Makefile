@@ -34,5 +34,8 @@ lint:
 format:
 	@./acts run python3 scripts/check.py --format
 
+# What is running would go on without its files, and not come again after a crash.
 clean:
+	@running=$$(grep -Fsl "$(CURDIR)/.acts/" /proc/[0-9]*/maps | tr -dc '0-9\n' | tr '\n' ' '); \
+	if [ -n "$$running" ]; then echo "not cleaned: end what runs from here first (ps $$running)" >&2; exit 1; fi
 	rm -rf .acts build install log out

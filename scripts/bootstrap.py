@@ -30,10 +30,14 @@ INSTALL = STATE / "install"
 LOCK = ROOT / "requirements.lock"
 PYTHON_RECORD = VENV / "acts.python"
 
-PLAIN = re.compile(r"[A-Za-z0-9/._+@~-]")
+PLAIN = re.compile(r"[\w/.+@~-]")
 MINIMUM_PYTHON = (3, 10)
 # Raise it when `create_venv` changes, so that existing checkouts make theirs anew.
 VENV_RECIPE = "1"
+NETWORK_HINT = (
+    "The wheels come from the network: if that is away, call the same again when it is back; "
+    "behind a mirror or a proxy set PIP_INDEX_URL or HTTPS_PROXY."
+)
 TOOLS = {"g++": "g++", "cmake": "cmake", "make": "make"}
 # A change to one of these asks for a new colcon build; Python modules do not, they are linked into the installation.
 BUILD_INPUTS = (
@@ -66,7 +70,7 @@ def check_place(root: Path) -> None:
     if wrong:
         raise SetupError(
             f"the path of this checkout holds {', '.join(map(ascii, wrong))}: {root}. What is built cannot carry that. "
-            "Move the checkout to a path of plain letters A to Z, digits and / . _ - + @ ~ only, such as ~/acts."
+            "Move the checkout to a path of letters, digits and / . _ - + @ ~ only, such as ~/acts."
         )
 
 
@@ -144,9 +148,13 @@ def create_venv() -> None:
     say(f"installing about {count} wheels, ROS 2 Kilted among them (one to three minutes, 1 GB)")
     started = time.monotonic()
     pip = [str(VENV / "bin/python"), "-m", "pip", "install", "--prefer-binary", "--no-input", "--progress-bar=off"]
-    run([*pip, "-r", str(LOCK)], "pip.log", env={**os.environ, "PYTHONDONTWRITEBYTECODE": ""})
+    try:
+        run([*pip, "-r", str(LOCK)], "pip.log", env={**os.environ, "PYTHONDONTWRITEBYTECODE": ""})
+    except SetupError as error:
+        raise SetupError(f"{error}. {NETWORK_HINT}") from None
     say(f"wheels installed in {time.monotonic() - started:.0f} s")
     relocate_cmake_exports()
+    read_paths_as_utf8()
     PYTHON_RECORD.write_text(python)
     stamp.write_text(wanted)
 
@@ -168,12 +176,20 @@ def relocate_cmake_exports() -> None:
         f"{built_with}/lib/{version}/site-packages": str(site_packages()),
     }
     for path in (VENV / "share").rglob("*.cmake"):
-        text = path.read_text()
+        text = path.read_text(encoding="utf-8")
         changed = text
         for old, new in replacements.items():
             changed = changed.replace(old, new)
         if changed != text:
-            path.write_text(changed)
+            path.write_text(changed, encoding="utf-8")
+
+
+def read_paths_as_utf8() -> None:
+    """Let the build of interfaces read paths with letters beyond ASCII, where CMake would end a line otherwise."""
+    path = VENV / "share/rosidl_adapter/cmake/rosidl_adapt_interfaces.cmake"
+    text = path.read_text(encoding="utf-8")
+    old = 'file(STRINGS "${idl_output}" idl_tuples)'
+    path.write_text(text.replace(old, f"{old[:-1]} ENCODING UTF-8)"), encoding="utf-8")
 
 
 def environment() -> dict[str, str]:

@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kOther = "give another folder: run_dir:=/dev/shm/NAME";
+constexpr const char* kOther =
+    "give another folder: run_dir:=/dev/shm/NAME, or run_dir:=/tmp/NAME where that is full or read-only";
 constexpr mode_t kOwnerOnly = 0700;
 constexpr std::size_t kLongestCommand = 100;
 

@@ -15,7 +15,7 @@ from pathlib import Path
 from acts_core.errors import ActsError, SettingsError
 from acts_core.process_names import process_name
 
-_OTHER = "give another folder: run_dir:=/dev/shm/NAME"
+_OTHER = "give another folder: run_dir:=/dev/shm/NAME, or run_dir:=/tmp/NAME where that is full or read-only"
 
 
 def default_run_dir() -> Path:

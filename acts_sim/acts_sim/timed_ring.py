@@ -96,7 +96,7 @@ class TimedRingWriter:
                 temporary.unlink()
             raise ActsError(
                 f"{path}: the shared ring cannot be created ({error.strerror}); its folder must exist and have room "
-                f"for {total} bytes"
+                f"for {total} bytes; where it is full: run_dir:=/tmp/NAME"
             ) from error
         self._written = np.frombuffer(self._map, dtype="<u8", count=1, offset=_WRITTEN_OFFSET)
         self._slots = np.frombuffer(self._map, dtype=dtype, count=slots, offset=_HEADER_BYTES)
