@@ -27,7 +27,7 @@ def by_lstsq(reference: NDArray[np.float32], image: NDArray[np.float32]) -> NDAr
     mean = (before + after) / 2
     down, right = np.gradient(mean)
     rows, cols = np.indices(mean.shape)
-    weight = np.maximum(mean, 0.0)
+    weight = np.maximum(mean, 0.0) ** 2
     row, col = (rows * weight).sum() / weight.sum(), (cols * weight).sum() / weight.sum()
     lines = np.stack([before, right, down, (cols - col) * right + (rows - row) * down], -1).reshape(-1, 4)
     solution = np.linalg.lstsq(lines, (after - before).ravel(), rcond=None)[0]

@@ -121,7 +121,7 @@ class Regions:
                 f"an image of shape {image.shape}, {image.dtype}: needed is {self._shape}, float32 (counts)"
             )
         results, regions = self._results, self._regions
-        kernels.find_regions(
+        touched = kernels.find_regions(
             image,
             self._bounds,
             self._points_m,
@@ -133,6 +133,9 @@ class Regions:
         )
         if not self._slip_s <= time_s < self._slip_s + self._slip_period_s:
             self._look_for_slip(time_s, image if measured is None else measured, age_s)
+        if not touched:
+            regions[:] = self._untouched
+            return regions
         for p, numbers in enumerate(results.tolist()):
             regions[p] = self._region(p, numbers) if numbers[0] else self._untouched[p]
         return regions

@@ -27,6 +27,13 @@ class SlipConfig:
         minimum=1.01,
         maximum=100.0,
     )
+    slip_cut_taxels: float = setting(
+        2.0,
+        "a contact that the border of the patch cuts must move by so many taxels, times the logarithm of that factor, "
+        "times how hard the border is pressed relative to the peak",
+        minimum=0.0,
+        maximum=100.0,
+    )
     slip_min_counts: float = setting(
         300.0, "nothing is told of a patch with fewer counts in all", minimum=1.0, maximum=1e6
     )

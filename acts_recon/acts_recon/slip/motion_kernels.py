@@ -24,12 +24,16 @@ def _slope(values: NDArray[np.float32], row: int, col: int, down: int, right: in
 
 @kernel
 def normal_equations(reference: NDArray[np.float32], image: NDArray[np.float32], matrix: NDArray[np.float64]) -> Any:
-    """Write A'A and A'b side by side into `matrix` (4, 5); returns b'b and the number of taxels, 0 without pressure."""
+    """Write A'A and A'b side by side into `matrix` (4, 5); returns b'b and the number of taxels, 0 without pressure.
+
+    The centre of growth is weighted by the square of the pressure: of a contact that the border cuts, the mean of what
+    is left lies farther from its middle.
+    """
     rows, cols = image.shape
     weight = centre_row = centre_col = 0.0
     for row in range(rows):
         for col in range(cols):
-            pressed = max(0.5 * (float(reference[row, col]) + float(image[row, col])), 0.0)
+            pressed = max(0.5 * (float(reference[row, col]) + float(image[row, col])), 0.0) ** 2
             weight += pressed
             centre_row += pressed * row
             centre_col += pressed * col
@@ -57,6 +61,20 @@ def normal_equations(reference: NDArray[np.float32], image: NDArray[np.float32],
         for j in range(i):
             matrix[i, j] = matrix[j, i]
     return squares, rows * cols
+
+
+@kernel
+def cut(reference: NDArray[np.float32], image: NDArray[np.float32]) -> float:
+    """How hard the taxels along the border are pressed, relative to the hardest pressed one: 0 to 1."""
+    rows, cols = image.shape
+    border = peak = 0.0
+    for row in range(rows):
+        for col in range(cols):
+            pressed = float(reference[row, col]) + float(image[row, col])
+            peak = max(peak, pressed)
+            if row == 0 or col == 0 or row == rows - 1 or col == cols - 1:
+                border = max(border, pressed)
+    return border / peak if peak > 0.0 else 0.0
 
 
 @kernel

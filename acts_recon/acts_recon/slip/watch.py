@@ -174,7 +174,7 @@ class SlipWatch:
         return [self._slip(p, numbers) for p, numbers in enumerate(self._results.tolist())]
 
     def _slip(self, patch: int, numbers: list[float]) -> Slip:
-        has_motion, cols, rows, sd_taxels, gain, growth, elapsed_s = numbers
+        has_motion, cols, rows, sd_taxels, gain, growth, elapsed_s, cut = numbers
         if not has_motion:
             return NO_SLIP if self._time_s - self._told_s[patch] > self.config.slip_hold_s else Slip(True)
         motion = Motion(cols, rows, sd_taxels, gain, growth)
@@ -186,6 +186,7 @@ class SlipWatch:
             and metres >= config.slip_distance_m
             and taxels >= config.slip_sigmas * sd_taxels
             and 1.0 / config.slip_max_gain <= gain <= config.slip_max_gain
+            and taxels >= config.slip_cut_taxels * cut * abs(math.log(gain))
         ):
             self._told_s[patch] = self._time_s
             return Slip(True, motion, elapsed_s, taxels, metres)

@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.kernels import kernel
-from acts_recon.slip.motion_kernels import normal_equations, solve
+from acts_recon.slip.motion_kernels import cut, normal_equations, solve
 
-RESULTS = 7
-"""Numbers that `watch` writes of a patch: whether there is a motion, its five numbers, and in what time [s]."""
+RESULTS = 8
+"""Numbers that `watch` writes of a patch: whether there is a motion, its five numbers, in what time [s], and `cut`."""
 
 # Times differ by more where a taxel was measured anew [s].
 _SAME_TIME_S = 1e-5
@@ -145,7 +145,8 @@ def watch(
                 break
         results[p] = 0.0
         if reference >= 0:
-            squares, taxels = normal_equations(past[reference, top:end, left:right], now, memory.matrix)
+            then = past[reference, top:end, left:right]
+            squares, taxels = normal_equations(then, now, memory.matrix)
             if taxels:
                 right_by, down_by, deviation, gain, growth = solve(
                     memory.matrix, memory.inverse, squares, taxels, tuning.noise_counts, tuning.ridge
@@ -157,6 +158,7 @@ def watch(
                 results[p, 4] = gain
                 results[p, 5] = growth
                 results[p, 6] = moment_s - past_s[p, reference]
+                results[p, 7] = cut(then, now)
         if moment_s - youngest_s >= tuning.keep_s:
             newest[p] = (newest[p] + 1) % kept
             past[newest[p], top:end, left:right] = now
