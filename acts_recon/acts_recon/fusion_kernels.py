@@ -16,16 +16,12 @@ from numpy.typing import NDArray
 from acts_core.array import COUNT_MAX
 from acts_core.kernels import kernel
 from acts_recon.fastomp_kernels import COUNT_OUT_OF_RANGE, INDEX_OUT_OF_RANGE, INDEX_TWICE, OK
+from acts_recon.fusion_motion_kernels import FASTMATH, TINY, find_velocities, moved, observe_motion
 from acts_recon.fusion_state import TILE, UNKNOWN_COUNTS, Memory, State, Tuning, state_of
-
-AROUND = 2
-"""A tile's velocity is found from so many tiles on every side of it."""
 
 REACH = 2
 """How far a sample teaches the taxels around it [taxels]."""
 
-# Keeps the velocity of a contact without slopes at 0 [counts^2].
-RIDGE = 200.0
 # What a taxel that nobody looks at may change by itself [counts/s].
 IDLE_COUNTS_PER_S = 20.0
 # Share of a new error in what is remembered of the errors of a taxel.
@@ -44,10 +40,8 @@ OUTLIER = 25.0
 # What a sample says about the others is halved where their weights sum up to this.
 SPREAD_PRIOR = 0.5
 
-_FASTMATH = {"nsz", "contract", "reassoc", "arcp"}
 _F = np.float32
 _TOP = np.float32(COUNT_MAX)
-_TINY = np.float32(1e-20)
 
 
 def _weights_around() -> NDArray[np.float32]:
@@ -60,10 +54,10 @@ def _weights_around() -> NDArray[np.float32]:
 
 _NEAR = _weights_around()
 
-_state_of = kernel(fastmath=_FASTMATH)(state_of)
+_state_of = kernel(fastmath=FASTMATH)(state_of)
 
 
-@kernel(fastmath=_FASTMATH)
+@kernel(fastmath=FASTMATH)
 def check(indices: NDArray[np.uint16], counts: NDArray[np.uint16], seen: NDArray[np.bool_]) -> int:
     """Return whether a frame fits the array: one of the codes of `acts_recon.fastomp_kernels`."""
     code = OK
@@ -84,128 +78,7 @@ def check(indices: NDArray[np.uint16], counts: NDArray[np.uint16], seen: NDArray
     return code
 
 
-@kernel(fastmath=_FASTMATH)
-def _observe_motion(
-    state: State,
-    indices: NDArray[np.uint16],
-    counts: NDArray[np.uint16],
-    period_s: float,
-    lag_step_s: float,
-    cols: int,
-    tuning: Tuning,
-) -> None:
-    """Add to every tile how its samples changed, and along which gradients of the image."""
-    m = indices.shape[0]
-    fade = _F(math.exp(-period_s / tuning.motion_memory_s))
-    image, evidence = state.image, state.evidence
-    for a in range(evidence.shape[0]):
-        for q in range(6):
-            faded = evidence[a, q] * fade
-            # What fades for ever ends in numbers so small that they are slow.
-            evidence[a, q] = faded if abs(faded) > _TINY else _F(0)
-    patches, patch_of = state.patches, state.patch_of
-    horizon = _F(tuning.horizon_s)
-    for k in range(m):
-        i = int(np.int64(indices[k]))
-        since = state.age[i] + _F(period_s) - _F(lag_step_s * (m - 1 - k))
-        if not _F(0) < since < horizon:
-            continue
-        row = i // cols
-        col = i - row * cols
-        change = (_F(counts[k]) - state.value[i]) / since
-        p = patch_of[i]
-        top, bottom, left, right = patches[p, 0], patches[p, 1] - 1, patches[p, 2], patches[p, 3] - 1
-        along_cols = (image[row * cols + min(col + 1, right)] - image[row * cols + max(col - 1, left)]) * _F(0.5)
-        along_rows = (image[min(row + 1, bottom) * cols + col] - image[max(row - 1, top) * cols + col]) * _F(0.5)
-        tile = evidence[patches[p, 4] + (row - top) // TILE * patches[p, 6] + (col - left) // TILE]
-        tile[0] += along_cols * along_cols
-        tile[1] += along_cols * along_rows
-        tile[2] += along_rows * along_rows
-        tile[3] -= along_cols * change
-        tile[4] -= along_rows * change
-        tile[5] += change * change
-
-
-@kernel(fastmath=_FASTMATH)
-def _find_velocities(state: State, tuning: Tuning) -> None:
-    """Solve for the velocity of every tile that explains most of the changes around it."""
-    for p in range(state.patches.shape[0]):
-        first, tile_rows, tile_cols = state.patches[p, 4], state.patches[p, 5], state.patches[p, 6]
-        last = first + tile_rows * tile_cols
-        _find_velocities_of(
-            state.evidence[first:last].reshape((tile_rows, tile_cols, 6)),
-            state.row_sums[first:last].reshape((tile_rows, tile_cols, 6)),
-            state.velocity[first:last].reshape((tile_rows, tile_cols, 3)),
-            tuning,
-        )
-
-
-@kernel(fastmath=_FASTMATH)
-def _find_velocities_of(
-    evidence: NDArray[np.float32], row_sums: NDArray[np.float32], velocities: NDArray[np.float32], tuning: Tuning
-) -> None:
-    """`_find_velocities` of one patch; arrays are (tile rows, tile columns, ...)."""
-    tile_rows, tile_cols = evidence.shape[0], evidence.shape[1]
-    for a in range(tile_rows):
-        for b in range(tile_cols):
-            for q in range(6):
-                row_sums[a, b, q] = _F(0)
-            for beside in range(max(b - AROUND, 0), min(b + AROUND + 1, tile_cols)):
-                for q in range(6):
-                    row_sums[a, b, q] += evidence[a, beside, q]
-    for a in range(tile_rows):
-        for b in range(tile_cols):
-            cc, cr, rr, ct, rt, tt = _F(0), _F(0), _F(0), _F(0), _F(0), _F(0)
-            for beside in range(max(a - AROUND, 0), min(a + AROUND + 1, tile_rows)):
-                sums = row_sums[beside, b]
-                cc += sums[0]
-                cr += sums[1]
-                rr += sums[2]
-                ct += sums[3]
-                rt += sums[4]
-                tt += sums[5]
-            velocity = velocities[a, b]
-            velocity[0], velocity[1], velocity[2] = _F(0), _F(0), _F(0)
-            if not tt > _F(0):
-                continue
-            cc += _F(RIDGE)
-            rr += _F(RIDGE)
-            determinant = cc * rr - cr * cr
-            if not determinant > _F(0):
-                continue
-            by_cols = (rr * ct - cr * rt) / determinant
-            by_rows = (cc * rt - cr * ct) / determinant
-            share = (by_cols * ct + by_rows * rt) / tt
-            if share > _F(tuning.motion_share):
-                velocity[0], velocity[1], velocity[2] = by_cols, by_rows, min(share, _F(1))
-
-
-@kernel(fastmath=_FASTMATH)
-def _moved(
-    before: NDArray[np.float32],
-    row: int,
-    col: int,
-    back_rows: np.float32,
-    back_cols: np.float32,
-    first_row: int,
-    end_row: int,
-    first_col: int,
-    end_col: int,
-    cols: int,
-) -> np.float32:
-    """What stood `back_rows` and `back_cols` away, between four taxels; the edge of the patch goes on outside."""
-    c = min(max(_F(col) - back_cols, _F(first_col)), _F(end_col - 1))
-    r = min(max(_F(row) - back_rows, _F(first_row)), _F(end_row - 1))
-    left, top = int(c), int(r)
-    right, bottom = min(left + 1, end_col - 1), min(top + 1, end_row - 1)
-    c -= _F(left)
-    r -= _F(top)
-    above = before[top * cols + left] * (_F(1) - c) + before[top * cols + right] * c
-    below = before[bottom * cols + left] * (_F(1) - c) + before[bottom * cols + right] * c
-    return above * (_F(1) - r) + below * r
-
-
-@kernel(fastmath=_FASTMATH)
+@kernel(fastmath=FASTMATH)
 def _predict(state: State, period_s: float, cols: int, tuning: Tuning) -> None:
     """Carry the image on to the end of the frame by motion and, for the share it does not explain, by slopes.
 
@@ -222,7 +95,7 @@ def _predict(state: State, period_s: float, cols: int, tuning: Tuning) -> None:
         elapsed[i] = min(age[i] if state.fresh[i] else period, horizon)
         state.fresh[i] = False
         faded = state.fade[i] * fading
-        state.fade[i] = faded if faded > _TINY else _F(0)
+        state.fade[i] = faded if faded > TINY else _F(0)
         rate[i] = state.slope[i] * state.fade[i] if age[i] < horizon and elapsed[i] > _F(0) else _F(0)
         image[i] = min(max(before[i] + rate[i] * elapsed[i], _F(0)), _TOP)
     patches = state.patches
@@ -239,15 +112,15 @@ def _predict(state: State, period_s: float, cols: int, tuning: Tuning) -> None:
                 for col in range(first_col, min(first_col + TILE, right)):
                     i = row * cols + col
                     time = elapsed[i]
-                    moved = _moved(
+                    came = moved(
                         before, row, col, velocity[1] * time, velocity[0] * time, top, bottom, left, right, cols
                     )
-                    change = share * (moved - before[i]) + (_F(1) - share) * rate[i] * time
+                    change = share * (came - before[i]) + (_F(1) - share) * rate[i] * time
                     rate[i] = change / time if time > _F(0) else _F(0)
                     image[i] = min(max(before[i] + change, _F(0)), _TOP)
 
 
-@kernel(fastmath=_FASTMATH)
+@kernel(fastmath=FASTMATH)
 def _take(
     state: State, indices: NDArray[np.uint16], counts: NDArray[np.uint16], lag_step_s: float, tuning: Tuning
 ) -> None:
@@ -290,14 +163,14 @@ def _take(
         state.frame_scale[p] = max(_F(1) + surprise[p] / (compared[p] + _F(CALM_SAMPLES)), _F(1))
 
 
-@kernel(fastmath=_FASTMATH)
+@kernel(fastmath=FASTMATH)
 def _excess(innovation: np.float32, since: np.float32, noise_variance: np.float32) -> np.float32:
     """Squared error per squared second of a prediction that noise does not account for."""
     time = since + _F(SHORTEST_S)
     return max(innovation * innovation - _F(2) * noise_variance, _F(0)) / (time * time)
 
 
-@kernel(fastmath=_FASTMATH)
+@kernel(fastmath=FASTMATH)
 def _spread(state: State, indices: NDArray[np.uint16], cols: int, tuning: Tuning) -> None:
     """Correct the taxels around the samples by the samples' innovations, the near ones most."""
     m = indices.shape[0]
@@ -332,7 +205,7 @@ def _spread(state: State, indices: NDArray[np.uint16], cols: int, tuning: Tuning
         image[i] = state.value[i]
 
 
-@kernel(fastmath=_FASTMATH)
+@kernel(fastmath=FASTMATH)
 def _look_around(state: State, values: NDArray[np.float32], cols: int) -> NDArray[np.float32]:
     """The largest of every taxel and the eight around it in its patch; overwritten by the next call."""
     in_row, around = state.in_row, state.around
@@ -357,7 +230,7 @@ def _look_around(state: State, values: NDArray[np.float32], cols: int) -> NDArra
     return around
 
 
-@kernel(fastmath=_FASTMATH)
+@kernel(fastmath=FASTMATH)
 def _keep_quiet(state: State, cols: int, tuning: Tuning) -> None:
     """A taxel measured untouched, with none beside it pressed, is 0: lately, or as long as nothing was added."""
     image, age, fresh = state.image, state.age, state.fresh
@@ -368,7 +241,7 @@ def _keep_quiet(state: State, cols: int, tuning: Tuning) -> None:
         image[i] = _F(0) if around[i] <= quiet and is_settled and not fresh[i] else image[i]
 
 
-@kernel(fastmath=_FASTMATH)
+@kernel(fastmath=FASTMATH)
 def _doubt(state: State, cols: int, tuning: Tuning) -> None:
     """Standard deviations from noise, age, what predictions of the taxel gathered, and how well all have held.
 
@@ -386,7 +259,7 @@ def _doubt(state: State, cols: int, tuning: Tuning) -> None:
             _doubt_of(state, around, row * cols + left, row * cols + right, scale, tuning)
 
 
-@kernel(fastmath=_FASTMATH)
+@kernel(fastmath=FASTMATH)
 def _doubt_of(
     state: State, around: NDArray[np.float32], first: int, end: int, scale: np.float32, tuning: Tuning
 ) -> None:
@@ -407,7 +280,7 @@ def _doubt_of(
         sigma[i] = min(_F(math.sqrt(variance)), limit)
 
 
-@kernel(fastmath=_FASTMATH)
+@kernel(fastmath=FASTMATH)
 def fuse(
     memory: Memory,
     indices: NDArray[np.uint16],
@@ -434,8 +307,8 @@ def fuse(
     """
     state = _state_of(memory)
     lag_step_s = duration_s / indices.shape[0]
-    _observe_motion(state, indices, counts, period_s, lag_step_s, cols, tuning)
-    _find_velocities(state, tuning)
+    observe_motion(state, indices, counts, period_s, lag_step_s, cols, tuning)
+    find_velocities(state, tuning)
     _predict(state, period_s, cols, tuning)
     _take(state, indices, counts, lag_step_s, tuning)
     _spread(state, indices, cols, tuning)
@@ -443,7 +316,7 @@ def fuse(
     _doubt(state, cols, tuning)
 
 
-@kernel(fastmath=_FASTMATH)
+@kernel(fastmath=FASTMATH)
 def confidence(sigma: NDArray[np.float32], half_counts: float, out: NDArray[np.uint8]) -> None:
     """Write 255 where nothing is in doubt, half of it where sigma is `half_counts`, towards 0 beyond."""
     for i in range(sigma.shape[0]):

@@ -9,19 +9,18 @@ from scipy import ndimage
 from acts_core.array import COUNT_MAX
 from acts_recon.borders import Borders
 from acts_recon.fusion_kernels import (
-    AROUND,
     CALM_SAMPLES,
     IDLE_COUNTS_PER_S,
     NOTICED_S,
     OUTLIER,
     REACH,
-    RIDGE,
     SCALE_LIMIT,
     SCALE_STEP,
     SHORTEST_S,
     SPREAD_PRIOR,
     UNREST_SHARE,
 )
+from acts_recon.fusion_motion_kernels import AROUND, RIDGE
 from acts_recon.fusion_state import TILE, UNKNOWN_COUNTS, Tuning
 
 Floats = NDArray[np.float64]
