@@ -17,6 +17,7 @@ from acts_core.frames import SampleFrame, Scheme
 from acts_core.frames_file import FramesFile, load_frames
 from acts_core.npz_file import UNPACKED_BYTES_MAX, read_npz
 from acts_core.sampling import SCHEMES, Sampler, SamplingConfig, measure_in
+from acts_core.skin_map import SkinMap
 
 MEASUREMENT_US = 17.877
 """Time of one measurement on the paper's board (55,936 samples per second) [us]."""
@@ -51,6 +52,8 @@ class ReplayOptions:
         How full frames are sampled; its rows and columns are ignored.
     rate_cap_hz : float
         At most so many samplings per second of full frames; 0 for `BOARD_RATE_HZ`.
+    skin_map : callable
+        From rows and columns to how the taxels of full frames lie on the skin.
     """
 
     path: Path
@@ -58,6 +61,7 @@ class ReplayOptions:
     frames_hz: float = 0.0
     sampling: Callable[[int, int], SamplingConfig] = lambda rows, cols: SamplingConfig(rows=rows, cols=cols)
     rate_cap_hz: float = 0.0
+    skin_map: Callable[[int, int], SkinMap | None] = lambda rows, cols: None
 
 
 def open_recording(options: ReplayOptions) -> Recording:
@@ -67,7 +71,7 @@ def open_recording(options: ReplayOptions) -> Recording:
     ------
     RecordingError
         The file is missing, damaged, or lacks what is needed.
-    SettingsError
+    SettingsError, ArrayError
         Its array cannot be sampled as asked.
     """
     path = options.path
@@ -81,7 +85,11 @@ def open_recording(options: ReplayOptions) -> Recording:
         if max(rows, cols) > MAX_SIDE:
             raise RecordingError(f"{path}: frames of {rows} x {cols} taxels; an array has up to {MAX_SIDE} each way")
         return SampledFrames(
-            content, options.frames_hz or _rate_of(content, path), options.sampling(rows, cols), options.rate_cap_hz
+            content,
+            options.frames_hz or _rate_of(content, path),
+            options.sampling(rows, cols),
+            options.rate_cap_hz,
+            options.skin_map(rows, cols),
         )
     if path.is_dir() or path.suffix == ".mcap":
         # Late: rosbags is needed for bags alone.
@@ -110,9 +118,19 @@ class SampledFrames:
         How the taxels are chosen; every pass begins with a new `Sampler`.
     rate_cap_hz : float
         At most so many samplings per second; 0 for `BOARD_RATE_HZ`.
+    skin_map : SkinMap, optional
+        See `acts_core.sampling.Sampler`.
     """
 
-    def __init__(self, content: FramesFile, frames_hz: float, sampling: SamplingConfig, rate_cap_hz: float) -> None:
+    def __init__(
+        self,
+        content: FramesFile,
+        frames_hz: float,
+        sampling: SamplingConfig,
+        rate_cap_hz: float,
+        skin_map: SkinMap | None = None,
+    ) -> None:
+        self._map = skin_map
         self._frames = content.frames
         self._frames_hz = frames_hz
         self._sampling = sampling
@@ -122,7 +140,7 @@ class SampledFrames:
 
     def frames(self) -> Iterator[SampleFrame]:
         """One pass; see `Recording.frames`."""
-        sampler = Sampler(self._sampling)
+        sampler = Sampler(self._sampling, self._map)
         scheme = SCHEMES[self._sampling.scheme]
         length_us = len(self._frames) / self._frames_hz * 1e6
         for sequence in range(max(1, int(length_us / self._period_us))):

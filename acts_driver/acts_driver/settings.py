@@ -119,7 +119,12 @@ class DriverSettings(RealtimeConfig, BaselineParameters, BoardParameters, Source
         if not self.is_replay:
             return SerialSource(self.port, self.baud)
         options = ReplayOptions(
-            Path(self.replay), self.replay_topic, self.replay_frames_hz, self.sampling, self.rate_cap_hz
+            Path(self.replay),
+            self.replay_topic,
+            self.replay_frames_hz,
+            self.sampling,
+            self.rate_cap_hz,
+            self.skin_map,
         )
         return ReplaySource(
             f"recording {self.replay}",

@@ -16,6 +16,7 @@ from recorded import DEFINITION, write_bag
 
 from acts_core.errors import RecordingError, SettingsError
 from acts_core.frames import SampleFrame, Scheme
+from acts_core.layouts import layout
 from acts_core.sampling import Sampler, SamplingConfig, measure_in
 from acts_core.wire import StreamDecoder
 from acts_driver.reader import Reader
@@ -103,6 +104,18 @@ def test_full_frames_are_sampled_as_the_board_would(tmp_path: Path) -> None:
         np.testing.assert_array_equal(one.indices, indices)
         np.testing.assert_array_equal(one.counts, counts)
     assert {b.board_us - a.board_us for a, b in itertools.pairwise(found)} == {1000}
+
+
+def test_full_frames_are_sampled_on_the_skin_that_they_are_of(tmp_path: Path) -> None:
+    insole = layout("insole")
+    picture = np.zeros((64, 16), np.uint16)
+    picture[10:16, 4:10] = 700
+    np.savez(tmp_path / "frames.npz", frames=insole.matrix(picture)[None].repeat(3, axis=0), rate_hz=100.0)
+    parameters = DriverSettings(scheme="adaptive", m=120, threshold_counts=60, layout="insole")
+    options = ReplayOptions(tmp_path / "frames.npz", sampling=parameters.sampling, skin_map=parameters.skin_map)
+    first = next(open_recording(options).frames())
+    # In the matrix the first 255 taxels of the search are all of the other half.
+    assert set(np.flatnonzero(picture)) <= set(insole.places[first.indices].tolist())
 
 
 def test_the_rate_of_full_frames_and_of_sampling_can_be_given(tmp_path: Path) -> None:
