@@ -110,3 +110,22 @@ def test_the_skin_lies_on_the_solids_of_its_links(hand: tuple[mujoco.MjModel, mu
         inwards = (1, 0, 0) if patch.name.startswith("thumb") else (0, 0, -1)
         middle = normals.mean(axis=0) / np.linalg.norm(normals.mean(axis=0))
         assert middle == pytest.approx(inwards, abs=1e-6)
+
+
+def test_fingers_collide_with_one_another_but_not_with_themselves() -> None:
+    made = model.build(None, 0.001)
+    data = mujoco.MjData(made)
+    data.joint("index_mcp_side").qpos[0] = 0.5
+    data.joint("middle_mcp_side").qpos[0] = -0.5
+    mujoco.mj_forward(made, data)
+    met = {
+        tuple(sorted(made.body(made.geom_bodyid[geom]).name.split("_")[0] for geom in contact.geom))
+        for contact in data.contact
+    }
+    assert met == {("index", "middle")}
+    for q_rad in np.linspace(0.0, 1.5, 6):
+        mujoco.mj_resetData(made, data)
+        for joint in ("pip", "dip"):
+            data.joint(f"ring_{joint}").qpos[0] = q_rad
+        mujoco.mj_forward(made, data)
+        assert data.ncon == 0

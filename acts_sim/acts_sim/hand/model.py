@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import combinations
 from xml.etree import ElementTree
 
 import mujoco
@@ -24,8 +25,16 @@ _ARMATURE_KG_M2 = 1e-3
 _DAMPING_NM_S = 0.03
 _FRICTION_NM = 0.01
 
-# Who collides with whom, as bits: a geom's own, and those that it takes.
-_COLLISION = {"finger": ("9", "6"), "thumb": ("5", "2"), "root": ("1", "6"), "palm": ("1", "10"), "object": ("2", "1")}
+# Who collides with whom: kinds of solids by pairs.
+_KINDS = ("object", "palm", "root", "finger", "thumb")
+_COLLIDING = {
+    *(("object", kind) for kind in _KINDS[1:]),
+    ("finger", "palm"),
+    ("finger", "finger"),
+    ("finger", "root"),
+    ("thumb", "finger"),
+    ("thumb", "root"),
+}
 
 _COLOURS = {
     "palm": "0.55 0.57 0.60 1",
@@ -90,8 +99,13 @@ def _document(thing: HeldObject | None, timestep_s: float) -> ElementTree.Elemen
         _add_solid(bodies[solid.link], solid, at_rest[solid.link], masses[solid.link] / of_link)
     if thing is not None:
         _add_object(world, thing)
+    contacts = ElementTree.SubElement(root, "contact")
+    for digit in (*FINGERS, "thumb"):
+        # The links of a finger meet at its joints.
+        for one, other in combinations([link.name for link in LINKS if link.name.startswith(digit)], 2):
+            ElementTree.SubElement(contacts, "exclude", body1=one, body2=other)
     tip = ElementTree.SubElement(world, "body", name=TIP, mocap="true", pos=_text(PARKED_M))
-    contype, conaffinity = _COLLISION["object"]
+    contype, conaffinity = _collision_of("object")
     ElementTree.SubElement(
         tip,
         "geom",
@@ -114,6 +128,12 @@ def _kind_of(link: str) -> str:
     return "finger" if link.startswith(FINGERS) else "thumb"
 
 
+def _collision_of(kind: str) -> tuple[str, str]:
+    """A solid's own bit, and the bits of those that it collides with."""
+    takes = {one for pair in _COLLIDING if kind in pair for one in (pair if pair[0] == pair[1] else set(pair) - {kind})}
+    return str(1 << _KINDS.index(kind)), str(sum(1 << _KINDS.index(one) for one in takes))
+
+
 def _add_solid(
     body: ElementTree.Element,
     solid: Solid,
@@ -122,7 +142,7 @@ def _add_solid(
 ) -> None:
     origin_m, rotation = frame
     start, end = ((np.array(point) - origin_m) @ rotation for point in (solid.start_m, solid.end_m))
-    contype, conaffinity = _COLLISION[_kind_of(solid.link)]
+    contype, conaffinity = _collision_of(_kind_of(solid.link))
     common = {
         "mass": str(mass_kg),
         "contype": contype,
@@ -143,7 +163,7 @@ def _add_solid(
 def _add_object(world: ElementTree.Element, thing: HeldObject) -> None:
     body = ElementTree.SubElement(world, "body", name=OBJECT)
     ElementTree.SubElement(body, "freejoint", name=OBJECT)
-    contype, conaffinity = _COLLISION["object"]
+    contype, conaffinity = _collision_of("object")
     for piece in thing.pieces:
         kind, size = _shape_of(piece)
         ElementTree.SubElement(
