@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hand_motors import switch_on
+from hand_motors import AROUND_SPHERE, close, switch_on
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -137,3 +137,18 @@ def test_the_loop_writes_each_step_ahead_of_the_clock(tmp_path: Path, monkeypatc
         loop.step(STEP_S)
         assert follower.new()[0].tolist() == [now_ns + 4_000_000]
         assert loop.statistics.skipped == 150
+
+
+@pytest.mark.parametrize(("name", "mass_kg"), [("small_sphere", 0.01), ("box", 0.06)])
+def test_a_light_object_squeezed_and_shaken_stays_within_reason(name: str, mass_kg: float) -> None:
+    world = HandWorld(HandWorldConfig(object=name, object_mass_kg=mass_kg, pose="thumb_up", object_held=True))
+    switch_on(world)
+    close(world, AROUND_SPHERE, 150, 50)
+    world.do("shake x 10 4 0.5")
+    fastest = max(float(np.linalg.norm(run(world, STEP_S).object_velocity_m_s)) for _ in range(300))
+    assert fastest < 1.0
+
+
+def test_a_mass_that_physics_cannot_follow_is_refused() -> None:
+    with pytest.raises(SettingsError, match="object_mass_kg"):
+        HandWorldConfig(object_mass_kg=0.001)

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 _STIFFNESS_N_M = 800.0
 _TURN_STIFFNESS_NM = 3.0
-# A gyration radius of this [m] tells how to damp turns.
-_GYRATION_M = 0.03
+# What is light is held less stiffly, so that it swings no faster than this [rad/s]; steps of a millisecond follow that.
+_FASTEST_RAD_S = 300.0
 _LET_GO_S = 0.1
 
 
@@ -19,13 +19,15 @@ class Holder:
 
     Parameters
     ----------
-    mass_kg : float
-        Of the object.
+    mass_kg, inertia_kg_m2 : float
+        Of the object; the smallest of its moments of inertia.
     """
 
-    def __init__(self, mass_kg: float) -> None:
-        self._damping = 2.0 * math.sqrt(_STIFFNESS_N_M * mass_kg)
-        self._turn_damping = 2.0 * math.sqrt(_TURN_STIFFNESS_NM * mass_kg) * _GYRATION_M
+    def __init__(self, mass_kg: float, inertia_kg_m2: float) -> None:
+        self._stiffness = min(_STIFFNESS_N_M, mass_kg * _FASTEST_RAD_S**2)
+        self._turn_stiffness = min(_TURN_STIFFNESS_NM, inertia_kg_m2 * _FASTEST_RAD_S**2)
+        self._damping = 2.0 * math.sqrt(self._stiffness * mass_kg)
+        self._turn_damping = 2.0 * math.sqrt(self._turn_stiffness * inertia_kg_m2)
         self._start = self._position = self._end = np.zeros(3)
         self._quaternion = self._start_quaternion = np.array([1.0, 0.0, 0.0, 0.0])
         self._turn = np.zeros(3)
@@ -82,9 +84,9 @@ class Holder:
             self._advance(dt_s)
         w, x, y, z = quaternion.tolist()
         difference = _product(self._quaternion, np.array((w, -x, -y, -z)))
-        turn = 2.0 * math.copysign(_TURN_STIFFNESS_NM, difference[0]) * difference[1:]
+        turn = 2.0 * math.copysign(self._turn_stiffness, difference[0]) * difference[1:]
         out = np.empty(6)
-        out[:3] = _STIFFNESS_N_M * (self._position - position_m) + self._damping * (
+        out[:3] = self._stiffness * (self._position - position_m) + self._damping * (
             self._speed_s * (self._end - self._start) - velocity_m_s
         )
         out[3:] = turn + self._turn_damping * (self._speed_s * self._turn - turn_rad_s)

@@ -65,9 +65,11 @@ def build(thing: HeldObject | None, timestep_s: float) -> mujoco.MjModel:
 def _document(thing: HeldObject | None, timestep_s: float) -> ElementTree.Element:
     root = ElementTree.Element("mujoco", model="leap_right")
     ElementTree.SubElement(root, "compiler", angle="radian", autolimits="true", inertiafromgeom="true")
-    ElementTree.SubElement(
+    option = ElementTree.SubElement(
         root, "option", timestep=str(timestep_s), integrator="implicitfast", cone="pyramidal", iterations="20"
     )
+    # What becomes unstable is told, and not begun anew in silence.
+    ElementTree.SubElement(option, "flag", autoreset="disable")
     visual = ElementTree.SubElement(root, "visual")
     ElementTree.SubElement(visual, "global", offwidth="1280", offheight="960")
     ElementTree.SubElement(visual, "headlight", ambient="0.45 0.45 0.45", diffuse="0.6 0.6 0.6", specular="0.1 0.1 0.1")

@@ -125,7 +125,7 @@ class Skin:
             [
                 config.foam_stiffness_n_per_m3,
                 2.0 / 3.0 * SKIN_THICKNESS_M,
-                10.0,  # foam whose cells are closed
+                5.0,  # foam whose cells are closed
                 config.foam_damping_s_m,
                 config.foam_shear_share * config.foam_stiffness_n_per_m3,
                 0.005,  # [s]: shear is damped, too

@@ -12,6 +12,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.errors import ActsError, SettingsError
 from acts_core.layouts import layout
 from acts_core.settings import setting, validate
 from acts_sim.dynamixel.bus import Bus
@@ -31,7 +32,9 @@ from acts_sim.hand.truth import COLUMN, PATCH_COLUMNS, PATCHES_FROM, HandTruth, 
 STEP_S = 0.002
 """Length of a step [s]."""
 
-_SUBSTEPS = 2
+# Of physics in a step: foam on a light object is a stiff spring.
+_SUBSTEPS, _LIGHT_SUBSTEPS, _LIGHT_KG = 2, 4, 0.1
+_SMALLEST_KG = 0.01
 
 _GRAVITY_M_S2 = 9.81
 
@@ -44,6 +47,12 @@ _DOWN = {
     "fingers_up": (-1.0, 0.0, 0.0),
     "fingers_down": (1.0, 0.0, 0.0),
 }
+
+_UNSTABLE = (
+    int(mujoco.mjtWarning.mjWARN_BADQPOS),
+    int(mujoco.mjtWarning.mjWARN_BADQVEL),
+    int(mujoco.mjtWarning.mjWARN_BADQACC),
+)
 
 _LOST_M = 0.15
 """An object further than this from where the hand can hold it has fallen out."""
@@ -61,7 +70,7 @@ class HandWorldConfig(SkinConfig):
     object_size_m: float = setting(
         0.0, "radius, or half the width of a box [m]; 0: as usual", minimum=0.0, maximum=0.045
     )
-    object_mass_kg: float = setting(0.0, "mass of the object [kg]; 0: as usual", minimum=0.0, maximum=2.0)
+    object_mass_kg: float = setting(0.0, "mass of the object, 0.01 or more [kg]; 0: as usual", minimum=0.0, maximum=2.0)
     object_x_m: float = setting(
         0.0, "where the object is put: off the palm's middle, towards the fingers [m]", minimum=-0.1, maximum=0.1
     )
@@ -80,6 +89,8 @@ class HandWorldConfig(SkinConfig):
 
     def __post_init__(self) -> None:
         validate(self)
+        if 0.0 < self.object_mass_kg < _SMALLEST_KG:
+            raise SettingsError(f"object_mass_kg = {self.object_mass_kg}: allowed is 0, or {_SMALLEST_KG} to 2 kg")
 
 
 class HandWorld:
@@ -111,7 +122,9 @@ class HandWorld:
         self._thing: HeldObject | None = None
         if config.object != "none":
             self._thing = held_object(config.object, config.object_size_m, config.object_mass_kg)
-        self._model = hand_model.build(self._thing, STEP_S / _SUBSTEPS)
+        is_light = self._thing is not None and self._thing.mass_kg < _LIGHT_KG
+        self._substeps = _LIGHT_SUBSTEPS if is_light else _SUBSTEPS
+        self._model = hand_model.build(self._thing, STEP_S / self._substeps)
         self._data = mujoco.MjData(self._model)
         self.layout = layout(config.layout)
         overload = OverloadLaw(config.overload_after_s, config.overload_ma)
@@ -129,7 +142,8 @@ class HandWorld:
         solids = Solids(self._model, self._thing, max(self._body, 0), tip_body, config.cover_m, config.unevenness_m)
         self._skin = Skin(self._model, self.layout, solids, config, rng)
         self.tip = Tip(self._model, self._data, solids, self.layout)
-        self.holder = Holder(self._thing.mass_kg if self._thing else 0.0)
+        inertia_kg_m2 = float(self._model.body_inertia[self._body].min()) if self._thing else 0.0
+        self.holder = Holder(self._thing.mass_kg if self._thing else 0.0, inertia_kg_m2)
         self.disturbances = Disturbances(self.weight_n, self.down)
         self.time_s = 0.0
         self._lost = False
@@ -210,11 +224,19 @@ class HandWorld:
         mujoco.mj_step1(self._model, self._data)
 
     def step(self) -> None:
-        """Let `STEP_S` pass."""
+        """Let `STEP_S` pass.
+
+        Raises
+        ------
+        ActsError
+            When the physics has become unstable.
+        """
         data = self._data
         data.qfrc_applied[self._dof] = [motor.step(STEP_S) for motor in self.motors]
-        for _ in range(_SUBSTEPS):
-            self._substep(STEP_S / _SUBSTEPS)
+        for _ in range(self._substeps):
+            self._substep(STEP_S / self._substeps)
+        if any(data.warning[kind].number for kind in _UNSTABLE):
+            raise ActsError(f"the hand's world is unstable after {self.time_s:.3f} s; the object may be too light")
         self._give_shafts()
         if self._body >= 0 and not self._lost:
             self._lost = math.dist(data.qpos[-7:-4].tolist(), _GRASP_MIDDLE_M) > _LOST_M
