@@ -23,10 +23,15 @@ def pid_of(launched: Launched, name: str) -> int:
 
 def patient_parameters(folder: Path, touch_stop_after_s: float = 10.0) -> str:
     """The shipped parameters, for a busy machine: late touch or a late robot level the plate but do not end the run."""
-    path = folder / "patient.yaml"
-    shipped = Path(get_package_share_directory("acts_config")) / "params" / "ball_balancing.yaml"
     limits = f"{{touch_stop_after_s: {touch_stop_after_s}, robot_stale_after_s: 2.0}}"
-    path.write_text(f"{shipped.read_text()}\n/**/ball_control:\n  ros__parameters: {limits}\n")
+    return shipped_parameters_and(folder, "ball_balancing", "/**/ball_control", limits)
+
+
+def shipped_parameters_and(folder: Path, file: str, node: str, parameters: str) -> str:
+    """A params file of ours with more parameters of a node, as YAML in a line; the path of it."""
+    path = folder / "patient.yaml"
+    shipped = Path(get_package_share_directory("acts_config")) / "params" / f"{file}.yaml"
+    path.write_text(f"{shipped.read_text()}\n{node}:\n  ros__parameters: {parameters}\n")
     return str(path)
 
 

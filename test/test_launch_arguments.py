@@ -35,7 +35,16 @@ TEXTS = {
     "hand_reflexes": ("port", "hand_port", "hand", "reflexes", "layout", "seed", "run_dir", "cpu_affinity"),
     "skins": ("skins_file", "base_frame", "run_dir"),
     "simulated_board": ("recording", "run_dir", "cpu_affinity"),
-    "simulated_hand": ("layout", "seed", "run_dir", "cpu_affinity"),
+    "simulated_hand": (
+        "object_size",
+        "object_mass",
+        "object_x",
+        "object_y",
+        "layout",
+        "seed",
+        "run_dir",
+        "cpu_affinity",
+    ),
     "simulated_robot": ("robot_ip", "frame_id", "run_dir", "cpu_affinity"),
 }
 MEAN = (
@@ -143,6 +152,8 @@ CHOICES = {
     "autostart": ("true", "false"),
     "replay_loop": ("true", "false"),
     "object": describe(HandWorldConfig)["object"].choices,
+    "object_held": ("true", "false"),
+    "pose": describe(HandWorldConfig)["pose"].choices,
 }
 
 
@@ -264,7 +275,8 @@ def test_the_arguments_of_the_hand_reach_what_they_are_for(launch: Callable[...,
     assert settings_of(started, "reconstruction")["layout"] == "mine_layout.yaml"
     assert settings_of(started, "driver")["autostart"] == IN_PARAMS_FILE
     (world,) = [" ".join(words) for words, _ in started if words[0].endswith("/hand_world")]
-    assert "--object box --seed 7 --layout mine_layout.yaml " in world
+    assert "--object box " in world
+    assert " --seed 7 --layout mine_layout.yaml " in world
     (board,) = [" ".join(words) for words, _ in started if words[0].endswith("/virtual_board")]
     assert "--rate-hz 1000 " in board
     assert "--seed 7 " in board

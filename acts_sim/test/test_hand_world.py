@@ -73,3 +73,14 @@ def test_what_needs_no_hand_does_not_load_mujoco() -> None:
     modules = "acts_sim.world_loop, acts_sim.timed_ring, acts_sim.dynamixel.main, acts_sim.ur.main"
     code = f"import sys, {modules}; sys.exit('mujoco' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], timeout=60).returncode == 0
+
+
+def test_a_world_stands_as_a_truth_has_it_for_a_picture() -> None:
+    world, other = (HandWorld(HandWorldConfig(object="cylinder", object_held=True)) for _ in range(2))
+    other.put(0.01, 0.0, 0.02, held=True)
+    other.motors[2].shaft.position_rad += 0.3
+    for _ in range(5):
+        other.step()
+    world.show(other.truth)
+    assert world.truth.q_rad == other.truth.q_rad
+    assert world.truth.object_position_m == other.truth.object_position_m

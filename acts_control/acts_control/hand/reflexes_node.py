@@ -7,6 +7,7 @@ Topics: regions in; joint_states, hand/status and hand/timing out. Services: ~/g
 from __future__ import annotations
 
 import sys
+import threading
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import make_dataclass
@@ -71,12 +72,17 @@ class TouchedHand:
     """
 
     def __init__(
-        self, supervisor: HandSupervisor, regions: PolledSubscription[bytes], now_ns: Callable[[], int]
+        self,
+        supervisor: HandSupervisor,
+        regions: PolledSubscription[bytes],
+        now_ns: Callable[[], int],
+        on_change: Callable[[], None],
     ) -> None:
         self.times = CycleTimes()
         self._supervisor = supervisor
         self._regions = regions
         self._now_ns = now_ns
+        self._on_change = on_change
         self._touched_ns: int | None = None
 
     def restart(self, *, recovered: bool) -> None:
@@ -95,7 +101,12 @@ class TouchedHand:
             else:
                 self._touched_ns = touch.stamp_ns
                 self._supervisor.touch(touch.regions, now_s - 1e-9 * (self._now_ns() - touch.stamp_ns))
-        return [float(angle) for angle in self._supervisor.step(reading, goal_rad, now_s, dt_s)]
+        before = self._supervisor.status
+        goals = [float(angle) for angle in self._supervisor.step(reading, goal_rad, now_s, dt_s)]
+        status = self._supervisor.status
+        if (status.state, status.events) != (before.state, before.events):
+            self._on_change()
+        return goals
 
     def sent(self, began_s: float, sent_s: float) -> None:
         """See `acts_control.hand.loop.Behaviour`."""
@@ -111,6 +122,7 @@ class HandReflexesNode(MotorNode):
         settings: Any = declare(self, HandReflexesSettings)
         reflexes = make_reflexes(settings.reflexes, settings)
         self._supervisor = HandSupervisor(HandKinematics(hand_description(settings.hand)), reflexes, settings)
+        self._status_lock = threading.Lock()
         self._status = HandStatus()
         self._status.header.frame_id = settings.frame_id
         self._status_publisher = self.create_publisher(HandStatus, "hand/status", STATE)
@@ -119,7 +131,7 @@ class HandReflexesNode(MotorNode):
         self._timing_publisher = self.create_publisher(HandTiming, "hand/timing", STATE)
         regions = self.create_raw_polled_subscription(RegionContacts, "regions", STREAM, depth=_TOUCH_DEPTH)
         clock = self.get_clock()
-        touched = TouchedHand(self._supervisor, regions, lambda: clock.now().nanoseconds)
+        touched = TouchedHand(self._supervisor, regions, lambda: clock.now().nanoseconds, self._publish_status)
         self._times, self._timed_s = touched.times, time.monotonic()
         self._told = SupervisorStatus()
         self.start_with(settings, touched, "disable")
@@ -154,6 +166,11 @@ class HandReflexesNode(MotorNode):
         return on_request
 
     def _publish_status(self) -> None:
+        # By the timer, and at once by the hand's loop where a reflex has been set off or the state has changed.
+        with self._status_lock:
+            self._send_status()
+
+    def _send_status(self) -> None:
         status, loop, message = self._supervisor.status, self.loop.status, self._status
         if (status.state, status.reason) != (self._told.state, self._told.reason):
             self.get_logger().info(f"{status.state.name.lower()}: {status.reason}")

@@ -52,13 +52,15 @@ class HandPicture:
         self._context.free()
         self._gl.free()
 
-    def take(self, view: str = "above") -> NDArray[np.uint8]:
-        """A picture of how things are; np.ndarray [shape=(height, width, 3), dtype=uint8].
+    def take(self, view: str = "above", counts: NDArray[np.float64] | None = None) -> NDArray[np.uint8]:
+        """A picture of how things are, on white; np.ndarray [shape=(height, width, 3), dtype=uint8].
 
         Parameters
         ----------
         view : str
             One of `VIEWS`.
+        counts : np.ndarray [shape=(taxels,), dtype=float64], optional
+            What the taxels read, in the order of the matrix; the world's own unless given.
         """
         world, scene = self._world, self._scene
         self._gl.make_current()
@@ -70,11 +72,13 @@ class HandPicture:
         option, perturbation = mujoco.MjvOption(), mujoco.MjvPerturb()
         mujoco.mjv_updateScene(world.model, world.data, option, perturbation, camera, mujoco.mjtCatBit.mjCAT_ALL, scene)
         self._turn_upright(camera)
-        self._add_taxels()
+        self._add_taxels(world.counts if counts is None else counts)
         viewport = mujoco.MjrRect(0, 0, self._width, self._height)
         mujoco.mjr_render(viewport, scene, self._context)
         picture = np.empty((self._height, self._width, 3), dtype=np.uint8)
-        mujoco.mjr_readPixels(picture, None, viewport, self._context)
+        depth = np.empty((self._height, self._width), dtype=np.float32)
+        mujoco.mjr_readPixels(picture, depth, viewport, self._context)
+        picture[depth >= 1.0] = 255
         return picture[::-1]
 
     def _turn_upright(self, camera: mujoco.MjvCamera) -> None:
@@ -96,10 +100,9 @@ class HandPicture:
             self._scene.lights[light].pos[:] = position
             self._scene.lights[light].dir[:] = -outward
 
-    def _add_taxels(self) -> None:
+    def _add_taxels(self, counts: NDArray[np.float64]) -> None:
         """Each taxel as a dot on its place, from grey to red by what it reads."""
         world, scene = self._world, self._scene
-        counts = world.counts
         turn = np.eye(3).ravel()
         for patch in world.layout.patches:
             body = mujoco.mj_name2id(world.model, mujoco.mjtObj.mjOBJ_BODY, patch.link)

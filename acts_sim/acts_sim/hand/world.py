@@ -223,6 +223,15 @@ class HandWorld:
             self.holder.drop()
         mujoco.mj_step1(self._model, self._data)
 
+    def show(self, truth: HandTruth) -> None:
+        """Stand as a truth has it, for a picture; what presses the skin and the motors are left as they were."""
+        data = self._data
+        data.qpos[self._q] = truth.q_rad
+        if self._thing is not None:
+            start = self._model.jnt_qposadr[_joint(self._model, hand_model.OBJECT)]
+            data.qpos[start : start + 7] = (*truth.object_position_m, *truth.object_quaternion)
+        mujoco.mj_kinematics(self._model, data)
+
     def step(self) -> None:
         """Let `STEP_S` pass.
 
