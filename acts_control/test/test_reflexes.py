@@ -17,6 +17,7 @@ from acts_control.hand.reflexes.slip_prevention import SlipPrevention, SlipPreve
 from acts_control.hand.reflexes.sphere_balancing import fitted_sphere
 from acts_control.hand.step_rule import StepRule, StepRuleConfig
 from acts_core.errors import SettingsError
+from acts_core.region_contact import RegionContact
 
 PIP, DIP = NAMES.index("index_pip"), NAMES.index("index_dip")
 
@@ -83,7 +84,7 @@ def test_a_motor_at_its_current_limit_is_closed_no_further_but_may_open() -> Non
 # --- slip
 
 
-def slipping(name: str, distance_m: float) -> object:
+def slipping(name: str, distance_m: float) -> RegionContact:
     return region(name, 0.5, slip_m=distance_m, slipping=True)
 
 
@@ -129,24 +130,43 @@ def test_the_grip_that_is_added_has_an_end() -> None:
 # --- sharp
 
 
-def felt(radius_m: float, depth_m: float, at: tuple[float, float], pitch_m: float = 0.003) -> object:
-    """What an 8 x 8 patch feels of a sphere that is pressed into an elastic skin, at a place within a taxel."""
-    grid = (np.arange(80) + 0.5) * pitch_m / 10
-    x, y = np.meshgrid(grid - (4 + at[0]) * pitch_m, grid - (4 + at[1]) * pitch_m)
-    stiffness_n_m3 = 1.5e8
-    deep = np.maximum(depth_m - radius_m + np.sqrt(np.maximum(radius_m**2 - x**2 - y**2, 0.0)), 0.0)
-    deep[x**2 + y**2 > radius_m**2] = 0.0
-    forces = (stiffness_n_m3 * (pitch_m / 10) ** 2 * deep).reshape(8, 10, 8, 10).sum(axis=(1, 3))
-    taxels = int((forces > 0.002).sum())
-    total, peak = float(forces.sum()), float(forces.max())
-    return region(
-        "index_distal",
-        total,
-        max(taxels, 1),
-        area_m2=max(taxels, 1) * pitch_m**2,
-        peak_n=peak,
-        concentration=peak / total if total else 0.0,
-    )
+def felt(radius_m: float, depth_m: float, at: tuple[float, float]) -> RegionContact:
+    """What 8 x 8 taxels of 4 mm feel of a sphere that is pressed into foam, at a place relative to a taxel's middle.
+
+    The foam is 25 N/cm^3 stiff, under a cover of 1 mm, and spreads pressure sideways by 1 mm.
+    """
+    pitch_m, fine = 0.004, 8
+    step_m = pitch_m / fine
+    grid = (np.arange(8 * fine) + 0.5) * step_m
+    x, y = np.meshgrid(grid - (4.5 + at[0]) * pitch_m, grid - (4.5 + at[1]) * pitch_m)
+    pressure = 2.5e7 * np.maximum(depth_m - (x**2 + y**2) / (2.0 * (radius_m + 0.001)), 0.0)
+    spread = np.exp(-0.5 * (np.arange(-8, 9) * step_m / 0.001) ** 2)
+    for axis in (0, 1):
+        pressure = np.apply_along_axis(np.convolve, axis, pressure, spread / spread.sum(), "same")
+    forces = (pressure * step_m**2).reshape(8, fine, 8, fine).sum(axis=(1, 3))
+    forces = np.where(forces > 0.0075, forces, 0.0)
+    taxels, total, peak = int((forces > 0.0).sum()), float(forces.sum()), float(forces.max())
+    if taxels == 0:
+        return region("index_distal")
+    area_m2 = taxels * pitch_m**2
+    return region("index_distal", total, taxels, area_m2=area_m2, peak_n=peak, concentration=peak / total)
+
+
+places = st.tuples(st.floats(-0.5, 0.5), st.floats(-0.5, 0.5))
+
+
+@settings(max_examples=60, deadline=None)
+@given(radius_m=st.floats(0.008, 0.05), depth_m=st.floats(0.0, 0.0025), at=places)
+def test_what_is_blunt_is_never_taken_for_a_tip(radius_m: float, depth_m: float, at: tuple[float, float]) -> None:
+    assert not SharpAvoidance(SharpAvoidanceConfig()).is_sharp(felt(radius_m, depth_m, at))
+
+
+@settings(max_examples=60, deadline=None)
+@given(at=st.tuples(st.floats(-0.3, 0.3), st.floats(-0.3, 0.3)))
+def test_a_tip_of_a_millimetre_is_told_before_it_is_two_millimetres_deep(at: tuple[float, float]) -> None:
+    # Where four taxels meet it feels as something blunt does, and is told later.
+    reflex = SharpAvoidance(SharpAvoidanceConfig())
+    assert any(reflex.is_sharp(felt(0.0005, depth_m, at)) for depth_m in np.arange(0.0005, 0.002, 0.0001))
 
 
 def test_the_finger_at_a_tip_opens_at_once_and_the_others_keep_what_they_have() -> None:
@@ -223,7 +243,7 @@ def test_force_goes_from_phalanges_with_much_to_those_with_little() -> None:
         region("ring_medial", 4.0, 4, peak_n=3.0),
     ],
 )
-def test_a_finger_gives_way_above_the_comfort_limit_of_force_or_pressure(contact: object) -> None:
+def test_a_finger_gives_way_above_the_comfort_limit_of_force_or_pressure(contact: RegionContact) -> None:
     reflex = HandToHand(HandToHandConfig(hand_to_hand_max_force_n=10.0, hand_to_hand_max_pressure_n_m2=3e5))
     wish = reflex.step(sensed(contact))
     assert wish is not None

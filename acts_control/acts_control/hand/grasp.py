@@ -23,7 +23,8 @@ class GraspConfig:
         1.0, "how fast the joint that takes most part closes [rad/s]", minimum=0.01, maximum=8.0
     )
     open_speed_rad_s: float = setting(3.0, "how fast the hand opens [rad/s]", minimum=0.01, maximum=8.0)
-    close_timeout_s: float = setting(6.0, "closing ends after this [s]", minimum=0.1, maximum=60.0)
+    grasp_posture: str = setting("pregrasp", "posture of the hand's description from which it closes")
+    close_timeout_s: float = setting(3.0, "closing ends after this [s]", minimum=0.1, maximum=60.0)
     grip_settle_s: float = setting(
         0.2, "how long all fingers must have gripped before it counts as held [s]", minimum=0.0, maximum=5.0
     )
@@ -63,7 +64,7 @@ class Grasp:
         """Steps that close the hand."""
         config = self._config
         if not self._is_shaped and self._shapes(sensed):
-            return towards(sensed, "pregrasp", config.open_speed_rad_s)
+            return towards(sensed, config.grasp_posture, config.open_speed_rad_s)
         self._closing_s += sensed.dt_s
         forces = {finger: sum(one.force_n for one in sensed.of_finger(finger)) for finger in sensed.hand.fingers}
         gripping = [finger for finger, force in forces.items() if force >= config.grip_force_n]
@@ -89,7 +90,7 @@ class Grasp:
     def _shapes(self, sensed: Sensed) -> bool:
         """Whether the hand still has to come into the shape from which it closes."""
         touched = any(one.in_contact for name, one in sensed.regions.items() if sensed.finger(name))
-        left = np.abs(np.array(sensed.hand.postures["pregrasp"]) - sensed.q_rad).max()
+        left = np.abs(np.array(sensed.hand.postures[self._config.grasp_posture]) - sensed.q_rad).max()
         self._is_shaped = touched or bool(left < _ARRIVED_RAD)
         return not self._is_shaped
 

@@ -17,6 +17,7 @@ from acts_control.hand.grasp import Grasp, GraspConfig, towards
 from acts_control.hand.kinematics import HandKinematics
 from acts_control.hand.reflexes.reflex import HandState, Reflex, Sensed, Wish
 from acts_control.hand.step_rule import StepRule, StepRuleConfig
+from acts_core.errors import SettingsError
 from acts_core.region_contact import RegionContact
 from acts_core.settings import setting, validate
 
@@ -83,6 +84,9 @@ class HandSupervisor:
     """
 
     def __init__(self, kinematics: HandKinematics, reflexes: Mapping[str, Reflex], config: SupervisorConfig) -> None:
+        if config.grasp_posture not in kinematics.hand.postures:
+            known = ", ".join(kinematics.hand.postures)
+            raise SettingsError(f"grasp_posture = {config.grasp_posture!r}: the hand has {known}")
         self.status = SupervisorStatus()
         self._kinematics = kinematics
         self._hand = kinematics.hand
@@ -90,6 +94,7 @@ class HandSupervisor:
         self._config = config
         self._rule = StepRule(self._hand, config)
         self._state, self._reason = self.status.state, self.status.reason
+        self._resumed = self._state
         self._wanted: str | None = None
         self._grasp = Grasp(config)
         self._regions: dict[str, RegionContact] = {}
@@ -215,9 +220,10 @@ class HandSupervisor:
         if own is not None:
             wishes.append(own)
         if avoids and sensed.state in (HandState.CLOSING, HandState.HOLDING):
+            self._resumed = sensed.state
             self._become(HandState.AVOIDING, avoids)
         elif not avoids and sensed.state is HandState.AVOIDING:
-            self._become(HandState.HOLDING, "nothing sharp any more")
+            self._become(self._resumed, "nothing sharp any more")
         return wishes, active
 
     # --- what the supervisor itself does

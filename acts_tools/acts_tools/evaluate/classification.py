@@ -27,6 +27,7 @@ from acts_sim.pressing_arm import RATE_HZ as RECORDED_HZ
 from acts_sim.pressing_arm import PressingArm, PressingConfig
 from acts_tools.evaluate.board_sampler import BoardSampler
 from acts_tools.evaluate.recovery import SAMPLE_US
+from acts_tools.evaluate.shares import wilson
 
 PAPER, ACTS = "paper", "acts"
 TOUCH_COUNTS = 60
@@ -228,13 +229,8 @@ class Score:
 
 def accuracy(right: int, n: int) -> dict[str, Any]:
     """Accuracy of `right` answers of `n`, with its 95 % interval by Wilson's method."""
-    z = 1.959964
-    share = right / n
-    middle = (share + z * z / (2 * n)) / (1 + z * z / n)
-    half = z / (1 + z * z / n) * float(np.sqrt(share * (1 - share) / n + z * z / (4 * n * n)))
-    # Rounded off: at all or none right the bound is 1 or 0, but for the last digit.
-    low, high = max(middle - half, 0.0), min(middle + half, 1.0)
-    return {"accuracy": share, "low": low, "high": high, "presses": n}
+    low, high = wilson(right, n)
+    return {"accuracy": right / n, "low": low, "high": high, "presses": n}
 
 
 def run_trials(

@@ -9,6 +9,7 @@ from acts_tools.evaluate import (
     classification_command,
     convert_command,
     events_command,
+    hand_command,
     objects_command,
     recovery_command,
     slip_command,
@@ -30,6 +31,7 @@ def add_parser(subparsers: Any) -> None:
         objects_command,
         classification_command,
         slip_command,
+        hand_command,
         convert_command,
     ):
         module.add_parser(commands)

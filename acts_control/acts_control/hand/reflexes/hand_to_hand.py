@@ -2,7 +2,8 @@
 
 Each joint that closes a finger carries one phalanx. Where that phalanx presses less than is wanted the joint closes,
 where it presses more the joint opens, so force goes from phalanges with much to those with little, and one that has
-lost touch looks for it. Above the comfort limit of force or pressure, the whole finger gives way.
+lost touch looks for it. Before the comfort limit of force or pressure is reached, the whole finger gives way; all of
+them where the palm is pressed.
 
 ISO/TS 15066:2016, table A.2, allows 140 N of quasi-static force on hand and fingers and, where it presses hardest,
 about 200 to 300 N/cm^2 (2 to 3 MPa). Those are limits of pain; comfort is a small part of them.
@@ -15,6 +16,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from acts_control.hand.reflexes.reflex import HandState, Reflex, Sensed, Wish
+from acts_core.region_contact import RegionContact
 from acts_core.settings import setting, validate
 
 
@@ -25,12 +27,15 @@ class HandToHandConfig:
     hand_to_hand_force_n: float = setting(0.8, "what each phalanx is to press with [N]", minimum=0.05, maximum=20.0)
     hand_to_hand_max_force_n: float = setting(
         10.0,
-        "a finger gives way where one of its phalanges presses with more; ISO/TS 15066 allows 140 [N]",
+        "no region is to press with more; ISO/TS 15066 allows 140 [N]",
         minimum=0.5,
         maximum=100.0,
     )
     hand_to_hand_max_pressure_n_m2: float = setting(
         3e5, "or with more on its most pressed taxel; ISO/TS 15066 allows about 2e6 [N/m^2]", minimum=1e4, maximum=1e6
+    )
+    hand_to_hand_yield_share: float = setting(
+        0.6, "fingers give way from this part of these limits on", minimum=0.1, maximum=1.0
     )
     hand_to_hand_steps_per_n: float = setting(0.6, "steps for each newton of difference", minimum=0.01, maximum=20.0)
     hand_to_hand_search_steps: float = setting(0.3, "steps of a phalanx that looks for touch", minimum=0.0, maximum=5.0)
@@ -83,6 +88,7 @@ class HandToHand(Reflex):
             state.moves = _moving_joints(sensed)
         steps, why = sensed.steps(), ""
         state.phalanges = 0
+        at_palm = any(map(self._is_too_much, sensed.of_finger("")))
         for finger in sensed.hand.fingers:
             regions = sensed.of_finger(finger)
             if not any(one.in_contact for one in regions):
@@ -90,10 +96,10 @@ class HandToHand(Reflex):
             closing = sensed.closing(finger)
             pressed = max(regions, key=lambda one: one.force_n)
             state.largest_n = max(state.largest_n, pressed.force_n)
-            if any(self._is_too_much(one.force_n, one.peak_n, one.area_m2, one.active_taxels) for one in regions):
+            if at_palm or any(map(self._is_too_much, regions)):
                 state.yielded += 1
                 steps -= config.hand_to_hand_max_steps * closing
-                why = f"{finger} gives way at {pressed.force_n:.1f} N"
+                why = f"{finger} gives way"
                 continue
             for region in regions:
                 state.phalanges += region.in_contact
@@ -112,12 +118,13 @@ class HandToHand(Reflex):
         error = config.hand_to_hand_force_n - force_n
         return config.hand_to_hand_steps_per_n * error if abs(error) > config.hand_to_hand_deadband_n else 0.0
 
-    def _is_too_much(self, force_n: float, peak_n: float, area_m2: float, taxels: int) -> bool:
-        if taxels == 0:
-            return False
+    def _is_too_much(self, region: RegionContact) -> bool:
         config = self.config
-        pressure = peak_n * taxels / area_m2 if area_m2 > 0.0 else 0.0
-        return force_n > config.hand_to_hand_max_force_n or pressure > config.hand_to_hand_max_pressure_n_m2
+        if not region.in_contact:
+            return False
+        pressure = region.peak_n * region.active_taxels / region.area_m2 if region.area_m2 > 0.0 else 0.0
+        share = max(region.force_n / config.hand_to_hand_max_force_n, pressure / config.hand_to_hand_max_pressure_n_m2)
+        return share > config.hand_to_hand_yield_share
 
 
 def _moving_joints(sensed: Sensed) -> dict[str, int]:

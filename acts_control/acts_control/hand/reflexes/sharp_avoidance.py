@@ -21,15 +21,18 @@ class SharpAvoidanceConfig:
     """What counts as sharp, and how the finger gives way."""
 
     sharp_min_peak_n: float = setting(
-        0.1, "a taxel that feels less is no sign of a tip [N]", minimum=0.001, maximum=10.0
-    )
-    sharp_min_peak_per_area_n_m2: float = setting(
-        15e3, "a tip's peak over its area is larger [N/m^2]", minimum=1.0, maximum=1e7
+        0.09, "what the most pressed taxel has to feel before a tip is told [N]", minimum=0.001, maximum=10.0
     )
     sharp_min_concentration: float = setting(
-        0.3, "and so is the part of the force that the most pressed taxel has", minimum=0.0, maximum=1.0
+        0.8,
+        "a tip: the most pressed taxel has this part of the force, at sharp_min_peak_n; of more, the cube root less",
+        minimum=0.0,
+        maximum=1.0,
     )
-    sharp_max_taxels: int = setting(5, "no more taxels than these are pressed", minimum=1, maximum=1024)
+    sharp_min_peak_per_area_n_m2: float = setting(
+        2.9e3, "or its force over the pressed area is larger [N/m^2]", minimum=1.0, maximum=1e7
+    )
+    sharp_max_taxels: int = setting(4, "with no more taxels pressed than these", minimum=1, maximum=1024)
     sharp_touches: int = setting(1, "so many times in succession", minimum=1, maximum=100)
     sharp_open_steps: float = setting(20.0, "steps by which the finger opens", minimum=0.1, maximum=100.0)
     sharp_open_rad: float = setting(
@@ -78,12 +81,11 @@ class SharpAvoidance(Reflex):
     def is_sharp(self, region: RegionContact) -> bool:
         """Whether what touches a region is a tip."""
         config = self.config
-        return (
-            0 < region.active_taxels <= config.sharp_max_taxels
-            and region.peak_n >= config.sharp_min_peak_n
-            and region.concentration >= config.sharp_min_concentration
-            and region.peak_n >= config.sharp_min_peak_per_area_n_m2 * region.area_m2
-        )
+        if not 0 < region.active_taxels <= config.sharp_max_taxels or region.peak_n < config.sharp_min_peak_n:
+            return False
+        # What is blunt spreads over more taxels the harder it presses.
+        least = config.sharp_min_concentration * (config.sharp_min_peak_n / region.peak_n) ** (1.0 / 3.0)
+        return region.concentration >= least or region.peak_n >= config.sharp_min_peak_per_area_n_m2 * region.area_m2
 
     def step(self, sensed: Sensed) -> Wish | None:
         """Open the fingers concerned, and keep them for a while from whatever else asks for them."""

@@ -18,9 +18,9 @@ from acts_core.settings import setting, validate
 class SlipPreventionConfig:
     """How a slip is answered."""
 
-    slip_grip_steps: float = setting(6.0, "steps by which fingers grip up while it slips", minimum=0.1, maximum=50.0)
+    slip_grip_steps: float = setting(16.0, "steps by which fingers grip up while it slips", minimum=0.1, maximum=50.0)
     slip_max_added_steps: float = setting(
-        12.0, "most that is added to the grip, in steps of a cycle at 60 Hz", minimum=0.1, maximum=200.0
+        6.0, "most that is added to the grip, in steps of a cycle at 60 Hz", minimum=0.1, maximum=200.0
     )
     slip_growth_m: float = setting(
         1e-5, "a distance that has grown by less between two touches has not [m]", minimum=0.0, maximum=1e-3

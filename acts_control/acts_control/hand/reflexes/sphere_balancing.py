@@ -25,7 +25,7 @@ class SphereBalancingConfig:
     """How a sphere is brought to the palm's centre."""
 
     sphere_speed_m_s: float = setting(
-        0.04, "fastest that the sphere is moved along the palm [m/s]", minimum=0.001, maximum=1.0
+        0.025, "fastest that the sphere is moved along the palm [m/s]", minimum=0.001, maximum=1.0
     )
     sphere_gain_per_s: float = setting(
         4.0, "speed wanted for each metre of distance from the palm's centre [1/s]", minimum=0.1, maximum=50.0
@@ -37,6 +37,15 @@ class SphereBalancingConfig:
     )
     sphere_prior_m: float = setting(
         0.03, "radius that is taken where the contacts do not say [m]", minimum=0.002, maximum=0.2
+    )
+    sphere_search_rad_s: float = setting(
+        0.3, "how fast a finger that has lost the sphere looks for it [rad/s]", minimum=0.0, maximum=8.0
+    )
+    sphere_return_per_s: float = setting(
+        1.5,
+        "how fast joints that do not close a finger go back to where they were at first [1/s]",
+        minimum=0.0,
+        maximum=50.0,
     )
     sphere_damping_m: float = setting(
         0.01, "keeps the joints slow where a finger is stretched [m/rad]", minimum=1e-4, maximum=0.1
@@ -52,6 +61,8 @@ class SphereBalancingState:
 
     Attributes
     ----------
+    first_rad : np.ndarray or None
+        Goals of the joints at the first step [rad].
     centre_m : np.ndarray or None
         Of the fitted sphere, in the frame of the hand's base [m].
     radius_m : float
@@ -59,6 +70,7 @@ class SphereBalancingState:
         Distance of the sphere from the palm's centre, along the palm [m].
     """
 
+    first_rad: Array | None = None
     centre_m: Array | None = None
     radius_m: float = 0.0
     offset_m: float = 0.0
@@ -95,7 +107,7 @@ class SphereBalancing(Reflex):
     """See the module."""
 
     Config = SphereBalancingConfig
-    priority = 40
+    priority = 70  # above slip: what it moves on purpose does slip
     states = frozenset({HandState.HOLDING, HandState.AVOIDING})
 
     config: SphereBalancingConfig
@@ -126,12 +138,16 @@ class SphereBalancing(Reflex):
         if state.offset_m > config.sphere_deadband_m:
             speed = min(config.sphere_gain_per_s * state.offset_m, config.sphere_speed_m_s)
             velocity = away * (speed / state.offset_m)
-        rates = sensed.steps()
-        for region in touched.values():
+        if state.first_rad is None:
+            state.first_rad = sensed.goal_rad.copy()
+        rates = config.sphere_return_per_s * (state.first_rad - sensed.goal_rad) * (_all_closing(sensed) == 0.0)
+        for finger, region in touched.items():
             if region is not None:
                 rates += self._follow(sensed, region, velocity)
-        steps = rates / sensed.step_rad_s
-        return Wish(steps, f"sphere of {1e3 * radius:.0f} mm is {1e3 * state.offset_m:.0f} mm off the palm's centre")
+            else:
+                rates += config.sphere_search_rad_s * sensed.closing(finger)
+        why = f"sphere of {1e3 * radius:.0f} mm is {1e3 * state.offset_m:.0f} mm off the palm's centre"
+        return Wish(rates / sensed.step_rad_s, why, claimed=rates != 0.0 if velocity.any() else None)
 
     def _follow(self, sensed: Sensed, region: RegionContact, velocity: Array) -> Array:
         """Joint speeds that move a touched point along with the sphere, and press as is wanted [rad/s]."""
@@ -143,6 +159,11 @@ class SphereBalancing(Reflex):
         damped = jacobian @ jacobian.T + config.sphere_damping_m**2 * np.eye(3)
         rates: Array = jacobian.T @ np.linalg.solve(damped, wanted)
         return rates
+
+
+def _all_closing(sensed: Sensed) -> Array:
+    """How much each joint takes part in closing whichever finger."""
+    return np.sum([sensed.closing(finger) for finger in sensed.hand.fingers], axis=0)
 
 
 def _outermost(sensed: Sensed, finger: str) -> RegionContact | None:

@@ -1,0 +1,1 @@
+"""The reflexes of the simulated hand, scenario by scenario."""

@@ -1,0 +1,174 @@
+"""The simulated hand with its reflexes, without wires: no clock, no process, the same seed gives the same bits.
+
+Every step of the world is a frame of the skin. The reflexes see it one frame later, at the cycles of their loop.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_control.hand.bus import HandReading
+from acts_control.hand.description_file import LEAP_RIGHT
+from acts_control.hand.dynamixel import DynamixelConfig
+from acts_control.hand.kinematics import HandKinematics
+from acts_control.hand.reflexes.reflex import HandState, Reflex
+from acts_control.hand.reflexes.registry import REFLEXES
+from acts_control.hand.supervisor import HandSupervisor, SupervisorConfig
+from acts_core.array import COUNT_MAX
+from acts_core.force import ForceResponse
+from acts_core.region_contact import RegionContact
+from acts_core.settings import describe
+from acts_recon.regions.regions import Regions
+from acts_sim.dynamixel.drive import RAD_PER_TICK
+from acts_sim.hand.world import STEP_S, HandWorld, HandWorldConfig
+
+_CURRENT_BASED_POSITION = 5
+_NOISE_COUNTS = 1.5
+_MAX_SPEED_RAD_S = 12.0
+"""Of a goal, as the node `hand_reflexes` has it [rad/s]."""
+_KINEMATICS = HandKinematics(LEAP_RIGHT)
+
+
+@dataclass(frozen=True)
+class RigOptions:
+    """How the hand is run.
+
+    Attributes
+    ----------
+    rate_hz : float
+        Of the reflexes' loop.
+    reflexes : tuple of str
+        Names in the registry.
+    touch_counts : float
+        A taxel above it is pressed.
+    settings : mapping
+        Of the supervisor and the reflexes, where they are not the usual ones.
+    """
+
+    rate_hz: float = 250.0
+    reflexes: tuple[str, ...] = ("sharp", "slip")
+    touch_counts: float = 8.0
+    settings: Mapping[str, Any] = field(default_factory=dict)
+
+
+class HandRig:
+    """A world, its skin's regions, and a supervisor that moves its motors.
+
+    Parameters
+    ----------
+    world : HandWorldConfig
+    options : RigOptions
+
+    Attributes
+    ----------
+    world : HandWorld
+    supervisor : HandSupervisor
+    reflexes : dict of str to Reflex
+    regions : list of RegionContact
+        As of the last step.
+    goal_rad : np.ndarray [shape=(joints,)]
+        What was sent to the motors last [rad].
+    """
+
+    def __init__(self, world: HandWorldConfig, options: RigOptions) -> None:
+        self.world = HandWorld(world)
+        self.reflexes: dict[str, Reflex] = {
+            name: REFLEXES[name](_configured(REFLEXES[name].Config, options.settings)) for name in options.reflexes
+        }
+        config = _configured(SupervisorConfig, options.settings)
+        self.supervisor = HandSupervisor(_KINEMATICS, self.reflexes, config)
+        self.supervisor.restart(recovered=False)
+        response = ForceResponse()
+        self._finder = Regions(self.world.layout, response, options.touch_counts, _NOISE_COUNTS)
+        self._noise = np.random.default_rng([world.seed, 1])
+        self._period_s = 1.0 / options.rate_hz
+        self._due_s = self._last_s = 0.0
+        self._switch_on(DynamixelConfig())
+        self.regions: list[RegionContact] = []
+        self.goal_rad = self._angles()
+
+    @property
+    def time_s(self) -> float:
+        """Of the world [s]."""
+        return self.world.time_s
+
+    @property
+    def state(self) -> HandState:
+        """Of the supervisor."""
+        return self.supervisor.status.state
+
+    def step(self) -> None:
+        """Let one step of the world pass."""
+        seen, seen_s = list(self.regions), self.time_s
+        self.world.step()
+        self.regions = list(self._finder.step(self.time_s, self._image()))
+        if seen:
+            self.supervisor.touch(seen, seen_s)
+        if self.time_s >= self._due_s - 1e-9:
+            self._due_s += self._period_s
+            self._cycle()
+
+    def run(self, duration_s: float, until: Callable[[], bool] = lambda: False) -> bool:
+        """Go on for a time [s], or until something is the case; whether it was."""
+        for _ in range(round(duration_s / STEP_S)):
+            self.step()
+            if until():
+                return True
+        return False
+
+    def grasp(self, timeout_s: float = 6.0) -> bool:
+        """Close the hand; whether it holds something then."""
+        self.run(0.02)
+        self.supervisor.grasp()
+        self.run(timeout_s, lambda: self.state in (HandState.HOLDING, HandState.OPEN))
+        return self.state is HandState.HOLDING
+
+    def object_m(self) -> NDArray[np.float64]:
+        """Where the object is, in the palm's frame [m]."""
+        return np.array(self.world.truth.object_position_m)
+
+    def _cycle(self) -> None:
+        dt_s, self._last_s = max(self.time_s - self._last_s, STEP_S), self.time_s
+        currents = tuple(float(motor["present_current"]) for motor in self.world.motors)
+        count = len(currents)
+        reading = HandReading(tuple(self._angles()), (0.0,) * count, currents, (30,) * count, ("",) * count)
+        wanted = self.supervisor.step(reading, self.goal_rad.tolist(), self.time_s, dt_s)
+        farthest = _MAX_SPEED_RAD_S * dt_s
+        self.goal_rad = self.goal_rad + np.clip(wanted - self.goal_rad, -farthest, farthest)
+        for motor, joint, angle in zip(self.world.motors, LEAP_RIGHT.joints, self.goal_rad, strict=True):
+            _write(motor, "goal_position", round(joint.to_motor_rad(float(angle)) / RAD_PER_TICK))
+
+    def _angles(self) -> NDArray[np.float64]:
+        return np.array([motor["present_position"] * RAD_PER_TICK - math.pi for motor in self.world.motors])
+
+    def _image(self) -> NDArray[np.float32]:
+        layout = self.world.layout
+        counts = self.world.counts.reshape(layout.matrix_rows, layout.matrix_cols)
+        noisy = layout.picture(counts + _NOISE_COUNTS * self._noise.standard_normal(counts.shape)).astype(np.float64)
+        return np.clip(np.rint(noisy), 0, COUNT_MAX).astype(np.float32)
+
+    def _switch_on(self, config: DynamixelConfig) -> None:
+        """As `DynamixelHand` sets the motors up."""
+        for motor, joint in zip(self.world.motors, LEAP_RIGHT.joints, strict=True):
+            _write(motor, "operating_mode", _CURRENT_BASED_POSITION)
+            _write(motor, "position_p_gain", round(config.position_p_gain * joint.gain_scale))
+            _write(motor, "position_i_gain", config.position_i_gain)
+            _write(motor, "position_d_gain", round(config.position_d_gain * joint.gain_scale))
+            _write(motor, "goal_current", config.max_current_ma)
+            _write(motor, "torque_enable", 1)
+
+
+def _write(motor: Any, name: str, value: int) -> None:
+    register = motor.model.registers[name]
+    error = motor.write(register.address, int(value).to_bytes(register.size, "little", signed=True))
+    assert not error, (name, value, error)
+
+
+def _configured(kind: type, settings: Mapping[str, Any]) -> Any:
+    return kind(**{name: value for name, value in settings.items() if name in describe(kind)})

@@ -1,0 +1,18 @@
+"""Which scenarios there are, by name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from acts_tools.evaluate.hand import hand_to_hand, poke, slip, sphere
+from acts_tools.evaluate.hand.scenario import Outcome, Run
+
+SCENARIOS: dict[str, Callable[[Run], Outcome]] = {
+    "slip": slip.run,
+    "sharp": poke.sharp,
+    "blunt": poke.blunt,
+    "sphere": sphere.run,
+    "small_sphere": sphere.small,
+    "hand_to_hand": hand_to_hand.run,
+}
+"""Each runs once and tells what came of it."""

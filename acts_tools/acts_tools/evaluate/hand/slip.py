@@ -1,0 +1,74 @@
+"""A held cylinder is pulled along its axis by half, once or twice its weight, within 50 ms."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from acts_sim.hand.world import HandWorldConfig
+from acts_tools.evaluate.hand.rig import HandRig, RigOptions
+from acts_tools.evaluate.hand.scenario import Outcome, Run
+
+LOADS = (0.5, 1.0, 2.0)
+"""Times the weight of the object."""
+
+_RAMP_S = 0.05
+_WATCHED_S = 1.0
+_NOTICEABLE_M = 0.0002
+_ALLOWED_M = 0.003
+_NOTICED_MS = 15.0
+# Slower than this it stands: the foam still gives a little.
+_STANDS_M_S = 0.010
+
+
+def run(one: Run) -> Outcome:
+    """Grasp, let go, load, watch."""
+    draw = one.draw()
+    world = HandWorldConfig(
+        seed=one.seed,
+        pose="thumb_up",
+        object="cylinder",
+        object_held=True,
+        object_size_m=draw.uniform(0.022, 0.028),
+        object_mass_kg=draw.uniform(0.13, 0.17),
+        object_x_m=draw.uniform(-0.003, 0.003),
+    )
+    load = LOADS[one.seed % len(LOADS)]
+    # A light grip, which carries the object and little more.
+    settings = {"grip_force_n": 0.25, **one.settings}
+    rig = HandRig(world, RigOptions(one.rate_hz, ("sharp", "slip") if one.reflex else ("sharp",), settings=settings))
+    outcome = Outcome(kept=False, details={"load": load, "mass_kg": world.object_mass_kg})
+    if not rig.grasp():
+        outcome.details["failed"] = "not grasped"
+        return outcome
+    rig.world.holder.let_go()
+    rig.run(0.6)
+    slips_before = rig.reflexes["slip"].events if one.reflex else 0
+    outcome.details["slips_before"] = slips_before
+    at, begin_s = rig.object_m(), rig.time_s
+    moved_s = noticed_s = stood_s = None
+    farthest_m = 0.0
+    rig.world.disturbances.pull_down(load, _RAMP_S)
+    while rig.time_s < begin_s + _WATCHED_S:
+        rig.step()
+        truth = rig.world.truth
+        # Along the pull: a grip that tightens moves the object across it as well, which is no slip.
+        farthest_m = max(farthest_m, float((np.array(truth.object_position_m) - at) @ rig.world.down))
+        speed_m_s = float(np.array(truth.object_velocity_m_s) @ rig.world.down)
+        if moved_s is None and farthest_m > _NOTICEABLE_M:
+            moved_s = rig.time_s
+        if noticed_s is None and one.reflex and rig.reflexes["slip"].events > slips_before:
+            noticed_s = rig.time_s
+        if noticed_s is not None and stood_s is None and speed_m_s < _STANDS_M_S:
+            stood_s = rig.time_s
+        if truth.object_lost:
+            break
+    outcome.kept = not rig.world.truth.object_lost and farthest_m < 0.02
+    outcome.offset_mm = 1e3 * farthest_m
+    if moved_s is not None and noticed_s is not None:
+        outcome.noticed_ms = 1e3 * (noticed_s - moved_s)
+    if noticed_s is not None and stood_s is not None:
+        outcome.stopped_ms = 1e3 * (stood_s - noticed_s)
+    outcome.details["max_grip_n"] = sum(one.force_n for one in rig.regions)
+    noticed_well = moved_s is None or (outcome.noticed_ms is not None and outcome.noticed_ms <= _NOTICED_MS)
+    outcome.ok = outcome.kept and farthest_m < _ALLOWED_M and (noticed_well or not one.reflex)
+    return outcome

@@ -1,0 +1,75 @@
+"""A sphere that lies off the middle of the palm is gripped, and brought to the middle."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from acts_control.hand.description_file import LEAP_RIGHT
+from acts_control.hand.reflexes.reflex import HandState
+from acts_sim.hand.world import HandWorldConfig
+from acts_tools.evaluate.hand.rig import HandRig, RigOptions
+from acts_tools.evaluate.hand.scenario import Outcome, Run
+
+_OFF_M = 0.020
+_NEAR_M = 0.005
+_SHAPED_S = 0.6
+_GRIPPED_S = 5.0
+_BALANCED_S = 5.0
+_PULL_WEIGHTS, _PULL_RAMP_S, _PULLED_S = 3.0, 0.1, 1.0
+
+
+def run(one: Run) -> Outcome:
+    """A sphere of 20 to 40 mm radius, 20 mm off; in the end within 5 mm, with two fingertips on it."""
+    return _run(one, float(one.draw().uniform(0.020, 0.040)), "sphere")
+
+
+def small(one: Run) -> Outcome:
+    """A sphere of 8 to 15 mm radius: trapped, and kept while it is pulled away from the palm by thrice its weight."""
+    return _run(one, float(one.draw().uniform(0.008, 0.015)), "small_sphere")
+
+
+def _run(one: Run, radius_m: float, name: str) -> Outcome:
+    draw = np.random.default_rng([one.seed, 13])
+    angle = draw.uniform(-math.pi, math.pi)
+    world = HandWorldConfig(
+        seed=one.seed,
+        pose="palm_up",
+        object=name,
+        object_size_m=radius_m,
+        # Out of the way until the hand has come into its shape: the thumb would sweep it off.
+        object_x_m=-0.1,
+        object_y_m=-0.1,
+    )
+    reflexes = ("slip", "sphere") if one.reflex else ("slip",)
+    settings = {"grasp_posture": "round", "grip_force_n": 0.3, **one.settings}
+    rig = HandRig(world, RigOptions(one.rate_hz, reflexes, settings=settings))
+    outcome = Outcome(details={"radius_mm": 1e3 * radius_m, "angle_deg": math.degrees(angle)})
+    rig.run(0.02)
+    rig.supervisor.grasp()
+    rig.run(_SHAPED_S)
+    rig.world.put(_OFF_M * math.cos(angle), _OFF_M * math.sin(angle))
+    rig.run(_GRIPPED_S, lambda: rig.state is not HandState.CLOSING)
+    if rig.state is not HandState.HOLDING:
+        outcome.details["failed"] = "not grasped"
+        return outcome
+    palm = np.array(LEAP_RIGHT.regions["palm"].centre_m)
+    outcome.details["begin_mm"] = _distance_mm(rig, palm)
+    rig.run(_BALANCED_S)
+    outcome.offset_mm = _distance_mm(rig, palm)
+    if name == "small_sphere":
+        rig.world.disturbances.pull(-_PULL_WEIGHTS * rig.world.weight_n * rig.world.down, _PULL_RAMP_S)
+        rig.run(_PULLED_S)
+    tips = [r.name for r in rig.regions if r.in_contact and LEAP_RIGHT.regions[r.name].role == "distal"]
+    touching = [r.name for r in rig.regions if r.in_contact]
+    outcome.kept = not rig.world.truth.object_lost and len(touching) >= 2
+    outcome.details.update(tips=tips, touching=touching)
+    near = outcome.offset_mm <= 1e3 * _NEAR_M
+    outcome.ok = bool(outcome.kept and (near and len(tips) >= 2 if name == "sphere" else True))
+    return outcome
+
+
+def _distance_mm(rig: HandRig, palm_m: np.ndarray) -> float:
+    away = rig.object_m() - palm_m
+    return 1e3 * float(np.hypot(away[0], away[1]))

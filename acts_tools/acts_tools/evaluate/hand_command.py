@@ -1,0 +1,87 @@
+"""`acts evaluate hand`: the reflexes of the simulated hand, scenario by scenario, without wires and without a clock."""
+
+from __future__ import annotations
+
+import argparse
+import statistics
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from acts_core.errors import SettingsError
+from acts_tools.evaluate import report
+from acts_tools.evaluate.shares import wilson
+
+_NUMBERS = ("noticed_ms", "stopped_ms", "penetration_mm", "offset_mm")
+_NAMES = ("slip", "sharp", "blunt", "sphere", "small_sphere", "hand_to_hand")
+_SEEDS_MAX = 10_000
+
+
+def add_parser(commands: Any) -> None:
+    """Add ``acts evaluate hand``."""
+    parser = commands.add_parser(
+        "hand",
+        help="the reflexes of the simulated hand, scenario by scenario",
+        description="Run the simulated hand, its skin and its reflexes in one process, without wires and faster than "
+        "their processes could; the same seed gives the same bits. docs/reflexes.md tells what the numbers mean.",
+    )
+    parser.add_argument("--scenario", required=True, choices=_NAMES, help="what happens to the hand")
+    parser.add_argument("--seed", type=int, default=1, metavar="S", help="of the first run (default: %(default)s)")
+    parser.add_argument("--seeds", type=int, default=1, metavar="N", help="how many runs (default: %(default)s)")
+    parser.add_argument(
+        "--reflex", choices=("on", "off"), default="on", help="whether the reflex in question acts (default: on)"
+    )
+    parser.add_argument(
+        "--rate-hz", type=float, default=250.0, metavar="R", help="of the reflexes' loop (default: %(default)g)"
+    )
+    parser.add_argument("--json", type=Path, metavar="OUT", help="write the results here, too")
+    parser.set_defaults(evaluate=_run)
+
+
+def _run(arguments: argparse.Namespace) -> int:
+    # Imported here: MuJoCo and the kernels take long, and only this needs them.
+    from acts_tools.evaluate.hand.scenario import Outcome, Run
+    from acts_tools.evaluate.hand.scenarios import SCENARIOS
+
+    if not 10.0 <= arguments.rate_hz <= 500.0:
+        raise SettingsError(f"--rate-hz {arguments.rate_hz:g}: allowed is 10 to 500")
+    if arguments.seed < 0 or not 1 <= arguments.seeds <= _SEEDS_MAX:
+        raise SettingsError(
+            f"--seed {arguments.seed} --seeds {arguments.seeds}: allowed are 0 or more, 1 to {_SEEDS_MAX}"
+        )
+    setup = {"scenario": arguments.scenario, "reflex": arguments.reflex, "rate_hz": arguments.rate_hz}
+    results = report.Results(arguments.json, setup)
+    print("| seed | ok | kept | noticed [ms] | stopped [ms] | penetration [mm] | offset [mm] |")
+    print("|---|---|---|---|---|---|---|")
+    outcomes: list[Outcome] = []
+    for seed in range(arguments.seed, arguments.seed + arguments.seeds):
+        outcome = SCENARIOS[arguments.scenario](Run(seed, arguments.reflex == "on", arguments.rate_hz))
+        outcomes.append(outcome)
+        entry = {"seed": seed, **vars(outcome)}
+        results.add(entry)
+        numbers = " | ".join(_shown(getattr(outcome, name)) for name in _NUMBERS)
+        print(f"| {seed} | {_shown(outcome.ok)} | {_shown(outcome.kept)} | {numbers} |", flush=True)
+    results.add(_summary(outcomes))
+    return 0
+
+
+def _summary(outcomes: Sequence[Any]) -> dict[str, object]:
+    """Shares over the seeds with their intervals, and medians; printed, too."""
+    summary: dict[str, object] = {"seed": "all", "runs": len(outcomes)}
+    for name in ("ok", "kept"):
+        known = [getattr(one, name) for one in outcomes if getattr(one, name) is not None]
+        low, high = wilson(sum(known), len(known))
+        summary[name] = {"share": sum(known) / len(known) if known else None, "low": low, "high": high}
+        print(f"{name}: {sum(known)} of {len(known)} (95 %: {100 * low:.0f} to {100 * high:.0f} %)")
+    for name in _NUMBERS:
+        values = sorted(value for one in outcomes if (value := getattr(one, name)) is not None)
+        if values:
+            summary[name] = {"median": statistics.median(values), "largest": values[-1], "runs": len(values)}
+            print(f"{name}: median {statistics.median(values):.1f}, largest {values[-1]:.1f}, in {len(values)} runs")
+    return summary
+
+
+def _shown(value: float | bool | None) -> str:
+    if value is None:
+        return ""
+    return ("yes" if value else "no") if isinstance(value, bool) else f"{value:.1f}"
