@@ -13,6 +13,7 @@ from acts_tools.evaluate import (
     objects_command,
     recovery_command,
     slip_command,
+    slip_sampled_command,
 )
 
 
@@ -32,6 +33,7 @@ def add_parser(subparsers: Any) -> None:
         classification_command,
         slip_command,
         hand_command,
+        slip_sampled_command,
         convert_command,
     ):
         module.add_parser(commands)

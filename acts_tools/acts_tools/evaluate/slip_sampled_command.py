@@ -1,0 +1,168 @@
+"""`acts evaluate slip-sampled`: how soon slip is told on the patches of a skin whose taxels are measured in turn.
+
+All patches of a layout are pressed by made contacts. What lies on one of them begins to move, and it is taken how long
+after 0.2 mm slip is told there; and in a steady hold, and while all contacts close, how often it is told though nothing
+moves. Everything between is what runs: the board's sampler, fusion over time, regions.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.force import ForceResponse
+from acts_core.layouts import Layout, layout
+from acts_core.sampling import SamplingConfig
+from acts_core.skin_patch import SkinPatch
+from acts_recon.fusion import FusionConfig, FusionEstimator
+from acts_recon.regions.regions import Regions
+from acts_tools.evaluate import report
+from acts_tools.evaluate.board_sampler import BoardSampler
+
+_NOTICED_M = 0.0002
+_NOISE_COUNTS = 2.0
+_SPEEDS_M_S = (0.01, 0.03, 0.1)
+_ACCELERATIONS_M_S2 = (1.0, 5.0)
+_FRAME_S = 0.001
+_CLOSING_FRAMES = 200
+_SHAPES = ("soft", "sharp", "edge")
+
+Array = NDArray[np.float64]
+
+
+def add_parser(commands: Any) -> None:
+    """Add ``acts evaluate slip-sampled``."""
+    parser = commands.add_parser(
+        "slip-sampled",
+        help="how soon slip is told where few taxels are measured in a frame",
+        description="Press all patches of a layout by made contacts, sample them by tracking 1000 times a second, fuse "
+        "the samples, and look for slip: its delay after 0.2 mm of motion on one patch, and what is told while "
+        "nothing moves.",
+    )
+    parser.add_argument("--layout", default="leap_right", metavar="L", help="name or file (default: %(default)s)")
+    parser.add_argument("--m", type=int, nargs="+", default=[55, 128], help="taxels per frame (default: 55 128)")
+    parser.add_argument(
+        "--seeds", type=int, default=6, metavar="N", help="times 3 kinds of contact (default: %(default)s)"
+    )
+    parser.add_argument("--hold-s", type=float, default=60.0, metavar="T", help="steady hold (default: %(default)s)")
+    parser.add_argument("--json", type=Path, metavar="OUT", help="write the results here, too")
+    parser.set_defaults(evaluate=_run)
+
+
+class Skin:
+    """A contact on every patch, somewhere in its middle part."""
+
+    def __init__(self, skin: Layout, shape: str, seed: int) -> None:
+        rng = np.random.default_rng(seed)
+        self.layout, self.shape = skin, shape
+        self._contacts = [
+            (rng.uniform(-0.45, 0.45, 2), rng.uniform(0.004, 0.009), rng.uniform(250, 800)) for _ in skin.patches
+        ]
+        self._pictures: dict[int, Array] = {}
+        self.moving = int(rng.integers(len(skin.patches)))
+        # An edge shows no motion along itself.
+        self.angle = math.pi / 2 if shape == "edge" else float(rng.uniform(0, 2 * math.pi))
+
+    def at(self, time_s: float, moved_m: float = 0.0) -> Array:
+        """Counts of all taxels, while all contacts close and then hold; what lies on one patch has moved."""
+        frame = min(round(time_s / _FRAME_S), _CLOSING_FRAMES)
+        if frame not in self._pictures:
+            force = frame / _CLOSING_FRAMES
+            self._pictures[frame] = np.zeros((self.layout.rows, self.layout.cols))
+            for k, patch in enumerate(self.layout.patches):
+                patch.of(self._pictures[frame])[:] = self._counts(k, force, np.zeros(2))
+        if not moved_m:
+            return self._pictures[frame]
+        moved = self._pictures[frame].copy()
+        way_m = moved_m * np.array([math.cos(self.angle), math.sin(self.angle)])
+        self.layout.patches[self.moving].of(moved)[:] = self._counts(self.moving, frame / _CLOSING_FRAMES, way_m)
+        return moved
+
+    def _counts(self, patch: int, force: float, way_m: Array) -> Array:
+        at, radius_m, peak = self._contacts[patch]
+        return force * peak * _press(self.shape, self.layout.patches[patch], at, way_m, radius_m * (0.6 + 0.4 * force))
+
+
+def _press(shape: str, patch: SkinPatch, at: Array, move: Array, radius_m: float) -> Array:
+    """Relative pressure of a contact `at` so large a part of the patch's half size from its middle, and moved [m]."""
+    parts = np.linspace(-0.4, 0.4, 5)  # a taxel feels the mean over its area
+    x = patch.geometry.x_m(np.add.outer(np.arange(patch.cols), parts).ravel())
+    y = patch.geometry.y_m(np.add.outer(np.arange(patch.rows), parts).ravel())
+    x = x - at[0] * patch.cols * patch.pitch_m / 2 - move[0]
+    y = (y - at[1] * patch.rows * patch.row_pitch_m / 2 - move[1])[:, None]
+    if shape == "soft":
+        fine = np.exp(-2.0 * (x**2 + y**2) / radius_m**2)
+    elif shape == "sharp":
+        fine = np.sqrt(np.maximum(1.0 - (x**2 + y**2) / radius_m**2, 0.0))
+    else:
+        fine = np.exp(-2.0 * y**2 / radius_m**2) / (1.0 + np.exp((np.abs(x) - 0.007) / 0.0008))
+    mean: Array = fine.reshape(patch.rows, 5, patch.cols, 5).mean(axis=(1, 3))
+    return mean
+
+
+def told(
+    skin: Layout, m: int, seed: int, seconds: float, picture_at: Callable[[float], Array]
+) -> list[tuple[float, int]]:
+    """When slip begins to be told [s], and on which patch."""
+    config = SamplingConfig(scheme="tracking", m=m, threshold_counts=50, seed=seed + 1)
+    sampler = BoardSampler(config, _NOISE_COUNTS)
+    fusion = FusionEstimator(skin.geometry(), FusionConfig(noise_counts=_NOISE_COUNTS), skin)
+    regions = Regions(skin, ForceResponse(), noise_counts=_NOISE_COUNTS)
+    found: list[tuple[float, int]] = []
+    slipping = [False] * len(skin.patches)
+    before = np.rint(skin.matrix(picture_at(0.0))).astype(np.uint16)
+    for k in range(1, round(seconds / _FRAME_S)):
+        time_s = k * _FRAME_S
+        after = np.rint(skin.matrix(picture_at(time_s))).astype(np.uint16)
+        indices, counts = sampler.frame(np.stack((before, after)), 1.0 / m, 1.0 / m)
+        fusion.step(indices, counts, time_s, 0.95 * _FRAME_S)
+        before = after
+        for p, region in enumerate(regions.step(time_s, fusion.image, fusion.measured, fusion.age_s)):
+            if region.slipping and not slipping[p]:
+                found.append((time_s, p))
+            slipping[p] = region.slipping
+    return found
+
+
+def _delay_ms(skin: Skin, m: int, seed: int, way_m: Callable[[float], float], noticed_s: float) -> tuple[float, int]:
+    """Delay after 0.2 mm [ms], inf: never; and how often slip was told where nothing moved."""
+    begin_s = 0.3 + seed * _FRAME_S
+
+    def picture_at(time_s: float) -> Array:
+        return skin.at(time_s, way_m(max(time_s - begin_s, 0.0)))
+
+    found = told(skin.layout, m, seed, begin_s + noticed_s + 0.05, picture_at)
+    times_s = [time_s for time_s, patch in found if patch == skin.moving and time_s > begin_s]
+    delay_s = times_s[0] - begin_s - noticed_s if times_s else math.inf
+    return 1e3 * delay_s, len(found) - len(times_s)
+
+
+def _run(arguments: argparse.Namespace) -> int:
+    results = report.Results(arguments.json, {"layout": arguments.layout, "hold_s": arguments.hold_s})
+    skin = layout(arguments.layout)
+    print("| M | told after 0.2 mm: median, last [ms] | false slips while closing | in the hold |\n|---|---|---|---|")
+    motions: list[tuple[Callable[[float], float], float]] = [
+        *((lambda t, v=v: v * t, _NOTICED_M / v) for v in _SPEEDS_M_S),
+        *((lambda t, a=a: 0.5 * a * t * t, math.sqrt(2 * _NOTICED_M / a)) for a in _ACCELERATIONS_M_S2),
+    ]
+    for m in arguments.m:
+        delays_ms, closing = [], 0
+        for seed in range(arguments.seeds):
+            for shape in _SHAPES:
+                pressed = Skin(skin, shape, seed)
+                for way_m, noticed_s in motions:
+                    delay_ms, wrong = _delay_ms(pressed, m, seed, way_m, noticed_s)
+                    delays_ms.append(delay_ms)
+                    closing += wrong
+        found = told(skin, m, 0, 0.5 + arguments.hold_s, Skin(skin, "soft", 0).at)
+        holding = sum(time_s > 0.5 for time_s, _ in found)
+        median_ms, last_ms = float(np.median(delays_ms)), max(delays_ms)
+        print(f"| {m} | {median_ms:.0f}, {last_ms:.0f} of {len(delays_ms)} | {closing} | {holding} |", flush=True)
+        results.add({"m": m, "delay_ms": delays_ms, "false_closing": closing, "false_holding": holding})
+    return 0
