@@ -199,6 +199,21 @@ def test_motors_stop_by_themselves_when_they_hear_nothing(bus: Bus) -> None:
     hand.close()
 
 
+def test_motors_that_their_watchdog_has_stopped_are_set_up_anew(bus: Bus) -> None:
+    first = bus.hand(motor_watchdog_s=0.1)
+    first.connect()
+    first.enable()
+    end_s = time.monotonic() + DEADLINE_S
+    while {motor["bus_watchdog"] for motor in bus.motors()} != {255}:
+        assert time.monotonic() < end_s
+    first.close()
+    second = bus.hand(motor_watchdog_s=0.1, max_current_ma=200)
+    second.connect()
+    assert {(motor["bus_watchdog"], motor["goal_current"]) for motor in bus.motors()} == {(0, 200)}
+    second.enable()
+    second.close()
+
+
 def test_the_return_delay_is_told_and_set_where_that_is_wanted(tmp_path: Path) -> None:
     bus = Bus(tmp_path, "--return-delay", "250")
     try:

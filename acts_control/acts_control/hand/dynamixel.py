@@ -105,6 +105,8 @@ class DynamixelHand:
             self._find_all()
             # Left on by a program that has crashed, it would lock the operating mode.
             self._each(_TORQUE, 1, 0)
+            # Where it has stopped a motor, that would refuse the goal current.
+            self._each(_WATCHDOG, 1, 0)
             told = [*self._check_return_delay(), *_usb_latency(Path(self._config.port))]
             for index, joint in enumerate(self._hand.joints):
                 if self._read_register(joint, _HARDWARE_ERROR, 1):
