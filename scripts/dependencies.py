@@ -26,7 +26,7 @@ KEYS = {
     "yaml": "python3-yaml",
 }
 # Without a key: they are in requirements-ros.txt.
-WITHOUT_KEY = {"dashboard_client", "mujoco", "rosbags", "rtde_control", "rtde_receive"}
+WITHOUT_KEY = {"dashboard_client", "mujoco", "playwright", "rosbags", "rtde_control", "rtde_receive", "websockets"}
 EXECUTION = ("depend", "exec_depend")
 TESTS = (*EXECUTION, "test_depend")
 

@@ -24,6 +24,7 @@ NODES = (
     ("acts_skins", "skin_contacts", "acts_skins.contacts.node", "SkinContactsSettings"),
     ("acts_skins", "skin_diagnostics", "acts_skins.overview.diagnostics_node", "SkinDiagnosticsSettings"),
     ("acts_skins", "skin_frames", "acts_skins.overview.frames_node", "SkinFramesSettings"),
+    ("acts_view", "view", "acts_view.settings", "ViewSettings"),
     ("acts_sim", "ball_world", "acts_sim.ball_world_node", "BallWorldSettings"),
 )
 """Package, executable, module and settings class of every node with parameters."""

@@ -1,4 +1,4 @@
-"""Topics ``contacts`` and ``contacts_view`` of the reconstruction node: the contacts one by one, with numbers."""
+"""Topics ``contacts``, ``view/contacts`` and ``contacts_view`` of the reconstruction node: the contacts one by one."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ _MAX_ID = 2**31
 class ContactsPublisher:
     """Finds and follows the contacts of every image, and publishes acts_msgs/Contacts, while somebody listens.
 
-    For viewers there is a visualization_msgs/MarkerArray besides, at most 30 times a second: a disc as large as the
-    contact and its number.
+    For viewers there are besides, at most 30 times a second, the same message on ``view/contacts``, and on
+    ``contacts_view`` a visualization_msgs/MarkerArray: a disc as large as the contact and its number.
 
     Parameters
     ----------
@@ -54,18 +54,21 @@ class ContactsPublisher:
     ) -> None:
         self._tracker = BlobTracker(geometry, response, config, borders)
         self._publisher = node.create_publisher(Contacts, "contacts", **qos.overridable(qos.STREAM))
-        self._view_publisher = node.create_publisher(MarkerArray, "contacts_view", **qos.overridable(qos.VIEW))
+        self._view_publisher = node.create_publisher(Contacts, "view/contacts", **qos.overridable(qos.VIEW))
+        self._marker_publisher = node.create_publisher(MarkerArray, "contacts_view", **qos.overridable(qos.VIEW))
         self._view_limit = RateLimit(_VIEW_RATE_HZ)
         # Filled anew for every frame: making messages costs more than sending them.
         self._message = Contacts()
         self._entries = [TrackedContact() for _ in range(MAX_BLOBS)]
         self._send = False
         self._send_view = False
+        self._send_markers = False
 
     def look_for_subscribers(self) -> None:
         """To be called now and then: whether somebody listens."""
         self._send = self._publisher.get_subscription_count() > 0
         self._send_view = self._view_publisher.get_subscription_count() > 0
+        self._send_markers = self._marker_publisher.get_subscription_count() > 0
 
     def publish(
         self, header: Header, sequence: int, image: NDArray[np.float32], sigma: NDArray[np.float32] | None = None
@@ -83,11 +86,13 @@ class ContactsPublisher:
         sigma : np.ndarray [shape=(rows, cols), dtype=float32], optional
             Standard deviation of every taxel [counts], where it is known.
         """
-        if not (self._send or self._send_view):
+        if not (self._send or self._send_view or self._send_markers):
             return
         stamp = header.stamp
         found = self._tracker.step(image, stamp.sec + 1e-9 * stamp.nanosec, sigma)
-        if self._send:
+        is_view_due = (self._send_view or self._send_markers) and self._view_limit.due(time.monotonic())
+        to_view = self._send_view and is_view_due
+        if self._send or to_view:
             message = self._message
             message.header = header
             message.sequence = sequence
@@ -95,10 +100,13 @@ class ContactsPublisher:
             for blob, entry in zip(found, self._entries, strict=False):
                 _fill(entry, blob)
             message.contacts = self._entries[: len(found)]
-            self._publisher.publish(message)
-        if self._send_view and self._view_limit.due(time.monotonic()):
+            if self._send:
+                self._publisher.publish(message)
+            if to_view:
+                self._view_publisher.publish(message)
+        if self._send_markers and is_view_due:
             markers = [marker for blob in found for marker in _markers(header, blob)]
-            self._view_publisher.publish(MarkerArray(markers=markers))
+            self._marker_publisher.publish(MarkerArray(markers=markers))
 
 
 def _fill(entry: TrackedContact, blob: TrackedBlob) -> None:

@@ -1,6 +1,6 @@
 """Node ``reconstruction``: samples in; full images and the contact in them out, as fast as the samples come.
 
-Topics: samples and baseline in; contact, contacts, regions, cop, image_raw, image, confidence and object out.
+Topics: samples and baseline in; contact, contacts, regions, cop, image_raw, image, confidence, object and view/* out.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from statistics import median
 import numpy as np
 from geometry_msgs.msg import PointStamped
 from rclpy.node import Node
+from rclpy.publisher import Publisher
 from sensor_msgs.msg import Image
 from std_msgs.msg import Header
 
@@ -62,7 +63,8 @@ class ReconstructionNode(Node):
     in contact ``cop`` (geometry_msgs/PointStamped), and where somebody listens ``image_raw`` (sensor_msgs/Image,
     mono16, counts), ``confidence`` (mono8, with the method ``fusion``), ``image`` (rgb8, for viewers), ``contacts``
     with a layout of several patches, or of one on a link, ``regions`` (acts_msgs/RegionContacts), and, with an object
-    library, ``object`` (acts_msgs/ObjectClass).
+    library, ``object`` (acts_msgs/ObjectClass). For viewers that draw by themselves ``image_raw``, ``confidence`` and
+    ``contacts`` are also below ``view/``, at most `image_rate_hz` times a second.
 
     Parameters
     ----------
@@ -83,6 +85,8 @@ class ReconstructionNode(Node):
         self._raw_publisher = self.create_publisher(Image, "image_raw", **qos.overridable(qos.STREAM))
         self._confidence_publisher = self.create_publisher(Image, "confidence", **qos.overridable(qos.STREAM))
         self._view_publisher = self.create_publisher(Image, "image", **qos.overridable(qos.VIEW))
+        self._view_raw_publisher = self.create_publisher(Image, "view/image_raw", **qos.overridable(qos.VIEW))
+        self._view_confidence_publisher = self.create_publisher(Image, "view/confidence", **qos.overridable(qos.VIEW))
         # Filled anew for every frame: making messages costs more than sending them.
         self._header = Header()
         self._cop = PointStamped()
@@ -146,6 +150,8 @@ class ReconstructionNode(Node):
         self._send_raw = self._raw_publisher.get_subscription_count() > 0
         self._send_confidence = self._confidence_publisher.get_subscription_count() > 0
         self._send_view = self._view_publisher.get_subscription_count() > 0
+        self._send_view_raw = self._view_raw_publisher.get_subscription_count() > 0
+        self._send_view_confidence = self._view_confidence_publisher.get_subscription_count() > 0
         self._contacts.look_for_subscribers()
         if self._objects is not None:
             self._objects.look_for_subscribers()
@@ -232,13 +238,17 @@ class ReconstructionNode(Node):
         self._durations_s.append(time.perf_counter() - began_s)
 
     def _publish_images(self) -> None:
+        is_view_wanted = self._send_view or self._send_view_raw or self._send_view_confidence
+        is_view_due = is_view_wanted and self._view_limit.due(time.monotonic())
         if self._send_raw and self._raw_limit.due(time.monotonic()):
-            self._raw.header = self._header
-            self._raw.data = array("B", mono16(self._recovery.image))
-            self._raw_publisher.publish(self._raw)
+            self._publish_raw(self._raw_publisher)
+        if self._send_view_raw and is_view_due:
+            self._publish_raw(self._view_raw_publisher)
         if self._send_confidence:
-            self._publish_confidence()
-        if self._send_view:
+            self._publish_confidence(self._confidence_publisher)
+        if self._send_view_confidence and is_view_due:
+            self._publish_confidence(self._view_confidence_publisher)
+        if self._send_view and is_view_due:
             self._publish_view()
 
     def _on_baseline(self, message: Baseline) -> None:
@@ -263,17 +273,20 @@ class ReconstructionNode(Node):
             self._cop.point.x, self._cop.point.y = contact.x_m, contact.y_m
             self._cop_publisher.publish(self._cop)
 
-    def _publish_confidence(self) -> None:
+    def _publish_raw(self, publisher: Publisher) -> None:
+        self._raw.header = self._header
+        self._raw.data = array("B", mono16(self._recovery.image))
+        publisher.publish(self._raw)
+
+    def _publish_confidence(self, publisher: Publisher) -> None:
         confidence = self._recovery.confidence()
         if confidence is None:
             return
         self._sureness.header = self._header
         self._sureness.data = array("B", confidence.tobytes())
-        self._confidence_publisher.publish(self._sureness)
+        publisher.publish(self._sureness)
 
     def _publish_view(self) -> None:
-        if not self._view_limit.due(time.monotonic()):
-            return
         self._view.header = self._header
         pixels = rgb8(
             self._recovery.image,

@@ -115,7 +115,11 @@ class ReconstructionSettings(RealtimeConfig):
         changeable=Changeable.RUNNING,
     )
     image_rate_hz: float = setting(
-        30.0, "largest rate of the topic image [Hz]", minimum=0.1, maximum=1000.0, changeable=Changeable.RUNNING
+        30.0,
+        "largest rate of the topics image, view/image_raw and view/confidence [Hz]",
+        minimum=0.1,
+        maximum=1000.0,
+        changeable=Changeable.RUNNING,
     )
     image_scale: int = setting(10, "pixels along a taxel's side in the topic image", minimum=1, maximum=64)
     image_full_scale_counts: float = setting(

@@ -1,4 +1,4 @@
-"""Topics contacts and contacts_view over real DDS; ROS_DOMAIN_IDs 120 and 121."""
+"""Topics contacts, view/contacts and contacts_view over real DDS; ROS_DOMAIN_IDs 120 and 121."""
 
 import time
 from array import array
@@ -134,8 +134,11 @@ def test_standard_deviations_and_markers_are_those_of_the_contact(make_peers: Ca
     # Nobody listens: nothing is found, and no number is used up.
     contacts.publish(samples_of(image, 0).header, 0, image, sigma)
     peers.listen(Contacts, "contacts", qos.STREAM)
+    peers.listen(Contacts, "view/contacts", qos.VIEW)
     peers.listen(MarkerArray, "contacts_view", qos.VIEW)
-    peers.until(lambda: contacts.look_for_subscribers() or (contacts._send and contacts._send_view))
+    peers.until(
+        lambda: contacts.look_for_subscribers() or (contacts._send and contacts._send_view and contacts._send_markers)
+    )
 
     (expected,) = BlobTracker(GEOMETRY, response).step(image, 0.0, sigma)
     contacts.publish(samples_of(image, 1).header, 1, image, sigma)
@@ -152,6 +155,7 @@ def test_standard_deviations_and_markers_are_those_of_the_contact(make_peers: Ca
     assert contact.spread == pytest.approx(expected.spread_m)
     assert contact.orientation == pytest.approx(expected.angle_rad)
 
+    assert peers.received["view/contacts"] == peers.received["contacts"]
     (markers,) = peers.received["contacts_view"]
     disc, text = markers.markers
     assert (disc.type, text.type, text.text) == (Marker.CYLINDER, Marker.TEXT_VIEW_FACING, "1")
@@ -166,5 +170,6 @@ def test_standard_deviations_and_markers_are_those_of_the_contact(make_peers: Ca
     contacts.publish(samples_of(many, 2).header, 2, many)
     peers.until(lambda: len(peers.received["contacts"]) == 2)
     assert len(peers.received["contacts"][1].contacts) == MAX_BLOBS
+    assert len(peers.received["view/contacts"]) == 1
     assert peers.received["contacts"][1].dropped == 64 - MAX_BLOBS
     assert peers.received["contacts"][1].contacts[0].position_sigma.x == 0

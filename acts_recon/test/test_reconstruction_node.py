@@ -237,13 +237,19 @@ def test_the_viewer_image_keeps_its_rate_and_costs_nothing_unheard(make_bench: C
     bench.send(0, indices, indices)
     bench.contact(0)
     assert bench.node._view_limit.taken == 0
-    bench.listen(Image, "image", qos.VIEW)
-    bench.until(lambda: bench.node._send_view)
+    topics = ("image", "view/image_raw", "view/confidence")
+    for topic in topics:
+        bench.listen(Image, topic, qos.VIEW)
+    bench.until(
+        lambda: bench.node._send_view and bench.node._send_view_raw and bench.node._send_view_confidence,
+    )
     for sequence in range(1, 20):
         bench.send(sequence, indices, indices)
     bench.contact(19)
-    bench.until(lambda: bool(bench.received["image"]))
-    assert len(bench.received["image"]) == 1
+    bench.until(lambda: all(bench.received[topic] for topic in topics))
+    assert [len(bench.received[topic]) for topic in topics] == [1, 1, 1]
+    assert [bench.received[topic][0].encoding for topic in topics] == ["rgb8", "mono16", "mono8"]
+    assert len({bench.received[topic][0].header.stamp.nanosec for topic in topics}) == 1
 
 
 @pytest.mark.parametrize(

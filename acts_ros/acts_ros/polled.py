@@ -71,7 +71,7 @@ class PollingNode(Node):
     def create_polled_subscription(
         self, kind: type[M], topic: str, profile: QoSProfile, *, depth: int | None = None
     ) -> PolledSubscription[M]:
-        """Subscribe; to be called before the node is given to an executor.
+        """Subscribe; to be called before the node is given to an executor, or on the executor's thread.
 
         Parameters
         ----------
@@ -91,6 +91,11 @@ class PollingNode(Node):
     ) -> PolledSubscription[bytes]:
         """As `create_polled_subscription`; messages are the bytes that were sent, for who needs only some of them."""
         return PolledSubscription(self._subscribe(kind, topic, profile, depth, raw=True))
+
+    def destroy_polled_subscription(self, polled: PolledSubscription[Any]) -> None:
+        """Subscribe no longer; nobody may be reading it meanwhile."""
+        self.destroy_subscription(polled._subscription)
+        self._polled.discard(polled._subscription)
 
     def _subscribe(self, kind: type, topic: str, profile: QoSProfile, depth: int | None, *, raw: bool) -> Subscription:
         profile = copy(profile)

@@ -16,6 +16,7 @@ COMMANDS = {
     "launch": ("acts_tools.launch.command", "start the nodes of a launch file"),
     "record": ("acts_tools.bags.record", "record topics to a bag"),
     "play": ("acts_tools.bags.play", "publish a bag's messages again"),
+    "view": ("acts_tools.view_command", "show touch on a page in the browser"),
     "listen": ("acts_tools.listen.command", "tell what of a topic arrives here, and how late"),
     "driver": ("acts_tools.driver_command", "ask or tell a running driver: query, calibrate, tare, set"),
     "diagnostics": ("acts_tools.diagnostics.command", "print what the running nodes say of themselves"),

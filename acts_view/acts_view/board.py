@@ -1,0 +1,138 @@
+"""What is to be shown: the newest state of everything, from which every client is served at its own pace. Knows no ROS.
+
+There is no queue. A client that is slow misses states in between; it gets the newest when it can take it, with all of
+the history that is new to it. So no client costs memory, or holds up another.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from acts_view.codec import encode
+from acts_view.history import History, Place
+from acts_view.snapshot import Frame, Sample, SkinShape, describe_skin, encode_frame
+
+
+class _Skin:
+    def __init__(self, name: str, interval_s: float, length_s: float) -> None:
+        self.history = History(interval_s, length_s)
+        self.frame = Frame()
+        self.frames = 0
+        self.shape: SkinShape | None = None
+        self.description = b""
+        self._name = name
+        self._made: tuple[int, Place, bytes, Place] | None = None
+        self.describe(SkinShape())
+
+    def describe(self, shape: SkinShape) -> None:
+        if shape != self.shape:
+            self.shape = shape
+            self.description = encode(describe_skin(self._name, shape))
+
+    def message(self, place: Place) -> tuple[bytes, Place]:
+        """The newest frame for who has read so far; clients that keep up share it."""
+        made = self._made
+        if made is None or made[:2] != (self.frames, place):
+            rows, after = self.history.since(place)
+            made = self.frames, place, encode_frame(self._name, self.frame, rows, after.life), after
+            self._made = made
+        return made[2:]
+
+
+class Board:
+    """The newest state of all skins and of the diagnostics. All of it is for one thread, that of the event loop.
+
+    Parameters
+    ----------
+    interval_s, length_s : float
+        Of the history of every skin, see `History`.
+    """
+
+    def __init__(self, interval_s: float = 0.008, length_s: float = 60.0) -> None:
+        self._interval_s = interval_s
+        self._length_s = length_s
+        self._skins: dict[str, _Skin] = {}
+        self._status = b""
+        self._readers: set[Reader] = set()
+
+    @property
+    def readers(self) -> int:
+        """How many clients there are."""
+        return len(self._readers)
+
+    def show_frame(self, name: str, frame: Frame, samples: Sequence[Sample]) -> None:
+        """Take the newest state of a skin, and what has come since the last one."""
+        skin = self._skin(name)
+        for sample in samples:
+            skin.history.add(sample.stamp_s, sample.force_n, sample.latency_ms, sample.lost)
+        skin.frame = frame
+        skin.frames += 1
+        self._wake()
+
+    def show_shape(self, name: str, shape: SkinShape) -> None:
+        """Take what a skin is like."""
+        self._skin(name).describe(shape)
+        self._wake()
+
+    def show_status(self, status: dict[str, Any]) -> None:
+        """Take what is said of everything together, as JSON can say it; often enough, it tells a client we live."""
+        self._status = encode({"type": "status", **status})
+        self._wake()
+
+    def reader(self) -> Reader:
+        """A place to read from; to be closed."""
+        reader = Reader(self)
+        self._readers.add(reader)
+        return reader
+
+    def _skin(self, name: str) -> _Skin:
+        if name not in self._skins:
+            self._skins[name] = _Skin(name, self._interval_s, self._length_s)
+        return self._skins[name]
+
+    def _wake(self) -> None:
+        for reader in self._readers:
+            reader.wake()
+
+
+class Reader:
+    """How far one client has got."""
+
+    def __init__(self, board: Board) -> None:
+        self._board = board
+        self._news = asyncio.Event()
+        self._news.set()
+        self._described: dict[str, bytes] = {}
+        self._frames: dict[str, int] = {}
+        self._places: dict[str, Place] = {}
+        self._status = b""
+
+    def wake(self) -> None:
+        """There may be something new, or the client has gone."""
+        self._news.set()
+
+    async def wait(self) -> None:
+        """Until there may be something new."""
+        await self._news.wait()
+        self._news.clear()
+
+    def news(self) -> Iterator[bytes]:
+        """The messages of what is newest and was not read yet; each is made when it is asked for."""
+        board = self._board
+        if self._status is not board._status:
+            self._status = board._status
+            yield self._status
+        for name, skin in list(board._skins.items()):
+            if self._described.get(name) is not skin.description:
+                self._described[name] = skin.description
+                yield skin.description
+            if self._frames.get(name, 0) != skin.frames:
+                self._frames[name] = skin.frames
+                message, self._places[name] = skin.message(self._places.get(name, Place()))
+                yield message
+
+    def close(self) -> None:
+        """The client has gone."""
+        self._board._readers.discard(self)

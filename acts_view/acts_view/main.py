@@ -1,0 +1,22 @@
+"""`view`: a page in the browser that shows what skins feel."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+
+from acts_core.stop_signals import StopSignals
+from acts_ros.composition import parameters_from
+from acts_ros.executor import run
+from acts_view.node import ViewNode
+from acts_view.settings import ViewSettings
+
+SETTINGS: dict[str, type] = {"view": ViewSettings}
+"""The settings class of the node, by name."""
+
+
+def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
+    """Run the node; the exit code."""
+    words = list(sys.argv if args is None else args)
+    given = parameters_from(words, SETTINGS)
+    return run([lambda: ViewNode(parameter_overrides=given["view"])], words, signals)

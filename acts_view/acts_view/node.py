@@ -1,0 +1,164 @@
+"""Node ``view``: a page in the browser that shows what skins feel. It only listens.
+
+While no page is open it subscribes to no skin, so that nothing is computed for it.
+"""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from rcl_interfaces.msg import ParameterType, ParameterValue
+from rcl_interfaces.srv import GetParameters
+from rclpy.client import Client
+from rclpy.task import Future
+
+from acts_core.errors import ArrayError
+from acts_ros.clocks import steady_timer
+from acts_ros.diagnostics import OK, DiagnosticsReporter, Report
+from acts_ros.log import log_of
+from acts_ros.parameters import declare, node_options
+from acts_ros.polled import PollingNode
+from acts_view.server import ViewServer
+from acts_view.settings import ViewSettings
+from acts_view.skin_topics import SkinTopics
+from acts_view.snapshot import SkinShape
+
+_LOOK_PERIOD_S = 1.0
+_DIAGNOSTICS_DEPTH = 100
+_FORGET_NODE_S = 60.0
+_CONTACT_TYPE = "acts_msgs/msg/Contact"
+_CONTACT_TOPIC = "/contact"
+# As SkinShape has them.
+_SHAPE_PARAMETERS = ("layout", "rows", "cols", "pitch_m", "row_pitch_m", "touch_counts")
+
+
+class ViewNode(PollingNode):
+    """Shows skins on a page, see `ViewServer`.
+
+    Subscribes of every skin ``contact``, ``regions``, ``hand/status``, and ``view/image_raw``, ``view/confidence`` and
+    ``view/contacts`` or where they are not, those without ``view/``; and ``/diagnostics``. Asks the node
+    ``reconstruction`` beside them for its parameters.
+    """
+
+    def __init__(self, **options: Any) -> None:
+        super().__init__("view", **node_options(), **options)
+        self._settings = settings = declare(self, ViewSettings)
+        self._skins: dict[str, SkinTopics] = {}
+        self._asked: dict[str, Client] = {}
+        self._names = list(settings.namespaces)
+        self._heard: dict[str, tuple[float, DiagnosticStatus]] = {}
+        self._pages = 0
+        self._server = ViewServer(
+            settings.host,
+            settings.port,
+            send_limit_s=settings.send_limit_s,
+            on_clients=self._on_pages,
+            log=log_of(self),
+        )
+        self.address = self._server.address
+        self.create_subscription(DiagnosticArray, "/diagnostics", self._on_diagnostics, _DIAGNOSTICS_DEPTH)
+        self._diagnostics = DiagnosticsReporter(self, self.address.url.partition("?")[0], self._report)
+        steady_timer(self, 1.0 / settings.rate_hz, self._step)
+        steady_timer(self, _LOOK_PERIOD_S, self._look)
+        self.get_logger().info(f"open {self.address.url}")
+
+    def close(self) -> None:
+        """End the server."""
+        self._server.close()
+
+    def _on_pages(self, pages: int) -> None:
+        """From the server's thread."""
+        self._pages = pages
+
+    def _step(self) -> None:
+        if not self._pages:
+            self._leave()
+            return
+        if not self._skins:
+            self._look()
+        for name, topics in self._skins.items():
+            taken = topics.take()
+            if taken is not None:
+                self._server.show_frame(name, *taken)
+
+    def _look(self) -> None:
+        """Now and then: which skins there are, what they are like, and what is said of all."""
+        if not self._pages:
+            return
+        if not self._settings.namespaces:
+            self._find()
+        for name in self._names:
+            if name in self._skins:
+                self._skins[name].look()
+            else:
+                self._skins[name] = SkinTopics(self, name)
+            self._ask_shape(name)
+        self._server.show_status(
+            {"time_s": time.time(), "pages": self._pages, "skins": self._names, "diagnostics": self._statuses()}
+        )
+
+    def _leave(self) -> None:
+        for topics in self._skins.values():
+            topics.close()
+        self._skins.clear()
+
+    def _find(self) -> None:
+        for topic, kinds in self.get_topic_names_and_types():
+            name = topic.removesuffix(_CONTACT_TOPIC)
+            if _CONTACT_TYPE in kinds and name != topic and name not in self._names:
+                self._names.append(name)
+        self._names.sort()
+
+    def _ask_shape(self, name: str) -> None:
+        service = f"{name}/reconstruction/get_parameters"
+        if name not in self._asked:
+            self._asked[name] = self.create_client(GetParameters, service)
+        if self._asked[name].service_is_ready():
+            future = self._asked[name].call_async(GetParameters.Request(names=list(_SHAPE_PARAMETERS)))
+            future.add_done_callback(lambda done: self._on_shape(name, done))
+
+    def _on_shape(self, name: str, done: Future[Any]) -> None:
+        response = done.result()
+        if response is None or len(response.values) != len(_SHAPE_PARAMETERS):
+            return
+        values = dict(zip(_SHAPE_PARAMETERS, map(_value, response.values), strict=True))
+        if None in values.values():
+            return
+        try:
+            self._server.show_shape(name, SkinShape(**values))
+        except ArrayError as error:
+            self.get_logger().warning(f"{name}: {error}", throttle_duration_sec=10.0)
+
+    def _on_diagnostics(self, array: DiagnosticArray) -> None:
+        now_s = time.monotonic()
+        for status in array.status:
+            self._heard[status.name] = (now_s, status)
+
+    def _statuses(self) -> list[dict[str, Any]]:
+        now_s = time.monotonic()
+        self._heard = {name: one for name, one in self._heard.items() if now_s - one[0] < _FORGET_NODE_S}
+        return [
+            {
+                "name": name,
+                "level": int.from_bytes(status.level, "little"),
+                "message": status.message,
+                "age_s": now_s - heard_s,
+                "values": [[value.key, value.value] for value in status.values],
+            }
+            for name, (heard_s, status) in sorted(self._heard.items())
+        ]
+
+    def _report(self) -> Report:
+        pages = "1 page" if self._pages == 1 else f"{self._pages} pages"
+        return OK, f"{pages} open", {"pages": self._pages, "skins": ", ".join(self._skins)}
+
+
+def _value(value: ParameterValue) -> Any:
+    kinds = {
+        ParameterType.PARAMETER_STRING: value.string_value,
+        ParameterType.PARAMETER_INTEGER: value.integer_value,
+        ParameterType.PARAMETER_DOUBLE: value.double_value,
+    }
+    return kinds.get(value.type)

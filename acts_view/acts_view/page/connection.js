@@ -1,0 +1,49 @@
+// The socket to the server: comes back by itself, and notices a server that is silent.
+
+import { decode } from "./codec.js";
+
+const SILENT_MS = 4000; // the server says something every second
+const AGAIN_MS = [300, 600, 1200, 2400];
+
+/** Calls onMessage(message) and onState("connecting" | "live" | "gone"); every "live" begins anew. */
+export function connect(onMessage, onState) {
+  let tries = 0;
+  let watchdog = 0;
+
+  function open() {
+    const url = new URL("stream", location.href);
+    url.protocol = "ws:";
+    url.search = location.search; // the token, if there is one
+    const socket = new WebSocket(url);
+    socket.binaryType = "arraybuffer";
+    let isOver = false;
+    const over = () => {
+      if (isOver) return;
+      isOver = true;
+      clearTimeout(watchdog);
+      socket.close();
+      onState("gone");
+      setTimeout(open, AGAIN_MS[Math.min(tries, AGAIN_MS.length - 1)]);
+      tries += 1;
+    };
+    const heard = () => {
+      clearTimeout(watchdog);
+      watchdog = setTimeout(over, SILENT_MS);
+    };
+    heard();
+    socket.onopen = () => {
+      tries = 0;
+      onState("live");
+      heard();
+    };
+    socket.onmessage = (event) => {
+      if (isOver) return;
+      heard();
+      onMessage(decode(event.data));
+    };
+    socket.onclose = over;
+  }
+
+  onState("connecting");
+  open();
+}

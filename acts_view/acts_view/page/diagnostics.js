@@ -1,0 +1,53 @@
+// What the nodes say of themselves: a line each, its values when it is opened.
+
+const LEVELS = ["OK", "Warning", "Error", "Stale"];
+const STALE_S = 3;
+
+export class Diagnostics {
+  constructor(section) {
+    this.section = section;
+    this.nodes = new Map();
+  }
+
+  /** The newest of all. */
+  show(diagnostics) {
+    this.section.hidden = !diagnostics.length;
+    for (const { name, level, message, age_s, values } of diagnostics) {
+      const isStale = age_s > STALE_S;
+      const word = LEVELS[isStale ? 3 : Math.min(level, 3)];
+      const node = this.#node(name);
+      node.dataset.level = word.toLowerCase();
+      text(node.querySelector(".level"), word);
+      text(node.querySelector(".message"), isStale ? `nothing heard of it for ${Math.round(age_s)} s; before: ${message}` : message);
+      if (node.open) node.querySelector("dl").replaceChildren(...values.flatMap(([key, value]) => [term("dt", key), term("dd", value)]));
+    }
+    const names = new Set(diagnostics.map(({ name }) => name));
+    for (const [name, node] of this.nodes) {
+      if (names.has(name)) continue;
+      node.remove();
+      this.nodes.delete(name);
+    }
+  }
+
+  #node(name) {
+    if (!this.nodes.has(name)) {
+      const node = document.createElement("details");
+      node.innerHTML = `<summary><span class="level"></span><span class="name"></span><span class="message"></span></summary><dl></dl>`;
+      node.querySelector(".name").textContent = name;
+      const after = [...this.nodes.keys()].filter((other) => other > name).sort()[0];
+      this.section.querySelector(".nodes").insertBefore(node, this.nodes.get(after) ?? null);
+      this.nodes.set(name, node);
+    }
+    return this.nodes.get(name);
+  }
+}
+
+function text(element, words) {
+  if (element.textContent !== words) element.textContent = words;
+}
+
+function term(kind, words) {
+  const element = document.createElement(kind);
+  element.textContent = words;
+  return element;
+}

@@ -1,0 +1,76 @@
+// Puts the page together: messages to panels, choices to what is drawn.
+
+import { connect } from "./connection.js";
+import { Diagnostics } from "./diagnostics.js";
+import { Panel } from "./panel.js";
+import { next, onChange, set, settings } from "./settings.js";
+
+const TICK_MS = 50;
+const STATES = { connecting: "connecting", live: "connected", gone: "server gone, trying again" };
+const KEYS = { s: "scale", m: "colours", i: "smooth", c: "contacts", u: "unsure", d: "theme" };
+
+const panels = new Map();
+const diagnostics = new Diagnostics(document.getElementById("diagnostics"));
+let isHeld = false;
+
+const byId = (id) => document.getElementById(id);
+
+function panel(name) {
+  if (!panels.has(name)) {
+    const made = new Panel(name, () => hold(true));
+    const after = [...panels.keys()].filter((other) => other > name).sort()[0];
+    byId("skins").insertBefore(made.element, panels.get(after)?.element ?? null);
+    panels.set(name, made);
+    byId("skins").dataset.count = panels.size;
+    byId("empty").hidden = true;
+    made.redraw();
+  }
+  return panels.get(name);
+}
+
+function onMessage(message) {
+  if (message.type === "skin") panel(message.skin).describe(message);
+  else if (message.type === "frame") panel(message.skin).take(message);
+  else if (message.type === "status") diagnostics.show(message.diagnostics);
+}
+
+function onState(state) {
+  const pill = byId("connection");
+  pill.dataset.state = state;
+  pill.textContent = STATES[state];
+  document.body.dataset.connection = state;
+  if (state === "live") for (const one of panels.values()) one.forget();
+}
+
+function hold(held) {
+  isHeld = held;
+  byId("pause").setAttribute("aria-pressed", String(isHeld));
+  byId("pause").textContent = isHeld ? "Go on" : "Pause";
+  for (const one of panels.values()) one.hold(isHeld);
+}
+
+function show() {
+  for (const name of ["scale", "colours", "window"]) byId(name).value = settings[name];
+  for (const name of ["smooth", "contacts", "unsure"]) byId(name).setAttribute("aria-pressed", String(settings[name]));
+  byId("theme").textContent = `Theme: ${settings.theme}`;
+  document.documentElement.dataset.theme = settings.theme;
+  for (const one of panels.values()) one.redraw();
+}
+
+for (const name of ["scale", "colours", "window"]) byId(name).onchange = (event) => set(name, event.target.value);
+for (const name of ["smooth", "contacts", "unsure", "theme"]) byId(name).onclick = () => next(name);
+byId("pause").onclick = () => hold(!isHeld);
+document.addEventListener("keydown", (event) => {
+  if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest("select, button, summary")) return;
+  if (event.key in KEYS) next(KEYS[event.key]);
+  else if (event.key === " ") hold(!isHeld);
+  else return;
+  event.preventDefault();
+});
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", show);
+onChange(show);
+show();
+setInterval(() => {
+  for (const one of panels.values()) one.tick();
+}, TICK_MS);
+connect(onMessage, onState);

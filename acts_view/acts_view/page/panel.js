@@ -1,0 +1,169 @@
+// One skin: its picture, its numbers, its contacts, its plots and, of a hand, its regions.
+
+import { gradient } from "./colours.js";
+import { BIN_S, FRAMES, History, LATENCY, LOST } from "./history.js";
+import { Plots } from "./plots.js";
+import { Regions } from "./regions.js";
+import { settings } from "./settings.js";
+import { SkinView } from "./skin_view.js";
+
+const CONTACT_ROWS = 4;
+const SILENT_MS = 1500;
+const NUMBERS_EVERY_MS = 200; // faster, nobody can read them
+
+const NUMBERS = [
+  ["force", "Force", "N"],
+  ["x", "Centre x", "mm"],
+  ["y", "Centre y", "mm"],
+  ["peak", "Peak", "counts"],
+  ["area", "Area", "mm²"],
+  ["rate", "Rate", "Hz"],
+  ["latency", "Latency, worst", "ms"],
+  ["lost", "Lost in 60 s", "frames"],
+];
+
+export class Panel {
+  constructor(name, onHold) {
+    this.name = name;
+    this.history = new History();
+    this.heard_ms = performance.now();
+    this.numbers_ms = 0;
+    this.isHeld = false;
+    this.message = null;
+    this.element = document.createElement("article");
+    this.element.className = "card skin";
+    this.element.dataset.skin = name;
+    this.element.innerHTML = `
+      <header><h2></h2><p class="shape"></p><p class="pill" data-state="waiting">waiting</p></header>
+      <div class="body">
+        <div class="picture">
+          <div class="canvases"><canvas class="taxels"></canvas><canvas class="marks" tabindex="0" role="img"></canvas></div>
+          <div class="legend"><div class="ramp"></div><p class="ends"><span>0</span><span class="unit">counts</span><span class="top">1023</span></p></div>
+          <p class="pointed" aria-live="polite"></p>
+        </div>
+        <div class="facts">
+          <dl class="numbers">${NUMBERS.map(([key, title, unit]) => `<div data-of="${key}"><dt>${title}</dt><dd><output data-number="${key}">–</output> <small>${unit}</small></dd></div>`).join("")}</dl>
+          <table class="contacts">
+            <caption>Contacts</caption>
+            <thead><tr><th scope="col">no.</th><th scope="col">force <small>N</small></th><th scope="col">peak <small>counts</small></th><th scope="col">area <small>mm²</small></th><th scope="col">speed <small>mm/s</small></th></tr></thead>
+            <tbody>${`<tr>${"<td></td>".repeat(5)}</tr>`.repeat(CONTACT_ROWS)}</tbody>
+          </table>
+          <p class="more"></p>
+        </div>
+        <div class="plots"></div>
+        <section class="regions" hidden></section>
+      </div>`;
+    this.find = (selector) => this.element.querySelector(selector);
+    this.find("h2").textContent = name;
+    this.find("canvas.marks").setAttribute("aria-label", `tactile image of ${name}; arrow keys move from taxel to taxel`);
+    this.view = new SkinView(this.find(".canvases"), (text) => { this.find(".pointed").textContent = text; });
+    this.plots = new Plots(this.find(".plots"), this.history, onHold);
+    this.regions = new Regions(this.find(".regions"));
+    this.outputs = Object.fromEntries(NUMBERS.map(([key]) => [key, this.find(`[data-number=${key}]`)]));
+    this.rows = [...this.element.querySelectorAll("tbody tr")].map((row) => [...row.cells]);
+  }
+
+  /** What the skin is like. */
+  describe(shape) {
+    const [width_mm, height_mm] = [shape.cols * shape.pitch_m, shape.rows * shape.row_pitch_m].map((side) => Math.round(1000 * side));
+    const size = shape.patches.length > 1 ? `${shape.patches.length} patches` : `${width_mm} × ${height_mm} mm`;
+    const layout = shape.layout === "square" ? "" : `${shape.layout.split("/").pop().replace(/\.ya?ml$/, "").replaceAll("_", " ")} · `;
+    this.find(".shape").textContent = `${layout}${shape.rows} × ${shape.cols} taxels · ${size}`;
+    this.find(".shape").title = shape.note;
+    // The middle of a hand's fingers is nowhere.
+    for (const key of ["x", "y"]) this.find(`[data-of=${key}]`).hidden = shape.patches.length > 1;
+    this.view.setShape(shape);
+  }
+
+  /** The newest state. */
+  take(message) {
+    this.heard_ms = performance.now();
+    this.history.take(message);
+    if (this.isHeld) return;
+    this.message = message;
+    this.view.setState(message);
+    this.#showTop();
+  }
+
+  /** Hold what is shown, or go on. */
+  hold(isHeld) {
+    this.isHeld = isHeld;
+    this.plots.hold(isHeld);
+    this.tick();
+  }
+
+  /** After a change of what is to be shown. */
+  redraw() {
+    this.find(".ramp").style.background = gradient(settings.colours);
+    this.view.draw();
+    this.#showTop();
+    this.plots.draw(true);
+  }
+
+  /** The connection was lost and is there again: the server sends all of its history. */
+  forget() {
+    this.history.clear();
+  }
+
+  /** Now and then: numbers, plots, and whether the skin is silent. */
+  tick() {
+    const now_ms = performance.now();
+    const silent_ms = now_ms - this.heard_ms;
+    const pill = this.find(".pill");
+    const isSilent = silent_ms > SILENT_MS;
+    const state = this.isHeld ? "held" : !this.message ? "waiting" : isSilent ? "silent" : "live";
+    const words = { held: "paused", waiting: "waiting", silent: `silent for ${Math.round(silent_ms / 1000)} s`, live: "live" }[state];
+    if (pill.textContent !== words) pill.textContent = words;
+    pill.dataset.state = state;
+    this.plots.draw();
+    if (this.message && !this.isHeld && now_ms - this.numbers_ms > NUMBERS_EVERY_MS) {
+      this.numbers_ms = now_ms;
+      this.#showNumbers();
+      this.#showContacts();
+      this.regions.show(this.message.regions, this.message.hand);
+    }
+  }
+
+  #showTop() {
+    const top = String(Math.round(this.view.top));
+    const element = this.find(".top");
+    if (element.textContent !== top) element.textContent = top;
+  }
+
+  #showNumbers() {
+    const { touch } = this.message;
+    const [x_m, y_m, force_n, peak, area_m2] = touch ?? [];
+    const [, frames] = this.history.sums(FRAMES, 1);
+    const [, lost] = this.history.sums(LOST, 60);
+    const [, latencies] = this.history.extremes(LATENCY, 1, 1);
+    const values = {
+      force: touch ? force_n.toFixed(2) : "0.00",
+      x: touch ? (1000 * x_m).toFixed(1) : "–",
+      y: touch ? (1000 * y_m).toFixed(1) : "–",
+      peak: touch ? peak.toFixed(0) : "0",
+      area: touch ? (1e6 * area_m2).toFixed(0) : "0",
+      rate: frames.length ? (frames.reduce((sum, count) => sum + count, 0) / (frames.length * BIN_S)).toFixed(0) : "–",
+      latency: latencies.length ? Math.max(...latencies).toFixed(1) : "–",
+      lost: lost.reduce((sum, count) => sum + count, 0).toFixed(0),
+    };
+    for (const [key, text] of Object.entries(values)) {
+      if (this.outputs[key].textContent !== text) this.outputs[key].textContent = text;
+    }
+  }
+
+  #showContacts() {
+    const { contacts, contact_numbers } = this.message.arrays;
+    const width = contacts.shape[1];
+    const numbers = contact_numbers.data;
+    this.rows.forEach((cells, index) => {
+      let words = ["", "", "", "", ""];
+      if (index < numbers.length) {
+        const [, , force_n, peak, area_m2, , speed_m_s] = contacts.data.subarray(index * width, (index + 1) * width);
+        words = [numbers[index], force_n.toFixed(2), peak.toFixed(0), (1e6 * area_m2).toFixed(0), (1000 * speed_m_s).toFixed(0)];
+      }
+      cells.forEach((cell, column) => { cell.textContent = words[column]; });
+    });
+    const more = numbers.length - this.rows.length;
+    this.find(".more").textContent = more > 0 ? `and ${more} more` : "";
+  }
+}

@@ -1,0 +1,113 @@
+// The plots of a skin: force and latency as the smallest and largest of each pixel, rate and losses a fifth of a second each.
+
+import { BIN_S, FORCE, FRAMES, LATENCY, LOST } from "./history.js";
+import { settings } from "./settings.js";
+
+const HEIGHT = 112;
+const EVERY_MS = 100;
+
+const KINDS = [
+  { name: "force", title: "Force", unit: "N", least: 1, read: (history, length, pixels) => history.extremes(FORCE, length, pixels) },
+  { name: "latency", title: "Latency", unit: "ms", least: 1, read: (history, length, pixels) => history.extremes(LATENCY, length, pixels) },
+  { name: "rate", title: "Rate", unit: "Hz", least: 100, read: (history, length) => scaled(history.sums(FRAMES, length), 1 / BIN_S) },
+  { name: "lost", title: "Lost frames", unit: "", least: 4, isBars: true, read: (history, length) => history.sums(LOST, length) },
+];
+
+function scaled([times, values], factor) {
+  return [times, values.map((value) => value * factor)];
+}
+
+const colour = (name) => () => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
+export class Plots {
+  /** Draws into `element` what of the history is asked for; onZoom() when a person has chosen a part of it. */
+  constructor(element, history, onZoom) {
+    this.element = element;
+    this.history = history;
+    this.held = null;
+    this.last_ms = 0;
+    this.isZoomed = false;
+    this.plots = KINDS.map((kind) => {
+      const figure = document.createElement("figure");
+      figure.dataset.plot = kind.name;
+      const caption = document.createElement("figcaption");
+      caption.textContent = kind.unit ? `${kind.title} [${kind.unit}]` : kind.title;
+      figure.append(caption);
+      element.append(figure);
+      const plot = new uPlot(options(kind, (from, to) => {
+        this.isZoomed = true;
+        onZoom();
+        for (const other of this.plots) other.plot.setScale("x", { min: from, max: to });
+      }, () => this.reset()), kind.isBars || kind.name === "rate" ? [[], []] : [[], [], []], figure);
+      return { kind, plot, figure };
+    });
+    new ResizeObserver(() => this.#resize()).observe(element);
+  }
+
+  /** Hold what is shown, or go on. */
+  hold(isHeld) {
+    this.held = isHeld ? this.history.held() : null;
+    if (!isHeld) this.reset();
+  }
+
+  /** Show the whole window again. */
+  reset() {
+    this.isZoomed = false;
+    this.draw(true);
+  }
+
+  /** Draw, not more often than one can see. */
+  draw(now = false) {
+    const time_ms = performance.now();
+    if (!now && (time_ms - this.last_ms < EVERY_MS || this.held)) return;
+    this.last_ms = time_ms;
+    const history = this.held ?? this.history;
+    const length_s = Number(settings.window);
+    for (const { kind, plot } of this.plots) {
+      const data = kind.read(history, length_s, plot.bbox.width / (window.devicePixelRatio || 1));
+      plot.setData(data, false);
+      if (!this.isZoomed) plot.setScale("x", { min: -length_s, max: 0 });
+      else plot.redraw();
+    }
+  }
+
+  #resize() {
+    for (const { plot, figure } of this.plots) plot.setSize({ width: figure.clientWidth, height: HEIGHT });
+  }
+}
+
+function options(kind, onZoom, onReset) {
+  const ink = colour("--ink-soft");
+  const line = colour(`--plot-${kind.name}`);
+  const fill = colour(`--plot-${kind.name}-fill`);
+  const axis = { stroke: ink, font: "11px system-ui, sans-serif", ticks: { show: false }, grid: { stroke: colour("--line"), width: 1 } };
+  const series = { stroke: line, width: 1.25, points: { show: false }, spanGaps: false };
+  const values = kind.isBars
+    ? [{ ...series, width: 0, fill: line, paths: uPlot.paths.bars({ size: [0.8, 12] }) }]
+    : kind.name === "rate" ? [series] : [series, series];
+  return {
+    width: 300,
+    height: HEIGHT,
+    padding: [6, 12, 0, 0],
+    legend: { show: false },
+    cursor: { y: false, points: { show: false }, drag: { setScale: false, x: true, y: false }, bind: { dblclick: () => () => { onReset(); return null; } } },
+    scales: {
+      x: { time: false },
+      y: { range: (plot, low, high) => [0, Math.max(kind.least, 1.1 * (high ?? 0))] },
+    },
+    axes: [
+      { ...axis, size: 22, space: 60, values: (plot, times) => times.map((time) => (time === 0 ? "now" : `${time.toFixed(Number.isInteger(time) ? 0 : 1)} s`)) },
+      { ...axis, size: 44, space: 26 },
+    ],
+    series: [{}, ...values],
+    bands: values.length === 2 ? [{ series: [1, 2], fill }] : [],
+    hooks: {
+      setSelect: [(plot) => {
+        if (plot.select.width < 4) return;
+        const { left, width } = plot.select;
+        onZoom(plot.posToVal(left, "x"), plot.posToVal(left + width, "x"));
+        plot.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
+      }],
+    },
+  };
+}

@@ -1,0 +1,199 @@
+"""The page and its socket, by the library websockets, on a thread of its own. Knows no ROS."""
+
+from __future__ import annotations
+
+import asyncio
+import socket
+import threading
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from http import HTTPStatus
+from typing import Any
+
+from websockets.asyncio.server import Server, ServerConnection, serve
+from websockets.datastructures import Headers
+from websockets.exceptions import ConnectionClosed
+from websockets.http11 import Request, Response
+from websockets.protocol import State
+
+from acts_core.errors import SettingsError
+from acts_core.realtime_guard import LogCallback
+from acts_view.access import is_local_host, new_token, refusal
+from acts_view.board import Board
+from acts_view.page_files import read_page
+from acts_view.snapshot import Frame, Sample, SkinShape
+
+STREAM_PATH = "/stream"
+MAX_CLIENTS = 32
+# Enough for two pictures of 64 x 64: what waits in the system's buffers is old when it arrives.
+_SEND_BUFFER_BYTES = 65536
+_LARGEST_REQUEST_BYTES = 1024
+_HEADERS = {
+    "Cache-Control": "no-cache",
+    "X-Content-Type-Options": "nosniff",
+    "Referrer-Policy": "no-referrer",
+    # Everything on the page is ours: nothing is loaded from elsewhere, and no other page may put it into a frame.
+    "Content-Security-Policy": "default-src 'self'; img-src 'self' data:; frame-ancestors 'none'; form-action 'none'",
+}
+
+
+@dataclass(frozen=True)
+class Address:
+    """Where the page is.
+
+    Attributes
+    ----------
+    host : str
+        Bound to.
+    port : int
+    token : str
+        That the address must carry; empty on loopback.
+    """
+
+    host: str
+    port: int
+    token: str
+
+    @property
+    def url(self) -> str:
+        """To be opened in a browser; where all addresses are bound to, with this machine's name."""
+        host = socket.gethostname() if self.host in ("0.0.0.0", "::") else self.host
+        query = f"?token={self.token}" if self.token else ""
+        return f"http://{f'[{host}]' if ':' in host else host}:{self.port}/{query}"
+
+
+class ViewServer:
+    """Serves the page and streams to it what is on a `Board`; begins with the constructor.
+
+    Parameters
+    ----------
+    host, port : str, int
+        To bind to; port 0: any that is free. Other hosts than this machine's own get a token.
+    send_limit_s : float
+        A client that takes nothing for so long is dropped [s].
+    on_clients : callable
+        Called with the number of clients whenever it changes, on the server's thread.
+    log : LogCallback
+    board : Board, optional
+
+    Raises
+    ------
+    SettingsError
+        When the address cannot be bound to.
+    """
+
+    def __init__(
+        self,
+        host: str,
+        port: int,
+        *,
+        send_limit_s: float = 5.0,
+        on_clients: Callable[[int], None],
+        log: LogCallback,
+        board: Board | None = None,
+    ) -> None:
+        self._board = Board() if board is None else board
+        self._send_limit_s = send_limit_s
+        self._on_clients = on_clients
+        self._log = log
+        self._files = read_page()
+        self._token = "" if is_local_host(host) else new_token()
+        self._loop = asyncio.new_event_loop()
+        self._thread = threading.Thread(target=self._loop.run_forever, name="acts_view_server", daemon=True)
+        self._thread.start()
+        try:
+            self._server = asyncio.run_coroutine_threadsafe(self._begin(host, port), self._loop).result()
+        except OSError as error:
+            self._end_loop()
+            raise SettingsError(
+                f"cannot listen on {host} port {port}: {error.strerror or error}; give another --port or --host"
+            ) from error
+        bound_port = next(iter(self._server.sockets)).getsockname()[1]
+        self.address = Address(host, bound_port, self._token)
+
+    def show_frame(self, name: str, frame: Frame, samples: Sequence[Sample]) -> None:
+        """As `Board.show_frame`, from any thread."""
+        self._loop.call_soon_threadsafe(self._board.show_frame, name, frame, samples)
+
+    def show_shape(self, name: str, shape: SkinShape) -> None:
+        """As `Board.show_shape`, from any thread."""
+        self._loop.call_soon_threadsafe(self._board.show_shape, name, shape)
+
+    def show_status(self, status: dict[str, Any]) -> None:
+        """As `Board.show_status`, from any thread."""
+        self._loop.call_soon_threadsafe(self._board.show_status, status)
+
+    def close(self) -> None:
+        """Take leave of all clients and end."""
+        asyncio.run_coroutine_threadsafe(self._end(), self._loop).result()
+        self._end_loop()
+
+    async def _begin(self, host: str, port: int) -> Server:
+        # Compression costs four times the CPU, and the keep-alive would wait behind a stalled client's buffer.
+        return await serve(
+            self._serve,
+            host,
+            port,
+            process_request=self._answer,
+            compression=None,
+            max_size=_LARGEST_REQUEST_BYTES,
+            server_header=None,
+        )
+
+    async def _end(self) -> None:
+        self._server.close()
+        try:
+            await asyncio.wait_for(self._server.wait_closed(), 1.0)
+        except TimeoutError:
+            for connection in list(self._server.connections):
+                connection.transport.abort()
+
+    def _end_loop(self) -> None:
+        self._loop.call_soon_threadsafe(self._loop.stop)
+        self._thread.join()
+        self._loop.close()
+
+    def _answer(self, connection: ServerConnection, request: Request) -> Response | None:
+        """Answer a request for a file; None for the socket, which the library goes on with."""
+        path = request.path.partition("?")[0]
+        if path == STREAM_PATH:
+            reason = refusal(_one(request, "Host"), _one(request, "Origin"), request.path, self._token)
+            if reason:
+                return connection.respond(HTTPStatus.FORBIDDEN, f"{reason}\n")
+            if self._board.readers >= MAX_CLIENTS:
+                return connection.respond(HTTPStatus.SERVICE_UNAVAILABLE, f"{MAX_CLIENTS} pages are open already\n")
+            return None
+        file = self._files.get(path)
+        if file is None:
+            return connection.respond(HTTPStatus.NOT_FOUND, "there is no such page\n")
+        headers = {"Content-Type": file.content_type, "Content-Length": str(len(file.body)), "Connection": "close"}
+        return Response(HTTPStatus.OK, "OK", Headers({**_HEADERS, **headers}), file.body)
+
+    async def _serve(self, connection: ServerConnection) -> None:
+        own = connection.transport.get_extra_info("socket")
+        own.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, _SEND_BUFFER_BYTES)
+        reader = self._board.reader()
+        self._on_clients(self._board.readers)
+        gone = asyncio.ensure_future(connection.wait_closed())
+        gone.add_done_callback(lambda _: reader.wake())
+        try:
+            while connection.state is State.OPEN:
+                await reader.wait()
+                for message in reader.news():
+                    await asyncio.wait_for(connection.send(message), self._send_limit_s)
+        except ConnectionClosed:
+            pass  # the page was closed, or a new one is on its way
+        except TimeoutError:
+            self._log("warning", f"a page took nothing for {self._send_limit_s:g} s and was dropped; it will reconnect")
+            # No handshake: it would wait behind what the client does not take.
+            connection.transport.abort()
+        finally:
+            gone.cancel()
+            reader.close()
+            self._on_clients(self._board.readers)
+
+
+def _one(request: Request, name: str) -> str | None:
+    """A header that must not come twice."""
+    values = request.headers.get_all(name)
+    return values[0] if len(values) == 1 else None

@@ -1,0 +1,32 @@
+"""Parameters of the node ``view``."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from acts_core.errors import SettingsError
+from acts_core.settings import setting, validate
+
+
+@dataclass(frozen=True)
+class ViewSettings:
+    """Parameters of the node ``view``; see `acts_core.settings`."""
+
+    skins: str = setting("", "namespaces of the skins to show, with commas between; empty: all that are found")
+    host: str = setting("127.0.0.1", "address to listen on; another than this machine's own gets a token, see the log")
+    port: int = setting(8080, "port to listen on; 0: any that is free, see the log", minimum=0, maximum=65535)
+    rate_hz: float = setting(30.0, "how often the page is sent what is new", minimum=1.0, maximum=100.0)
+    send_limit_s: float = setting(
+        5.0, "a page that takes nothing for so long is dropped [s]", minimum=0.1, maximum=60.0
+    )
+
+    def __post_init__(self) -> None:
+        validate(self)
+        if not self.host.strip():
+            raise SettingsError("host is empty: needed is an address or a name, such as 127.0.0.1 or 0.0.0.0")
+
+    @property
+    def namespaces(self) -> tuple[str, ...]:
+        """The skins that are given, each with a slash before; empty: all that are found."""
+        names = (name.strip().strip("/") for name in self.skins.split(","))
+        return tuple(dict.fromkeys(f"/{name}" for name in names if name))

@@ -1,0 +1,172 @@
+"""The topics of one skin, polled: what is newest of each, as the page is to show it."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from sensor_msgs.msg import Image
+
+from acts_core.errors import PacketError
+from acts_msgs.msg import Contact, Contacts, HandStatus, RegionContacts
+from acts_ros import qos
+from acts_ros.cdr import ContactFields, read_contact
+from acts_ros.polled import PolledSubscription, PollingNode
+from acts_ros.regions_cdr import read_regions
+from acts_view.snapshot import CONTACT_COLUMNS, Frame, RegionState, Sample
+
+_SEQUENCE_MODULUS = 1 << 32
+# A stamp further from the clock than this is by another clock, as in a bag that is played.
+_SAME_CLOCK_S = 10.0
+_MONO = {"mono16": "u2", "mono8": "u1"}
+_HAND_STATES = {
+    getattr(HandStatus, name): name.removeprefix("STATE_").lower()
+    for name in dir(HandStatus)
+    if name.startswith("STATE_")
+}
+
+
+class SkinTopics:
+    """Subscribes to what a skin publishes; all calls from the executor's thread.
+
+    Parameters
+    ----------
+    node : PollingNode
+    namespace : str
+        Of the skin, with a slash before.
+    """
+
+    def __init__(self, node: PollingNode, namespace: str) -> None:
+        self._node = node
+        self._namespace = namespace
+        self._polled: dict[str, PolledSubscription[Any]] = {}
+        self._frame = Frame()
+        self._sequence: int | None = None
+        self._polled["contact"] = node.create_raw_polled_subscription(Contact, f"{namespace}/contact", qos.STREAM)
+        self._polled["regions"] = node.create_raw_polled_subscription(
+            RegionContacts, f"{namespace}/regions", qos.STREAM, depth=1
+        )
+        self._polled["hand"] = node.create_polled_subscription(
+            HandStatus, f"{namespace}/hand/status", qos.STATE, depth=1
+        )
+        self.look()
+
+    def look(self) -> None:
+        """Choose anew, now and then, between the topics for viewers and, as in a bag, those at 1 kHz."""
+        self._choose("image_raw", Image)
+        self._choose("confidence", Image)
+        self._choose("contacts", Contacts)
+
+    def close(self) -> None:
+        """Subscribe no longer."""
+        for subscription in self._polled.values():
+            self._node.destroy_polled_subscription(subscription)
+        self._polled.clear()
+
+    def take(self) -> tuple[Frame, list[Sample]] | None:
+        """The newest of everything and all of the 1 kHz stream since the last call; None where nothing came."""
+        samples, touch, stamp_ns = self._contact()
+        images = {name: self._newest(name) for name in ("image_raw", "confidence")}
+        contacts, regions, hand = (self._newest(name) for name in ("contacts", "regions", "hand"))
+        if not samples and all(one is None for one in (*images.values(), contacts, regions, hand)):
+            return None
+        old = self._frame
+        image = _pixels(images["image_raw"], "mono16")
+        confidence = _pixels(images["confidence"], "mono8")
+        numbers, table = (old.contact_numbers, old.contacts) if contacts is None else _table(contacts)
+        self._frame = Frame(
+            stamp_s=old.stamp_s if stamp_ns is None else stamp_ns * 1e-9,
+            image=old.image if image is None else image,
+            confidence=old.confidence if confidence is None else confidence,
+            contact_numbers=numbers,
+            contacts=table,
+            touch=touch if samples else old.touch,
+            regions=old.regions if regions is None else _regions(regions, old.regions),
+            hand=old.hand if hand is None else _hand(hand),
+        )
+        return self._frame, samples
+
+    def _choose(self, what: str, kind: type) -> None:
+        at_view_rate = f"{self._namespace}/view/{what}"
+        is_published = self._node.count_publishers(f"{self._namespace}/{what}") > 0
+        is_for_viewers = self._node.count_publishers(at_view_rate) > 0 or not is_published
+        topic, profile = (at_view_rate, qos.VIEW) if is_for_viewers else (f"{self._namespace}/{what}", qos.STREAM)
+        present = self._polled.get(what)
+        if present is not None and present.topic_name == topic:
+            return
+        if present is not None:
+            self._node.destroy_polled_subscription(present)
+        self._polled[what] = self._node.create_polled_subscription(kind, topic, profile, depth=1)
+
+    def _newest(self, what: str) -> Any:
+        taken = self._polled[what].take_all()
+        return taken[-1][0] if taken else None
+
+    def _contact(self) -> tuple[list[Sample], tuple[float, ...] | None, int | None]:
+        samples = []
+        newest: ContactFields | None = None
+        for data, received_ns in self._polled["contact"].take_all():
+            try:
+                newest = read_contact(data)
+            except PacketError as error:
+                self._node.get_logger().warning(f"{self._namespace}: {error}", throttle_duration_sec=5.0)
+                continue
+            age_s = (received_ns - newest.stamp_ns) * 1e-9
+            latency_ms = 1e3 * age_s if abs(age_s) < _SAME_CLOCK_S else math.nan
+            samples.append(Sample(newest.stamp_ns * 1e-9, newest.force_n, latency_ms, self._lost(newest.sequence)))
+        if newest is None:
+            return samples, None, None
+        touch = (newest.x_m, newest.y_m, newest.force_n, newest.peak_counts, newest.area_m2)
+        return samples, touch if newest.in_contact else None, newest.stamp_ns
+
+    def _lost(self, sequence: int) -> int:
+        before, self._sequence = self._sequence, sequence
+        missing = 0 if before is None else (sequence - before - 1) % _SEQUENCE_MODULUS
+        # Half the range back is a board that began anew.
+        return missing if missing < _SEQUENCE_MODULUS // 2 else 0
+
+
+def _pixels(message: Image | None, encoding: str) -> NDArray[Any] | None:
+    """The pixels of an image of counts or of confidence; None for any other."""
+    if message is None or message.encoding != encoding:
+        return None
+    kind = np.dtype(_MONO[encoding]).newbyteorder(">" if message.is_bigendian else "<")
+    if message.step != message.width * kind.itemsize or len(message.data) != message.step * message.height:
+        return None
+    return np.frombuffer(message.data, kind).reshape(message.height, message.width).astype(_MONO[encoding])
+
+
+def _table(message: Contacts) -> tuple[NDArray[np.uint32], NDArray[np.float32]]:
+    rows = [
+        (
+            one.position.x,
+            one.position.y,
+            one.force,
+            one.peak,
+            one.area,
+            one.spread,
+            math.hypot(one.velocity.x, one.velocity.y),
+            one.age,
+        )
+        for one in message.contacts
+    ]
+    numbers = np.array([one.number for one in message.contacts], np.uint32)
+    return numbers, np.array(rows, np.float32).reshape(-1, len(CONTACT_COLUMNS))
+
+
+def _regions(data: bytes, old: Any) -> Any:
+    try:
+        regions = read_regions(data).regions
+    except PacketError:
+        return old
+    return [RegionState(one.name, one.force_n, one.slip_m, one.slipping) for one in regions]
+
+
+def _hand(message: HandStatus) -> dict[str, Any]:
+    return {
+        "state": _HAND_STATES.get(message.state, str(message.state)),
+        "reason": message.reason,
+        "active": list(message.active),
+    }

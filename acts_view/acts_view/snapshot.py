@@ -1,0 +1,161 @@
+"""What the page is told of a skin: what it is like, and its newest state. Knows no ROS."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.errors import ActsError
+from acts_core.layouts import Layout, layout
+from acts_view.arrangement import arrangement
+from acts_view.codec import encode
+from acts_view.history import COLUMNS
+
+CONTACT_COLUMNS = ("x_m", "y_m", "force_n", "peak_counts", "area_m2", "spread_m", "speed_m_s", "age_s")
+"""Of a contact, besides its number."""
+
+
+@dataclass(frozen=True)
+class Sample:
+    """One frame of the 1 kHz stream, as the plots need it; see `acts_view.history.History.add`."""
+
+    stamp_s: float
+    force_n: float
+    latency_ms: float
+    lost: int
+
+
+@dataclass(frozen=True)
+class RegionState:
+    """What one patch of a hand feels."""
+
+    name: str
+    force_n: float
+    slip_m: float
+    is_slipping: bool
+
+
+@dataclass(frozen=True)
+class Frame:
+    """The newest state of a skin; what nobody publishes is None or empty.
+
+    Attributes
+    ----------
+    stamp_s : float
+        Of the newest of what it is made of, by the clock of the stamps [s].
+    image : np.ndarray [shape=(rows, cols), dtype=uint16] or None
+        Counts.
+    confidence : np.ndarray [shape=(rows, cols), dtype=uint8] or None
+        255: sure.
+    contact_numbers : np.ndarray [shape=(n,), dtype=uint32]
+    contacts : np.ndarray [shape=(n, 8), dtype=float32]
+        `CONTACT_COLUMNS`.
+    touch : tuple of float or None
+        Of all that presses: centre of pressure x and y [m], force [N], peak [counts], area [m^2]; None without contact.
+    regions : sequence of RegionState
+    hand : mapping
+        State of a hand in words; empty for none.
+    """
+
+    stamp_s: float = 0.0
+    image: NDArray[np.uint16] | None = None
+    confidence: NDArray[np.uint8] | None = None
+    contact_numbers: NDArray[np.uint32] = field(default_factory=lambda: np.zeros(0, np.uint32))
+    contacts: NDArray[np.float32] = field(default_factory=lambda: np.zeros((0, len(CONTACT_COLUMNS)), np.float32))
+    touch: tuple[float, ...] | None = None
+    regions: Sequence[RegionState] = ()
+    hand: dict[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class SkinShape:
+    """How a skin's picture is made, as the parameters of its reconstruction say; the defaults are those there.
+
+    Attributes
+    ----------
+    layout : str
+        As `acts_core.layouts.layout` takes it.
+    rows, cols : int
+        Of the matrix.
+    pitch_m, row_pitch_m : float
+        As `Layout.geometry` takes them; 0: the layout's own [m].
+    touch_counts : int
+        Above which a taxel is pressed.
+    """
+
+    layout: str = "square"
+    rows: int = 32
+    cols: int = 32
+    pitch_m: float = 0.0
+    row_pitch_m: float = 0.0
+    touch_counts: int = 60
+
+
+def describe_skin(name: str, shape: SkinShape) -> dict[str, Any]:
+    """What the page has to know of a skin before it can draw it, as JSON can say it."""
+    try:
+        found = layout(shape.layout, shape.rows, shape.cols)
+        note = ""
+    except ActsError as error:
+        # A layout file of another machine: its picture can be shown, its patches not.
+        found = layout("square", shape.rows, shape.cols)
+        note = f"drawn as the plain picture: {error}"
+    geometry = found.geometry(shape.pitch_m, shape.row_pitch_m)
+    return {
+        "type": "skin",
+        "skin": name,
+        "layout": shape.layout,
+        "note": note,
+        "rows": geometry.rows,
+        "cols": geometry.cols,
+        "pitch_m": geometry.pitch_m,
+        "row_pitch_m": geometry.pitch_y_m,
+        "touch_counts": shape.touch_counts,
+        "patches": _patches(found, shape),
+    }
+
+
+def _patches(found: Layout, shape: SkinShape) -> list[dict[str, Any]]:
+    return [
+        {
+            "name": patch.name,
+            "rows": [patch.first_row, patch.end_row],
+            "cols": [patch.first_col, patch.end_col],
+            "box_m": list(box),
+        }
+        for patch, box in zip(found.patches, arrangement(found, shape.pitch_m, shape.row_pitch_m), strict=True)
+    ]
+
+
+def encode_frame(name: str, frame: Frame, history: NDArray[np.float64], life: int) -> bytes:
+    """The newest state of a skin and what is new of its history, as one message.
+
+    Times of the history are offsets from ``base_s``: the seconds since 1970 do not fit 32 bits.
+    """
+    base_s = float(history[0, 0]) if len(history) else 0.0
+    series = history.copy()
+    series[:, :1] -= base_s
+    arrays: dict[str, NDArray[Any]] = {
+        "history": series.astype(np.float32).reshape(-1, len(COLUMNS)),
+        "contact_numbers": frame.contact_numbers,
+        "contacts": frame.contacts,
+    }
+    if frame.image is not None:
+        arrays["image"] = frame.image
+    if frame.confidence is not None:
+        arrays["confidence"] = frame.confidence
+    header = {
+        "type": "frame",
+        "skin": name,
+        "stamp_s": frame.stamp_s,
+        "base_s": base_s,
+        "life": life,
+        "touch": frame.touch,
+        "regions": [[region.name, region.force_n, region.slip_m, region.is_slipping] for region in frame.regions],
+        "hand": frame.hand,
+    }
+    return encode(header, arrays)

@@ -1,0 +1,22 @@
+from setuptools import find_packages, setup
+
+PACKAGE = "acts_view"
+
+setup(
+    name=PACKAGE,
+    version="0.1.0",
+    packages=find_packages(exclude=["test"]),
+    package_data={PACKAGE: ["py.typed", "page/*", "page/vendor/*"]},
+    data_files=[
+        ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
+        (f"share/{PACKAGE}", ["package.xml"]),
+    ],
+    install_requires=["setuptools"],
+    extras_require={"test": ["pytest"]},
+    zip_safe=False,
+    maintainer="ACTS maintainers",
+    maintainer_email="acts-maintainers@example.org",
+    description="Touch on a page in the browser.",
+    license="Apache-2.0",
+    entry_points={"console_scripts": [f"view = {PACKAGE}.programs:view"]},
+)

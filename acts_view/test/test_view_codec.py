@@ -1,0 +1,107 @@
+"""Messages to the page, read back by what the format says; what of a layout the page is told."""
+
+from __future__ import annotations
+
+import json
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as arrays
+from numpy.typing import NDArray
+
+from acts_core.errors import ArrayError
+from acts_core.layouts import LAYOUTS, layout
+from acts_view.arrangement import arrangement
+from acts_view.codec import DTYPES, encode
+from acts_view.snapshot import Frame, SkinShape, describe_skin, encode_frame
+
+
+def decode(message: bytes) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
+    """As `acts_view.codec` describes the format, and as the page does it: every array lies at a multiple of 4."""
+    length = int.from_bytes(message[:4], "little")
+    header = json.loads(message[4 : 4 + length])
+    at = 4 + length
+    read = {}
+    for name, kind, shape in header.pop("arrays"):
+        assert at % 4 == 0
+        count = math.prod(shape)
+        read[name] = np.frombuffer(message, np.dtype(kind).newbyteorder("<"), count, at).reshape(shape)
+        at += -(-read[name].nbytes // 4) * 4
+    assert at == len(message)
+    return header, read
+
+
+ANY_JSON = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats(allow_nan=False, allow_infinity=False) | st.text(),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(), inner, max_size=3),
+    max_leaves=8,
+)
+ANY_ARRAY = st.sampled_from(DTYPES).flatmap(
+    lambda kind: arrays.arrays(kind, arrays.array_shapes(min_dims=1, max_dims=2, min_side=0, max_side=7))
+)
+
+
+@given(
+    st.dictionaries(st.text().filter(lambda key: key != "arrays"), ANY_JSON, max_size=4),
+    st.dictionaries(st.text(max_size=5), ANY_ARRAY, max_size=4),
+)
+def test_what_is_encoded_is_read_as_it_was(header: dict[str, Any], given_arrays: dict[str, NDArray[Any]]) -> None:
+    read_header, read_arrays = decode(encode(header, given_arrays))
+    assert read_header == header
+    assert list(read_arrays) == list(given_arrays)
+    for name, array in given_arrays.items():
+        np.testing.assert_array_equal(read_arrays[name], array)
+
+
+def test_what_a_browser_cannot_read_is_refused() -> None:
+    with pytest.raises(ArrayError, match="float64"):
+        encode({}, {"far": np.zeros(2)})
+    with pytest.raises(ArrayError, match="nan"):
+        encode({"force_n": math.nan})
+
+
+def test_times_of_a_frame_keep_their_milliseconds() -> None:
+    begin_s = 1_800_000_000.0
+    history = np.zeros((3, 7))
+    history[:, 0] = begin_s + np.array([0.0, 0.008, 59.992])
+    header, read = decode(encode_frame("/plate", Frame(stamp_s=begin_s), history, life=2))
+    np.testing.assert_allclose(header["base_s"] + read["history"][:, 0].astype(float), history[:, 0], atol=1e-5)
+    assert (header["skin"], header["life"], header["touch"]) == ("/plate", 2, None)
+    assert "image" not in read
+
+
+@pytest.mark.parametrize("name", LAYOUTS)
+def test_patches_are_drawn_in_their_size_and_beside_one_another(name: str) -> None:
+    shown = layout(name)
+    boxes = arrangement(shown)
+    for patch, box in zip(shown.patches, boxes, strict=True):
+        pitch_m, row_pitch_m = (patch.pitch_m, patch.row_pitch_m) if patch.link else (shown.pitch_m, shown.row_pitch_m)
+        assert (box.width_m, box.height_m) == pytest.approx((patch.cols * pitch_m, patch.rows * row_pitch_m))
+        assert min(box.x_m, box.y_m) >= 0
+    for index, one in enumerate(boxes):
+        for other in boxes[:index]:
+            across_m = min(one.x_m + one.width_m, other.x_m + other.width_m) - max(one.x_m, other.x_m)
+            down_m = min(one.y_m + one.height_m, other.y_m + other.height_m) - max(one.y_m, other.y_m)
+            assert min(across_m, down_m) < 1e-9
+
+
+def test_a_hand_is_drawn_as_a_right_hand_seen_from_its_palm() -> None:
+    hand = layout("leap_right")
+    boxes = {patch.name: box for patch, box in zip(hand.patches, arrangement(hand), strict=True)}
+    assert len(boxes) == 13
+    assert boxes["ring_distal"].x_m < boxes["middle_distal"].x_m < boxes["index_distal"].x_m < boxes["thumb_distal"].x_m
+    for finger in ("index", "middle", "ring", "thumb"):
+        heights = [boxes[f"{finger}_{segment}"].y_m for segment in ("distal", "medial", "proximal")]
+        assert heights == sorted(heights)
+    assert boxes["middle_proximal"].y_m < boxes["palm"].y_m
+
+
+def test_a_layout_file_of_another_machine_is_shown_as_the_plain_picture() -> None:
+    told = describe_skin("/sole", SkinShape("/elsewhere/sole.yaml", 16, 24))
+    assert (told["rows"], told["cols"], len(told["patches"])) == (16, 24, 1)
+    assert "/elsewhere/sole.yaml" in told["note"]
+    json.dumps(told, allow_nan=False)

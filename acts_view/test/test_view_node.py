@@ -1,0 +1,181 @@
+"""The node ``view`` over DDS, read as the page reads it; ROS_DOMAIN_ID 176."""
+
+from __future__ import annotations
+
+import time
+from array import array
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+import rclpy
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from numpy.typing import NDArray
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from sensor_msgs.msg import Image
+from test_view_codec import decode
+from websockets.sync.client import ClientConnection, connect
+
+from acts_core.region_contact import RegionContact
+from acts_msgs.msg import Contact, Contacts, HandStatus, RegionContacts, TrackedContact
+from acts_ros import qos
+from acts_ros.cdr import ContactFields, write_contact
+from acts_ros.executor import spin_for
+from acts_ros.regions_cdr import write_regions
+from acts_view.node import ViewNode
+
+DOMAIN_ID = 176
+DEADLINE_S = 30.0
+SHAPE = {"layout": "leap_right", "rows": 32, "cols": 32, "pitch_m": 0.0, "row_pitch_m": 0.0, "touch_counts": 50}
+
+
+class Bench:
+    """The node, a skin that a test plays, and what pages were sent."""
+
+    def __init__(self) -> None:
+        self._context = Context()
+        rclpy.init(context=self._context, domain_id=DOMAIN_ID)
+        self.skin = Node("skin", namespace="hand", context=self._context)
+        # The node asks this one what the skin is like.
+        self._reconstruction = Node("reconstruction", namespace="hand", context=self._context)
+        for name, value in SHAPE.items():
+            self._reconstruction.declare_parameter(name, value)
+        self.contact = self.skin.create_publisher(Contact, "contact", qos.STREAM)
+        self.view = ViewNode(context=self._context, parameter_overrides=[Parameter("port", value=0)])
+        self._executor = SingleThreadedExecutor(context=self._context)
+        for node in (self.skin, self._reconstruction, self.view):
+            self._executor.add_node(node)
+        self.headers: dict[str, dict[str, Any]] = {}
+        self.arrays: dict[str, NDArray[Any]] = {}
+        self.history: list[NDArray[np.float32]] = []
+        self._sequence = 0
+
+    def connect(self) -> ClientConnection:
+        address = self.view.address
+        return connect(f"ws://127.0.0.1:{address.port}/stream", origin=address.url.rstrip("/"), compression=None)  # type: ignore[arg-type]
+
+    def press(self, force_n: float) -> None:
+        self._sequence += 1
+        stamp_ns = self.skin.get_clock().now().nanoseconds
+        fields = ContactFields(
+            stamp_ns, "hand", self._sequence, True, 0.01, 0.02, force_n, 700.0, 1e-4, 5, 0.002, 0, 0, 0, 0, 0
+        )
+        self.contact.publish(write_contact(fields))
+
+    def until(self, condition: Callable[[], bool], client: ClientConnection, meanwhile: Callable[[], Any]) -> None:
+        deadline_s = time.monotonic() + DEADLINE_S
+        while not condition():
+            assert time.monotonic() < deadline_s, (self.headers, self.arrays)
+            meanwhile()
+            spin_for(self._executor, 0.02)
+            self.read(client)
+
+    def read(self, client: ClientConnection) -> None:
+        while True:
+            try:
+                message = client.recv(timeout=0.001)
+            except TimeoutError:
+                return
+            header, arrays = decode(message)  # type: ignore[arg-type]
+            self.headers[header["type"]] = header
+            if header["type"] == "frame":
+                self.arrays = arrays
+                self.history.append(arrays["history"])
+
+    def spin_until(self, condition: Callable[[], bool]) -> None:
+        deadline_s = time.monotonic() + DEADLINE_S
+        while not condition():
+            assert time.monotonic() < deadline_s
+            spin_for(self._executor, 0.02)
+
+    def close(self) -> None:
+        self.view.close()
+        self._executor.shutdown()
+        for node in (self.view, self._reconstruction, self.skin):
+            node.destroy_node()
+        rclpy.try_shutdown(context=self._context)
+
+
+@pytest.fixture
+def bench() -> Iterator[Bench]:
+    made = Bench()
+    yield made
+    made.close()
+
+
+def test_a_page_sees_a_skin_that_it_was_not_told_of_and_the_skin_is_left_alone_afterwards(bench: Bench) -> None:
+    image = bench.skin.create_publisher(Image, "view/image_raw", qos.VIEW)
+    full_rate = bench.skin.create_publisher(Image, "image_raw", qos.STREAM)
+    confidence = bench.skin.create_publisher(Image, "view/confidence", qos.VIEW)
+    contacts = bench.skin.create_publisher(Contacts, "view/contacts", qos.VIEW)
+    regions = bench.skin.create_publisher(RegionContacts, "regions", qos.STREAM)
+    status = bench.skin.create_publisher(HandStatus, "hand/status", qos.STATE)
+    diagnostics = bench.skin.create_publisher(DiagnosticArray, "/diagnostics", 10)
+    counts = np.arange(1024, dtype=np.uint16)
+    message = Image(height=32, width=32, encoding="mono16", step=64, data=array("B", counts.tobytes()))
+    sure = Image(height=32, width=32, encoding="mono8", step=32, data=array("B", bytes(range(256)) * 4))
+    one = TrackedContact(number=7, force=1.5, peak=700.0, area=1e-4)
+    one.velocity.x, one.velocity.y = 0.3, 0.4
+
+    def play() -> None:
+        bench.press(1.0)
+        bench.press(3.0)
+        image.publish(message)
+        confidence.publish(sure)
+        contacts.publish(Contacts(contacts=[one]))
+        regions.publish(write_regions(0, "hand", 1, [RegionContact("palm", "palm_lower", 3, 1.25, slipping=True)]))
+        status.publish(HandStatus(state=HandStatus.STATE_HOLDING, reason="something is gripped", active=["slip"]))
+        diagnostics.publish(DiagnosticArray(status=[DiagnosticStatus(name="hand/driver", message="no board")]))
+
+    assert contact_subscribers(bench) == 0
+    with bench.connect() as client:
+        bench.until(
+            lambda: (
+                {"image", "confidence"} <= bench.arrays.keys()
+                and len(bench.arrays["contact_numbers"]) == 1
+                and bool(bench.headers["frame"]["regions"] and bench.headers["frame"]["hand"])
+                and bench.headers["skin"]["layout"] == "leap_right"
+                and sum(map(len, bench.history)) > 2
+                and any(one["name"] == "hand/driver" for one in bench.headers["status"]["diagnostics"])
+            ),
+            client,
+            play,
+        )
+        assert full_rate.get_subscription_count() == 0
+    np.testing.assert_array_equal(bench.arrays["image"].ravel(), counts)
+    assert bench.arrays["contact_numbers"].tolist() == [7]
+    np.testing.assert_allclose(bench.arrays["contacts"][0, [2, 3, 6]], [1.5, 700.0, 0.5])
+    frame = bench.headers["frame"]
+    np.testing.assert_allclose(frame["touch"], [0.01, 0.02, 3.0, 700.0, 1e-4])
+    assert frame["regions"] == [["palm", 1.25, 0.0, True]]
+    assert frame["hand"] == {"state": "holding", "reason": "something is gripped", "active": ["slip"]}
+    assert (bench.headers["skin"]["skin"], len(bench.headers["skin"]["patches"])) == ("/hand", 13)
+    assert bench.headers["skin"]["touch_counts"] == 50
+    history = np.concatenate(bench.history)
+    assert (history[:, 3].min(), history[:, 4].max()) == (1.0, 3.0)
+    assert history[:, 2].sum() == 0
+    bench.spin_until(lambda: contact_subscribers(bench) == 0)
+
+
+def test_where_nothing_is_for_viewers_the_image_is_that_at_frame_rate_as_in_a_bag(bench: Bench) -> None:
+    full_rate = bench.skin.create_publisher(Image, "image_raw", qos.STREAM)
+    data = array("B", np.full(64, 300, ">u2").tobytes())
+    message = Image(height=8, width=8, encoding="mono16", is_bigendian=1, step=16, data=data)
+    odd = Image(height=8, width=8, encoding="rgb8", step=24, data=array("B", bytes(192)))
+
+    def play() -> None:
+        full_rate.publish(odd)
+        bench.press(1.0)
+        full_rate.publish(message)
+
+    with bench.connect() as client:
+        bench.until(lambda: "image" in bench.arrays, client, play)
+    assert (bench.arrays["image"] == 300).all()
+
+
+def contact_subscribers(bench: Bench) -> int:
+    return bench.contact.get_subscription_count()

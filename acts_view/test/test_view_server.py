@@ -1,0 +1,142 @@
+"""The server over real sockets, without ROS: files, refusals, and clients that are slow, stalled or gone."""
+
+from __future__ import annotations
+
+import http.client
+import socket
+import time
+from collections.abc import Callable, Iterator
+from itertools import count
+
+import numpy as np
+import pytest
+from test_view_codec import decode
+from websockets.exceptions import InvalidStatus
+from websockets.sync.client import ClientConnection, connect
+
+from acts_core.errors import SettingsError
+from acts_view.server import ViewServer
+from acts_view.snapshot import Frame, Sample, SkinShape
+
+DEADLINE_S = 30.0
+SEND_LIMIT_S = 0.3
+
+
+class Bench:
+    def __init__(self) -> None:
+        self.pages: list[int] = []
+        self.log: list[str] = []
+        self.server = ViewServer(
+            "127.0.0.1",
+            0,
+            send_limit_s=SEND_LIMIT_S,
+            on_clients=self.pages.append,
+            log=lambda _level, sentence: self.log.append(sentence),
+        )
+        self.url = f"ws://127.0.0.1:{self.server.address.port}/stream"
+        self.origin = self.server.address.url.rstrip("/")
+        self._numbers = count()
+
+    def connect(self, **options: object) -> ClientConnection:
+        return connect(self.url, **{"origin": self.origin, "compression": None, **options})  # type: ignore[arg-type]
+
+    def show(self, value: int) -> None:
+        number = next(self._numbers)
+        image = np.full((64, 64), value, np.uint16)
+        sample = Sample(1000.0 + 0.004 * number, float(value), 0.5, 0)
+        self.server.show_frame("/plate", Frame(stamp_s=sample.stamp_s, image=image), [sample])
+
+    def until(self, condition: Callable[[], bool], meanwhile: Callable[[], object] = lambda: None) -> None:
+        deadline_s = time.monotonic() + DEADLINE_S
+        while not condition():
+            assert time.monotonic() < deadline_s
+            meanwhile()
+            time.sleep(0.001)
+
+
+@pytest.fixture
+def bench() -> Iterator[Bench]:
+    made = Bench()
+    yield made
+    made.server.close()
+
+
+def test_files_are_served_and_nothing_else(bench: Bench) -> None:
+    def get(path: str) -> http.client.HTTPResponse:
+        connection = http.client.HTTPConnection("127.0.0.1", bench.server.address.port, timeout=DEADLINE_S)
+        connection.request("GET", path)
+        return connection.getresponse()
+
+    page = get("/")
+    assert (page.status, page.headers["Content-Type"]) == (200, "text/html; charset=utf-8")
+    assert "default-src 'self'" in page.headers["Content-Security-Policy"]
+    assert b"<title>ACTS" in page.read()
+    assert get("/main.js?x=1").headers["Content-Type"] == "text/javascript; charset=utf-8"
+    for path in ("/../setup.py", "/%2e%2e/setup.py", "/vendor", "/nothing"):
+        assert get(path).status == 404
+
+
+def test_a_page_gets_what_the_skin_is_like_and_what_is_newest(bench: Bench) -> None:
+    bench.server.show_shape("/plate", SkinShape(rows=64, cols=64))
+    for value in range(5):
+        bench.show(value)
+    with bench.connect() as client:
+        described, _ = decode(client.recv(DEADLINE_S))  # type: ignore[arg-type]
+        assert (described["type"], described["rows"]) == ("skin", 64)
+        frame, arrays = decode(client.recv(DEADLINE_S))  # type: ignore[arg-type]
+        assert frame["type"] == "frame"
+        assert (arrays["image"] == 4).all()
+        assert len(arrays["history"]) == 2
+        bench.show(9)
+        _, arrays = decode(client.recv(DEADLINE_S))  # type: ignore[arg-type]
+        assert (arrays["image"] == 9).all()
+    bench.until(lambda: bench.pages == [1, 0])
+
+
+@pytest.mark.parametrize("origin", ["http://example.org", None])
+def test_a_foreign_page_is_refused(bench: Bench, origin: str | None) -> None:
+    with pytest.raises(InvalidStatus) as refused:
+        bench.connect(origin=origin)
+    assert refused.value.response.status_code == 403
+
+
+def test_a_stalled_client_holds_nobody_up_and_is_dropped(bench: Bench) -> None:
+    buffer = socket.socket()
+    buffer.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+    buffer.connect(("127.0.0.1", bench.server.address.port))
+    # It reads one message and then no more.
+    with bench.connect() as healthy, bench.connect(sock=buffer, max_queue=1) as stalled:
+        bench.until(lambda: bench.pages == [1, 2])
+        value, got = count(), 0
+
+        def show_and_read() -> None:
+            nonlocal got
+            bench.show(next(value) % 1000)
+            healthy.recv(DEADLINE_S)
+            got += 1
+
+        bench.until(lambda: bool(bench.log), show_and_read)
+        assert got > 20
+        bench.until(lambda: bench.pages == [1, 2, 1])
+        show_and_read()
+        stalled.close_socket()
+    assert f"took nothing for {SEND_LIMIT_S:g} s" in bench.log[0]
+
+
+def test_an_address_that_is_taken_is_told(bench: Bench) -> None:
+    with pytest.raises(SettingsError, match=f"port {bench.server.address.port}.*--port"):
+        ViewServer("127.0.0.1", bench.server.address.port, on_clients=print, log=print)
+
+
+def test_another_host_gets_a_token() -> None:
+    server = ViewServer("0.0.0.0", 0, on_clients=print, log=print)
+    try:
+        port, token = server.address.port, server.address.token
+        assert server.address.url.endswith(f":{port}/?token={token}")
+        origin = f"http://127.0.0.1:{port}"
+        with pytest.raises(InvalidStatus), connect(f"ws://127.0.0.1:{port}/stream", origin=origin):  # type: ignore[arg-type]
+            pass
+        with connect(f"ws://127.0.0.1:{port}/stream?token={token}", origin=origin):  # type: ignore[arg-type]
+            pass
+    finally:
+        server.close()
