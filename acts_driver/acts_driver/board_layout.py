@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from concurrent.futures import Future
 from functools import partial
 
-from acts_core.background import within_patience
+from acts_core.background import begin, is_done
 from acts_core.commands import BoardState
-from acts_core.errors import SettingsError
 from acts_core.skin_map import SkinMap
 from acts_driver.board import BoardLink
 from acts_driver.board_parameters import BoardParameters
@@ -28,6 +28,7 @@ class BoardLayout:
         self._log = log
         self._map: SkinMap | None = None
         self._map_of: tuple[str, tuple[int, int]] | None = None
+        self._reading: Future[SkinMap | None] | None = None
         self._is_told = False
 
     def begin_anew(self) -> None:
@@ -37,9 +38,12 @@ class BoardLayout:
     def read_again(self) -> None:
         """Tell that the file may be another by now."""
         self._map_of = None
+        self._reading = None
 
     def bring(self, parameters: BoardParameters, state: BoardState) -> BoardState:
         """Bring the board from a state to the layout that is wanted; its state then.
+
+        Where the layout's file takes long to read, the board stays as it is until a later call.
 
         Raises
         ------
@@ -52,8 +56,11 @@ class BoardLayout:
         if not name:
             return state
         if self._map_of != (name, size):
-            read = partial(parameters.skin_map, *size)
-            self._map, self._map_of = within_patience(read, SettingsError, f"reading layout = {name}"), (name, size)
+            self._map_of, self._reading = (name, size), begin(partial(parameters.skin_map, *size))
+        if self._reading is not None:
+            if not is_done(self._reading):
+                return state
+            self._map, self._reading = self._reading.result(), None
         wanted = 0 if self._map is None else self._map.crc32
         if state.map_crc32 is None:
             if wanted and not self._is_told:

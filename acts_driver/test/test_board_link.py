@@ -240,6 +240,24 @@ def test_the_session_keeps_the_layout_of_the_board(board: VirtualBoard, host: Ho
     ]
 
 
+def test_a_layout_that_takes_long_to_read_is_told_to_the_board_then(
+    host: Host, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    is_there, read = threading.Event(), BoardParameters.skin_map
+
+    def slowly(parameters: BoardParameters, rows: int, cols: int) -> SkinMap | None:
+        is_there.wait(10.0)
+        return read(parameters, rows, cols)
+
+    monkeypatch.setattr(BoardParameters, "skin_map", slowly)
+    session = host.start_session(layout="leap_right")
+    assert host.link.query().state.map_crc32 == 0
+    assert session.status.problem == ""
+    is_there.set()
+    hand = SkinMap.of(layout("leap_right"))
+    wait_for(lambda: host.link.query().state.map_crc32 == hand.crc32, "the layout")
+
+
 def test_a_board_that_knows_no_layouts_is_told_of_once() -> None:
     board, log = SimpleBoard(), []
     session = BoardSession(
