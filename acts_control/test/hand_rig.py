@@ -32,6 +32,7 @@ def region(name: str, force_n: float = 0.0, taxels: int = 9, **more: Any) -> Reg
         "concentration": share,
         "normal": (-1.0, 0.0, 0.0),
     }
+    given["centre_m"] = LEAP_RIGHT.regions[name].centre_m
     return RegionContact(name, link, taxels, force_n, **{**given, **more})
 
 

@@ -43,6 +43,7 @@ def message_of(touch: Touch) -> RegionContact:
         slip=touch.slip_m,
         slipping=touch.slipping,
     )
+    message.centre.x, message.centre.y, message.centre.z = touch.centre_m
     message.normal.x, message.normal.y, message.normal.z = touch.normal
     return message
 

@@ -166,3 +166,11 @@ def test_patches_that_the_hand_does_not_have_are_left_out() -> None:
     hand = a_hand()
     hand.step([region("index_distal", 0.1)._replace(name="little_distal", slipping=True)])
     assert np.isfinite(hand.goal).all()
+
+
+def test_a_finger_that_cannot_come_into_its_shape_does_not_keep_the_hand_from_closing() -> None:
+    hand = a_hand()
+    hand.stops["thumb_cmc"] = 0.2
+    hand.supervisor.grasp()
+    hand.step([], steps=600)
+    assert hand.angle("ring_pip") > LEAP_RIGHT.postures["pregrasp"][10] + 0.2

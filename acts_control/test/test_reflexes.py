@@ -187,6 +187,14 @@ def test_the_finger_at_a_tip_opens_at_once_and_the_others_keep_what_they_have() 
     assert reflex.events == 1
 
 
+def test_what_the_border_of_a_patch_cuts_is_not_taken_for_a_tip() -> None:
+    where = LEAP_RIGHT.regions["index_distal"]
+    x, y, z = where.centre_m
+    tip = region("index_distal", 0.5, 1, area_m2=TAXEL_M2, peak_n=0.5, concentration=1.0)
+    at_border = tip._replace(centre_m=(x, y + where.reach_m + 0.001, z))
+    assert SharpAvoidance(SharpAvoidanceConfig()).step(sensed(at_border)) is None
+
+
 def test_a_finger_opens_so_far_and_no_farther() -> None:
     reflex = SharpAvoidance(SharpAvoidanceConfig(sharp_open_rad=0.2))
     tip = region("index_distal", 0.5, 1, area_m2=TAXEL_M2, peak_n=0.5, concentration=1.0)

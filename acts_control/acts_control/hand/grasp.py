@@ -10,6 +10,7 @@ from acts_control.hand.reflexes.reflex import Sensed, Wish
 from acts_core.settings import setting, validate
 
 _ARRIVED_RAD = 0.05
+_SHAPED_AFTER_S = 1.5
 
 
 @dataclass(frozen=True)
@@ -57,6 +58,7 @@ class Grasp:
         self.ended = ""
         self.has_gripped = False
         self._is_shaped = False
+        self._shaping_s = 0.0
         self._closing_s = 0.0
         self._gripped_s = 0.0
 
@@ -91,7 +93,9 @@ class Grasp:
         """Whether the hand still has to come into the shape from which it closes."""
         touched = any(one.in_contact for name, one in sensed.regions.items() if sensed.finger(name))
         left = np.abs(np.array(sensed.hand.postures[self._config.grasp_posture]) - sensed.q_rad).max()
-        self._is_shaped = touched or bool(left < _ARRIVED_RAD)
+        self._shaping_s += sensed.dt_s
+        # Something may be in the way that the skin does not feel.
+        self._is_shaped = touched or bool(left < _ARRIVED_RAD) or self._shaping_s > _SHAPED_AFTER_S
         return not self._is_shaped
 
 

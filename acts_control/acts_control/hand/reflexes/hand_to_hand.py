@@ -85,7 +85,7 @@ class HandToHand(Reflex):
         """Steps of each finger that touches."""
         config, state = self.config, self.state
         if not state.moves:
-            state.moves = _moving_joints(sensed)
+            state.moves = sensed.moving_joints()
         steps, why = sensed.steps(), ""
         state.phalanges = 0
         at_palm = any(map(self._is_too_much, sensed.of_finger("")))
@@ -125,19 +125,3 @@ class HandToHand(Reflex):
         pressure = region.peak_n * region.active_taxels / region.area_m2 if region.area_m2 > 0.0 else 0.0
         share = max(region.force_n / config.hand_to_hand_max_force_n, pressure / config.hand_to_hand_max_pressure_n_m2)
         return share > config.hand_to_hand_yield_share
-
-
-def _moving_joints(sensed: Sensed) -> dict[str, int]:
-    """For each region of a finger, the last joint before its link that closes the finger."""
-    hand = sensed.hand
-    links = {link.name: link for link in hand.links}
-    number = {name: k for k, name in enumerate(hand.names)}
-    found = {}
-    for name, region in hand.regions.items():
-        link = links.get(region.link)
-        while link is not None and region.finger:
-            if link.joint in hand.fingers[region.finger].closes:
-                found[name] = number[link.joint]
-                break
-            link = links.get(link.parent)
-    return found

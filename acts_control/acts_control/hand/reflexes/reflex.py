@@ -90,6 +90,20 @@ class Sensed:
         """An answer of no step, to be filled in."""
         return np.zeros(len(self.q_rad))
 
+    def moving_joints(self) -> dict[str, int]:
+        """For each region of a finger, the last joint before its link that closes the finger."""
+        links = {link.name: link for link in self.hand.links}
+        number = {name: k for k, name in enumerate(self.hand.names)}
+        found = {}
+        for name, region in self.hand.regions.items():
+            link = links.get(region.link)
+            while link is not None and region.finger:
+                if link.joint in self.hand.fingers[region.finger].closes:
+                    found[name] = number[link.joint]
+                    break
+                link = links.get(link.parent)
+        return found
+
     def closing(self, finger: str) -> Array:
         """How much each joint takes part when a finger closes, shape (joints,)."""
         return _closing(self.hand, finger)

@@ -2,11 +2,12 @@
 
 A tip presses one taxel or two, however hard it presses; what is blunt spreads over more the harder it presses. So a
 contact is sharp where the peak is large and the area small, both at once: a blunt object that has only just touched
-has a small area, too, but no large peak yet.
+has a small area, too, but no large peak yet. Where the border of a patch cuts a contact, nothing is told.
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -110,7 +111,10 @@ class SharpAvoidance(Reflex):
     def _look(self, sensed: Sensed) -> None:
         state, config = self.state, self.config
         for name, region in sensed.regions.items():
-            state.touches[name] = state.touches.get(name, 0) + 1 if self.is_sharp(region) else 0
+            where = sensed.hand.regions[name]
+            # What the border of a patch cuts off looks small.
+            is_whole = not where.reach_m or math.dist(region.centre_m, where.centre_m) <= where.reach_m
+            state.touches[name] = state.touches.get(name, 0) + 1 if is_whole and self.is_sharp(region) else 0
             if state.touches[name] < config.sharp_touches:
                 continue
             finger = sensed.finger(name)

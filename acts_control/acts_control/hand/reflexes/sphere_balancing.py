@@ -8,7 +8,7 @@ interior): the wanted speed is in proportion to the distance.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -66,6 +66,8 @@ class SphereBalancingState:
     centre_m : np.ndarray or None
         Of the fitted sphere, in the frame of the hand's base [m].
     radius_m : float
+    moves : dict
+        For each region of a finger, the joint that moves its link and closes the finger.
     offset_m : float
         Distance of the sphere from the palm's centre, along the palm [m].
     """
@@ -73,6 +75,7 @@ class SphereBalancingState:
     first_rad: Array | None = None
     centre_m: Array | None = None
     radius_m: float = 0.0
+    moves: dict[str, int] = field(default_factory=dict)
     offset_m: float = 0.0
 
 
@@ -142,12 +145,21 @@ class SphereBalancing(Reflex):
             state.first_rad = sensed.goal_rad.copy()
         rates = config.sphere_return_per_s * (state.first_rad - sensed.goal_rad) * (_all_closing(sensed) == 0.0)
         for finger, region in touched.items():
-            if region is not None:
-                rates += self._follow(sensed, region, velocity)
-            else:
+            if region is None:
                 rates += config.sphere_search_rad_s * sensed.closing(finger)
+                continue
+            rates += self._follow(sensed, region, velocity)
+            if sensed.role(region.name) != "distal":
+                rates[self._tip_joint(sensed, finger)] += config.sphere_search_rad_s
         why = f"sphere of {1e3 * radius:.0f} mm is {1e3 * state.offset_m:.0f} mm off the palm's centre"
         return Wish(rates / sensed.step_rad_s, why, claimed=rates != 0.0 if velocity.any() else None)
+
+    def _tip_joint(self, sensed: Sensed, finger: str) -> int:
+        """The joint that brings a fingertip to the sphere."""
+        if not self.state.moves:
+            self.state.moves = sensed.moving_joints()
+        tips = [name for name, one in sensed.hand.regions.items() if one.finger == finger and name in self.state.moves]
+        return self.state.moves[tips[-1]]
 
     def _follow(self, sensed: Sensed, region: RegionContact, velocity: Array) -> Array:
         """Joint speeds that move a touched point along with the sphere, and press as is wanted [rad/s]."""

@@ -36,7 +36,7 @@ def sharp(one: Run) -> Outcome:
 def blunt(one: Run) -> Outcome:
     """A round end of 8 to 20 mm: nothing may happen, nor at the cylinder itself."""
     outcome = _poke(one, float(one.draw().uniform(BLUNT_RADIUS_M, 0.020)))
-    outcome.ok = outcome.noticed_ms is None and not outcome.details.get("failed")
+    outcome.ok = outcome.noticed_ms is None and outcome.details.get("alarms_before") == 0
     return outcome
 
 

@@ -25,6 +25,7 @@ from acts_core.force import ForceResponse
 from acts_core.region_contact import RegionContact
 from acts_core.settings import describe
 from acts_recon.regions.regions import Regions
+from acts_recon.slip.config import SlipConfig
 from acts_sim.dynamixel.drive import RAD_PER_TICK
 from acts_sim.hand.world import STEP_S, HandWorld, HandWorldConfig
 
@@ -47,6 +48,8 @@ class RigOptions:
         Names in the registry.
     touch_counts : float
         A taxel above it is pressed.
+    slip : SlipConfig
+        When motion counts as slip.
     settings : mapping
         Of the supervisor and the reflexes, where they are not the usual ones.
     """
@@ -54,6 +57,7 @@ class RigOptions:
     rate_hz: float = 250.0
     reflexes: tuple[str, ...] = ("sharp", "slip")
     touch_counts: float = 8.0
+    slip: SlipConfig = field(default_factory=lambda: SlipConfig(slip_distance_taxels=0.05))
     settings: Mapping[str, Any] = field(default_factory=dict)
 
 
@@ -85,7 +89,7 @@ class HandRig:
         self.supervisor = HandSupervisor(_KINEMATICS, self.reflexes, config)
         self.supervisor.restart(recovered=False)
         response = ForceResponse()
-        self._finder = Regions(self.world.layout, response, options.touch_counts, _NOISE_COUNTS)
+        self._finder = Regions(self.world.layout, response, options.touch_counts, _NOISE_COUNTS, options.slip)
         self._noise = np.random.default_rng([world.seed, 1])
         self._period_s = 1.0 / options.rate_hz
         self._due_s = self._last_s = 0.0

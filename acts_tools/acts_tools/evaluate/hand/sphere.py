@@ -32,7 +32,8 @@ def small(one: Run) -> Outcome:
 
 def _run(one: Run, radius_m: float, name: str) -> Outcome:
     draw = np.random.default_rng([one.seed, 13])
-    angle = draw.uniform(-math.pi, math.pi)
+    # To the side or towards the fingers: towards the wrist the thumb stands in the way.
+    angle = draw.uniform(-math.pi / 2, math.pi / 2)
     world = HandWorldConfig(
         seed=one.seed,
         pose="palm_up",
