@@ -205,6 +205,7 @@ def test_a_pause_holds_and_a_part_of_a_plot_can_be_seen_alone(
     page = open_page(play())
     expect(page.locator("[data-number=rate]")).to_have_text("1000")
     plot = page.locator("[data-plot=force] .u-over")
+    plot.scroll_into_view_if_needed()
     box = plot.bounding_box()
     assert box is not None
     page.mouse.move(box["x"] + 0.8 * box["width"], box["y"] + 20)

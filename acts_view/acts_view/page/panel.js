@@ -42,7 +42,7 @@ export class Panel {
           <p class="pointed" aria-live="polite"></p>
         </div>
         <div class="facts">
-          <dl class="numbers">${NUMBERS.map(([key, title, unit]) => `<div data-of="${key}"><dt>${title}</dt><dd><output data-number="${key}">–</output> <small>${unit}</small></dd></div>`).join("")}</dl>
+          <dl class="numbers">${NUMBERS.map(([key, title, unit]) => `<div data-of="${key}"><dt>${title} [${unit}]</dt><dd><output data-number="${key}">–</output></dd></div>`).join("")}</dl>
           <table class="contacts">
             <caption>Contacts</caption>
             <thead><tr><th scope="col">no.</th><th scope="col">force <small>N</small></th><th scope="col">peak <small>counts</small></th><th scope="col">area <small>mm²</small></th><th scope="col">speed <small>mm/s</small></th></tr></thead>
@@ -89,6 +89,8 @@ export class Panel {
   hold(isHeld) {
     this.isHeld = isHeld;
     this.plots.hold(isHeld);
+    // The figures beside the picture that is held are its own.
+    this.#showFigures(performance.now());
     this.tick();
   }
 
@@ -116,12 +118,15 @@ export class Panel {
     if (pill.textContent !== words) pill.textContent = words;
     pill.dataset.state = state;
     this.plots.draw();
-    if (this.message && !this.isHeld && now_ms - this.numbers_ms > NUMBERS_EVERY_MS) {
-      this.numbers_ms = now_ms;
-      this.#showNumbers();
-      this.#showContacts();
-      this.regions.show(this.message.regions, this.message.hand);
-    }
+    if (!this.isHeld && now_ms - this.numbers_ms > NUMBERS_EVERY_MS) this.#showFigures(now_ms);
+  }
+
+  #showFigures(now_ms) {
+    if (!this.message) return;
+    this.numbers_ms = now_ms;
+    this.#showNumbers();
+    this.#showContacts();
+    this.regions.show(this.message.regions, this.message.hand);
   }
 
   #showTop() {
