@@ -1,10 +1,11 @@
 # make demo and make test do all the set-up they need, in this checkout, and say what they do.
 # `make PYTHON=/path/to/python3 ...` chooses the interpreter.
 
-.PHONY: help setup demo bench firmware test lint format clean
+.PHONY: help setup demo demo-hand bench firmware test lint format clean
 
 help:
 	@echo "make demo    ball balancing with simulated skin, ball and UR5e (DEMO_SECONDS=30); writes out/"
+	@echo "make demo-hand  the reflexes of a simulated LEAP hand, about a minute (HAND=slip: one act); writes out/"
 	@echo "make bench   throughput, CPU and latency of the sensing end, about five minutes; writes out/bench.json"
 	@echo "make firmware  cross-compile the Teensy's firmware, check that it fits (needs gcc-arm-none-eabi)"
 	@echo "make test    linters and the whole test suite"
@@ -18,6 +19,9 @@ setup:
 
 demo:
 	@./acts demo ball_balancing $(if $(DEMO_SECONDS),--seconds $(DEMO_SECONDS))
+
+demo-hand:
+	@./acts demo hand $(HAND)
 
 bench:
 	@./acts bench $(BENCH)

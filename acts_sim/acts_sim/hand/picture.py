@@ -52,7 +52,9 @@ class HandPicture:
         self._context.free()
         self._gl.free()
 
-    def take(self, view: str = "above", counts: NDArray[np.float64] | None = None) -> NDArray[np.uint8]:
+    def take(
+        self, view: str = "above", counts: NDArray[np.float64] | None = None, distance_m: float = 0.36
+    ) -> NDArray[np.uint8]:
         """A picture of how things are, on white; np.ndarray [shape=(height, width, 3), dtype=uint8].
 
         Parameters
@@ -61,13 +63,15 @@ class HandPicture:
             One of `VIEWS`.
         counts : np.ndarray [shape=(taxels,), dtype=float64], optional
             What the taxels read, in the order of the matrix; the world's own unless given.
+        distance_m : float
+            Of the camera from the hand's middle [m].
         """
         world, scene = self._world, self._scene
         self._gl.make_current()
         camera = mujoco.MjvCamera()
         camera.type = mujoco.mjtCamera.mjCAMERA_FREE
         camera.lookat[:] = _LOOK_AT_M
-        camera.distance = 0.36
+        camera.distance = distance_m
         camera.azimuth, camera.elevation = VIEWS[view]
         option, perturbation = mujoco.MjvOption(), mujoco.MjvPerturb()
         mujoco.mjv_updateScene(world.model, world.data, option, perturbation, camera, mujoco.mjtCatBit.mjCAT_ALL, scene)

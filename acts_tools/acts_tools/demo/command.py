@@ -24,11 +24,24 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         default=0,
         help="priority of all processes under SCHED_FIFO, 1 to 99, where the limits allow it; see docs/real_time.md",
     )
+    hand = demos.add_parser(
+        "hand",
+        help="a LEAP hand holds, balances, avoids and shakes hands by touch",
+        description="The reflexes of a simulated LEAP hand, each act with a hand of its own. The exit code says "
+        "whether it worked.",
+    )
+    hand.add_argument("acts", nargs="*", metavar="ACT", help="acts to play: sphere, slip, sharp, hand_to_hand (all)")
+    hand.add_argument("--out", type=Path, default=Path("out"), help="folder for the results (default: out)")
+    hand.add_argument("--seed", type=int, default=5, help="of what differs from one simulated hand to the next")
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Run the demonstration that was named."""
     # Late: the other commands need neither ROS messages nor the drawing library.
+    if arguments.demo == "hand":
+        from acts_tools.demo.hand import run as hand
+
+        return hand.run(arguments.acts, arguments.out, arguments.seed)
     from acts_tools.demo.ball import run as ball
 
     return ball.run(arguments.seconds, arguments.out, arguments.robot_ip, arguments.realtime_priority)

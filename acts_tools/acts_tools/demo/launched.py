@@ -14,12 +14,14 @@ from acts_ros.processes.launcher import leave_with_parent
 
 _STOP_TIMEOUT_S = 20.0
 
-# Of the process that watches: what it shows may come late, what it watches may not.
-_NICENESS = 10
+NICENESS = 10
+"""Of the process that watches: what it shows may come late, what it watches may not."""
 
 
 @contextmanager
-def launched(launch_file: str, arguments: list[str], log_path: Path) -> Iterator[subprocess.Popen[bytes]]:
+def launched(
+    launch_file: str, arguments: list[str], log_path: Path, niceness: int = NICENESS
+) -> Iterator[subprocess.Popen[bytes]]:
     """Run a launch file of acts_bringup in a session of its own, and make this process yield the CPU to it.
 
     At the end, or should this process be killed, the launch is stopped.
@@ -32,6 +34,8 @@ def launched(launch_file: str, arguments: list[str], log_path: Path) -> Iterator
         ``name:=value``.
     log_path : Path
         Takes what the launch prints.
+    niceness : int
+        That this process gets, for good: what it starts later would have it as well, so 0 where it starts more.
     """
     command = [sys.executable, "-m", "acts_tools", "launch", "--own", "acts_bringup", launch_file, *arguments]
     with log_path.open("wb") as log:
@@ -43,7 +47,7 @@ def launched(launch_file: str, arguments: list[str], log_path: Path) -> Iterator
             preexec_fn=leave_with_parent(os.getpid()),
         )
         # After the start: children inherit it.
-        os.nice(_NICENESS)
+        os.nice(niceness)
         try:
             yield process
         finally:

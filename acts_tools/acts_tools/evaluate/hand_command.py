@@ -4,13 +4,18 @@ from __future__ import annotations
 
 import argparse
 import statistics
+import tempfile
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from acts_core.errors import SettingsError
+from acts_core.errors import LaunchError, SettingsError
 from acts_tools.evaluate import report
 from acts_tools.evaluate.shares import wilson
+
+if TYPE_CHECKING:
+    from acts_tools.evaluate.hand.scenario import Outcome, Run
 
 _NUMBERS = ("noticed_ms", "stopped_ms", "penetration_mm", "offset_mm")
 _NAMES = ("slip", "sharp", "blunt", "sphere", "small_sphere", "hand_to_hand")
@@ -23,7 +28,8 @@ def add_parser(commands: Any) -> None:
         "hand",
         help="the reflexes of the simulated hand, scenario by scenario",
         description="Run the simulated hand, its skin and its reflexes in one process, without wires and faster than "
-        "their processes could; the same seed gives the same bits. docs/reflexes.md tells what the numbers mean.",
+        "their processes could; the same seed gives the same bits. Or --live: as processes, as on a real hand. "
+        "docs/reflexes.md tells what the numbers mean.",
     )
     parser.add_argument("--scenario", required=True, choices=_NAMES, help="what happens to the hand")
     parser.add_argument("--seed", type=int, default=1, metavar="S", help="of the first run (default: %(default)s)")
@@ -34,13 +40,19 @@ def add_parser(commands: Any) -> None:
     parser.add_argument(
         "--rate-hz", type=float, default=250.0, metavar="R", help="of the reflexes' loop (default: %(default)g)"
     )
+    parser.add_argument(
+        "--live",
+        action="store_true",
+        help="over all the real interfaces: each run launches the simulated hand, its board and the nodes, and takes "
+        "the time it takes",
+    )
     parser.add_argument("--json", type=Path, metavar="OUT", help="write the results here, too")
     parser.set_defaults(evaluate=_run)
 
 
 def _run(arguments: argparse.Namespace) -> int:
     # Imported here: MuJoCo and the kernels take long, and only this needs them.
-    from acts_tools.evaluate.hand.scenario import Outcome, Run
+    from acts_tools.evaluate.hand.scenario import Run
     from acts_tools.evaluate.hand.scenarios import SCENARIOS
 
     if not 10.0 <= arguments.rate_hz <= 500.0:
@@ -55,14 +67,34 @@ def _run(arguments: argparse.Namespace) -> int:
     print("|---|---|---|---|---|---|---|")
     outcomes: list[Outcome] = []
     for seed in range(arguments.seed, arguments.seed + arguments.seeds):
-        outcome = SCENARIOS[arguments.scenario](Run(seed, arguments.reflex == "on", arguments.rate_hz))
+        one = Run(seed, arguments.reflex == "on", arguments.rate_hz)
+        outcome, timing = _live(arguments, one) if arguments.live else (SCENARIOS[arguments.scenario](one), {})
         outcomes.append(outcome)
-        entry = {"seed": seed, **vars(outcome)}
+        entry = {"seed": seed, **vars(outcome), **timing}
         results.add(entry)
         numbers = " | ".join(_shown(getattr(outcome, name)) for name in _NUMBERS)
         print(f"| {seed} | {_shown(outcome.ok)} | {_shown(outcome.kept)} | {numbers} |", flush=True)
     results.add(_summary(outcomes))
     return 0
+
+
+def _live(arguments: argparse.Namespace, one: Run) -> tuple[Outcome, dict[str, object]]:
+    """A run over the real interfaces, and how long its cycles took and from the last measurement to the goals."""
+    from acts_tools.bags.stopping import StopFlag
+    from acts_tools.evaluate.hand.scenarios import SCENARIOS
+    from acts_tools.live_hand.rigs import LiveRigs
+    from acts_tools.ros_domain import use_free_domain
+
+    use_free_domain()
+    with tempfile.TemporaryDirectory(prefix="acts_evaluate_") as folder, StopFlag() as stop:
+        log = Path(folder) / "launch.log"
+        try:
+            with LiveRigs(log, stop) as rigs:
+                outcome = SCENARIOS[arguments.scenario](replace(one, rig=rigs))
+        except LaunchError as error:
+            said = "\n".join(log.read_text(errors="replace").splitlines()[-30:])
+            raise LaunchError(f"{error}; the launch said:\n{said}") from error
+    return outcome, rigs.recording.timing_ms()
 
 
 def _summary(outcomes: Sequence[Any]) -> dict[str, object]:

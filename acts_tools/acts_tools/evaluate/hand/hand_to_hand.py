@@ -9,7 +9,7 @@ import numpy as np
 from acts_control.hand.description_file import LEAP_RIGHT
 from acts_control.hand.reflexes.hand_to_hand import HandToHandConfig
 from acts_sim.hand.world import HandWorldConfig
-from acts_tools.evaluate.hand.rig import HandRig, RigOptions
+from acts_tools.evaluate.hand.rig import RigOptions
 from acts_tools.evaluate.hand.scenario import Outcome, Run
 
 _WAY_M = 0.020
@@ -24,7 +24,7 @@ def run(one: Run) -> Outcome:
     draw = one.draw()
     world = HandWorldConfig(seed=one.seed, pose="thumb_up", object="other_hand", object_held=True)
     reflexes = ("slip", "hand_to_hand") if one.reflex else ("slip",)
-    rig = HandRig(world, RigOptions(one.rate_hz, reflexes, settings={"grip_force_n": 0.3, **one.settings}))
+    rig = one.rig(world, RigOptions(one.rate_hz, reflexes, settings={"grip_force_n": 0.3, **one.settings}))
     outcome = Outcome()
     if not rig.grasp():
         outcome.details["failed"] = "not grasped"

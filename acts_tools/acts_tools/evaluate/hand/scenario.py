@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+
+from acts_sim.hand.world import HandWorldConfig
+from acts_tools.evaluate.hand.rig import HandRig, RigOptions
 
 
 @dataclass(frozen=True)
@@ -21,12 +24,15 @@ class Run:
     rate_hz : float
     settings : mapping
         Of supervisor and reflexes, where they are not the usual ones.
+    rig : callable
+        Makes the hand: `HandRig`, or what can do the same over the real interfaces (`acts_tools.live_hand.rigs`).
     """
 
     seed: int
     reflex: bool = True
     rate_hz: float = 250.0
     settings: Mapping[str, Any] = field(default_factory=dict)
+    rig: Callable[[HandWorldConfig, RigOptions], Any] = HandRig
 
     def draw(self) -> np.random.Generator:
         """For what differs from seed to seed."""

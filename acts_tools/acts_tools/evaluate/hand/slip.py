@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from acts_sim.hand.world import HandWorldConfig
-from acts_tools.evaluate.hand.rig import HandRig, RigOptions
+from acts_tools.evaluate.hand.rig import RigOptions
 from acts_tools.evaluate.hand.scenario import Outcome, Run
 
 LOADS = (0.5, 1.0, 2.0)
@@ -35,7 +35,7 @@ def run(one: Run) -> Outcome:
     load = LOADS[one.seed % len(LOADS)]
     # A light grip, which carries the object and little more.
     settings = {"grip_force_n": 0.25, **one.settings}
-    rig = HandRig(world, RigOptions(one.rate_hz, ("sharp", "slip") if one.reflex else ("sharp",), settings=settings))
+    rig = one.rig(world, RigOptions(one.rate_hz, ("sharp", "slip") if one.reflex else ("sharp",), settings=settings))
     outcome = Outcome(kept=False, details={"load": load, "mass_kg": world.object_mass_kg})
     if not rig.grasp():
         outcome.details["failed"] = "not grasped"
@@ -44,10 +44,11 @@ def run(one: Run) -> Outcome:
     rig.run(0.6)
     slips_before = rig.reflexes["slip"].events if one.reflex else 0
     outcome.details["slips_before"] = slips_before
-    at, begin_s = rig.object_m(), rig.time_s
+    at = rig.object_m()
     moved_s = noticed_s = stood_s = None
     farthest_m = 0.0
     rig.world.disturbances.pull_down(load, _RAMP_S)
+    begin_s = rig.time_s
     while rig.time_s < begin_s + _WATCHED_S:
         rig.step()
         truth = rig.world.truth

@@ -45,7 +45,7 @@ def _run(one: Run, radius_m: float, name: str) -> Outcome:
     )
     reflexes = ("slip", "sphere") if one.reflex else ("slip",)
     settings = {"grasp_posture": "round", "grip_force_n": 0.3, **one.settings}
-    rig = HandRig(world, RigOptions(one.rate_hz, reflexes, settings=settings))
+    rig = one.rig(world, RigOptions(one.rate_hz, reflexes, settings=settings))
     outcome = Outcome(details={"radius_mm": 1e3 * radius_m, "angle_deg": math.degrees(angle)})
     rig.run(0.02)
     rig.supervisor.grasp()

@@ -1,0 +1,1 @@
+"""The demonstration of the hand's reflexes: played, watched, scored and drawn."""

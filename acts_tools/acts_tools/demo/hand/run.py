@@ -1,0 +1,100 @@
+"""`acts demo hand`: a simulated hand plays scenarios of the evaluation by touch; watch it, score it, draw it."""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+from pathlib import Path
+
+from acts_core.errors import ActsError, LaunchError
+from acts_tools.bags.stopping import StopFlag
+from acts_tools.demo.claims import claimed_folder
+from acts_tools.demo.hand.act import Act
+from acts_tools.demo.hand.picture import draw
+from acts_tools.demo.hand.score import score, table
+from acts_tools.evaluate.hand.scenario import Run
+from acts_tools.evaluate.hand.scenarios import SCENARIOS
+from acts_tools.live_hand.collector import HandCollector
+from acts_tools.live_hand.live import STATES
+from acts_tools.live_hand.rigs import LiveRigs
+from acts_tools.ros_domain import use_free_domain
+
+TITLES = {
+    "sphere": "a sphere is brought to the palm's centre",
+    "slip": "a cylinder is loaded until it slips",
+    "sharp": "a finger is poked with a tip",
+    "hand_to_hand": "another hand is shaken",
+}
+"""The acts in their order, by the names of their scenarios."""
+
+
+def run(names: list[str], out: Path, seed: int) -> int:
+    """Run the demo; the exit code says whether it worked.
+
+    Parameters
+    ----------
+    names : list of str
+        Acts to play, of `TITLES`; none for all.
+    out : Path
+        Folder for the results.
+    seed : int
+        Of what differs from one simulated hand to the next.
+    """
+    unknown = [name for name in names if name not in TITLES]
+    if unknown:
+        raise ActsError(f"{', '.join(unknown)}: there is no such act; there are {', '.join(TITLES)}")
+    chosen = names or list(TITLES)
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise ActsError(f"--out {out}: the folder cannot be made ({error.strerror})") from error
+    with claimed_folder(out), StopFlag() as stop:
+        return _run(chosen, out, seed, stop)
+
+
+def _run(names: list[str], out: Path, seed: int, stop: StopFlag) -> int:
+    use_free_domain()
+    print(
+        f"The reflexes of a simulated LEAP hand with a skin of 1024 taxels: {'; '.join(TITLES[name] for name in names)}"
+    )
+    print("The same nodes run on the real hand; only launch arguments differ. Everything below is measured live.")
+    acts, log_path, begin_s = [], out / "hand.log", time.monotonic()
+    try:
+        for name in names:
+            acts.append(play(name, seed, log_path, stop, begin_s))
+    except LaunchError as error:
+        print()
+        print("\n".join(log_path.read_text(errors="replace").splitlines()[-30:]), file=sys.stderr)
+        raise LaunchError(f"{error}; the end of {log_path} is above") from error
+    results = score(acts)
+    (out / "hand.json").write_text(json.dumps(results, indent=2) + "\n")
+    draw(acts, out / "hand.png")
+    print(table(results, acts))
+    print(f"  wrote {out / 'hand.json'}, {out / 'hand.png'}, {log_path}")
+    return 0 if results["ok"] else 1
+
+
+def play(name: str, seed: int, log_path: Path, stop: StopFlag, begin_s: float) -> Act:
+    """Play an act with a hand of its own.
+
+    Raises
+    ------
+    LaunchError
+        When the hand does not come up, or ends early.
+    """
+
+    def line(collector: HandCollector) -> str:
+        words = [f"{time.monotonic() - begin_s:5.1f} s", f"{TITLES[name]:<40}"]
+        status = collector.status
+        if status is None or not collector.fresh_s:
+            return " | ".join([*words, "starting"])
+        words.append(f"{STATES[status.state]:>8}: {status.reason}")
+        felt = collector.recording.regions[-1][1] if collector.recording.regions else []
+        words.append(f"{sum(one.force_n for one in felt):5.1f} N on {sum(one.in_contact for one in felt)} patches")
+        return " | ".join([*words, *(f"{reflex} acts" for reflex in status.active)])
+
+    with LiveRigs(log_path, stop, line) as rigs:
+        outcome = SCENARIOS[name](Run(seed=seed, rig=rigs))
+        rigs.close()
+        return Act(name, TITLES[name], rigs.world, rigs.recording, outcome)

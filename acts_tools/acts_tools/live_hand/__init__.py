@@ -1,0 +1,1 @@
+"""A simulated hand that runs as its launch file starts it: told what to do, watched, recorded."""

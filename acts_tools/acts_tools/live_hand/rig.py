@@ -1,0 +1,250 @@
+"""The rig of `acts evaluate hand` over the real interfaces: what `HandRig` is without wires, here is a running launch.
+
+It tells what has happened a little later than it has, so that of every moment everything is known by then: truth comes
+out of a ring, what the hand says of itself and what its skin feels by topics.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections import deque
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_control.hand.reflexes.reflex import HandState
+from acts_core.errors import LaunchError
+from acts_core.region_contact import RegionContact
+from acts_sim.hand.objects import held_object
+from acts_sim.hand.truth import HandTruth
+from acts_sim.hand.world import HandWorldConfig
+from acts_tools.live_hand.live import LiveHand
+from acts_tools.live_hand.recording import Array
+
+_BEHIND_S = 0.1
+_SILENCE_S = 10.0
+_GRAVITY_M_S2 = 9.81
+
+
+class LiveRig:
+    """A hand that runs by itself; time passes as it does.
+
+    Parameters
+    ----------
+    hand : LiveHand
+    config : HandWorldConfig
+        Of its world.
+
+    Attributes
+    ----------
+    world : LiveWorld
+        What is true, and what can be made to happen.
+    supervisor : LiveSupervisor
+    reflexes : dict of str to LiveReflex
+    """
+
+    def __init__(self, hand: LiveHand, config: HandWorldConfig) -> None:
+        self._hand = hand
+        self._recording = hand.recording
+        self._pending: deque[tuple[float, Array]] = deque()
+        # What was before does not count.
+        self._pieces = len(self._recording.truth_times)
+        self._statuses = self._region_times = 0
+        self._time_s = -math.inf
+        self._row: Array | None = None
+        self.world = LiveWorld(self, config)
+        self.supervisor = LiveSupervisor(self)
+        self.reflexes = {name: LiveReflex(self, name) for name in self._recording.statuses[-1].events}
+        self.step()
+
+    @property
+    def time_s(self) -> float:
+        """Of what is told now, CLOCK_MONOTONIC [s]."""
+        return self._time_s
+
+    @property
+    def state(self) -> HandState:
+        """Of the hand."""
+        return HandState(self._recording.statuses[self._statuses].state)
+
+    @property
+    def regions(self) -> list[RegionContact]:
+        """What the patches felt, at most a few hundredths of a second ago."""
+        regions = self._recording.regions
+        return regions[self._region_times][1] if regions else []
+
+    def step(self) -> None:
+        """Go on to the next moment, 2 ms later.
+
+        Raises
+        ------
+        LaunchError
+            When nothing comes any more.
+        """
+        if not self._pending and not self._hand.until(self._fetch, _SILENCE_S):
+            raise LaunchError(f"the simulated hand has stood still for {_SILENCE_S:.0f} s")
+        self._time_s, self._row = self._pending.popleft()
+        statuses, regions = self._recording.statuses, self._recording.regions
+        while self._statuses + 1 < len(statuses) and statuses[self._statuses + 1].time_s <= self._time_s:
+            self._statuses += 1
+        while self._region_times + 1 < len(regions) and regions[self._region_times + 1][0] <= self._time_s:
+            self._region_times += 1
+
+    def run(self, duration_s: float, until: object = None) -> bool:
+        """Go on for a time [s], or until something is the case; whether it was."""
+        end_s = self._time_s + duration_s
+        while self._time_s < end_s:
+            self.step()
+            if callable(until) and until():
+                return True
+        return False
+
+    def grasp(self, timeout_s: float = 10.0) -> bool:
+        """Close the hand; whether it holds something then."""
+        self.supervisor.grasp()
+        self.run(timeout_s, lambda: self.state in (HandState.HOLDING, HandState.OPEN))
+        return self.state is HandState.HOLDING
+
+    def object_m(self) -> NDArray[np.float64]:
+        """Where the object is, in the palm's frame [m]."""
+        return np.array(self.world.truth.object_position_m)
+
+    def ask(self, name: str) -> None:
+        """Call a service of the hand, and go on to that moment."""
+        self._catch_up(self._hand.ask(name, name))
+
+    def do(self, line: str, mark: str) -> None:
+        """Let something happen, and go on to that moment."""
+        self._catch_up(self._hand.do(line, mark))
+
+    def events(self, reflex: str) -> int:
+        """How often a reflex has been set off."""
+        return self._recording.statuses[self._statuses].events.get(reflex, 0)
+
+    def truth(self) -> HandTruth:
+        """What is true at the moment that is told."""
+        assert self._row is not None
+        return HandTruth.from_row(self._row, self._recording.patches)
+
+    def _catch_up(self, time_s: float) -> None:
+        while self._time_s < time_s:
+            self.step()
+
+    def _fetch(self) -> bool:
+        """Take the pieces of truth that are old enough; whether there is something to tell."""
+        recording, known_s = self._recording, time.monotonic() - _BEHIND_S
+        while self._pieces < len(recording.truth_times) and recording.truth_times[self._pieces][-1] < known_s:
+            times_s, rows = recording.truth_times[self._pieces], recording.truth_rows[self._pieces]
+            self._pending.extend(zip(times_s.tolist(), rows, strict=True))
+            self._pieces += 1
+        return bool(self._pending)
+
+
+@dataclass(frozen=True)
+class LiveSupervisor:
+    """What the running hand can be asked for."""
+
+    rig: LiveRig
+
+    def grasp(self) -> str:
+        """Close until something is gripped; always nothing, for what is refused raises."""
+        self.rig.ask("grasp")
+        return ""
+
+
+@dataclass(frozen=True)
+class LiveReflex:
+    """What a reflex of the running hand says."""
+
+    rig: LiveRig
+    name: str
+
+    @property
+    def events(self) -> int:
+        """How often it has been set off."""
+        return self.rig.events(self.name)
+
+
+class LiveWorld:
+    """As much of `HandWorld` as scenarios use."""
+
+    def __init__(self, rig: LiveRig, config: HandWorldConfig) -> None:
+        thing = None
+        if config.object != "none":
+            thing = held_object(config.object, config.object_size_m, config.object_mass_kg)
+        self.weight_n = _GRAVITY_M_S2 * thing.mass_kg if thing else 0.0
+        self.holder = LiveHolder(rig)
+        self.disturbances = LiveDisturbances(rig)
+        self.tip = LiveTip(rig)
+        self._rig = rig
+
+    def put(self, x_m: float, y_m: float, height_m: float = 0.0) -> None:
+        """See `acts_sim.hand.world.HandWorld.put`."""
+        self._rig.do(f"put {1e3 * x_m:.4f} {1e3 * y_m:.4f} {1e3 * height_m:.4f}", "put")
+
+    @property
+    def truth(self) -> HandTruth:
+        """What is true at the moment that is told."""
+        return self._rig.truth()
+
+    @property
+    def down(self) -> Array:
+        """Where down is in the palm's frame; np.ndarray [shape=(3,)], a unit vector."""
+        gravity = np.array(self.truth.gravity_m_s2)
+        return np.asarray(gravity / np.linalg.norm(gravity))
+
+
+@dataclass(frozen=True)
+class LiveHolder:
+    """What holds the object besides the hand."""
+
+    rig: LiveRig
+
+    def let_go(self) -> None:
+        """Hold it no longer."""
+        self.rig.do("let_go", "let go")
+
+    def move(self, by_m: Array, turn_rad: Array, duration_s: float) -> None:
+        """See `acts_sim.hand.holder.Holder.move`."""
+        numbers = (*(1e3 * by_m), *np.degrees(turn_rad), duration_s)
+        self.rig.do("move " + " ".join(f"{number:.4f}" for number in numbers), "move")
+
+
+@dataclass(frozen=True)
+class LiveDisturbances:
+    """What else happens to the object."""
+
+    rig: LiveRig
+
+    def pull_down(self, times_weight: float, ramp_s: float) -> None:
+        """See `acts_sim.hand.disturbances.Disturbances.pull_down`."""
+        self.rig.do(f"load {times_weight:g} {1e3 * ramp_s:g}", f"load {times_weight:g} x weight")
+
+    def pull(self, force_n: Array, ramp_s: float) -> None:
+        """See `acts_sim.hand.disturbances.Disturbances.pull`."""
+        numbers = " ".join(f"{number:.4f}" for number in force_n)
+        self.rig.do(f"pull {numbers} {1e3 * ramp_s:g}", f"pull {np.linalg.norm(force_n):.2g} N")
+
+
+@dataclass(frozen=True)
+class LiveTip:
+    """What the skin is poked with."""
+
+    rig: LiveRig
+
+    def poke(
+        self,
+        patch: str,
+        radius_m: float,
+        speed_m_s: float,
+        travel_m: float,
+        _start_m: float = 0.005,
+        row: float | None = None,
+        col: float | None = None,
+    ) -> None:
+        """See `acts_sim.hand.tip.Tip.poke`; it always begins 5 mm above the skin."""
+        where = "" if row is None or col is None else f" {row:.3f} {col:.3f}"
+        numbers = f"{1e3 * radius_m:g} {1e3 * speed_m_s:g} {1e3 * travel_m:g}"
+        self.rig.do(f"poke {patch} {numbers}{where}", f"poke {patch}")

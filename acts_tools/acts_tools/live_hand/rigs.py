@@ -1,0 +1,98 @@
+"""Launches a simulated hand for every rig that a scenario asks for."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable
+from contextlib import ExitStack
+from pathlib import Path
+from types import TracebackType
+
+import yaml
+from ament_index_python.packages import get_package_share_directory
+
+from acts_sim.hand.world import HandWorldConfig
+from acts_tools.bags.stopping import StopFlag
+from acts_tools.evaluate.hand.rig import RigOptions
+from acts_tools.live_hand.collector import HandCollector
+from acts_tools.live_hand.live import NAMESPACE, live_hand
+from acts_tools.live_hand.recording import HandRecording
+from acts_tools.live_hand.rig import LiveRig
+from acts_tools.run_folder import shared_memory
+
+
+class LiveRigs:
+    """Makes rigs, one after the other: each ends when the next is made, and the last at the end of the block.
+
+    Parameters
+    ----------
+    log_path : Path
+        Takes what the launch prints.
+    stop : StopFlag
+        Set when a person wants it to end (KeyboardInterrupt).
+    line : callable
+        The status line.
+
+    Attributes
+    ----------
+    recording : HandRecording
+        Of the newest rig; complete once that has ended.
+    world : HandWorldConfig
+        Of that rig.
+    """
+
+    def __init__(
+        self, log_path: Path, stop: StopFlag, line: Callable[[HandCollector], str] = lambda _collector: ""
+    ) -> None:
+        self.recording = HandRecording()
+        self.world = HandWorldConfig()
+        self._log_path = log_path
+        self._stop = stop
+        self._line = line
+        self._stack = ExitStack()
+
+    def __enter__(self) -> LiveRigs:
+        """Nothing runs yet."""
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """End what runs."""
+        self._stack.__exit__(kind, error, trace)
+
+    def close(self) -> None:
+        """End what runs."""
+        self._stack.close()
+
+    def __call__(self, world: HandWorldConfig, options: RigOptions) -> LiveRig:
+        """Launch a hand with this world and these reflexes."""
+        self.close()
+        self.recording, self.world = HandRecording(), world
+        folder = Path(self._stack.enter_context(tempfile.TemporaryDirectory(prefix="acts_hand_", dir=shared_memory())))
+        arguments = {
+            "object": world.object,
+            "object_size": f"{world.object_size_m:.6f}",
+            "object_mass": f"{world.object_mass_kg:.6f}",
+            "object_x": f"{world.object_x_m:.6f}",
+            "object_y": f"{world.object_y_m:.6f}",
+            "object_held": str(world.object_held).lower(),
+            "pose": world.pose,
+            "seed": str(world.seed),
+            "reflexes": " ".join(options.reflexes),
+            "rate_hz": f"{options.rate_hz:g}.0" if float(options.rate_hz).is_integer() else f"{options.rate_hz}",
+            "params_file": str(_params_file(folder, options)),
+        }
+        hand = self._stack.enter_context(
+            live_hand(arguments, self.recording, folder / "run", self._log_path, self._stop, self._line)
+        )
+        return LiveRig(hand, world)
+
+
+def _params_file(folder: Path, options: RigOptions) -> Path:
+    """The shipped parameters, and those of the options."""
+    shipped = Path(get_package_share_directory("acts_config")) / "params" / "hand_reflexes.yaml"
+    own = {f"{NAMESPACE}/hand_reflexes": {"ros__parameters": dict(options.settings)}}
+    path = folder / "params.yaml"
+    path.write_text(f"{shipped.read_text()}\n{yaml.safe_dump(own) if options.settings else ''}")
+    return path
