@@ -36,7 +36,8 @@ def sharp(one: Run) -> Outcome:
 def blunt(one: Run) -> Outcome:
     """A round end of 8 to 20 mm: nothing may happen, nor at the cylinder itself."""
     outcome = _poke(one, float(one.draw().uniform(BLUNT_RADIUS_M, 0.020)))
-    outcome.ok = outcome.noticed_ms is None and outcome.details.get("alarms_before") == 0
+    # Also before the end touched: the cylinder, too, is blunt.
+    outcome.ok = outcome.details.get("alarms", 1) == 0
     return outcome
 
 
@@ -77,6 +78,7 @@ def _poke(one: Run, radius_m: float) -> Outcome:
         opens_rad_s = -float((q_rad - last)[joints].min()) / 0.002
         if noticed_s is not None and opened_s is None and opens_rad_s > _OPENS_RAD_S:
             opened_s = rig.time_s
+    outcome.details["alarms"] = rig.reflexes["sharp"].events if one.reflex else 0
     outcome.penetration_mm = 1e3 * deepest_m
     if touched_s is not None and noticed_s is not None:
         outcome.noticed_ms = 1e3 * (noticed_s - touched_s)
