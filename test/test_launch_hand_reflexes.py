@@ -1,7 +1,12 @@
-"""The hand, launched for real: it grasps by touch, keeps its grip when touch is lost, and opens. ROS_DOMAIN_ID 231."""
+"""The hand, launched for real: it grasps by touch, keeps its grip when touch is lost, and opens.
 
+ROS_DOMAIN_IDs 231, 220.
+"""
+
+import json
 import os
 import signal
+import socket
 from pathlib import Path
 
 from launch_support import PACKAGE, START_S, pid_of, shipped_parameters_and
@@ -62,3 +67,23 @@ def test_the_hand_grasps_keeps_its_grip_without_touch_and_opens(hand: Launched) 
     assert ask(hand, "release").success
     wait_for_state(hand, HandStatus.STATE_OPEN, "released by request")
     assert hand.stop() == 0
+
+
+@launch_fixture
+def simulated(tmp_path: Path) -> LaunchFile:
+    return LaunchFile(PACKAGE, "simulated_hand.launch.xml", 220, {"run_dir": str(tmp_path / "run"), "object": "none"})
+
+
+@launch_test(simulated)
+def test_the_simulated_hand_tells_where_its_joints_are(simulated: Launched, tmp_path: Path) -> None:
+    control = tmp_path / "run" / "hand.control"
+    simulated.wait_for(control.is_socket, START_S, "the control socket")
+    with socket.socket(socket.AF_UNIX) as link, link.makefile("rw") as lines:
+        link.settimeout(START_S)
+        link.connect(str(control))
+        lines.write("state\n")
+        lines.flush()
+        state = json.loads(lines.readline())
+    assert len(state["motors"]) == 16
+    assert (tmp_path / "run" / "hand").is_symlink()
+    assert simulated.stop() == 0
