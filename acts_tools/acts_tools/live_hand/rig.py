@@ -103,8 +103,11 @@ class LiveRig:
 
     def grasp(self, timeout_s: float = 10.0) -> bool:
         """Close the hand; whether it holds something then."""
+        end_s = self._time_s + timeout_s
         self.supervisor.grasp()
-        self.run(timeout_s, lambda: self.state in (HandState.HOLDING, HandState.OPEN))
+        while self.run(end_s - self._time_s, self._has_closed) and self.state is HandState.STOPPED:
+            # A machine that stands still for a tenth of a second ends closing; as a person would, ask anew.
+            self.supervisor.grasp()
         return self.state is HandState.HOLDING
 
     def object_m(self) -> NDArray[np.float64]:
@@ -127,6 +130,11 @@ class LiveRig:
         """What is true at the moment that is told."""
         assert self._row is not None
         return HandTruth.from_row(self._row, self._recording.patches)
+
+    def _has_closed(self) -> bool:
+        status = self._recording.statuses[self._statuses]
+        was_interrupted = status.state == HandState.STOPPED and status.reason.startswith("touch is stale")
+        return was_interrupted or status.state in (HandState.HOLDING, HandState.OPEN)
 
     def _catch_up(self, time_s: float) -> None:
         while self._time_s < time_s:

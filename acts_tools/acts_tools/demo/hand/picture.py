@@ -32,6 +32,8 @@ _VIEWS = {"palm_up": "above", "thumb_up": "front"}
 _PIXELS = (800, 640)
 _DISTANCE_M = 0.46
 _MARGIN_PIXELS = 12
+_PUT = "put"
+_PUT_SETTLED_S = 0.05
 _AVOIDING = "#ff7f0e"
 
 
@@ -92,10 +94,11 @@ def _span(act: Act) -> tuple[float, float]:
 
 
 def _moments(act: Act) -> list[tuple[Moment, str]]:
-    """Two that tell the story: after the last mark but one, and at the end."""
+    """Two that tell the story: at the last mark, and at the end."""
     _, end_s = _span(act)
     last_s, last = act.recording.marks[-1] if act.recording.marks else (act.begin_s, "")
-    wanted = [(last_s - 0.05, f"before “{last}”"), (end_s - 0.1, "in the end")]
+    at_last = (last_s + 0.3, f"after “{last}”") if last == _PUT else (last_s - 0.05, f"before “{last}”")
+    wanted = [at_last, (end_s - 0.1, "in the end")]
     found = [(act.moment(time_s), words) for time_s, words in wanted]
     return [(moment, words) for moment, words in found if moment is not None]
 
@@ -146,7 +149,11 @@ def _draw_forces(axes: Any, act: Act, begin_s: float, end_s: float) -> None:
 
 
 def _draw_motion(axes: Any, act: Act, begin_s: float, end_s: float) -> None:
-    times_s, rows = act.recording.truth_between(begin_s, end_s)
+    # Before it was put into the hand it was elsewhere.
+    put_s = max((time_s + _PUT_SETTLED_S for time_s, words in act.recording.marks if words == _PUT), default=begin_s)
+    times_s, rows = act.recording.truth_between(put_s, end_s)
+    if not len(rows):
+        return
     moved_mm = 1e3 * (column(rows, "object_position_m") - column(rows, "object_position_m")[0])
     for k, (axis, colour) in enumerate(_AXIS_COLOURS.items()):
         axes.plot(times_s - act.begin_s, moved_mm[:, k], color=colour, lw=1.3, label=f"{axis} of the palm")
