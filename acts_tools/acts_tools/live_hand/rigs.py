@@ -90,9 +90,12 @@ class LiveRigs:
 
 
 def _params_file(folder: Path, options: RigOptions) -> Path:
-    """The shipped parameters, and those of the options."""
+    """The shipped parameters, and those of the options that the nodes have: how slip is told is the node's own."""
     shipped = Path(get_package_share_directory("acts_config")) / "params" / "hand_reflexes.yaml"
-    own = {f"{NAMESPACE}/hand_reflexes": {"ros__parameters": dict(options.settings)}}
+    own = {"reconstruction": {"touch_counts": round(options.touch_counts)}}
+    if options.settings:
+        own["hand_reflexes"] = dict(options.settings)
+    sections = {f"{NAMESPACE}/{node}": {"ros__parameters": parameters} for node, parameters in own.items()}
     path = folder / "params.yaml"
-    path.write_text(f"{shipped.read_text()}\n{yaml.safe_dump(own) if options.settings else ''}")
+    path.write_text(f"{shipped.read_text()}\n{yaml.safe_dump(sections)}")
     return path
