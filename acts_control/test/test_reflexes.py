@@ -162,7 +162,7 @@ def test_what_is_blunt_is_never_taken_for_a_tip(radius_m: float, depth_m: float,
 
 
 @settings(max_examples=60, deadline=None)
-@given(at=st.tuples(st.floats(-0.3, 0.3), st.floats(-0.3, 0.3)))
+@given(at=st.tuples(st.floats(-0.25, 0.25), st.floats(-0.25, 0.25)))
 def test_a_tip_of_a_millimetre_is_told_before_it_is_two_millimetres_deep(at: tuple[float, float]) -> None:
     # Where four taxels meet it feels as something blunt does, and is told later.
     reflex = SharpAvoidance(SharpAvoidanceConfig())

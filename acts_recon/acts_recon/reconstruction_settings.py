@@ -22,6 +22,7 @@ from acts_recon.reconstructor import Reconstructor, ReconstructorConfig
 from acts_recon.recovery import METHODS, FusedRecovery, PerFrameRecovery, Recovery
 from acts_recon.regions.regions import Regions
 from acts_recon.shipped import shipped_dictionary_path
+from acts_recon.slip.config import SlipConfig
 
 _ARRAY = ArrayGeometry()
 _RESPONSE = ForceResponse()
@@ -37,7 +38,7 @@ _OF_METHOD = {
 
 
 @dataclass(frozen=True)
-class ReconstructionSettings(RealtimeConfig):
+class ReconstructionSettings(RealtimeConfig, SlipConfig):
     """Parameters of the node ``reconstruction``."""
 
     rows: int = setting(_ARRAY.rows, "rows of the array", minimum=1, maximum=MAX_SIDE)
@@ -294,7 +295,7 @@ class ReconstructionSettings(RealtimeConfig):
         # Noise of 0 would let anything be slip.
         noise_counts = max(self.noise_counts, _LEAST_NOISE_COUNTS)
         return Regions(
-            arranged, recovery.response, self.touch_counts, noise_counts, slip_rate_hz=self.regions_slip_rate_hz
+            arranged, recovery.response, self.touch_counts, noise_counts, self, slip_rate_hz=self.regions_slip_rate_hz
         )
 
     def recogniser(self, recovery: Recovery) -> ObjectRecogniser | None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import tempfile
 from collections.abc import Callable
 from contextlib import ExitStack
+from dataclasses import asdict
 from pathlib import Path
 from types import TracebackType
 
@@ -90,9 +91,9 @@ class LiveRigs:
 
 
 def _params_file(folder: Path, options: RigOptions) -> Path:
-    """The shipped parameters, and those of the options that the nodes have: how slip is told is the node's own."""
+    """The shipped parameters, and those of the options."""
     shipped = Path(get_package_share_directory("acts_config")) / "params" / "hand_reflexes.yaml"
-    own = {"reconstruction": {"touch_counts": round(options.touch_counts)}}
+    own = {"reconstruction": {"touch_counts": round(options.touch_counts), **asdict(options.slip)}}
     if options.settings:
         own["hand_reflexes"] = dict(options.settings)
     sections = {f"{NAMESPACE}/{node}": {"ros__parameters": parameters} for node, parameters in own.items()}
