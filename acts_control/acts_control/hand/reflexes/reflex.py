@@ -163,7 +163,8 @@ class Reflex(ABC):
         """What it asks for now; None for nothing."""
 
 
-_CLOSING: dict[tuple[int, str], Array] = {}
+# With the description itself, so that no other one gets its identity meanwhile.
+_CLOSING: dict[tuple[int, str], tuple[HandDescription, Array]] = {}
 
 
 def _closing(hand: HandDescription, finger: str) -> Array:
@@ -171,5 +172,5 @@ def _closing(hand: HandDescription, finger: str) -> Array:
     key = (id(hand), finger)
     if key not in _CLOSING:
         shares = hand.fingers[finger].closes
-        _CLOSING[key] = np.array([shares.get(name, 0.0) for name in hand.names])
-    return _CLOSING[key]
+        _CLOSING[key] = hand, np.array([shares.get(name, 0.0) for name in hand.names])
+    return _CLOSING[key][1]
