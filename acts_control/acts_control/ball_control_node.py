@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from geometry_msgs.msg import Vector3Stamped
+from rclpy.duration import Duration
 from rclpy.node import Node
 from std_srvs.srv import Trigger
 
@@ -47,6 +48,10 @@ from acts_ros.skin_frame import skin_frame
 _LONG_AGO_S = 1e6
 
 _LEVELS = {Phase.CONNECTING: WARN, Phase.STOPPED: ERROR}
+
+
+# How long the last status may take to arrive where it is heard.
+_LAST_WORDS_S = 0.5
 
 
 @dataclass(frozen=True)
@@ -127,6 +132,8 @@ class BallControlNode(Node):
         """Stop the robot in order, and say so."""
         self._loop.close()
         self._publish_status()
+        # What has not arrived when the publisher is destroyed is lost.
+        self._status_publisher.wait_for_all_acked(Duration(seconds=_LAST_WORDS_S))
 
     def _change(self, settings: BallControlSettings) -> str:
         """Put changed parameters in force."""
