@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from acts_core.stop_signals import StopSignals
 from acts_ros.composition import parameters_from
 from acts_ros.executor import run
-from acts_view.node import ViewNode
+from acts_view.nodes.view_node import ViewNode
 from acts_view.settings import ViewSettings
 
 SETTINGS: dict[str, type] = {"view": ViewSettings}

@@ -2,8 +2,8 @@
 
 import pytest
 
-from acts_view.access import is_local_host, new_token, refusal
-from acts_view.page_files import read_page
+from acts_view.web.access import is_local_host, new_token, refusal
+from acts_view.web.page_files import read_page
 
 TOKEN = "kept-for-the-test"
 

@@ -15,13 +15,13 @@ from numpy.typing import NDArray
 
 from acts_core.errors import ArrayError
 from acts_core.layouts import LAYOUTS, layout
-from acts_view.arrangement import arrangement
-from acts_view.codec import DTYPES, encode
-from acts_view.snapshot import Frame, SkinShape, describe_skin, encode_frame
+from acts_view.skin.arrangement import arrangement
+from acts_view.skin.snapshot import Frame, SkinShape, describe_skin, encode_frame
+from acts_view.web.codec import DTYPES, encode
 
 
 def decode(message: bytes) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
-    """As `acts_view.codec` describes the format, and as the page does it: every array lies at a multiple of 4."""
+    """As `acts_view.web.codec` describes the format, and as the page does it: every array lies at a multiple of 4."""
     length = int.from_bytes(message[:4], "little")
     header = json.loads(message[4 : 4 + length])
     at = 4 + length

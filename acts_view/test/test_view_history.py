@@ -8,7 +8,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from acts_view.history import COLUMNS, History, Place
+from acts_view.skin.history import COLUMNS, History, Place
 
 TIME, FRAMES, LOST, FORCE_MIN, FORCE_MAX, LATENCY_MIN, LATENCY_MAX = range(len(COLUMNS))
 CLOSING_S = 1000.0

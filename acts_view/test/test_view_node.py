@@ -26,7 +26,7 @@ from acts_ros import qos
 from acts_ros.cdr import ContactFields, write_contact
 from acts_ros.executor import spin_for
 from acts_ros.regions_cdr import write_regions
-from acts_view.node import ViewNode
+from acts_view.nodes.view_node import ViewNode
 
 DOMAIN_ID = 176
 DEADLINE_S = 30.0

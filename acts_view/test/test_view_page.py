@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from acts_view.server import ViewServer
-from acts_view.snapshot import Frame, RegionState, Sample, SkinShape
+from acts_view.skin.snapshot import Frame, RegionState, Sample, SkinShape
+from acts_view.web.server import ViewServer
 
 BROWSER = shutil.which("chromium") or shutil.which("chromium-headless-shell")
 try:

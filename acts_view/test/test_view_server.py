@@ -15,8 +15,8 @@ from websockets.exceptions import InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 
 from acts_core.errors import SettingsError
-from acts_view.server import ViewServer
-from acts_view.snapshot import Frame, Sample, SkinShape
+from acts_view.skin.snapshot import Frame, Sample, SkinShape
+from acts_view.web.server import ViewServer
 
 DEADLINE_S = 30.0
 SEND_LIMIT_S = 0.3

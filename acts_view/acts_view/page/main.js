@@ -2,7 +2,7 @@
 
 import { connect } from "./connection.js";
 import { Diagnostics } from "./diagnostics.js";
-import { Panel } from "./panel.js";
+import { Panel } from "./skin/panel.js";
 import { next, onChange, set, settings } from "./settings.js";
 
 const TICK_MS = 50;

@@ -1,6 +1,6 @@
 // What the 1 kHz stream was like: rows of the server's history, and what of them a plot shows.
 
-// Columns as in acts_view/history.py.
+// Columns as in acts_view/skin/history.py.
 export const FRAMES = 1, LOST = 2, FORCE = 3, LATENCY = 5;
 const WIDTH = 7;
 const INTERVAL_S = 0.008;

@@ -20,10 +20,10 @@ from acts_ros.diagnostics import OK, DiagnosticsReporter, Report
 from acts_ros.log import log_of
 from acts_ros.parameters import declare, node_options
 from acts_ros.polled import PollingNode
-from acts_view.server import ViewServer
+from acts_view.nodes.skin_topics import SkinTopics
 from acts_view.settings import ViewSettings
-from acts_view.skin_topics import SkinTopics
-from acts_view.snapshot import SkinShape
+from acts_view.skin.snapshot import SkinShape
+from acts_view.web.server import ViewServer
 
 _LOOK_PERIOD_S = 1.0
 _DIAGNOSTICS_DEPTH = 100

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from acts_core.errors import ActsError
 from acts_core.layouts import Layout, layout
-from acts_view.arrangement import arrangement
-from acts_view.codec import encode
-from acts_view.history import COLUMNS
+from acts_view.skin.arrangement import arrangement
+from acts_view.skin.history import COLUMNS
+from acts_view.web.codec import encode
 
 CONTACT_COLUMNS = ("x_m", "y_m", "force_n", "peak_counts", "area_m2", "spread_m", "speed_m_s", "age_s")
 """Of a contact, besides its number."""
@@ -21,7 +21,7 @@ CONTACT_COLUMNS = ("x_m", "y_m", "force_n", "peak_counts", "area_m2", "spread_m"
 
 @dataclass(frozen=True)
 class Sample:
-    """One frame of the 1 kHz stream, as the plots need it; see `acts_view.history.History.add`."""
+    """One frame of the 1 kHz stream, as the plots need it; see `acts_view.skin.history.History.add`."""
 
     stamp_s: float
     force_n: float

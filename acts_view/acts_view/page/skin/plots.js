@@ -1,7 +1,7 @@
 // The plots of a skin: force and latency as the smallest and largest of each pixel, rate and losses a fifth of a second each.
 
 import { BIN_S, FORCE, FRAMES, LATENCY, LOST } from "./history.js";
-import { settings } from "./settings.js";
+import { settings } from "../settings.js";
 
 const HEIGHT = 112;
 const EVERY_MS = 100;

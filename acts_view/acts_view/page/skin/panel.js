@@ -4,8 +4,8 @@ import { gradient } from "./colours.js";
 import { BIN_S, FRAMES, History, LATENCY, LOST } from "./history.js";
 import { Plots } from "./plots.js";
 import { Regions } from "./regions.js";
-import { settings } from "./settings.js";
-import { SkinView } from "./skin_view.js";
+import { settings } from "../settings.js";
+import { SkinView } from "./view.js";
 
 const CONTACT_ROWS = 4;
 const SILENT_MS = 1500;
@@ -130,7 +130,7 @@ export class Panel {
   }
 
   #showTop() {
-    const top = String(Math.round(this.view.top));
+    const top = String(Math.round(this.view.taxels.top));
     const element = this.find(".top");
     if (element.textContent !== top) element.textContent = top;
   }

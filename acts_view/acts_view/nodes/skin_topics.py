@@ -15,7 +15,7 @@ from acts_ros import qos
 from acts_ros.cdr import ContactFields, read_contact
 from acts_ros.polled import PolledSubscription, PollingNode
 from acts_ros.regions_cdr import read_regions
-from acts_view.snapshot import CONTACT_COLUMNS, Frame, RegionState, Sample
+from acts_view.skin.snapshot import CONTACT_COLUMNS, Frame, RegionState, Sample
 
 _SEQUENCE_MODULUS = 1 << 32
 # A stamp further from the clock than this is by another clock, as in a bag that is played.

@@ -10,9 +10,9 @@ import asyncio
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from acts_view.codec import encode
-from acts_view.history import History, Place
-from acts_view.snapshot import Frame, Sample, SkinShape, describe_skin, encode_frame
+from acts_view.skin.history import History, Place
+from acts_view.skin.snapshot import Frame, Sample, SkinShape, describe_skin, encode_frame
+from acts_view.web.codec import encode
 
 
 class _Skin:
@@ -41,7 +41,7 @@ class _Skin:
         return made[2:]
 
 
-class Board:
+class Display:
     """The newest state of all skins and of the diagnostics. All of it is for one thread, that of the event loop.
 
     Parameters
@@ -100,8 +100,8 @@ class Board:
 class Reader:
     """How far one client has got."""
 
-    def __init__(self, board: Board) -> None:
-        self._board = board
+    def __init__(self, display: Display) -> None:
+        self._display = display
         self._news = asyncio.Event()
         self._news.set()
         self._described: dict[str, bytes] = {}
@@ -120,11 +120,11 @@ class Reader:
 
     def news(self) -> Iterator[bytes]:
         """The messages of what is newest and was not read yet; each is made when it is asked for."""
-        board = self._board
-        if self._status is not board._status:
-            self._status = board._status
+        display = self._display
+        if self._status is not display._status:
+            self._status = display._status
             yield self._status
-        for name, skin in list(board._skins.items()):
+        for name, skin in list(display._skins.items()):
             if self._described.get(name) is not skin.description:
                 self._described[name] = skin.description
                 yield skin.description
@@ -135,4 +135,4 @@ class Reader:
 
     def close(self) -> None:
         """The client has gone."""
-        self._board._readers.discard(self)
+        self._display._readers.discard(self)

@@ -18,10 +18,10 @@ from websockets.protocol import State
 
 from acts_core.errors import SettingsError
 from acts_core.realtime_guard import LogCallback
-from acts_view.access import is_local_host, new_token, refusal
-from acts_view.board import Board
-from acts_view.page_files import read_page
-from acts_view.snapshot import Frame, Sample, SkinShape
+from acts_view.skin.snapshot import Frame, Sample, SkinShape
+from acts_view.web.access import is_local_host, new_token, refusal
+from acts_view.web.display import Display
+from acts_view.web.page_files import read_page
 
 STREAM_PATH = "/stream"
 MAX_CLIENTS = 32
@@ -63,7 +63,7 @@ class Address:
 
 
 class ViewServer:
-    """Serves the page and streams to it what is on a `Board`; begins with the constructor.
+    """Serves the page and streams to it what is on a `Display`; begins with the constructor.
 
     Parameters
     ----------
@@ -74,7 +74,7 @@ class ViewServer:
     on_clients : callable
         Called with the number of clients whenever it changes, on the server's thread.
     log : LogCallback
-    board : Board, optional
+    display : Display, optional
 
     Raises
     ------
@@ -90,9 +90,9 @@ class ViewServer:
         send_limit_s: float = 5.0,
         on_clients: Callable[[int], None],
         log: LogCallback,
-        board: Board | None = None,
+        display: Display | None = None,
     ) -> None:
-        self._board = Board() if board is None else board
+        self._display = Display() if display is None else display
         self._send_limit_s = send_limit_s
         self._on_clients = on_clients
         self._log = log
@@ -112,16 +112,16 @@ class ViewServer:
         self.address = Address(host, bound_port, self._token)
 
     def show_frame(self, name: str, frame: Frame, samples: Sequence[Sample]) -> None:
-        """As `Board.show_frame`, from any thread."""
-        self._loop.call_soon_threadsafe(self._board.show_frame, name, frame, samples)
+        """As `Display.show_frame`, from any thread."""
+        self._loop.call_soon_threadsafe(self._display.show_frame, name, frame, samples)
 
     def show_shape(self, name: str, shape: SkinShape) -> None:
-        """As `Board.show_shape`, from any thread."""
-        self._loop.call_soon_threadsafe(self._board.show_shape, name, shape)
+        """As `Display.show_shape`, from any thread."""
+        self._loop.call_soon_threadsafe(self._display.show_shape, name, shape)
 
     def show_status(self, status: dict[str, Any]) -> None:
-        """As `Board.show_status`, from any thread."""
-        self._loop.call_soon_threadsafe(self._board.show_status, status)
+        """As `Display.show_status`, from any thread."""
+        self._loop.call_soon_threadsafe(self._display.show_status, status)
 
     def close(self) -> None:
         """Take leave of all clients and end."""
@@ -160,7 +160,7 @@ class ViewServer:
             reason = refusal(_one(request, "Host"), _one(request, "Origin"), request.path, self._token)
             if reason:
                 return connection.respond(HTTPStatus.FORBIDDEN, f"{reason}\n")
-            if self._board.readers >= MAX_CLIENTS:
+            if self._display.readers >= MAX_CLIENTS:
                 return connection.respond(HTTPStatus.SERVICE_UNAVAILABLE, f"{MAX_CLIENTS} pages are open already\n")
             return None
         file = self._files.get(path)
@@ -172,8 +172,8 @@ class ViewServer:
     async def _serve(self, connection: ServerConnection) -> None:
         own = connection.transport.get_extra_info("socket")
         own.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, _SEND_BUFFER_BYTES)
-        reader = self._board.reader()
-        self._on_clients(self._board.readers)
+        reader = self._display.reader()
+        self._on_clients(self._display.readers)
         gone = asyncio.ensure_future(connection.wait_closed())
         gone.add_done_callback(lambda _: reader.wake())
         try:
@@ -190,7 +190,7 @@ class ViewServer:
         finally:
             gone.cancel()
             reader.close()
-            self._on_clients(self._board.readers)
+            self._on_clients(self._display.readers)
 
 
 def _one(request: Request, name: str) -> str | None:

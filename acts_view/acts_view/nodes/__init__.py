@@ -1,0 +1,1 @@
+"""The node `view` and the topics of a skin that it takes."""

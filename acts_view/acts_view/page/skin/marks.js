@@ -1,0 +1,126 @@
+// What is drawn over the taxels: contacts with number and force, their trails, the centre of pressure, the cursor.
+
+const TRAIL_MS = 1200;
+
+export class Marks {
+  constructor(canvas) {
+    this.canvas = canvas;
+    this.trails = new Map();
+  }
+
+  /** A skin of another shape. */
+  setGeometry(geometry) {
+    this.geometry = geometry;
+  }
+
+  /** Take where the contacts of a message are. */
+  remember({ arrays: { contacts, contact_numbers } }) {
+    const now_ms = performance.now();
+    const width = contacts.shape[1];
+    contact_numbers.data.forEach((number, index) => {
+      const [x_m, y_m] = contacts.data.subarray(index * width, index * width + 2);
+      if (!this.trails.has(number)) this.trails.set(number, []);
+      this.trails.get(number).push([now_ms, x_m, y_m]);
+    });
+    for (const [number, points] of this.trails) {
+      while (points.length && now_ms - points[0][0] > TRAIL_MS) points.shift();
+      if (!points.length) this.trails.delete(number);
+    }
+  }
+
+  /** Draw the contacts of a message (null: none) and the taxel {row, col} that is pointed at (likewise). */
+  draw(message, pointed) {
+    this.ratio = window.devicePixelRatio || 1;
+    const context = this.canvas.getContext("2d");
+    context.clearRect(0, 0, this.canvas.width, this.canvas.height);
+    if (message) {
+      this.#drawTrails(context);
+      this.#drawContacts(context, message.arrays);
+      this.#drawCentre(context, message.touch);
+    }
+    if (pointed) this.#drawPointed(context, pointed);
+  }
+
+  #drawTrails(context) {
+    const now_ms = performance.now();
+    context.lineWidth = 2 * this.ratio;
+    context.lineCap = "round";
+    for (const points of this.trails.values()) {
+      for (let index = 1; index < points.length; index += 1) {
+        const from = this.geometry.metres(points[index - 1][1], points[index - 1][2]);
+        const to = this.geometry.metres(points[index][1], points[index][2]);
+        // From one finger to another there is no skin to move over.
+        if (!from || !to || Math.hypot(to[0] - from[0], to[1] - from[1]) > 0.2 * this.canvas.width) continue;
+        context.strokeStyle = `rgb(255 255 255 / ${(0.85 * (1 - (now_ms - points[index][0]) / TRAIL_MS)).toFixed(2)})`;
+        context.beginPath();
+        context.moveTo(...from);
+        context.lineTo(...to);
+        context.stroke();
+      }
+    }
+  }
+
+  #drawContacts(context, { contacts, contact_numbers }) {
+    const { ratio, geometry } = this;
+    const width = contacts.shape[1];
+    context.font = `600 ${13 * ratio}px system-ui, "DejaVu Sans", sans-serif`;
+    context.textBaseline = "middle";
+    context.textAlign = "center";
+    contact_numbers.data.forEach((number, index) => {
+      const [x_m, y_m, force_n, , area_m2] = contacts.data.subarray(index * width, (index + 1) * width);
+      const centre = geometry.metres(x_m, y_m);
+      if (!centre) return;
+      const radius = Math.max(6 * ratio, Math.sqrt(area_m2 / Math.PI) * geometry.px_per_m + 3 * ratio);
+      context.beginPath();
+      context.arc(...centre, radius, 0, 2 * Math.PI);
+      outlined(context, ratio, 1.75);
+      const text = `${number}  ${force_n.toFixed(2)} N`;
+      const half = context.measureText(text).width / 2 + 3 * ratio;
+      const away = radius + 10 * ratio;
+      const [x, y] = centre;
+      label(context, ratio, text, Math.min(Math.max(x, half), this.canvas.width - half), y > away + 8 * ratio ? y - away : y + away);
+    });
+  }
+
+  #drawCentre(context, touch) {
+    // That of all contacts together: in the middle of several, and of a hand nowhere.
+    const centre = touch && this.geometry.patches.length === 1 && this.geometry.metres(touch[0], touch[1]);
+    if (!centre) return;
+    const [x, y] = centre;
+    const arm = 7 * this.ratio;
+    context.beginPath();
+    context.moveTo(x - arm, y);
+    context.lineTo(x + arm, y);
+    context.moveTo(x, y - arm);
+    context.lineTo(x, y + arm);
+    outlined(context, this.ratio, 1.75);
+  }
+
+  #drawPointed(context, { row, col }) {
+    const low = this.geometry.toPixels(row - 0.49, col - 0.49);
+    const high = this.geometry.toPixels(row + 0.49, col + 0.49);
+    if (!low || !high) return;
+    context.beginPath();
+    context.rect(low[0], low[1], high[0] - low[0], high[1] - low[1]);
+    outlined(context, this.ratio, 1.5);
+  }
+}
+
+/** Stroke the path in white with a dark edge, which can be seen on any colour. */
+function outlined(context, ratio, width) {
+  context.strokeStyle = "rgb(0 0 0 / 0.65)";
+  context.lineWidth = (width + 2) * ratio;
+  context.stroke();
+  context.strokeStyle = "white";
+  context.lineWidth = width * ratio;
+  context.stroke();
+}
+
+function label(context, ratio, text, x, y) {
+  context.lineJoin = "round";
+  context.strokeStyle = "rgb(0 0 0 / 0.75)";
+  context.lineWidth = 3.5 * ratio;
+  context.strokeText(text, x, y);
+  context.fillStyle = "white";
+  context.fillText(text, x, y);
+}
