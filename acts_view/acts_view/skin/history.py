@@ -66,9 +66,15 @@ class History:
         row = self._row
         row[1] += 1
         row[2] += lost
-        row[3], row[4] = min(row[3], force_n), max(row[4], force_n)
-        # NaN beside a number gives the number.
-        row[5], row[6] = float(np.fmin(row[5], latency_ms)), float(np.fmax(row[6], latency_ms))
+        if force_n < row[3]:
+            row[3] = force_n
+        elif force_n > row[4]:
+            row[4] = force_n
+        # NaN beside a number gives the number; NaN is not equal to itself.
+        if latency_ms < row[5] or row[5] != row[5]:
+            row[5] = latency_ms
+        if latency_ms > row[6] or row[6] != row[6]:
+            row[6] = latency_ms
 
     def since(self, place: Place) -> tuple[NDArray[np.float64], Place]:
         """What is complete and new to somebody.

@@ -15,6 +15,7 @@ array where it lies, because all begin at multiples of 4. `acts_view/page/codec.
 from __future__ import annotations
 
 import json
+import sys
 from collections.abc import Mapping
 from typing import Any
 
@@ -25,6 +26,9 @@ from acts_core.errors import ArrayError
 
 DTYPES = ("uint8", "uint16", "uint32", "float32")
 """Types that an array may have; none is wider than the alignment."""
+
+# To ask numpy for the name of a type takes longer than all else that is done with it.
+_NAMES = {np.dtype(name): name for name in DTYPES}
 
 _ALIGNMENT = 4
 
@@ -47,10 +51,11 @@ def encode(header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]] | None 
     pieces = []
     described = []
     for name, array in (arrays or {}).items():
-        if array.dtype.name not in DTYPES:
-            raise ArrayError(f"array {name} of {array.dtype.name}: the page reads {', '.join(DTYPES)}")
-        described.append([name, array.dtype.name, list(array.shape)])
-        data = np.ascontiguousarray(array, dtype=array.dtype.newbyteorder("<")).tobytes()
+        kind = _NAMES.get(array.dtype)
+        if kind is None:
+            raise ArrayError(f"array {name} of {array.dtype}: the page reads {', '.join(DTYPES)}, native")
+        described.append([name, kind, list(array.shape)])
+        data = array.tobytes() if sys.byteorder == "little" else array.byteswap().tobytes()
         pieces += [data, bytes(-len(data) % _ALIGNMENT)]
     try:
         text = json.dumps({**header, "arrays": described}, allow_nan=False, separators=(",", ":")).encode()

@@ -6,7 +6,6 @@ the history that is new to it. So no client costs memory, or holds up another.
 
 from __future__ import annotations
 
-import asyncio
 from collections.abc import Iterator, Sequence
 from typing import Any
 
@@ -55,12 +54,6 @@ class Display:
         self._length_s = length_s
         self._skins: dict[str, _Skin] = {}
         self._status = b""
-        self._readers: set[Reader] = set()
-
-    @property
-    def readers(self) -> int:
-        """How many clients there are."""
-        return len(self._readers)
 
     def show_frame(self, name: str, frame: Frame, samples: Sequence[Sample]) -> None:
         """Take the newest state of a skin, and what has come since the last one."""
@@ -69,32 +62,23 @@ class Display:
             skin.history.add(sample.stamp_s, sample.force_n, sample.latency_ms, sample.lost)
         skin.frame = frame
         skin.frames += 1
-        self._wake()
 
     def show_shape(self, name: str, shape: SkinShape) -> None:
         """Take what a skin is like."""
         self._skin(name).describe(shape)
-        self._wake()
 
     def show_status(self, status: dict[str, Any]) -> None:
         """Take what is said of everything together, as JSON can say it; often enough, it tells a client we live."""
         self._status = encode({"type": "status", **status})
-        self._wake()
 
     def reader(self) -> Reader:
-        """A place to read from; to be closed."""
-        reader = Reader(self)
-        self._readers.add(reader)
-        return reader
+        """A place to read from, for one client."""
+        return Reader(self)
 
     def _skin(self, name: str) -> _Skin:
         if name not in self._skins:
             self._skins[name] = _Skin(name, self._interval_s, self._length_s)
         return self._skins[name]
-
-    def _wake(self) -> None:
-        for reader in self._readers:
-            reader.wake()
 
 
 class Reader:
@@ -102,21 +86,10 @@ class Reader:
 
     def __init__(self, display: Display) -> None:
         self._display = display
-        self._news = asyncio.Event()
-        self._news.set()
         self._described: dict[str, bytes] = {}
         self._frames: dict[str, int] = {}
         self._places: dict[str, Place] = {}
         self._status = b""
-
-    def wake(self) -> None:
-        """There may be something new, or the client has gone."""
-        self._news.set()
-
-    async def wait(self) -> None:
-        """Until there may be something new."""
-        await self._news.wait()
-        self._news.clear()
 
     def news(self) -> Iterator[bytes]:
         """The messages of what is newest and was not read yet; each is made when it is asked for."""
@@ -132,7 +105,3 @@ class Reader:
                 self._frames[name] = skin.frames
                 message, self._places[name] = skin.message(self._places.get(name, Place()))
                 yield message
-
-    def close(self) -> None:
-        """The client has gone."""
-        self._display._readers.discard(self)

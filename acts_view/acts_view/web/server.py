@@ -5,22 +5,21 @@ from __future__ import annotations
 import asyncio
 import socket
 import threading
+import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from http import HTTPStatus
 from typing import Any
 
-from websockets.asyncio.server import Server, ServerConnection, serve
+from websockets.asyncio.server import Server, ServerConnection, broadcast, serve
 from websockets.datastructures import Headers
-from websockets.exceptions import ConnectionClosed
 from websockets.http11 import Request, Response
-from websockets.protocol import State
 
 from acts_core.errors import SettingsError
 from acts_core.realtime_guard import LogCallback
 from acts_view.skin.snapshot import Frame, Sample, SkinShape
 from acts_view.web.access import is_local_host, new_token, refusal
-from acts_view.web.display import Display
+from acts_view.web.display import Display, Reader
 from acts_view.web.page_files import read_page
 
 STREAM_PATH = "/stream"
@@ -62,6 +61,15 @@ class Address:
         return f"http://{f'[{host}]' if ':' in host else host}:{self.port}/{query}"
 
 
+@dataclass(eq=False)
+class _Client:
+    """A page; `stalled_s`: since when it has not taken what it was sent."""
+
+    connection: ServerConnection
+    reader: Reader
+    stalled_s: float | None = None
+
+
 class ViewServer:
     """Serves the page and streams to it what is on a `Display`; begins with the constructor.
 
@@ -97,6 +105,7 @@ class ViewServer:
         self._on_clients = on_clients
         self._log = log
         self._files = read_page()
+        self._clients: set[_Client] = set()
         self._token = "" if is_local_host(host) else new_token()
         self._loop = asyncio.new_event_loop()
         self._thread = threading.Thread(target=self._loop.run_forever, name="acts_view_server", daemon=True)
@@ -113,15 +122,15 @@ class ViewServer:
 
     def show_frame(self, name: str, frame: Frame, samples: Sequence[Sample]) -> None:
         """As `Display.show_frame`, from any thread."""
-        self._loop.call_soon_threadsafe(self._display.show_frame, name, frame, samples)
+        self._show(self._display.show_frame, name, frame, samples)
 
     def show_shape(self, name: str, shape: SkinShape) -> None:
         """As `Display.show_shape`, from any thread."""
-        self._loop.call_soon_threadsafe(self._display.show_shape, name, shape)
+        self._show(self._display.show_shape, name, shape)
 
     def show_status(self, status: dict[str, Any]) -> None:
         """As `Display.show_status`, from any thread."""
-        self._loop.call_soon_threadsafe(self._display.show_status, status)
+        self._show(self._display.show_status, status)
 
     def close(self) -> None:
         """Take leave of all clients and end."""
@@ -160,7 +169,7 @@ class ViewServer:
             reason = refusal(_one(request, "Host"), _one(request, "Origin"), request.path, self._token)
             if reason:
                 return connection.respond(HTTPStatus.FORBIDDEN, f"{reason}\n")
-            if self._display.readers >= MAX_CLIENTS:
+            if len(self._clients) >= MAX_CLIENTS:
                 return connection.respond(HTTPStatus.SERVICE_UNAVAILABLE, f"{MAX_CLIENTS} pages are open already\n")
             return None
         file = self._files.get(path)
@@ -172,25 +181,41 @@ class ViewServer:
     async def _serve(self, connection: ServerConnection) -> None:
         own = connection.transport.get_extra_info("socket")
         own.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, _SEND_BUFFER_BYTES)
-        reader = self._display.reader()
-        self._on_clients(self._display.readers)
-        gone = asyncio.ensure_future(connection.wait_closed())
-        gone.add_done_callback(lambda _: reader.wake())
+        client = _Client(connection, self._display.reader())
+        self._clients.add(client)
+        self._on_clients(len(self._clients))
+        self._send_to(client)
         try:
-            while connection.state is State.OPEN:
-                await reader.wait()
-                for message in reader.news():
-                    await asyncio.wait_for(connection.send(message), self._send_limit_s)
-        except ConnectionClosed:
-            pass  # the page was closed, or a new one is on its way
-        except TimeoutError:
+            await connection.wait_closed()
+        finally:
+            self._clients.discard(client)
+            self._on_clients(len(self._clients))
+
+    def _show(self, show: Callable[..., None], *what: Any) -> None:
+        """Put something on the display, and send it to all; from any thread."""
+
+        def change() -> None:
+            show(*what)
+            for client in list(self._clients):
+                self._send_to(client)
+
+        self._loop.call_soon_threadsafe(change)
+
+    def _send_to(self, client: _Client) -> None:
+        """Send what is new, where the client has taken what came before; if not, it gets then what is newest."""
+        transport = client.connection.transport
+        if not transport.get_write_buffer_size():
+            client.stalled_s = None
+            for message in client.reader.news():
+                # To await `send` costs a task for each; whether the client takes it is seen the next time.
+                broadcast([client.connection], message)
+            return
+        now_s = time.monotonic()
+        client.stalled_s = client.stalled_s or now_s
+        if now_s - client.stalled_s > self._send_limit_s and not transport.is_closing():
             self._log("warning", f"a page took nothing for {self._send_limit_s:g} s and was dropped; it will reconnect")
             # No handshake: it would wait behind what the client does not take.
-            connection.transport.abort()
-        finally:
-            gone.cancel()
-            reader.close()
-            self._on_clients(self._display.readers)
+            transport.abort()
 
 
 def _one(request: Request, name: str) -> str | None:
