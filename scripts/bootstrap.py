@@ -207,6 +207,8 @@ def environment() -> dict[str, str]:
         "PATH": f"{INSTALL}/bin:{VENV}/bin",
         # The wheels' start-up hook would re-execute Python and order LD_LIBRARY_PATH at random.
         "_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1",
+        # Also where it is forbidden elsewhere: without it, each start of a node compiles a hundred modules of ours.
+        "PYTHONDONTWRITEBYTECODE": "",
         "ROS_DISTRO": "kilted",
         "ROS_VERSION": "2",
         "ROS_PYTHON_VERSION": "3",
@@ -253,8 +255,6 @@ def build_workspace() -> None:
     started = time.monotonic()
     env = {**os.environ, **environment()}
     env["PATH"] = f"{environment()['PATH']}:{os.environ['PATH']}"
-    # Bytecode at colcon's own pace is not worth an error when the user forbids it.
-    env.pop("PYTHONDONTWRITEBYTECODE", None)
     run(
         [
             str(VENV / "bin/colcon"),

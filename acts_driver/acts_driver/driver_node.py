@@ -14,7 +14,7 @@ from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackRet
 
 from acts_core.errors import ActsError
 from acts_core.frames import SampleFrame
-from acts_core.kernels import skip_blas
+from acts_core.kernels import skip_extras
 from acts_core.stop_signals import StopSignals
 from acts_driver.autostart import Autostart
 from acts_driver.baseline_services import BaselineServices
@@ -213,7 +213,7 @@ SETTINGS: dict[str, type] = {"driver": DriverSettings}
 
 def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
     """Run the node; the exit code."""
-    skip_blas()
+    skip_extras()
     words = list(sys.argv if args is None else args)
     given = parameters_from(words, SETTINGS)
     return run([lambda: DriverNode(parameter_overrides=given["driver"])], words, signals)

@@ -21,7 +21,7 @@ from std_msgs.msg import Header
 
 from acts_core.errors import ArrayError, PacketError
 from acts_core.frames import SampleFrame
-from acts_core.kernels import skip_blas
+from acts_core.kernels import skip_extras
 from acts_core.rate_limit import RateLimit
 from acts_core.realtime import enter_realtime
 from acts_core.stop_signals import StopSignals
@@ -363,7 +363,7 @@ SETTINGS: dict[str, type] = {"reconstruction": ReconstructionSettings}
 
 def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
     """Run the node; the exit code."""
-    skip_blas()
+    skip_extras()
     words = list(sys.argv if args is None else args)
     given = parameters_from(words, SETTINGS)
     return run([lambda: ReconstructionNode(parameter_overrides=given["reconstruction"])], words, signals)

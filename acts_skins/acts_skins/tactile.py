@@ -9,7 +9,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 
-from acts_core.kernels import skip_blas
+from acts_core.kernels import skip_extras
 from acts_core.stop_signals import StopSignals
 from acts_driver.driver_node import DriverNode
 from acts_driver.settings import DriverSettings
@@ -24,7 +24,7 @@ SETTINGS: dict[str, type] = {"driver": DriverSettings, "reconstruction": Reconst
 
 def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
     """Run both nodes; the exit code."""
-    skip_blas()
+    skip_extras()
     words = list(sys.argv if args is None else args)
     given = parameters_from(words, SETTINGS)
     reconstructions: list[ReconstructionNode] = []
