@@ -101,9 +101,7 @@ def read_layout(path: Path, rows: int, cols: int) -> LayoutFile:
             f"patches: {len(wired)}, and places without skin; allowed are {MAX_PATCHES - 1} then", "patches"
         )
     # Where there is no skin, the rest of the matrix in any order: every taxel has a place.
-    is_left = np.ones(rows * cols, dtype=np.bool_)
-    is_left[taxels[taxels >= 0]] = False
-    taxels[taxels < 0] = np.flatnonzero(is_left)
+    taxels[taxels < 0] = np.setdiff1d(np.arange(rows * cols), taxels)
     geometry = ArrayGeometry(picture_rows, picture_cols, pitch_m, row_pitch_m)
     return LayoutFile(
         taxels.astype(np.uint16),
