@@ -12,9 +12,9 @@ import sys
 from pathlib import Path
 
 from acts_core.array import ArrayGeometry
-from acts_core.force import ForceResponse
 from acts_core.sampling import SamplingConfig
-from acts_driver.recordings import ReplayOptions, open_recording
+from acts_core.skin import ForceResponse
+from acts_driver.replay import ReplayOptions, open_recording
 from acts_recon.fusion import FusionEstimator
 from acts_recon.recovery import FusedRecovery
 

@@ -12,10 +12,9 @@ from pathlib import Path
 
 import numpy as np
 
-from acts_core.frames_file import load_frames
-from acts_recon.dictionary import Dictionary, save_dictionary
-from acts_recon.ksvd import KsvdConfig, learn_dictionary
-from acts_recon.training_patches import prune_coherent, random_patches
+from acts_core.files import load_frames
+from acts_recon.learning import KsvdConfig, learn_dictionary, prune_coherent, random_patches
+from acts_recon.sparse import Dictionary, save_dictionary
 
 PATCH_SIZE = 8
 

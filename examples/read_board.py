@@ -10,10 +10,9 @@ import argparse
 import time
 
 from acts_core.array import ArrayGeometry
-from acts_core.force import ForceResponse
-from acts_core.raster_ascii import RasterDecoder
-from acts_core.wire import StreamDecoder
-from acts_driver.source import SerialSource
+from acts_core.skin import ForceResponse
+from acts_core.wire import RasterDecoder, StreamDecoder
+from acts_driver.port import SerialSource
 from acts_recon.fusion import FusionEstimator
 from acts_recon.recovery import FusedRecovery
 

@@ -9,9 +9,7 @@ import numpy as np
 
 from acts_core.array import ArrayGeometry
 from acts_core.sampling import Sampler, SamplingConfig, measure_in
-from acts_recon.dictionary import load_dictionary
-from acts_recon.reconstructor import Reconstructor
-from acts_recon.shipped import shipped_dictionary_path
+from acts_recon.sparse import Reconstructor, load_dictionary, shipped_dictionary_path
 
 
 def main() -> None:

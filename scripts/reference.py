@@ -15,17 +15,17 @@ PAGE = ROOT / "docs" / "reference.md"
 
 NODES = (
     ("acts_driver", "driver", "acts_driver.settings", "DriverSettings"),
-    ("acts_recon", "reconstruction", "acts_recon.reconstruction_settings", "ReconstructionSettings"),
-    ("acts_control", "ball_state", "acts_control.ball_state_node", "BallStateSettings"),
-    ("acts_control", "ball_trajectory", "acts_control.ball_trajectory_node", "BallTrajectorySettings"),
-    ("acts_control", "ball_control", "acts_control.ball_control_node", "BallControlSettings"),
-    ("acts_control", "hand", "acts_control.hand.node", "HandSettings"),
-    ("acts_control", "hand_reflexes", "acts_control.hand.reflexes_node", "HandReflexesSettings"),
+    ("acts_recon", "reconstruction", "acts_recon.settings", "ReconstructionSettings"),
+    ("acts_control", "ball_state", "acts_control.ball.nodes.ball_state_node", "BallStateSettings"),
+    ("acts_control", "ball_trajectory", "acts_control.ball.nodes.ball_trajectory_node", "BallTrajectorySettings"),
+    ("acts_control", "ball_control", "acts_control.ball.nodes.ball_control_node", "BallControlSettings"),
+    ("acts_control", "hand", "acts_control.hand.nodes.hand_node", "HandSettings"),
+    ("acts_control", "hand_reflexes", "acts_control.hand.nodes.reflexes_node", "HandReflexesSettings"),
     ("acts_skins", "skin_contacts", "acts_skins.contacts.node", "SkinContactsSettings"),
     ("acts_skins", "skin_diagnostics", "acts_skins.overview.diagnostics_node", "SkinDiagnosticsSettings"),
     ("acts_skins", "skin_frames", "acts_skins.overview.frames_node", "SkinFramesSettings"),
     ("acts_view", "view", "acts_view.settings", "ViewSettings"),
-    ("acts_sim", "ball_world", "acts_sim.ball_world_node", "BallWorldSettings"),
+    ("acts_sim", "ball_world", "acts_sim.ball.ball_world_node", "BallWorldSettings"),
 )
 """Package, executable, module and settings class of every node with parameters."""
 

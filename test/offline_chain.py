@@ -11,19 +11,25 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from acts_control.controller import BallController, BallReport, ControlInput, ControllerConfig
-from acts_control.estimator import BallEstimator, ContactMeasurement, EstimatorConfig
-from acts_control.pid import Ball
-from acts_control.reference import ReferenceReport
-from acts_control.robot import RobotConfig
-from acts_control.trajectory import Trajectory, TrajectoryConfig
+from acts_control.ball import (
+    Ball,
+    BallEstimator,
+    BallReport,
+    ContactMeasurement,
+    EstimatorConfig,
+    ReferenceReport,
+    Trajectory,
+    TrajectoryConfig,
+)
+from acts_control.ball.controller import BallController, ControlInput, ControllerConfig
+from acts_control.robots import RobotConfig
 from acts_core.array import COUNT_MAX, ArrayGeometry
 from acts_core.sampling import Sampler, SamplingConfig, measure_in
 from acts_core.ur5e import LEVEL_Q_RAD, tilt_of, wrist_angles_for_tilt
-from acts_recon.reconstruction_settings import ReconstructionSettings
-from acts_sim.ball_plate import JointMotion
+from acts_recon.settings import ReconstructionSettings
+from acts_sim.ball.ball_plate import JointMotion
+from acts_sim.ball.world import Phase, World, WorldConfig
 from acts_sim.ur.joints import JointState, Servo
-from acts_sim.world import Phase, World, WorldConfig
 from acts_tools.demo.ball.recording import Recording
 
 STEP_S = 0.001

@@ -7,9 +7,8 @@ from dataclasses import replace
 import pytest
 from offline_chain import Chain, run
 
-from acts_control.estimator import EstimatorConfig
-from acts_control.trajectory import TrajectoryConfig
-from acts_sim.world import WorldConfig
+from acts_control.ball import EstimatorConfig, TrajectoryConfig
+from acts_sim.ball.world import WorldConfig
 from acts_tools.demo.ball.score import HOLD_SETTLE_S, LETTERS, rms_error_mm
 
 # Measured with seeds 1 and 2: held within 0.15 mm, N within 1.02, B 1.45, I 1.00; the slow chain holds within

@@ -15,8 +15,7 @@ from ament_index_python.packages import get_package_prefix
 
 from acts_core.array import ArrayGeometry
 from acts_core.errors import ActsError
-from acts_recon.dictionary import load_dictionary
-from acts_recon.reconstructor import Reconstructor
+from acts_recon.sparse import Reconstructor, load_dictionary
 
 EXAMPLES = Path(__file__).resolve().parents[1] / "examples"
 

@@ -19,9 +19,9 @@ from launch_support import PACKAGE
 from acts_core.errors import LaunchError
 from acts_core.settings import describe
 from acts_driver.settings import DriverSettings
-from acts_recon.reconstruction_settings import ReconstructionSettings
+from acts_recon.settings import ReconstructionSettings
 from acts_ros.composition import IN_PARAMS_FILE
-from acts_sim.hand.world import HandWorldConfig
+from acts_sim.hand import HandWorldConfig
 from acts_tools.launch.evaluate import Plan, declarations, evaluate
 from acts_tools.launch.parser import parse_file
 

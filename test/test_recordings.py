@@ -17,14 +17,12 @@ from numpy.typing import NDArray
 from sensor_msgs.msg import Image
 
 from acts_core.array import ArrayGeometry
-from acts_core.force import ForceResponse
+from acts_core.skin import ForceResponse
 from acts_msgs.msg import Contact, TactileSamples
-from acts_recon.contact import find_contact
-from acts_recon.dictionary import load_dictionary
-from acts_recon.reconstructor import Reconstructor
-from acts_recon.shipped import shipped_dictionary_path
+from acts_recon.contacts.contact import find_contact
+from acts_recon.sparse import Reconstructor, load_dictionary, shipped_dictionary_path
 from acts_ros import qos
-from acts_sim.recording import export_recording
+from acts_sim.pressing.recording import export_recording
 from acts_tools.testing.launch_runner import launched
 
 mpl.use("Agg")

@@ -17,17 +17,17 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rosgraph_msgs.msg import Clock
 
-from acts_control.ball_control_node import BallControlNode
-from acts_control.ball_state_node import BallStateNode
-from acts_control.ball_trajectory_node import BallTrajectoryNode
+from acts_control.ball.nodes.ball_control_node import BallControlNode
+from acts_control.ball.nodes.ball_state_node import BallStateNode
+from acts_control.ball.nodes.ball_trajectory_node import BallTrajectoryNode
 from acts_core.errors import RobotError
-from acts_driver.driver_node import DriverNode
+from acts_driver.nodes.driver_node import DriverNode
 from acts_msgs.msg import BallReference, SkinContacts, TactileSamples
-from acts_recon.reconstruction_node import ReconstructionNode
+from acts_recon.nodes.reconstruction_node import ReconstructionNode
 from acts_ros import qos
 from acts_ros.executor import spin_for
-from acts_ros.sample_messages import stamp_ns_of
-from acts_sim.ball_world_node import BallWorld
+from acts_ros.messages import stamp_ns_of
+from acts_sim.ball.ball_world_node import BallWorld
 from acts_skins.contacts.node import SkinContactsNode
 from acts_skins.overview.diagnostics_node import SkinDiagnosticsNode
 from acts_skins.overview.frames_node import SkinFramesNode

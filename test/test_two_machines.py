@@ -54,7 +54,14 @@ def running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Touch]:
     folder = tmp_path_factory.mktemp("two_machines")
     acts = [sys.executable, "-m", "acts_tools"]
     launch = [*acts, "launch", "--own", "acts_bringup", "tactile.launch.xml", f"run_dir:={folder}"]
-    node = [sys.executable, "-m", "acts_ros.program", "acts_recon.reconstruction_node", "--ros-args", "-r"]
+    node = [
+        sys.executable,
+        "-m",
+        "acts_ros.executables.program",
+        "acts_recon.nodes.reconstruction_node",
+        "--ros-args",
+        "-r",
+    ]
     node += ["__ns:=/far", "-r", "samples:=/plate/samples", "-r", "baseline:=/plate/baseline"]
     with ExitStack() as stack:
         try:

@@ -90,20 +90,22 @@ def test_what_knows_no_ros_needs_only_what_setup_py_declares(site: Path) -> None
     for example in (ROOT / "examples").glob("*.py"):
         assert set(re.findall(r"^from (acts_[\w.]+) import", example.read_text(), re.MULTILINE)) <= imported
     assert not any(module.startswith("acts_core") for module in lacking)
-    assert "acts_recon.reconstruction_node" in lacking, "ROS can be imported: the test is of no use"
+    assert "acts_recon.nodes.reconstruction_node" in lacking, "ROS can be imported: the test is of no use"
 
 
 def test_the_shipped_dictionary_is_installed_with_its_package(site: Path) -> None:
-    code = "from acts_recon.shipped import shipped_dictionary_path as p; print(p())"
+    code = "from acts_recon.sparse.shipped import shipped_dictionary_path as p; print(p())"
     path = Path(run(site, "-c", code).strip())
     assert path.is_relative_to(site)
-    assert path.read_bytes() == (ROOT / "acts_recon/acts_recon/dictionaries" / path.name).read_bytes()
+    assert path.read_bytes() == (ROOT / "acts_recon/acts_recon/sparse/dictionaries" / path.name).read_bytes()
 
 
 def test_the_shipped_layouts_are_installed_with_their_package(site: Path) -> None:
-    code = "from acts_core.layouts import LAYOUTS, layout, layout_path as p\nfor n in LAYOUTS: layout(n); print(p(n))"
+    code = (
+        "from acts_core.skin.layouts import LAYOUTS, layout, layout_path as p\nfor n in LAYOUTS: layout(n); print(p(n))"
+    )
     paths = [Path(line) for line in run(site, "-c", code).splitlines()]
     assert sorted(path.name for path in paths) == sorted(
-        path.name for path in (ROOT / "acts_core/acts_core/skin_layouts").iterdir()
+        path.name for path in (ROOT / "acts_core/acts_core/skin/skin_layouts").iterdir()
     )
     assert all(path.is_relative_to(site) for path in paths)

@@ -22,8 +22,8 @@ from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from std_srvs.srv import Trigger
 
+from acts_control.ball.plate import acceleration_of
 from acts_control.names import set_stamp
-from acts_control.plate import acceleration_of
 from acts_core.ur5e import LEVEL_Q_RAD
 from acts_msgs.msg import BalanceStatus, BallReference, BallState, Contact, StreamStatistics
 from acts_ros.qos import STATE, STREAM
@@ -241,5 +241,5 @@ class RollingBall:
 def node_command(module: str, *arguments: str, **parameters: object) -> list[str]:
     """Command line of a node of this package in the namespace /plate; `parameters` are for every node in it."""
     words = [word for name, value in parameters.items() for word in ("-p", f"{name}:={value}")]
-    program = [sys.executable, "-m", "acts_ros.program", f"acts_control.{module}"]
+    program = [sys.executable, "-m", "acts_ros.executables.program", f"acts_control.{module}"]
     return [*program, *arguments, "--ros-args", "-r", "__ns:=/plate", *words]

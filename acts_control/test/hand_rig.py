@@ -7,12 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from acts_control.hand.bus import HandReading
-from acts_control.hand.description_file import LEAP_RIGHT
-from acts_control.hand.kinematics import HandKinematics
-from acts_control.hand.reflexes.reflex import HandState, Reflex, Sensed
-from acts_control.hand.supervisor import HandSupervisor, SupervisorConfig
-from acts_core.region_contact import RegionContact
+from acts_control.hand.control import HandSupervisor, SupervisorConfig
+from acts_control.hand.description import LEAP_RIGHT, HandKinematics
+from acts_control.hand.motors import HandReading
+from acts_control.hand.reflexes import HandState, Reflex, Sensed
+from acts_core.skin import RegionContact
 
 LEAP = HandKinematics(LEAP_RIGHT)
 NAMES = LEAP_RIGHT.names

@@ -11,11 +11,18 @@ from math import hypot, pi, sin
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_control.controller import BallController, BallReport, ControlInput, ControllerConfig, Phase
-from acts_control.estimator import BallEstimator, ContactMeasurement, EstimatorConfig
-from acts_control.pid import Ball
-from acts_control.reference import ReferenceReport
-from acts_control.trajectory import Trajectory, TrajectoryConfig
+from acts_control.ball import (
+    Ball,
+    BallEstimator,
+    BallReport,
+    ContactMeasurement,
+    EstimatorConfig,
+    Phase,
+    ReferenceReport,
+    Trajectory,
+    TrajectoryConfig,
+)
+from acts_control.ball.controller import BallController, ControlInput, ControllerConfig
 from acts_core.ur5e import LEVEL_Q_RAD, forward_kinematics, tilt_of, wrist_angles_for_tilt
 
 STEP_S = 0.001

@@ -15,16 +15,23 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from rclpy.context import Context
 
-from acts_control.ball_control_node import BallControlNode
-from acts_control.ball_state_node import BallStateNode
-from acts_control.ball_trajectory_node import BallTrajectoryNode
-from acts_control.controller import BallController, BallReport, ControlInput, ControllerConfig, Phase
-from acts_control.estimator import BallEstimator, ContactMeasurement, EstimatorConfig
-from acts_control.pid import Ball
-from acts_control.plate import acceleration_of
-from acts_control.reference import Reference, ReferenceReport
+from acts_control.ball import (
+    Ball,
+    BallEstimator,
+    BallReport,
+    ContactMeasurement,
+    EstimatorConfig,
+    Phase,
+    Reference,
+    ReferenceReport,
+)
+from acts_control.ball.controller import BallController, ControlInput, ControllerConfig
+from acts_control.ball.nodes.ball_control_node import BallControlNode
+from acts_control.ball.nodes.ball_state_node import BallStateNode
+from acts_control.ball.nodes.ball_trajectory_node import BallTrajectoryNode
+from acts_control.ball.plate import acceleration_of
 from acts_msgs.msg import BalanceStatus, BallReference, BallState
-from acts_ros.cdr import ContactFields, write_contact
+from acts_ros.messages import ContactFields, write_contact
 
 DT = 0.008
 DT_NS = 8_000_000

@@ -5,9 +5,8 @@ from collections.abc import Callable
 import pytest
 from rolling_plant import run
 
-from acts_control.controller import Phase, ReferenceReport
-from acts_control.estimator import ContactMeasurement
-from acts_control.trajectory import TrajectoryConfig
+from acts_control.ball import ContactMeasurement, Phase, TrajectoryConfig
+from acts_control.ball.controller import ReferenceReport
 
 HOUR_S = 3600
 HOUR_NS = HOUR_S * 1_000_000_000

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from rolling_plant import Plant, PlantConfig, run
 
-from acts_control.controller import ControllerConfig, Phase
-from acts_control.estimator import ContactMeasurement, EstimatorConfig
+from acts_control.ball import ContactMeasurement, EstimatorConfig, Phase
+from acts_control.ball.controller import ControllerConfig
 
 HOLD_MM = 3.0
 TRACE_MM = 5.0

@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from acts_control.estimator import BallEstimator, ContactMeasurement, EstimatorConfig
-from acts_control.plate import ROLLING, acceleration_of
+from acts_control.ball import BallEstimator, ContactMeasurement, EstimatorConfig
+from acts_control.ball.plate import ROLLING, acceleration_of
 from acts_core.errors import SettingsError
 
 START_NS = 1_700_000_000_000_000_000

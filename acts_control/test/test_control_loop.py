@@ -7,12 +7,9 @@ from collections.abc import Callable, Iterator, Sequence
 
 import pytest
 
-from acts_control.controller import BallController, BallReport, Phase
-from acts_control.loop import ControlLoop, LoopConfig
-from acts_control.pid import Ball
-from acts_control.reference import Reference, ReferenceReport
-from acts_control.robot import RobotConfig, RobotStoppedError
-from acts_control.safety import RobotReading
+from acts_control.ball import Ball, BallReport, ControlLoop, LoopConfig, Phase, Reference, ReferenceReport
+from acts_control.ball.controller import BallController
+from acts_control.robots import RobotConfig, RobotReading, RobotStoppedError
 from acts_core.errors import RobotError, SettingsError
 from acts_core.ur5e import LEVEL_Q_RAD, tilt_of
 
@@ -310,7 +307,7 @@ def test_a_mistake_in_the_program_still_ends_the_robots_program(
 def test_a_robot_that_does_not_end_its_motion_is_cut_off(
     arm: ArmInProcess, make: Make, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("acts_control.loop._ENDING_TIMEOUT_S", 0.1)
+    monkeypatch.setattr("acts_control.ball.loop._ENDING_TIMEOUT_S", 0.1)
     loop = make()
     balance(loop)
     arm.is_busy = True

@@ -12,11 +12,11 @@ import pytest
 from control_rig import Bench, Process, node_command, wait_for
 from geometry_msgs.msg import Vector3Stamped
 
-from acts_control.ball_state_node import BallStateNode
-from acts_control.ball_trajectory_node import BallTrajectoryNode
+from acts_control.ball.nodes.ball_state_node import BallStateNode
+from acts_control.ball.nodes.ball_trajectory_node import BallTrajectoryNode
 from acts_control.names import set_stamp
-from acts_control.stream_statistics import StreamCounter
 from acts_core.errors import REFUSED_EXIT_CODE
+from acts_core.runtime import StreamCounter
 from acts_msgs.msg import BalanceStatus
 from acts_ros.qos import STATE, STREAM
 

@@ -10,10 +10,10 @@ from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from acts_control.ball_control_node import BallControlNode
-from acts_control.ball_state_node import BallStateNode
-from acts_control.ball_trajectory_node import BallTrajectoryNode
-from acts_control.safety import RobotReading
+from acts_control.ball.nodes.ball_control_node import BallControlNode
+from acts_control.ball.nodes.ball_state_node import BallStateNode
+from acts_control.ball.nodes.ball_trajectory_node import BallTrajectoryNode
+from acts_control.robots import RobotReading
 from acts_core.errors import RobotError
 
 

@@ -7,10 +7,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from acts_control.limiter import LimiterConfig, TiltLimiter
-from acts_control.pid import Ball, BallPid, PidConfig
-from acts_control.plate import GRAVITY_M_S2, ROLLING_GRAVITY_M_S2, acceleration_of, tilt_for
-from acts_control.reference import Reference, ReferenceFollower, ReferenceLimits, ReferenceReport
+from acts_control.ball import Ball, Reference, ReferenceReport
+from acts_control.ball.limiter import LimiterConfig, TiltLimiter
+from acts_control.ball.pid import BallPid, PidConfig
+from acts_control.ball.plate import GRAVITY_M_S2, ROLLING_GRAVITY_M_S2, acceleration_of, tilt_for
+from acts_control.ball.reference import ReferenceFollower, ReferenceLimits
 from acts_core.errors import SettingsError
 
 LIMIT = radians(6)

@@ -5,11 +5,12 @@ import sys
 
 import pytest
 
-from acts_control.robot_claim import RobotClaim, RobotTakenError
+from acts_control.robots import RobotTakenError
+from acts_control.robots.robot_claim import RobotClaim
 
 HOLDER = """
 import sys
-from acts_control.robot_claim import RobotClaim
+from acts_control.robots.robot_claim import RobotClaim
 claim = RobotClaim("127.0.9.1")
 print("claimed", flush=True)
 sys.stdin.read()

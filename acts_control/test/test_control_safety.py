@@ -4,12 +4,11 @@ import math
 
 import pytest
 
-from acts_control.controller import BallController, BallReport, ControlInput, ControllerConfig, Phase
-from acts_control.pid import Ball
-from acts_control.plate import acceleration_of
-from acts_control.prediction import TiltHistory
-from acts_control.reference import Reference, ReferenceReport
-from acts_control.safety import CommandGate, RobotReading, RobotWatch, SafetyConfig, touch_age_s
+from acts_control.ball import Ball, BallReport, Phase, Reference, ReferenceReport
+from acts_control.ball.controller import BallController, ControlInput, ControllerConfig
+from acts_control.ball.plate import acceleration_of
+from acts_control.ball.prediction import TiltHistory
+from acts_control.robots import CommandGate, RobotReading, RobotWatch, SafetyConfig, touch_age_s
 from acts_core.errors import SettingsError
 from acts_core.ur5e import LEVEL_Q_RAD
 

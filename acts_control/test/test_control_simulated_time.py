@@ -9,8 +9,8 @@ from geometry_msgs.msg import Vector3
 from rclpy.context import Context
 from test_control_loop import ArmInProcess, wait_for
 
-from acts_control.ball_control_node import BallControlNode
-from acts_control.controller import Phase
+from acts_control.ball import Phase
+from acts_control.ball.nodes.ball_control_node import BallControlNode
 from acts_control.names import set_stamp
 from acts_msgs.msg import BallReference, BallState
 

@@ -19,12 +19,11 @@ import pytest
 from control_rig import Bench, Process, RollingBall, SimulatedRobot, node_command, wait_for
 from diagnostic_msgs.msg import DiagnosticArray
 
-import acts_control.robot
-from acts_control.controller import BallReport, Phase, ReferenceReport
-from acts_control.loop import ControlLoop, LoopConfig
-from acts_control.pid import Ball, Reference
-from acts_control.robot import UrRobot
-from acts_control.safety import RobotReading
+import acts_control.robots.robot
+from acts_control.ball import Ball, BallReport, ControlLoop, LoopConfig, Phase
+from acts_control.ball.controller import ReferenceReport
+from acts_control.ball.pid import Reference
+from acts_control.robots import RobotReading, UrRobot
 from acts_core.ur5e import tilt_of
 from acts_msgs.msg import BalanceStatus
 
@@ -186,8 +185,8 @@ def began_anew(rig: Rig, ended_s: float) -> None:
 def test_a_stall_while_connecting_holds_up_nobody(monkeypatch: pytest.MonkeyPatch) -> None:
     with ExitStack() as stack:
         asked: list[bool] = []
-        probe = acts_control.robot.probe
-        monkeypatch.setattr(acts_control.robot, "_CONNECT_TIMEOUT_S", 0.5)
+        probe = acts_control.robots.robot.probe
+        monkeypatch.setattr(acts_control.robots.robot, "_CONNECT_TIMEOUT_S", 0.5)
 
         def probe_and_pause(host: str) -> None:
             probe(host)
@@ -195,12 +194,12 @@ def test_a_stall_while_connecting_holds_up_nobody(monkeypatch: pytest.MonkeyPatc
             # At the worst moment: the library connects next, and waits for an answer with Python's lock in its hand.
             rig.pause()
 
-        monkeypatch.setattr(acts_control.robot, "probe", probe_and_pause)
+        monkeypatch.setattr(acts_control.robots.robot, "probe", probe_and_pause)
         rig = Rig("127.0.17.10", stack)
         wait_for(lambda: "watch: no answer" in rig.loop.status.reason, f"the reason, {rig.loop.status}")
         assert rig.loop.status.phase is Phase.CONNECTING
         assert rig.arm.is_over
-        monkeypatch.setattr(acts_control.robot, "probe", probe)
+        monkeypatch.setattr(acts_control.robots.robot, "probe", probe)
         wait_for(lambda: "does it stand still?" in rig.loop.status.reason, f"the reason, {rig.loop.status}")
         rig.resume()
         rig.balance()
@@ -231,7 +230,7 @@ def test_a_controller_that_stalls_while_motion_ends_is_lost_too() -> None:
 def test_the_robots_program_ends_when_our_process_is_killed() -> None:
     program = """
 import os, signal, sys
-from acts_control.robot import RobotConfig, UrRobot
+from acts_control.robots.robot import RobotConfig, UrRobot
 from acts_core.ur5e import LEVEL_Q_RAD
 robot = UrRobot(RobotConfig(robot_ip=sys.argv[1]))
 robot.connect(lambda: True)

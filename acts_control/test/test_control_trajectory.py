@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from acts_control.strokes import Arc, Line, circle, letter
-from acts_control.trajectory import SEGMENTS, Trajectory, TrajectoryConfig, parse
+from acts_control.ball import Trajectory, TrajectoryConfig
+from acts_control.ball.strokes import Arc, Line, circle, letter
+from acts_control.ball.trajectory import SEGMENTS, parse
 from acts_core.errors import SettingsError
 
 STEP_S = 0.001

@@ -10,8 +10,8 @@ from types import SimpleNamespace
 
 import pytest
 
-from acts_control.robot import RobotConfig, UrRobot
-from acts_control.ur_probe import DASHBOARD_PORT, RTDE_PORT, SCRIPT_PORT, probe
+from acts_control.robots import RobotConfig, UrRobot
+from acts_control.robots.ur_probe import DASHBOARD_PORT, RTDE_PORT, SCRIPT_PORT, probe
 from acts_core.errors import RobotError
 
 HOST = "127.0.17.20"

@@ -15,10 +15,8 @@ from typing import Any
 
 import pytest
 
-from acts_control.hand.bus import HandError, HandLostError, HandReading
-from acts_control.hand.description import HandDescription, Joint
-from acts_control.hand.description_file import LEAP_RIGHT
-from acts_control.hand.dynamixel import DynamixelConfig, DynamixelHand
+from acts_control.hand.description import LEAP_RIGHT, HandDescription, Joint
+from acts_control.hand.motors import DynamixelConfig, DynamixelHand, HandError, HandLostError, HandReading
 from acts_core.errors import SettingsError
 
 DEADLINE_S = 30.0
@@ -33,7 +31,14 @@ class Bus:
         self.link, self.control = folder / "hand", folder / "control"
         self.process = subprocess.Popen(
             [
-                *(sys.executable, "-m", "acts_ros.program", "acts_sim.dynamixel.main", "--link", str(self.link)),
+                *(
+                    sys.executable,
+                    "-m",
+                    "acts_ros.executables.program",
+                    "acts_sim.dynamixel.main",
+                    "--link",
+                    str(self.link),
+                ),
                 *("--control", str(self.control), "--return-delay", "0", *options),
             ],
             stdout=subprocess.PIPE,

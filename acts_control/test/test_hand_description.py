@@ -10,8 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from acts_control.hand.description_file import LEAP_RIGHT, hand_description
-from acts_control.hand.kinematics import HandKinematics
+from acts_control.hand.description import LEAP_RIGHT, HandKinematics, hand_description
 from acts_core.errors import SettingsError
 
 LEAP = HandKinematics(LEAP_RIGHT)

@@ -21,9 +21,9 @@ from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 from test_dynamixel_hand import DEADLINE_S, TIMEOUT_MS, Bus
 
-from acts_control.hand.bus import HandError
-from acts_control.hand.description_file import LEAP_RIGHT
-from acts_control.hand.loop import HandLoop, HandLoopConfig, HandPhase
+from acts_control.hand.control import HandLoop, HandLoopConfig, HandPhase
+from acts_control.hand.description import LEAP_RIGHT
+from acts_control.hand.motors import HandError
 
 Spin = Callable[[Callable[[], bool]], None]
 

@@ -14,8 +14,8 @@ from std_srvs.srv import Trigger
 from test_dynamixel_hand import DEADLINE_S, TIMEOUT_MS, Bus
 from test_hand_loop import Spin, node_and_user
 
-from acts_control.hand.description_file import LEAP_RIGHT
-from acts_core.region_contact import RegionContact as Touch
+from acts_control.hand.description import LEAP_RIGHT
+from acts_core.skin import RegionContact as Touch
 from acts_msgs.msg import HandStatus, HandTiming, RegionContact, RegionContacts
 from acts_ros.qos import STREAM
 

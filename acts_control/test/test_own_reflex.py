@@ -8,9 +8,8 @@ from pathlib import Path
 import pytest
 from hand_rig import RigidHand, region, sensed
 
-from acts_control.hand.description_file import LEAP_RIGHT
-from acts_control.hand.reflexes import registry
-from acts_control.hand.reflexes.reflex import Reflex
+from acts_control.hand.description import LEAP_RIGHT
+from acts_control.hand.reflexes import Reflex, registry
 from acts_core.settings import describe
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "reflexes.md"
@@ -44,7 +43,7 @@ def test_the_reflex_of_the_documentation_opens_a_hand_that_is_tapped(own: type[R
 def test_one_line_makes_it_known_and_its_settings_parameters(
     own: type[Reflex], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from acts_control.hand import reflexes_node
+    from acts_control.hand.nodes import reflexes_node
 
     monkeypatch.setitem(registry.REFLEXES, "tap", own)
     settings = reflexes_node.settings_class()

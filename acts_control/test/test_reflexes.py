@@ -8,16 +8,15 @@ from hand_rig import DT_S, NAMES, TAXEL_M2, region, sensed
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from acts_control.hand.description_file import LEAP_RIGHT
-from acts_control.hand.reflexes.hand_to_hand import HandToHand, HandToHandConfig
-from acts_control.hand.reflexes.reflex import Wish
-from acts_control.hand.reflexes.registry import REFLEXES, make_reflexes
+from acts_control.hand.control.step_rule import StepRule, StepRuleConfig
+from acts_control.hand.description import LEAP_RIGHT
+from acts_control.hand.reflexes import REFLEXES, HandToHandConfig, Wish, make_reflexes
+from acts_control.hand.reflexes.hand_to_hand import HandToHand
 from acts_control.hand.reflexes.sharp_avoidance import SharpAvoidance, SharpAvoidanceConfig
 from acts_control.hand.reflexes.slip_prevention import SlipPrevention, SlipPreventionConfig
 from acts_control.hand.reflexes.sphere_balancing import fitted_sphere
-from acts_control.hand.step_rule import StepRule, StepRuleConfig
 from acts_core.errors import SettingsError
-from acts_core.region_contact import RegionContact
+from acts_core.skin import RegionContact
 
 PIP, DIP = NAMES.index("index_pip"), NAMES.index("index_dip")
 

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from acts_core.addresses import is_loopback
+from acts_core.runtime import is_loopback
 
 
 @pytest.mark.parametrize("text", ["127.0.0.1", "127.0.6.5", "127.255.255.254", "::1", "0:0:0:0:0:0:0:1"])

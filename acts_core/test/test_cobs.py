@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from acts_core import cobs
-from acts_core.cobs_kernels import decode_into, encode_into
 from acts_core.errors import PacketError
+from acts_core.wire import cobs_reference as cobs
+from acts_core.wire.cobs_kernels import decode_into, encode_into
 
 RUNS = st.lists(
     st.one_of(st.binary(max_size=8), st.integers(250, 260).map(lambda n: b"\x01" * n), st.just(b"\x00")), max_size=8

@@ -10,31 +10,35 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from acts_core import cobs
-from acts_core.board_messages import BoardImage, BoardMessage, BoardObject, encode_image, encode_object
-from acts_core.board_models import MODEL_CAPACITY, ModelKind, object_library, patch_dictionary
-from acts_core.board_settings import LEDS, OUTPUTS
-from acts_core.commands import (
+from acts_core.errors import ArrayError, PacketError, SettingsError
+from acts_core.frames import SampleFrame, Scheme
+from acts_core.sampling import SCHEMES, SamplingConfig
+from acts_core.settings import describe
+from acts_core.wire import (
+    LEDS,
+    OUTPUTS,
     UPLOAD_PIECE_MAX,
-    BoardSettings,
+    BoardImage,
+    BoardMessage,
+    BoardObject,
     BoardState,
-    HeldModel,
     Reply,
     ReplyStatus,
-    SettingField,
+    StreamDecoder,
     encode_configure,
+    encode_frame,
     encode_query,
-    encode_reply,
     encode_upload_begin,
     encode_upload_data,
     encode_upload_end,
+    object_library,
+    patch_dictionary,
 )
-from acts_core.errors import ArrayError, PacketError, SettingsError
-from acts_core.frames import SampleFrame, Scheme
-from acts_core.packets import PacketType, seal
-from acts_core.sampling import SCHEMES, SamplingConfig
-from acts_core.settings import describe
-from acts_core.wire import StreamDecoder, encode_frame
+from acts_core.wire import cobs_reference as cobs
+from acts_core.wire.board_messages import encode_image, encode_object
+from acts_core.wire.board_models import MODEL_CAPACITY, ModelKind
+from acts_core.wire.commands import BoardSettings, HeldModel, SettingField, encode_reply
+from acts_core.wire.packets import PacketType, seal
 
 U8, U16, U32, U64 = (st.integers(0, 2**bits - 1) for bits in (8, 16, 32, 64))
 

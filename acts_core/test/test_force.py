@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from acts_core.errors import SettingsError
-from acts_core.force import ForceResponse, MeasuredForceResponse, force_table
+from acts_core.skin import ForceResponse, MeasuredForceResponse, force_table
 
 GRAVITY = 9.81
 ASSUMED_FOOT_TAXELS = 16

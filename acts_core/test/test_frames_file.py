@@ -12,7 +12,7 @@ import pytest
 from numpy.typing import NDArray
 
 from acts_core.errors import RecordingError
-from acts_core.frames_file import FramesFile, load_frames
+from acts_core.files import FramesFile, load_frames
 
 FRAMES = np.zeros((6, 4, 5), dtype=np.uint16)
 FRAMES[[1, 4]] = 7

@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from acts_core.errors import ActsError, ArrayError, SettingsError
-from acts_core.layouts import LAYOUTS, NO_PATCH, Layout, layout, layout_path
+from acts_core.skin import LAYOUTS, NO_PATCH, Layout, layout, layout_path
 
 HAND = """\
 matrix: [4, 6]

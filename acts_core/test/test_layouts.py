@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError
-from acts_core.layouts import LAYOUTS, layout
+from acts_core.skin import LAYOUTS, layout
 
 
 @pytest.mark.parametrize("name", LAYOUTS)

@@ -14,7 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from acts_core.errors import ActsError, SettingsError
-from acts_core.npz_file import read_npz
+from acts_core.files import read_npz
 
 
 def archive() -> bytes:

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from acts_core.frames import Scheme
-from acts_core.raster_ascii import RasterDecoder
+from acts_core.wire import RasterDecoder
 
 
 def line(counts: list[int], duration_us: int = 17509) -> bytes:

@@ -1,6 +1,6 @@
 import pytest
 
-from acts_core.rate_limit import RateLimit
+from acts_core.runtime import RateLimit
 
 
 @pytest.mark.parametrize(("rate_hz", "expected"), [(0.0, 1000), (30.0, 30), (300.0, 300), (1000.0, 1000), (7.3, 8)])

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from acts_core.errors import SettingsError
-from acts_core.force_file import read_force_points
-from acts_core.regular_file import read_text
+from acts_core.files import read_text
+from acts_core.skin.force_file import read_force_points
 
 
 @pytest.mark.parametrize("name", ["/dev/zero", "/dev", "pipe"])

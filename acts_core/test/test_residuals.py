@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from acts_core.residuals import confidence_of
+from acts_core.wire import confidence_of
 
 
 @pytest.mark.parametrize(

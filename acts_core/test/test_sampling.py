@@ -8,18 +8,10 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from acts_core.errors import ArrayError, SettingsError
-from acts_core.random_taxels import Pcg32, RandomTaxels
-from acts_core.sampling import (
-    NEIGHBOURS,
-    SCHEMES,
-    Sampler,
-    SamplingConfig,
-    adaptive,
-    division_order,
-    measure_in,
-    raster,
-)
-from acts_core.uniform import uniform, uniform_spacing
+from acts_core.sampling import NEIGHBOURS, SCHEMES, Sampler, SamplingConfig, measure_in, uniform_spacing
+from acts_core.sampling.random_taxels import Pcg32, RandomTaxels
+from acts_core.sampling.schemes import adaptive, division_order, raster
+from acts_core.sampling.uniform import uniform
 
 # M and spacing (rows, columns) of the authors' firmware on 32 x 32.
 PUBLISHED_SPACING = {

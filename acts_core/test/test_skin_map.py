@@ -7,9 +7,8 @@ import pytest
 from numpy.typing import NDArray
 
 from acts_core.errors import ArrayError
-from acts_core.layouts import NO_PATCH, Layout, SkinPatch, layout
-from acts_core.sampling import Sampler, SamplingConfig, measure_in
-from acts_core.skin_map import SkinMap
+from acts_core.sampling import Sampler, SamplingConfig, SkinMap, measure_in
+from acts_core.skin import NO_PATCH, Layout, SkinPatch, layout
 
 GLOVE, INSOLE = layout("glove"), layout("insole")
 

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from acts_core.skin_patch import SkinPatch
+from acts_core.skin import SkinPatch
 from acts_core.transforms import Transform
 
 TURNED = Transform.from_rpy((0.1, -0.2, 0.3), (0.0, np.pi / 2, 0.0))

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from acts_core.stamp_order import Order, StampOrder
+from acts_core.runtime import Order, StampOrder
 
 MS = 1_000_000
 NOW_NS = 1_700_000_000_000_000_000

@@ -8,9 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from acts_core.dither_order import dither_order
 from acts_core.errors import SettingsError
 from acts_core.sampling import Sampler, SamplingConfig, measure_in
+from acts_core.sampling.dither_order import dither_order
 
 THRESHOLD = 180
 

@@ -10,11 +10,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from acts_core import cobs
 from acts_core.errors import PacketError
 from acts_core.frames import SampleFrame, Scheme
-from acts_core.wire import PACKET_SIZE_MAX, StreamDecoder, encode_frame, sample_fault
-from acts_core.wire_kernels import first_fault
+from acts_core.wire import StreamDecoder, encode_frame
+from acts_core.wire import cobs_reference as cobs
+from acts_core.wire.sample_kernels import first_fault
+from acts_core.wire.samples import PACKET_SIZE_MAX, sample_fault
 
 GARBAGE = st.binary(max_size=300)
 

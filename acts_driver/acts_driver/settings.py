@@ -7,18 +7,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from acts_core.array import MAX_SIDE
-from acts_core.board_messages import BoardMessage
-from acts_core.delimited import DelimitedDecoder
-from acts_core.raster_ascii import RasterDecoder
-from acts_core.realtime import RealtimeConfig
+from acts_core.runtime import RealtimeConfig
 from acts_core.settings import Changeable, setting
-from acts_core.wire import StreamDecoder
-from acts_driver.baseline_parameters import BaselineParameters
-from acts_driver.board_parameters import BoardParameters
-from acts_driver.port_choice import check_port
-from acts_driver.recordings import ReplayOptions, open_recording
-from acts_driver.replay import ReplaySource
-from acts_driver.source import SerialSource, Source
+from acts_core.wire import BoardMessage, DelimitedDecoder, RasterDecoder, StreamDecoder
+from acts_driver.baseline import BaselineParameters
+from acts_driver.board import BoardParameters
+from acts_driver.port import SerialSource, Source, check_port
+from acts_driver.replay import ReplayOptions, ReplaySource, open_recording
 
 NO_FILE = "none"
 """What a launch file gives where there is no file; means the same as empty."""

@@ -21,7 +21,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from std_srvs.srv import Trigger
 
-from acts_driver.driver_node import DriverNode
+from acts_driver.nodes.driver_node import DriverNode
 from acts_msgs.msg import TactileSamples
 from acts_ros.qos import STREAM
 
@@ -144,8 +144,8 @@ def start_process(domain_id: int, *arguments: str) -> subprocess.Popen[str]:
         [
             sys.executable,
             "-m",
-            "acts_ros.program",
-            "acts_driver.driver_node",
+            "acts_ros.executables.program",
+            "acts_driver.nodes.driver_node",
             "--ros-args",
             "-r",
             "__ns:=/plate",

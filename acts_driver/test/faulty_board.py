@@ -16,9 +16,8 @@ from pty_board import wait_for
 
 from acts_core.frames import SampleFrame
 from acts_core.wire import StreamDecoder
-from acts_driver.reader import Reader
-from acts_driver.report import DriverReport, Totals
-from acts_driver.source import SerialSource
+from acts_driver.nodes.report import DriverReport, Totals
+from acts_driver.port import Reader, SerialSource
 from acts_driver.stream import FrameStream
 
 EARLY_NS = 60_000_000

@@ -10,7 +10,7 @@ from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from acts_core.frames import SampleFrame
-from acts_ros.sample_messages import SamplesMessage
+from acts_ros.messages import SamplesMessage
 
 DEFINITION = """
 std_msgs/Header header

@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 
 from acts_core.errors import ArrayError, CalibrationError, SettingsError
 from acts_core.frames import SampleFrame, Scheme
-from acts_driver import baseline_kernels, baseline_twin
-from acts_driver.baseline import Baseline, BaselineSource
-from acts_driver.baseline_tracker import BaselineConfig, BaselineTracker
+from acts_driver.baseline import Baseline, BaselineTracker, baseline_kernels
+from acts_driver.baseline import baseline_reference as baseline_twin
+from acts_driver.baseline.baseline import BaselineSource
+from acts_driver.baseline.baseline_tracker import BaselineConfig
 
 ROWS, COLS = 6, 5
 SIZE = ROWS * COLS

@@ -16,7 +16,7 @@ from std_srvs.srv import Trigger
 from acts_core.errors import SettingsError
 from acts_core.frames import SampleFrame, Scheme
 from acts_driver.baseline import Baseline as SavedBaseline
-from acts_driver.baseline import BaselineSource
+from acts_driver.baseline.baseline import BaselineSource
 from acts_msgs.msg import Baseline
 from acts_ros.qos import LATCHED
 

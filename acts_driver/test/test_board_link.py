@@ -14,19 +14,22 @@ from hypothesis import strategies as st
 from pty_board import PtyBoard, wait_for
 from virtual_board import VirtualBoard
 
-from acts_core.board_messages import BoardMessage
-from acts_core.board_models import BoardModel, ModelKind, object_library, patch_dictionary
-from acts_core.commands import BoardSettings, Reply
 from acts_core.errors import BoardError, PortError, SettingsError
-from acts_core.layouts import layout
-from acts_core.skin_map import SkinMap
-from acts_core.wire import StreamDecoder
-from acts_driver.board import BoardLink, NoAnswerError, RefusedError
-from acts_driver.board_model_file import load_model
-from acts_driver.board_parameters import BoardParameters
-from acts_driver.board_session import BoardSession, BoardStatus
-from acts_driver.reader import Reader
-from acts_driver.source import SerialSource
+from acts_core.sampling import SkinMap
+from acts_core.skin import layout
+from acts_core.wire import (
+    BoardMessage,
+    BoardModel,
+    BoardSettings,
+    Reply,
+    StreamDecoder,
+    object_library,
+    patch_dictionary,
+)
+from acts_core.wire.board_models import ModelKind
+from acts_driver.board import BoardLink, BoardParameters, BoardSession, BoardStatus, NoAnswerError, RefusedError
+from acts_driver.board.model_file import load_model
+from acts_driver.port import Reader, SerialSource
 
 SIZE = (32, 32)
 # Long enough for a machine that does not run the board for a while.
@@ -170,10 +173,11 @@ class SimpleBoard:
         self.held = b""
 
     def receive(self, data: bytes) -> list[BoardMessage]:
-        from acts_core import cobs
-        from acts_core.board_messages import decode_message
-        from acts_core.commands import NO_MODEL, BoardState, ReplyStatus, encode_reply
-        from acts_core.packets import PacketType, unseal
+        from acts_core.wire import BoardState, ReplyStatus
+        from acts_core.wire import cobs_reference as cobs
+        from acts_core.wire.board_messages import decode_message
+        from acts_core.wire.commands import NO_MODEL, encode_reply
+        from acts_core.wire.packets import PacketType, unseal
 
         kind, content = unseal(cobs.decode(data[:-1]))
         request = int.from_bytes(content[:4], "little")
@@ -343,7 +347,7 @@ def test_a_size_unlike_the_parameters_is_named(host: Host) -> None:
 
 
 def test_firmware_of_another_version_is_named_and_not_used(host: Host, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("acts_driver.board_session.FIRMWARE", (7, 3))
+    monkeypatch.setattr("acts_driver.board.session.FIRMWARE", (7, 3))
     session = host.start_session(m=64)
     assert not session.may_publish
     assert session.status.is_wrong_version
@@ -354,7 +358,7 @@ def test_firmware_of_another_version_is_named_and_not_used(host: Host, monkeypat
 
 
 def test_another_firmware_after_a_silent_board_is_not_used(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("acts_driver.board_session.FIRMWARE", (7, 3))
+    monkeypatch.setattr("acts_driver.board.session.FIRMWARE", (7, 3))
     with PtyBoard(tmp_path) as board:
         host = Host(board.path, reply_timeout_s=0.2)
         session = host.start_session()

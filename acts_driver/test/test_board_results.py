@@ -3,10 +3,10 @@
 import numpy as np
 from pty_board import frame
 
-from acts_core.board_messages import BoardImage, BoardObject
 from acts_core.frames import SampleFrame
-from acts_driver.board_results import BoardResults
-from acts_driver.board_topics import image_message, object_message
+from acts_core.wire import BoardImage, BoardObject
+from acts_driver.board import BoardResults
+from acts_driver.nodes.board_topics import image_message, object_message
 
 
 def image(of: SampleFrame) -> BoardImage:

@@ -14,11 +14,9 @@ from virtual_board import VirtualBoard
 
 from acts_core.array import ArrayGeometry
 from acts_msgs.msg import ObjectClass, TactileSamples
-from acts_recon.classification import BOARD_COLUMNS, Classifier, ClassifierConfig
-from acts_recon.dictionary import Dictionary, load_dictionary, save_dictionary
-from acts_recon.object_library import build_object_library, save_object_library
-from acts_recon.reconstructor import Reconstructor
-from acts_recon.shipped import shipped_dictionary_path
+from acts_recon.objects import Classifier, ClassifierConfig, build_object_library, save_object_library
+from acts_recon.objects.classification import BOARD_COLUMNS
+from acts_recon.sparse import Dictionary, Reconstructor, load_dictionary, save_dictionary, shipped_dictionary_path
 from acts_ros.qos import STREAM
 
 

@@ -8,8 +8,9 @@ from numpy.typing import NDArray
 from simulated_channel import EPOCH_NS, Channel, simulate
 
 from acts_core.errors import SettingsError
-from acts_driver.clock import ClockFilter, ClockFilterConfig
-from acts_driver.envelope import hull_slope
+from acts_driver.stream import ClockFilter
+from acts_driver.stream.clock import ClockFilterConfig
+from acts_driver.stream.envelope import hull_slope
 
 MS = 1_000_000
 

@@ -8,7 +8,7 @@ from driver_rig import DEADLINE_S
 from virtual_board import VirtualBoard
 
 from acts_core.wire import StreamDecoder
-from acts_driver.source import SerialSource
+from acts_driver.port import SerialSource
 from acts_driver.stream import FrameStream
 
 DRIFT_PPM = 300.0

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from acts_core.settings import describe
-from acts_driver.report import Totals
+from acts_driver.nodes.report import Totals
 from acts_driver.settings import DriverSettings
 
 PAGE = (Path(__file__).resolve().parents[2] / "docs" / "driver.md").read_text(encoding="utf-8")
@@ -20,7 +20,7 @@ def test_it_is_documented(name: str) -> None:
 
 
 def test_help_tells_every_parameter_and_starts_nothing() -> None:
-    program = [sys.executable, "-m", "acts_ros.program", "acts_driver.driver_node"]
+    program = [sys.executable, "-m", "acts_ros.executables.program", "acts_driver.nodes.driver_node"]
     result = subprocess.run([*program, "--help"], capture_output=True, text=True, timeout=60, check=False)
     assert (result.returncode, result.stderr) == (0, "")
     assert "board bytes in" in result.stdout

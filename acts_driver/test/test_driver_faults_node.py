@@ -13,7 +13,7 @@ from driver_rig import Rig, end_process, start_process
 from faulty_board import EARLY_NS, FaultyBoard
 from pty_board import wait_for
 
-from acts_ros.sample_messages import frame_of
+from acts_ros.messages import frame_of
 
 
 class Skin:

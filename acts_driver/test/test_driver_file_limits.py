@@ -10,7 +10,7 @@ import pytest
 
 from acts_core.errors import ActsError
 from acts_driver.baseline import Baseline
-from acts_driver.board_model_file import load_model
+from acts_driver.board.model_file import load_model
 
 
 @pytest.mark.parametrize("read", [load_model, lambda path: Baseline.load(path, 32, 32)], ids=["model", "baseline"])

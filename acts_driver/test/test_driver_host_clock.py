@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from acts_core.frames import SampleFrame, Scheme
-from acts_driver.host_clock import HostClock
 from acts_driver.stream import FrameStream
+from acts_driver.stream.host_clock import HostClock
 
 MS = 1_000_000
 EPOCH_NS = 1_700_000_000_000_000_000

@@ -9,14 +9,14 @@ from pathlib import Path
 
 from pty_board import DEADLINE_S, PtyBoard, frame, wait_for
 
-from acts_core import cobs
-from acts_core.commands import NO_MODEL, BoardSettings, BoardState, Reply, ReplyStatus, encode_reply
 from acts_core.frames import SampleFrame
-from acts_core.wire import encode_frame
-from acts_driver.board_session import FIRMWARE
-from acts_driver.intake import Intake
+from acts_core.wire import BoardSettings, BoardState, Reply, ReplyStatus, encode_frame
+from acts_core.wire import cobs_reference as cobs
+from acts_core.wire.commands import NO_MODEL, encode_reply
+from acts_driver.board.session import FIRMWARE
+from acts_driver.nodes.intake import Intake
+from acts_driver.port import SerialSource
 from acts_driver.settings import DriverSettings
-from acts_driver.source import SerialSource
 
 
 def reply_to(command: bytes) -> bytes:

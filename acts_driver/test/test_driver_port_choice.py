@@ -13,10 +13,9 @@ from serial.tools.list_ports_common import ListPortInfo
 
 from acts_core.errors import PortError, SettingsError
 from acts_core.wire import StreamDecoder
-from acts_driver.port_choice import TEENSY_SERIAL, Lister, resolve
-from acts_driver.reader import Reader
+from acts_driver.port import Reader, SerialSource
+from acts_driver.port.port_choice import TEENSY_SERIAL, Lister, resolve
 from acts_driver.settings import DriverSettings
-from acts_driver.source import SerialSource
 
 
 def usb_port(device: str, number: str | None, usb: tuple[int, int] = TEENSY_SERIAL) -> ListPortInfo:

@@ -8,14 +8,11 @@ from pathlib import Path
 import pytest
 from pty_board import PtyBoard, frame, wait_for
 
-from acts_core.delimited import DelimitedDecoder
 from acts_core.errors import PortError
 from acts_core.frames import SampleFrame
-from acts_core.raster_ascii import RasterDecoder
-from acts_core.wire import StreamDecoder, encode_frame
-from acts_driver.port import explain, is_stale_link, open_port
-from acts_driver.reader import Reader
-from acts_driver.source import SerialSource
+from acts_core.wire import DelimitedDecoder, RasterDecoder, StreamDecoder, encode_frame
+from acts_driver.port import Reader, SerialSource
+from acts_driver.port.port import explain, is_stale_link, open_port
 
 
 class Collector:

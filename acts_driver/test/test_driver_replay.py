@@ -16,12 +16,12 @@ from recorded import DEFINITION, write_bag
 
 from acts_core.errors import RecordingError, SettingsError
 from acts_core.frames import SampleFrame, Scheme
-from acts_core.layouts import layout
 from acts_core.sampling import Sampler, SamplingConfig, measure_in
+from acts_core.skin import layout
 from acts_core.wire import StreamDecoder
-from acts_driver.reader import Reader
-from acts_driver.recordings import RecordedSamples, ReplayOptions, open_recording
-from acts_driver.replay import ReplaySource
+from acts_driver.port import Reader
+from acts_driver.replay import ReplayOptions, ReplaySource, open_recording
+from acts_driver.replay.recordings import RecordedSamples
 from acts_driver.settings import DriverSettings
 from acts_driver.stream import FrameStream
 

@@ -13,8 +13,8 @@ from driver_rig import Rig
 from lifecycle_msgs.msg import Transition
 from virtual_board import VirtualBoard
 
-from acts_driver import board_model_file
 from acts_driver import settings as driver_settings
+from acts_driver.board import model_file as board_model_file
 
 # Where somebody waits for the file after all, the test goes on after this, and fails.
 AT_MOST_S = 10.0

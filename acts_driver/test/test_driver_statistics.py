@@ -3,8 +3,8 @@
 import pytest
 from pty_board import frame
 
-from acts_driver.statistics import StreamStatistics
 from acts_driver.stream import FrameStream
+from acts_driver.stream.statistics import StreamStatistics
 
 MS = 1_000_000
 T0 = 1_700_000_000_000 * MS

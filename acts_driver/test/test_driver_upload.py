@@ -12,9 +12,9 @@ from lifecycle_msgs.msg import Transition
 from pty_board import wait_for
 from virtual_board import VirtualBoard
 
-from acts_core.board_models import MODEL_CAPACITY, ModelKind
-from acts_driver.board_model_file import load_model
-from acts_driver.board_session import BoardStatus
+from acts_core.wire.board_models import MODEL_CAPACITY, ModelKind
+from acts_driver.board import BoardStatus
+from acts_driver.board.model_file import load_model
 
 # As large as a board can hold, 256 pieces with a reply each, and one that takes slow boards no more than some seconds.
 LARGEST = MODEL_CAPACITY // 4 // 64

@@ -12,8 +12,8 @@ from driver_rig import DEADLINE_S, Rig, end_process, start_process
 from lifecycle_msgs.msg import Transition
 from virtual_board import VirtualBoard
 
-from acts_core.raster_ascii import RasterDecoder
-from acts_driver.source import SerialSource
+from acts_core.wire import RasterDecoder
+from acts_driver.port import SerialSource
 
 
 @pytest.fixture

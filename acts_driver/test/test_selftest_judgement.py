@@ -9,11 +9,22 @@ import pytest
 from numpy.typing import NDArray
 
 from acts_core.frames import SampleFrame, Scheme
-from acts_driver.selftest.findings import Finding, Level, Thresholds, listed, taxels_listed
-from acts_driver.selftest.record import FrameRecord
-from acts_driver.selftest.timing import judge_timing, measure_timing
-from acts_driver.selftest.touched import judge_touched, measure_touched
-from acts_driver.selftest.untouched import judge_high, judge_untouched, measure_untouched, noise_of
+from acts_driver.selftest import (
+    Finding,
+    FrameRecord,
+    Level,
+    Thresholds,
+    judge_high,
+    judge_timing,
+    judge_touched,
+    judge_untouched,
+    listed,
+    measure_timing,
+    measure_touched,
+    measure_untouched,
+)
+from acts_driver.selftest.findings import taxels_listed
+from acts_driver.selftest.untouched import noise_of
 
 THRESHOLDS = Thresholds()
 SAMPLE_US = 17.7

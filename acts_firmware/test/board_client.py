@@ -7,20 +7,20 @@ import time
 
 from board_process import DEADLINE_S, BoardProcess
 
-from acts_core.board_messages import BoardMessage
-from acts_core.board_models import BoardModel
-from acts_core.commands import (
+from acts_core.frames import SampleFrame
+from acts_core.wire import (
     UPLOAD_PIECE_MAX,
+    BoardMessage,
+    BoardModel,
     BoardSettings,
     Reply,
     ReplyStatus,
+    StreamDecoder,
     encode_configure,
     encode_upload_begin,
     encode_upload_data,
     encode_upload_end,
 )
-from acts_core.frames import SampleFrame
-from acts_core.wire import StreamDecoder
 
 
 class BoardClient:

@@ -16,9 +16,8 @@ from typing import Any
 
 from core_library import installed
 
-from acts_core.delimited import DelimitedDecoder
 from acts_core.frames import SampleFrame
-from acts_core.wire import StreamDecoder
+from acts_core.wire import DelimitedDecoder, StreamDecoder
 
 DEADLINE_S = 30.0
 

@@ -11,11 +11,9 @@ import numpy as np
 from core_library import installed
 from numpy.typing import NDArray
 
-from acts_core.board_messages import BoardMessage
-from acts_core.board_models import MODEL_CAPACITY
-from acts_core.commands import Reply
 from acts_core.frames import SampleFrame
-from acts_core.wire import StreamDecoder
+from acts_core.wire import BoardMessage, Reply, StreamDecoder
+from acts_core.wire.board_models import MODEL_CAPACITY
 
 BOARD_ID = 0x1122334455667788
 _ROOM = 1 << 18

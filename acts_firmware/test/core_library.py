@@ -12,8 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.frames import SampleFrame
-from acts_core.sampling import SCHEMES, SamplingConfig
-from acts_core.skin_map import SkinMap
+from acts_core.sampling import SCHEMES, SamplingConfig, SkinMap
 
 NEIGHBOUR_ORDERS = {"columns": 0, "rows": 1}
 U16 = np.dtype("<u2")
@@ -61,7 +60,7 @@ def library() -> ctypes.CDLL:
 
 
 class CoreSampler:
-    """The C++ twin of `acts_core.sampling.Sampler`, measuring through the model of the board's wiring."""
+    """The C++ twin of `acts_core.sampling.schemes.Sampler`, measuring through the model of the board's wiring."""
 
     def __init__(self, config: SamplingConfig, skin_map: SkinMap | None = None) -> None:
         self._size = config.rows * config.cols

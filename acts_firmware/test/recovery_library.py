@@ -9,9 +9,8 @@ import numpy as np
 from core_library import U16, installed
 from numpy.typing import NDArray
 
-from acts_core.board_settings import OUTPUTS
-from acts_recon.classification import Classification
-from acts_recon.object_library import ObjectLibrary
+from acts_core.wire import OUTPUTS
+from acts_recon.objects import Classification, ObjectLibrary
 
 Values = NDArray[np.uint16]
 

@@ -8,11 +8,16 @@ from pathlib import Path
 
 from core_library import installed
 
-from acts_core.board_messages import BoardMessage
-from acts_core.board_models import BoardModel
-from acts_core.commands import UPLOAD_PIECE_MAX, encode_upload_begin, encode_upload_data, encode_upload_end
 from acts_core.frames import SampleFrame
-from acts_core.wire import StreamDecoder
+from acts_core.wire import (
+    UPLOAD_PIECE_MAX,
+    BoardMessage,
+    BoardModel,
+    StreamDecoder,
+    encode_upload_begin,
+    encode_upload_data,
+    encode_upload_end,
+)
 
 WATCHDOG_ENABLED = 0x04
 RUN_LIMIT_S = 120

@@ -13,28 +13,29 @@ from core_firmware import BOARD_ID, CoreFirmware
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from acts_core import cobs
-from acts_core.board_messages import BoardImage, BoardObject
-from acts_core.board_settings import LEDS, OUTPUTS, SETTINGS_SIZE
-from acts_core.commands import (
+from acts_core.errors import PacketError
+from acts_core.frames import Scheme
+from acts_core.sampling import SCHEMES, SkinMap
+from acts_core.skin import layout
+from acts_core.wire import (
+    LEDS,
     MAP_PIECE_MAX,
-    NO_MODEL,
+    OUTPUTS,
+    BoardImage,
+    BoardObject,
     BoardSettings,
     Reply,
     ReplyStatus,
-    SettingField,
+    StreamDecoder,
     encode_configure,
     encode_map_data,
     encode_map_end,
     encode_query,
 )
-from acts_core.errors import PacketError
-from acts_core.frames import Scheme
-from acts_core.layouts import layout
-from acts_core.packets import PacketType, seal
-from acts_core.sampling import SCHEMES
-from acts_core.skin_map import SkinMap
-from acts_core.wire import StreamDecoder
+from acts_core.wire import cobs_reference as cobs
+from acts_core.wire.board_settings import SETTINGS_SIZE
+from acts_core.wire.commands import NO_MODEL, SettingField
+from acts_core.wire.packets import PacketType, seal
 
 FAST = settings(max_examples=60, deadline=None)
 LAYOUT = struct.Struct("<BBBBHHHHHBBIQ")

@@ -13,10 +13,7 @@ import pytest
 from core_library import installed
 from sketch_model import SketchRun, run_sketch, upload
 
-from acts_core.board_messages import BoardImage, BoardObject
-from acts_core.board_models import object_library, patch_dictionary
-from acts_core.board_settings import BoardSettings
-from acts_core.commands import encode_configure
+from acts_core.wire import BoardImage, BoardObject, BoardSettings, encode_configure, object_library, patch_dictionary
 
 SCRIPT = Path(__file__).resolve().parents[2] / "scripts/firmware.py"
 TOOLS_MISSING = 3

@@ -9,18 +9,9 @@ from core_firmware import CoreFirmware
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from acts_core.board_models import (
-    MODEL_CAPACITY,
-    PATCH_SIDE_MAX,
+from acts_core.wire import (
     BoardModel,
-    ModelKind,
-    object_library,
-    patch_dictionary,
-)
-from acts_core.commands import (
-    NO_MODEL,
     BoardSettings,
-    HeldModel,
     Reply,
     ReplyStatus,
     encode_configure,
@@ -28,7 +19,11 @@ from acts_core.commands import (
     encode_upload_begin,
     encode_upload_data,
     encode_upload_end,
+    object_library,
+    patch_dictionary,
 )
+from acts_core.wire.board_models import MODEL_CAPACITY, PATCH_SIDE_MAX, ModelKind
+from acts_core.wire.commands import NO_MODEL, HeldModel
 
 
 @st.composite

@@ -1,13 +1,13 @@
-"""The core writes the packets that `acts_core.wire` reads and writes."""
+"""The core writes the packets that `acts_core.wire.samples` reads and writes."""
 
 import core_library
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from acts_core import cobs
 from acts_core.frames import SampleFrame, Scheme
 from acts_core.wire import StreamDecoder, encode_frame
+from acts_core.wire import cobs_reference as cobs
 
 
 @st.composite

@@ -14,12 +14,11 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
-from acts_core.sampling import adaptive, measure_in
-from acts_recon.classification import BOARD_COLUMNS, Classifier, ClassifierConfig
-from acts_recon.dictionary import Dictionary, load_dictionary
-from acts_recon.object_library import ObjectLibrary, build_object_library
-from acts_recon.reconstructor import Reconstructor, ReconstructorConfig
-from acts_recon.shipped import shipped_dictionary_path
+from acts_core.sampling import measure_in
+from acts_core.sampling.schemes import adaptive
+from acts_recon.objects import Classifier, ClassifierConfig, ObjectLibrary, build_object_library
+from acts_recon.objects.classification import BOARD_COLUMNS
+from acts_recon.sparse import Dictionary, Reconstructor, ReconstructorConfig, load_dictionary, shipped_dictionary_path
 
 COUNTS_BOUND = 0.005
 Frame = NDArray[np.uint16]

@@ -13,18 +13,10 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from acts_core.errors import SettingsError
-from acts_core.layouts import layout
-from acts_core.random_taxels import Pcg32
-from acts_core.sampling import (
-    NEIGHBOURS,
-    SCHEMES,
-    Sampler,
-    SamplingConfig,
-    division_order,
-    measure_in,
-)
-from acts_core.skin_map import SkinMap
-from acts_core.uniform import uniform_spacing
+from acts_core.sampling import NEIGHBOURS, SCHEMES, Sampler, SamplingConfig, SkinMap, measure_in, uniform_spacing
+from acts_core.sampling.random_taxels import Pcg32
+from acts_core.sampling.schemes import division_order
+from acts_core.skin import layout
 
 FRAMES = 3
 

@@ -6,19 +6,19 @@ import numpy as np
 from core_library import installed
 from sketch_model import WATCHDOG_ENABLED, run_sketch, upload
 
-from acts_core.board_messages import BoardImage
-from acts_core.board_models import patch_dictionary
-from acts_core.board_settings import BoardSettings
-from acts_core.commands import (
-    HeldModel,
+from acts_core.sampling import Sampler, SamplingConfig, measure_in
+from acts_core.wire import (
+    BoardImage,
+    BoardSettings,
+    RasterDecoder,
     Reply,
     ReplyStatus,
+    StreamDecoder,
     encode_configure,
     encode_query,
+    patch_dictionary,
 )
-from acts_core.raster_ascii import RasterDecoder
-from acts_core.sampling import Sampler, SamplingConfig, measure_in
-from acts_core.wire import StreamDecoder
+from acts_core.wire.commands import HeldModel
 
 PRESSED = [(3, 4, 500), (3, 5, 900), (4, 4, 181), (31, 0, 1023), (0, 31, 700)]
 PRESS = [f"0 press {row} {col} {counts}" for row, col, counts in PRESSED]

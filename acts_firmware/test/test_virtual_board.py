@@ -12,8 +12,8 @@ from board_process import BoardProcess
 from core_library import installed
 
 from acts_core.frames import SampleFrame, Scheme
-from acts_core.raster_ascii import RasterDecoder
 from acts_core.sampling import SCHEMES
+from acts_core.wire import RasterDecoder
 
 
 def check_stream(frames: list[SampleFrame]) -> None:

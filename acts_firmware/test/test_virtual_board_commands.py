@@ -8,21 +8,20 @@ from pathlib import Path
 import numpy as np
 from board_process import DEADLINE_S, BoardProcess
 
-from acts_core.board_messages import BoardMessage
-from acts_core.board_models import patch_dictionary
-from acts_core.commands import (
+from acts_core.frames import SampleFrame, Scheme
+from acts_core.wire import (
     UPLOAD_PIECE_MAX,
-    BoardSettings,
-    HeldModel,
+    BoardMessage,
     Reply,
+    StreamDecoder,
     encode_configure,
     encode_query,
     encode_upload_begin,
     encode_upload_data,
     encode_upload_end,
+    patch_dictionary,
 )
-from acts_core.frames import SampleFrame, Scheme
-from acts_core.wire import StreamDecoder
+from acts_core.wire.commands import BoardSettings, HeldModel
 
 
 class Host:

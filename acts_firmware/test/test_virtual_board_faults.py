@@ -14,9 +14,8 @@ import pytest
 from board_process import DEADLINE_S, BoardProcess
 from core_library import installed
 
-from acts_core.commands import BoardSettings, encode_configure
 from acts_core.frames import SampleFrame
-from acts_core.wire import StreamDecoder
+from acts_core.wire import BoardSettings, StreamDecoder, encode_configure
 
 
 @pytest.fixture

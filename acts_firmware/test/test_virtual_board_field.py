@@ -12,7 +12,7 @@ from core_library import installed
 from numpy.typing import NDArray
 
 from acts_core.frames import SampleFrame
-from acts_sim.timed_ring import TimedRingWriter
+from acts_sim.shared import TimedRingWriter
 
 ROWS, COLS = 6, 5
 TAXELS = ROWS * COLS

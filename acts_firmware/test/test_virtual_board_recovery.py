@@ -12,16 +12,12 @@ from board_process import BoardProcess
 from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
-from acts_core.board_messages import BoardImage, BoardObject
-from acts_core.board_models import object_library, patch_dictionary
-from acts_core.board_settings import BoardSettings
-from acts_core.commands import HeldModel
 from acts_core.frames import SampleFrame
-from acts_recon.classification import BOARD_COLUMNS, Classifier, ClassifierConfig
-from acts_recon.dictionary import Dictionary, load_dictionary
-from acts_recon.object_library import ObjectLibrary, build_object_library
-from acts_recon.reconstructor import Reconstructor, ReconstructorConfig
-from acts_recon.shipped import shipped_dictionary_path
+from acts_core.wire import BoardImage, BoardObject, BoardSettings, object_library, patch_dictionary
+from acts_core.wire.commands import HeldModel
+from acts_recon.objects import Classifier, ClassifierConfig, ObjectLibrary, build_object_library
+from acts_recon.objects.classification import BOARD_COLUMNS
+from acts_recon.sparse import Dictionary, Reconstructor, ReconstructorConfig, load_dictionary, shipped_dictionary_path
 
 
 def press(row: float, col: float, width: float) -> NDArray[np.uint16]:

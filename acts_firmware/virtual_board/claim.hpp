@@ -1,4 +1,4 @@
-// A file as this process's own, in a folder of one user alone; acts_sim/run_folder.py does the same.
+// A file as this process's own, in a folder of one user alone; acts_sim/shared/run_folder.py does the same.
 #pragma once
 
 #include <string>

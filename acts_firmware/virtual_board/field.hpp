@@ -34,8 +34,8 @@ class UntouchedField final : public Field {
 std::unique_ptr<Field> open_recording(const std::string& path, int rows, int cols, double rate_hz, bool loop,
                                       std::int64_t start_monotonic_ns);
 
-// The simulated world's field, in the ring that acts_sim/timed_ring.py describes. Untouched while there is no file at
-// `path`; a new file is taken up within a tenth of a second.
+// The simulated world's field, in the ring that acts_sim/shared/timed_ring.py describes. Untouched while there is no
+// file at `path`; a new file is taken up within a tenth of a second.
 std::unique_ptr<Field> watch_ring(const std::string& path, std::size_t width);
 
 }  // namespace acts

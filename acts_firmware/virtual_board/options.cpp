@@ -102,7 +102,7 @@ std::vector<Option> make_options(Options& o) {
   return {
       {"--link", "PATH", "symbolic link to the pseudo-terminal, made at the start and removed at the end",
        [&o](const std::string& v) { o.link = path_or_none(v); }},
-      {"--field-ring", "PATH", "pressure field of a simulated world (acts_sim/timed_ring.py); none: no world",
+      {"--field-ring", "PATH", "pressure field of a simulated world (acts_sim/shared/timed_ring.py); none: no world",
        [&o](const std::string& v) { o.field_ring = path_or_none(v); }},
       {"--recording", "FILE.npy", "play frames (n, rows, cols) uint16 instead of the world; none: no recording",
        [&o](const std::string& v) { o.recording = path_or_none(v); }},

@@ -1,4 +1,4 @@
-// Field out of the simulated world's ring; the file's layout is described in acts_sim/timed_ring.py.
+// Field out of the simulated world's ring; the file's layout is described in acts_sim/shared/timed_ring.py.
 #include <algorithm>
 #include <atomic>
 #include <cstring>

@@ -8,12 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
-from acts_core.force import ForceResponse, MeasuredForceResponse
-from acts_recon.borders import Borders
-from acts_recon.contact import Contact
-from acts_recon.contact_finder import ContactFinder
+from acts_core.skin import ForceResponse, MeasuredForceResponse
+from acts_recon.contacts import Contact, ContactFinder
 from acts_recon.fusion import FusionEstimator
-from acts_recon.reconstructor import Reconstructor
+from acts_recon.images import Borders
+from acts_recon.sparse import Reconstructor
 
 METHODS = ("fusion", "per_frame")
 """``fusion``: all samples so far (`FusionEstimator`); ``per_frame``: each frame alone (`Reconstructor`)."""

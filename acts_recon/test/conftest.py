@@ -8,7 +8,7 @@ import pytest
 from numpy.typing import NDArray
 from recon_bench import Bench
 
-from acts_recon.dictionary import Dictionary, save_dictionary
+from acts_recon.sparse import Dictionary, save_dictionary
 
 
 @pytest.fixture(scope="session")

@@ -18,7 +18,7 @@ from rclpy.node import Node
 from std_msgs.msg import Header
 
 from acts_msgs.msg import Contact, TactileSamples
-from acts_recon.reconstruction_node import ReconstructionNode
+from acts_recon.nodes.reconstruction_node import ReconstructionNode
 from acts_ros import qos
 
 DEADLINE_S = 30.0

@@ -5,8 +5,9 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
-from acts_core.layouts import NO_PATCH, Layout, SkinPatch
-from acts_core.sampling import adaptive, measure_in
+from acts_core.sampling import measure_in
+from acts_core.sampling.schemes import adaptive
+from acts_core.skin import NO_PATCH, Layout, SkinPatch
 
 
 def bump(

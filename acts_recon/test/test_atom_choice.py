@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from acts_recon.fastomp_kernels import choose
-from acts_recon.fastomp_model import BLOCK, in_blocks
+from acts_recon.sparse import in_blocks
+from acts_recon.sparse.fastomp_kernels import choose
+from acts_recon.sparse.fastomp_model import BLOCK
 
 
 def find(

@@ -12,8 +12,9 @@ from test_reconstruction_node import Bench
 
 from acts_core.errors import ArrayError
 from acts_msgs.msg import Baseline
-from acts_recon.baseline import BaselineSubtraction, subtract_plain
-from acts_recon.dictionary import Dictionary, save_dictionary
+from acts_recon.images import BaselineSubtraction
+from acts_recon.images.baseline import subtract_plain
+from acts_recon.sparse import Dictionary, save_dictionary
 from acts_ros import qos
 
 SIZE = 1024

@@ -7,10 +7,9 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
-from acts_core.force import ForceResponse, MeasuredForceResponse, force_table
-from acts_recon.blob_track_plain import PlainTracker
-from acts_recon.blob_tracker import BlobTracker
-from acts_recon.blobs import BlobConfig
+from acts_core.skin import ForceResponse, MeasuredForceResponse, force_table
+from acts_recon.contacts import BlobConfig, BlobTracker
+from acts_recon.contacts.blob_track_reference import PlainTracker
 
 GEOMETRY = ArrayGeometry(rows=20, cols=24, pitch_m=0.005, row_pitch_m=0.004)
 RESPONSE = ForceResponse()

@@ -11,10 +11,8 @@ from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError
-from acts_core.force import ForceResponse
-from acts_recon.blob_kernels import MAX_BLOBS
-from acts_recon.blob_tracker import BlobTracker
-from acts_recon.blobs import BlobConfig, TrackedBlob
+from acts_core.skin import ForceResponse
+from acts_recon.contacts import MAX_BLOBS, BlobConfig, BlobTracker, TrackedBlob
 
 GEOMETRY = ArrayGeometry()
 PITCH_M = GEOMETRY.pitch_m

@@ -12,13 +12,11 @@ from numpy.typing import NDArray
 from recon_samples import bump, layouts
 
 from acts_core.array import ArrayGeometry
-from acts_core.force import ForceResponse, MeasuredForceResponse, force_table
-from acts_core.layouts import Layout
-from acts_recon import blob_kernels
-from acts_recon.blobs import BlobConfig, find_blobs
-from acts_recon.borders import Borders, borders_of
-from acts_recon.contact import find_contact
-from acts_recon.uncertainty import root_deviation, slope_table
+from acts_core.skin import ForceResponse, Layout, MeasuredForceResponse, force_table
+from acts_recon.contacts import BlobConfig, blob_kernels
+from acts_recon.contacts.blobs import find_blobs
+from acts_recon.contacts.contact import find_contact
+from acts_recon.images import Borders, borders_of, root_deviation, slope_table
 
 GEOMETRY = ArrayGeometry(rows=12, cols=9, pitch_m=0.005, row_pitch_m=0.004)
 RESPONSE = ForceResponse()

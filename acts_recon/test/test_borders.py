@@ -14,18 +14,13 @@ from recon_samples import layouts
 
 from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError
-from acts_core.force import ForceResponse, MeasuredForceResponse, force_table
-from acts_core.layouts import NO_PATCH, Layout, layout
-from acts_recon.blob_track_plain import PlainTracker
-from acts_recon.blob_tracker import BlobTracker
-from acts_recon.blobs import BlobConfig
-from acts_recon.borders import borders_of
-from acts_recon.contact import find_contact
-from acts_recon.contact_finder import ContactFinder
-from acts_recon.dictionary import Dictionary
+from acts_core.skin import NO_PATCH, ForceResponse, Layout, MeasuredForceResponse, force_table, layout
+from acts_recon.contacts import BlobConfig, BlobTracker, ContactFinder
+from acts_recon.contacts.blob_track_reference import PlainTracker
+from acts_recon.contacts.contact import find_contact
 from acts_recon.fusion import FusionEstimator
-from acts_recon.patches import patch_layout
-from acts_recon.reconstructor import Reconstructor
+from acts_recon.images import borders_of
+from acts_recon.sparse import Dictionary, Reconstructor, patch_layout
 
 GEOMETRY = ArrayGeometry(12, 9)
 TABLE = force_table(ForceResponse())

@@ -7,8 +7,8 @@ from recon_samples import bump, sample
 
 from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError, SettingsError
-from acts_recon.classification import Classification, Classifier, ClassifierConfig, classify
-from acts_recon.object_library import ObjectLibrary, build_object_library
+from acts_recon.objects import Classification, Classifier, ClassifierConfig, ObjectLibrary, build_object_library
+from acts_recon.objects.classification import classify
 
 Frame = NDArray[np.uint16]
 PLACES = {"corner": (6, 6), "middle": (16, 15), "edge": (28, 16)}

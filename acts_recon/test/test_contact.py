@@ -9,12 +9,11 @@ from numpy.typing import NDArray
 from recon_samples import bump
 
 from acts_core.array import ArrayGeometry
-from acts_core.force import ForceResponse, MeasuredForceResponse, force_table
-from acts_recon import contact_kernels
-from acts_recon.blobs import find_blobs
-from acts_recon.borders import borders_of
-from acts_recon.contact import NO_CONTACT, Contact, find_contact
-from acts_recon.uncertainty import root_deviation, slope_table
+from acts_core.skin import ForceResponse, MeasuredForceResponse, force_table
+from acts_recon.contacts import Contact, contact_kernels
+from acts_recon.contacts.blobs import find_blobs
+from acts_recon.contacts.contact import NO_CONTACT, find_contact
+from acts_recon.images import borders_of, root_deviation, slope_table
 
 GEOMETRY = ArrayGeometry(rows=12, cols=9, pitch_m=0.005)
 RESPONSE = ForceResponse()

@@ -16,13 +16,11 @@ from recon_samples import bump
 from visualization_msgs.msg import Marker, MarkerArray
 
 from acts_core.array import ArrayGeometry
-from acts_core.force import ForceResponse
+from acts_core.skin import ForceResponse
 from acts_msgs.msg import Contacts, TactileSamples
-from acts_recon.blob_kernels import MAX_BLOBS
-from acts_recon.blob_tracker import BlobTracker
-from acts_recon.blobs import BlobConfig
-from acts_recon.contacts_publisher import ContactsPublisher
-from acts_recon.reconstruction_node import ReconstructionNode
+from acts_recon.contacts import MAX_BLOBS, BlobConfig, BlobTracker
+from acts_recon.nodes.contacts_publisher import ContactsPublisher
+from acts_recon.nodes.reconstruction_node import ReconstructionNode
 from acts_ros import qos
 
 DEADLINE_S = 30.0

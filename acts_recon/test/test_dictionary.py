@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from acts_core.errors import DictionaryError
-from acts_recon.dictionary import Dictionary, load_dictionary, save_dictionary
-from acts_recon.shipped import shipped_dictionary_path
+from acts_recon.sparse import Dictionary, load_dictionary, save_dictionary, shipped_dictionary_path
 
 
 def write(path: Path, **changes: object) -> Path:

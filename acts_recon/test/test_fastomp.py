@@ -6,11 +6,10 @@ from numpy.typing import NDArray
 from recon_samples import bump, sample
 
 from acts_core.array import ArrayGeometry
-from acts_recon import fastomp_kernels as kernels
-from acts_recon.dictionary import Dictionary
-from acts_recon.fastomp import fast_omp, recover_image, sparsity
-from acts_recon.fastomp_model import PatchModel, Workspace
-from acts_recon.patches import PatchLayout, patch_layout
+from acts_recon.images import OK
+from acts_recon.sparse import Dictionary, PatchLayout, PatchModel, Workspace, fast_omp, patch_layout, sparsity
+from acts_recon.sparse import fastomp_kernels as kernels
+from acts_recon.sparse.fastomp_reference import recover_image
 
 Frame = NDArray[np.uint16]
 
@@ -73,7 +72,7 @@ def recover_by_kernel(
         *Workspace(layout, ratio).arrays(),
         image,
     )
-    assert code == kernels.OK
+    assert code == OK
     return image.reshape(layout.rows, layout.cols)
 
 

@@ -12,12 +12,12 @@ from recon_samples import bump, layouts
 
 from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError, SettingsError
-from acts_core.layouts import NO_PATCH, Layout, layout
 from acts_core.sampling import Sampler, SamplingConfig, measure_in
-from acts_recon.borders import borders_of
+from acts_core.skin import NO_PATCH, Layout, layout
 from acts_recon.fusion import FusionConfig, FusionEstimator
-from acts_recon.fusion_plain import PlainFusion, PlainFusions
-from acts_recon.fusion_state import UNKNOWN_COUNTS
+from acts_recon.fusion.fusion_reference import PlainFusion, PlainFusions
+from acts_recon.fusion.fusion_state import UNKNOWN_COUNTS
+from acts_recon.images import borders_of
 
 DURATION_S = 55 * 17.877e-6
 SMALL = ArrayGeometry(rows=9, cols=13)

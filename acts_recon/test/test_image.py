@@ -1,6 +1,7 @@
 import numpy as np
 
-from acts_recon.image import colour_table, mono16, rgb8
+from acts_recon.images import mono16, rgb8
+from acts_recon.images.image import colour_table
 
 
 def test_mono16_holds_rounded_counts() -> None:

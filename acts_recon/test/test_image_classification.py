@@ -13,12 +13,12 @@ from recon_samples import bump
 
 from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError, SettingsError
-from acts_core.force import ForceResponse
-from acts_core.residuals import confidence_of
-from acts_recon.classification_kernels import decide
-from acts_recon.image_classification import LEVELS, ImageClassifier, ImageClassifierConfig, classify_image, less_deep
-from acts_recon.image_src import explain_among, proposed_columns
-from acts_recon.object_library import ObjectLibrary, build_object_library
+from acts_core.skin import ForceResponse
+from acts_core.wire import confidence_of
+from acts_recon.objects import ImageClassifier, ImageClassifierConfig, ObjectLibrary, build_object_library
+from acts_recon.objects.classification_kernels import decide
+from acts_recon.objects.image_classification import LEVELS, classify_image, less_deep
+from acts_recon.objects.image_src import explain_among, proposed_columns
 
 Image = NDArray[np.float32]
 GEOMETRY = ArrayGeometry()

@@ -5,9 +5,14 @@ import pytest
 from recon_samples import bump
 
 from acts_core.array import ArrayGeometry
-from acts_recon import image_src_kernels
-from acts_recon.image_src import KNOWN_COUNTS, PROPOSED_CLASSES, PROPOSED_COLUMNS, explain_among, proposed_columns
-from acts_recon.object_library import ObjectLibrary, build_object_library
+from acts_recon.objects import ObjectLibrary, build_object_library, image_src_kernels
+from acts_recon.objects.image_src import (
+    KNOWN_COUNTS,
+    PROPOSED_CLASSES,
+    PROPOSED_COLUMNS,
+    explain_among,
+    proposed_columns,
+)
 
 GEOMETRY = ArrayGeometry()
 CERTAIN = np.zeros(1024)

@@ -3,10 +3,16 @@ import pytest
 from numpy.typing import NDArray
 
 from acts_core.errors import ArrayError, SettingsError
-from acts_recon import training_patches
-from acts_recon.ksvd import KsvdConfig, KsvdProgress, KsvdState, learn_dictionary
-from acts_recon.ksvd_kernels import code_patches
-from acts_recon.training_patches import prune_coherent, random_patches
+from acts_recon.learning import (
+    KsvdConfig,
+    KsvdProgress,
+    KsvdState,
+    code_patches,
+    learn_dictionary,
+    prune_coherent,
+    random_patches,
+    training_patches,
+)
 
 
 def planted(rng: np.random.Generator, n: int = 1500) -> tuple[NDArray, NDArray]:

@@ -10,15 +10,11 @@ from numpy.typing import NDArray
 from recon_samples import bump, sample
 
 from acts_core.array import ArrayGeometry
-from acts_core.force import ForceResponse
-from acts_recon import fastomp_kernels
-from acts_recon.blob_tracker import BlobTracker
-from acts_recon.contact_finder import ContactFinder
-from acts_recon.dictionary import Dictionary
-from acts_recon.fastomp_model import PatchModel, Workspace
+from acts_core.skin import ForceResponse
+from acts_recon.contacts import BlobTracker, ContactFinder
 from acts_recon.fusion import FusionEstimator
-from acts_recon.fusion_state import Memory
-from acts_recon.patches import patch_layout
+from acts_recon.fusion.fusion_state import Memory
+from acts_recon.sparse import Dictionary, PatchModel, Workspace, fastomp_kernels, patch_layout
 
 GEOMETRY = ArrayGeometry()
 FRAMES = 20

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from acts_core.errors import ObjectLibraryError
-from acts_recon.object_library import ObjectLibrary, build_object_library, load_object_library, save_object_library
+from acts_recon.objects import ObjectLibrary, build_object_library, load_object_library, save_object_library
 
 
 def frames() -> np.ndarray:

@@ -6,10 +6,9 @@ from numpy.typing import NDArray
 from recon_samples import bump
 
 from acts_core.array import ArrayGeometry
-from acts_core.layouts import layout
-from acts_recon.image_classification import ImageClassifier, ImageClassifierConfig
-from acts_recon.object_library import ObjectLibrary, build_object_library
-from acts_recon.object_recognition import FORGET_AFTER_S, FusedObjects
+from acts_core.skin import layout
+from acts_recon.objects import FusedObjects, ImageClassifier, ImageClassifierConfig, ObjectLibrary, build_object_library
+from acts_recon.objects.object_recognition import FORGET_AFTER_S
 
 GEOMETRY = ArrayGeometry()
 ONE = np.zeros(1, dtype=np.uint16)

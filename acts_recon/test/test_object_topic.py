@@ -11,12 +11,18 @@ from recon_samples import bump, sample
 
 from acts_core.array import ArrayGeometry
 from acts_core.errors import ObjectLibraryError
-from acts_core.layouts import layout
+from acts_core.skin import layout
 from acts_msgs.msg import ObjectClass
-from acts_recon.classification import Classifier, ClassifierConfig
 from acts_recon.fusion import FusionEstimator
-from acts_recon.image_classification import ImageClassifier, ImageClassifierConfig
-from acts_recon.object_library import ObjectLibrary, build_object_library, save_object_library
+from acts_recon.objects import (
+    Classifier,
+    ClassifierConfig,
+    ImageClassifier,
+    ImageClassifierConfig,
+    ObjectLibrary,
+    build_object_library,
+    save_object_library,
+)
 from acts_ros import qos
 
 GEOMETRY = ArrayGeometry()

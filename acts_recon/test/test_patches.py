@@ -4,7 +4,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from acts_core.errors import ArrayError
-from acts_recon.patches import patch_layout, patch_starts
+from acts_recon.sparse import patch_layout, patch_starts
 
 
 def test_the_papers_array_has_49_patches() -> None:

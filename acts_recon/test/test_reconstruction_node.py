@@ -17,15 +17,13 @@ from sensor_msgs.msg import Image
 
 from acts_core.array import ArrayGeometry
 from acts_core.errors import REFUSED_EXIT_CODE, ArrayError, DictionaryError, ObjectLibraryError, SettingsError
-from acts_core.force import ForceResponse
 from acts_core.frames import SampleFrame, Scheme
-from acts_core.layouts import layout
+from acts_core.skin import ForceResponse, layout
 from acts_msgs.msg import Contact
-from acts_recon.contact import find_contact
-from acts_recon.dictionary import Dictionary
+from acts_recon.contacts.contact import find_contact
 from acts_recon.fusion import FusionEstimator
-from acts_recon.reconstruction_settings import ReconstructionSettings
-from acts_recon.reconstructor import Reconstructor
+from acts_recon.settings import ReconstructionSettings
+from acts_recon.sparse import Dictionary, Reconstructor
 from acts_ros import qos
 
 
@@ -292,7 +290,7 @@ def test_what_the_method_does_not_use_is_known_by_name() -> None:
 
 
 def test_the_program_ends_with_one_line_and_its_exit_code() -> None:
-    command = [sys.executable, "-m", "acts_ros.program", "acts_recon.reconstruction_node"]
+    command = [sys.executable, "-m", "acts_ros.executables.program", "acts_recon.nodes.reconstruction_node"]
     environment = {**os.environ, "ROS_DOMAIN_ID": "44"}
     result = subprocess.run(
         [*command, "--ros-args", "-p", "dictionary:=/no/such.npz", "-p", "method:=per_frame"],

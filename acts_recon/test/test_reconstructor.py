@@ -7,10 +7,9 @@ from recon_samples import bump, sample
 
 from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError, SettingsError
-from acts_core.force import ForceResponse
-from acts_recon.contact import NO_CONTACT, find_contact
-from acts_recon.dictionary import Dictionary
-from acts_recon.reconstructor import Reconstructor, ReconstructorConfig
+from acts_core.skin import ForceResponse
+from acts_recon.contacts.contact import NO_CONTACT, find_contact
+from acts_recon.sparse import Dictionary, Reconstructor, ReconstructorConfig
 
 
 @pytest.fixture(scope="module")

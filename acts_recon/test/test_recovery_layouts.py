@@ -6,12 +6,11 @@ from recon_samples import bump, sample
 
 from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError
-from acts_core.force import ForceResponse
-from acts_core.layouts import layout
-from acts_core.sampling import Sampler, SamplingConfig, division_order, measure_in
-from acts_recon.contact import find_contact
-from acts_recon.dictionary import Dictionary
-from acts_recon.reconstructor import Reconstructor
+from acts_core.sampling import Sampler, SamplingConfig, measure_in
+from acts_core.sampling.schemes import division_order
+from acts_core.skin import ForceResponse, layout
+from acts_recon.contacts.contact import find_contact
+from acts_recon.sparse import Dictionary, Reconstructor
 
 
 @pytest.mark.parametrize("name", ["insole", "glove"])

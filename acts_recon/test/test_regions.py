@@ -12,11 +12,8 @@ from hypothesis.extra import numpy as stn
 from numpy.typing import NDArray
 
 from acts_core.errors import ArrayError
-from acts_core.force import ForceResponse
-from acts_core.layouts import Layout, layout
-from acts_core.region_contact import RegionContact
-from acts_core.skin_patch import SkinPatch
-from acts_recon.regions.regions import Regions
+from acts_core.skin import ForceResponse, Layout, RegionContact, SkinPatch, layout
+from acts_recon.regions import Regions
 
 HAND = layout("leap_right")
 RESPONSE = ForceResponse()

@@ -7,12 +7,11 @@ import pytest
 from rclpy.parameter import Parameter
 from recon_bench import Bench, timed
 
-from acts_core.force import ForceResponse
-from acts_core.layouts import layout
+from acts_core.skin import ForceResponse, layout
 from acts_msgs.msg import RegionContacts
-from acts_recon.regions.regions import Regions
+from acts_recon.regions import Regions
 from acts_ros import qos
-from acts_ros.regions_cdr import read_regions
+from acts_ros.messages import read_regions
 
 HAND = layout("leap_right")
 

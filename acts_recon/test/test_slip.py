@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from acts_core.errors import ArrayError
-from acts_recon.slip.detector import SlipConfig, SlipDetector
+from acts_recon.slip import SlipConfig, SlipDetector
 from acts_recon.slip.motion import RIDGE, MotionEstimator
 
 SIDE = 8

@@ -9,16 +9,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from acts_core.force import ForceResponse
-from acts_core.layouts import layout
-from acts_core.region_contact import RegionContact
 from acts_core.sampling import Sampler, SamplingConfig
-from acts_core.skin_patch import SkinPatch
+from acts_core.skin import ForceResponse, RegionContact, SkinPatch, layout
 from acts_recon.fusion import FusionEstimator
-from acts_recon.regions.regions import Regions
+from acts_recon.regions import Regions
+from acts_recon.slip import SlipConfig, SlipWatch
 from acts_recon.slip import watch_kernels as kernels
-from acts_recon.slip.config import SlipConfig
-from acts_recon.slip.watch import SlipWatch
 
 HAND = layout("leap_right")
 TIP = next(k for k, patch in enumerate(HAND.patches) if patch.name == "middle_distal")

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from acts_recon.unrest import Unrest, rate_of_change
+from acts_recon.objects.rate_of_change import Unrest, rate_of_change
 
 SURE = np.zeros((2, 2), dtype=np.float32)
 

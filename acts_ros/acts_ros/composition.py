@@ -42,7 +42,7 @@ def parameters_from(words: Sequence[str], nodes: Mapping[str, type]) -> dict[str
         For an unknown node or parameter, with the nearest known name, a value of the wrong type, or ROS arguments that
         ROS refuses.
     """
-    # --help is answered before, see acts_ros.program.
+    # --help is answered before, see acts_ros.executables.program.
     parser = argparse.ArgumentParser(add_help=False)
     parser.add_argument("--set", metavar="NODE.PARAMETER=VALUE", action="append", default=[])
     with telling_wrong_arguments():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rclpy.node import Node
 
-from acts_core.realtime_guard import LogCallback
+from acts_core.runtime import LogCallback
 
 
 def log_of(node: Node) -> LogCallback:

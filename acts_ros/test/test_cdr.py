@@ -9,7 +9,7 @@ from rclpy.serialization import deserialize_message, serialize_message
 
 from acts_core.errors import PacketError
 from acts_msgs.msg import Contact, Contacts
-from acts_ros.cdr import ContactFields, header_of, read_contact, write_contact
+from acts_ros.messages import ContactFields, header_of, read_contact, write_contact
 
 STAMPS_NS = st.integers(-(2**31) * 10**9, 2**31 * 10**9 - 1)
 NAMES = st.text(st.characters(exclude_characters="\0", codec="utf-8"), max_size=20)

@@ -107,7 +107,7 @@ def test_signals_on_the_way_out_change_nothing() -> None:
 def test_a_signal_during_the_imports_is_an_orderly_end(tmp_path: Path) -> None:
     (tmp_path / "slow_module.py").write_text('print("importing", flush=True)\nwhile True:\n    pass\n')
     with subprocess.Popen(
-        [sys.executable, "-m", "acts_ros.program", "slow_module"],
+        [sys.executable, "-m", "acts_ros.executables.program", "slow_module"],
         env={**os.environ, "PYTHONPATH": f"{tmp_path}:{os.environ['PYTHONPATH']}"},
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from acts_core.settings import Changeable, setting
-from acts_ros.program_help import program_help
+from acts_ros.executables.program_help import program_help
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from acts_core.errors import REFUSED_EXIT_CODE
-from acts_ros.refused import LAUNCHER_VARIABLE, STAY_WORD
+from acts_ros.executables.refused import LAUNCHER_VARIABLE, STAY_WORD
 
 DEADLINE_S = 30.0
 # Refuses the word that it must be told; with another error it might fare better the next time.
@@ -33,7 +33,15 @@ def started(folder: Path, error: str, *words: str, **environment: str) -> subpro
     (folder / "refusing_node.py").write_text(NODE.format(error=error))
     inherited = {name: value for name, value in os.environ.items() if name != LAUNCHER_VARIABLE}
     path = os.pathsep.join([str(folder), os.environ.get("PYTHONPATH", "")])
-    command = [sys.executable, "-m", "acts_ros.program", "refusing_node", *words, "--set", "driver.scheme=trackin"]
+    command = [
+        sys.executable,
+        "-m",
+        "acts_ros.executables.program",
+        "refusing_node",
+        *words,
+        "--set",
+        "driver.scheme=trackin",
+    ]
     return subprocess.Popen(
         command, env={**inherited, "PYTHONPATH": path, **environment}, stderr=subprocess.PIPE, text=True
     )

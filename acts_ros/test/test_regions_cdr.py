@@ -8,10 +8,11 @@ from hypothesis import strategies as st
 from rclpy.serialization import deserialize_message, serialize_message
 
 from acts_core.errors import PacketError
-from acts_core.region_contact import RegionContact
+from acts_core.skin import RegionContact
 from acts_msgs.msg import RegionContact as RegionMessage
 from acts_msgs.msg import RegionContacts
-from acts_ros.regions_cdr import RegionsFields, read_regions, write_regions
+from acts_ros.messages import read_regions, write_regions
+from acts_ros.messages.regions_cdr import RegionsFields
 
 NAMES = st.text(st.characters(exclude_characters="\0", codec="utf-8"), max_size=12)
 DOUBLES = st.floats()

@@ -8,7 +8,7 @@ from rclpy.context import Context
 from rclpy.node import Node
 
 from acts_core.errors import SettingsError
-from acts_ros.skin_frame import skin_frame
+from acts_ros.messages import skin_frame
 
 
 @pytest.fixture

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from acts_sim.dynamixel.drive import RAD_PER_TICK
-from acts_sim.hand.world import HandWorld
+from acts_sim.dynamixel import RAD_PER_TICK
+from acts_sim.hand import HandWorld
 
 # All joints, in the order of the motors, around something that lies on the palm.
 AROUND_SPHERE = (*(0.0, 1.3, 1.0, 0.6) * 3, 1.5, 0.0, 0.3, 0.5)

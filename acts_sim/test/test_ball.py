@@ -8,10 +8,10 @@ import pytest
 
 from acts_core.errors import SettingsError
 from acts_core.ur5e import LEVEL_Q_RAD, forward_kinematics, wrist_angles_for_tilt
-from acts_sim import ball, ball_plate
-from acts_sim.ball import BallConfig, BallState
-from acts_sim.ball_kernels import STANDARD_GRAVITY_M_S2 as G
-from acts_sim.ball_plate import JointMotion, PlateConfig, PlateMotion
+from acts_sim.ball import ball, ball_plate
+from acts_sim.ball.ball import BallConfig, BallState
+from acts_sim.ball.ball_kernels import STANDARD_GRAVITY_M_S2 as G
+from acts_sim.ball.ball_plate import JointMotion, PlateConfig, PlateMotion
 
 FREE = BallConfig(rolling_resistance=0.0)
 DT_S = 0.001

@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 
 from acts_core.array import ArrayGeometry
-from acts_core.force import ForceResponse
-from acts_core.sampling import adaptive, measure_in
-from acts_sim.ball import BallConfig
-from acts_sim.ball_contact import BallContact, ContactConfig, depth_m, forces_n
+from acts_core.sampling import measure_in
+from acts_core.sampling.schemes import adaptive
+from acts_core.skin import ForceResponse
+from acts_sim.ball.ball import BallConfig
+from acts_sim.ball.ball_contact import BallContact, ContactConfig, depth_m, forces_n
 
 GEOMETRY = ArrayGeometry()
 CONFIG = ContactConfig()

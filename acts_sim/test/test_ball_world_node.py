@@ -19,11 +19,11 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 
 from acts_core.errors import REFUSED_EXIT_CODE
-from acts_core.force import ForceResponse
+from acts_core.skin import ForceResponse
 from acts_core.ur5e import LEVEL_Q_RAD, wrist_angles_for_tilt
 from acts_ros import qos
-from acts_sim.joint_follower import JOINT_RING_WIDTH
-from acts_sim.timed_ring import TimedRingReader, TimedRingWriter
+from acts_sim.ball.joint_follower import JOINT_RING_WIDTH
+from acts_sim.shared import TimedRingReader, TimedRingWriter
 
 DEADLINE_S = 40.0
 
@@ -73,7 +73,15 @@ class Observer:
 @contextmanager
 def world(domain_id: int, folder: Path, *parameters: str) -> Iterator[subprocess.Popen[str]]:
     arguments = [f"field_ring:={folder / 'run' / 'field.ring'}", f"joint_ring:={folder / 'joints.ring'}", *parameters]
-    command = [sys.executable, "-m", "acts_ros.program", "acts_sim.ball_world_node", "--ros-args", "-r", "__ns:=/plate"]
+    command = [
+        sys.executable,
+        "-m",
+        "acts_ros.executables.program",
+        "acts_sim.ball.ball_world_node",
+        "--ros-args",
+        "-r",
+        "__ns:=/plate",
+    ]
     for argument in arguments:
         command += ["-p", argument]
     environment = {**os.environ, "ROS_DOMAIN_ID": str(domain_id), "ROS_PYTHON_CHECK_FIELDS": "1"}
@@ -184,8 +192,8 @@ def test_a_wrong_parameter_ends_it_with_one_clear_line(tmp_path: Path, parameter
 
 FAILING = """
 import sys
-from acts_sim import ball_world_node
-from acts_sim.world import World
+from acts_sim.ball import ball_world_node
+from acts_sim.ball.world import World
 
 def step(self, joints, dt_s):
     raise ZeroDivisionError("by mistake")

@@ -6,9 +6,10 @@ from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
 from acts_core.errors import SettingsError
-from acts_sim.contact_model import ContactModel, FoamConfig, Press
-from acts_sim.objects import OBJECTS, ContactObject, object_named, register
-from acts_sim.outlines import box, disc, prism
+from acts_sim.pressing import OBJECTS, ContactModel, ContactObject, FoamConfig, object_named
+from acts_sim.pressing.contact_model import Press
+from acts_sim.pressing.objects import register
+from acts_sim.pressing.outlines import box, disc, prism
 
 GEOMETRY = ArrayGeometry()
 DISC = ContactObject("disc", "test", (0.0003, 0.0015), lambda x, y: prism(disc(x, y, 0.012)))

@@ -35,7 +35,14 @@ class Rig:
         self.link, self.control = folder / "hand", folder / "control"
         self.process = subprocess.Popen(
             [
-                *(sys.executable, "-m", "acts_ros.program", "acts_sim.dynamixel.main", "--link", str(self.link)),
+                *(
+                    sys.executable,
+                    "-m",
+                    "acts_ros.executables.program",
+                    "acts_sim.dynamixel.main",
+                    "--link",
+                    str(self.link),
+                ),
                 *("--control", str(self.control), "--return-delay", "0", *options),
             ],
             stdout=subprocess.PIPE,

@@ -8,11 +8,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from acts_sim.dynamixel.bus import Bus
+from acts_sim.dynamixel import RAD_PER_TICK, Bus, Motor, OverloadLaw
 from acts_sim.dynamixel.control_table import SIZE, XC330, XL330
-from acts_sim.dynamixel.drive import RAD_PER_TICK
 from acts_sim.dynamixel.joints import FreeJoints
-from acts_sim.dynamixel.motor import HardwareError, Motor, OperatingMode, OverloadLaw, StatusError
+from acts_sim.dynamixel.motor import HardwareError, OperatingMode, StatusError
 from acts_sim.dynamixel.packets import Instruction, Packet
 
 MODE, TORQUE, ERROR, WATCHDOG, CURRENT, GOAL, PRESENT_CURRENT, POSITION = 11, 64, 70, 98, 102, 116, 126, 132

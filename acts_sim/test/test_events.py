@@ -6,10 +6,16 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from acts_core.errors import SettingsError
-from acts_sim.contact_model import ContactModel, FoamConfig
-from acts_sim.event_contacts import GOLF_BALL
-from acts_sim.events import EVENT_RATE_HZ, EVENTS, event_recordings
-from acts_sim.presses import PRESS_RATE_HZ, press_over_time
+from acts_sim.pressing import (
+    EVENT_RATE_HZ,
+    EVENTS,
+    PRESS_RATE_HZ,
+    ContactModel,
+    FoamConfig,
+    event_recordings,
+    press_over_time,
+)
+from acts_sim.pressing.event_contacts import GOLF_BALL
 
 
 def centres(frames: NDArray[np.uint16]) -> NDArray[np.float64]:

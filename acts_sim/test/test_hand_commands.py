@@ -13,11 +13,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from acts_core.errors import SettingsError
+from acts_sim.hand import STEP_S, HandTruth, HandWorld, HandWorldConfig, TruthFollower, carry_out, row_width
 from acts_sim.hand.commands import COMMANDS
-from acts_sim.hand.loop import STEP_NS, HandLoop
-from acts_sim.hand.truth import HandTruth, TruthFollower, row_width
-from acts_sim.hand.world import STEP_S, HandWorld, HandWorldConfig
-from acts_sim.timed_ring import TimedRingReader, TimedRingWriter
+from acts_sim.hand.process.loop import STEP_NS, HandLoop
+from acts_sim.shared import TimedRingReader, TimedRingWriter
 
 
 def run(world: HandWorld, seconds: float) -> HandTruth:
@@ -34,7 +33,7 @@ def any_world() -> HandWorld:
 def test_the_other_hand_moves_by_20_mm_and_turns_by_20_degrees() -> None:
     world = HandWorld(HandWorldConfig(object="other_hand", object_held=True, object_height_m=0.03))
     start = run(world, 0.1)
-    world.do("move 0 20 0 0 0 20 0.5")
+    carry_out(world, "move 0 20 0 0 0 20 0.5")
     half = run(world, 0.25)
     end = run(world, 0.5)
     way = np.array(end.object_position_m) - start.object_position_m
@@ -47,30 +46,30 @@ def test_the_other_hand_moves_by_20_mm_and_turns_by_20_degrees() -> None:
 def test_what_is_let_go_falls_out_of_an_open_hand_and_can_be_put_back() -> None:
     world = HandWorld(HandWorldConfig(pose="palm_down", object_held=True))
     assert not run(world, 0.2).object_lost
-    world.do("let_go")
+    carry_out(world, "let_go")
     lost = run(world, 0.5)
     assert lost.object_lost
     assert not lost.object_held
     assert run(world, 0.1).object_position_m == pytest.approx(lost.object_position_m, abs=1e-6)
-    world.do("put 0 0")
+    carry_out(world, "put 0 0")
     assert not world.truth.object_lost
-    world.do("hold")
+    carry_out(world, "hold")
     assert not run(world, 0.3).object_lost
 
 
 def test_a_load_grows_evenly_and_stays() -> None:
     world = HandWorld(HandWorldConfig(pose="thumb_up", object="cylinder", object_held=True))
-    world.do("load 2 50")
+    carry_out(world, "load 2 50")
     assert run(world, 0.026).load_n == pytest.approx((0.0, -world.weight_n * 1.04, 0.0), rel=0.05)
     assert run(world, 0.05).load_n == pytest.approx((0.0, -2.0 * world.weight_n, 0.0))
-    world.do("pull 0 0 0 10")
+    carry_out(world, "pull 0 0 0 10")
     assert run(world, 0.05).load_n == pytest.approx((0.0, 0.0, 0.0))
 
 
 def test_a_shaken_hand_ends_where_it_was() -> None:
     world = HandWorld(HandWorldConfig(object="none"))
     before = world.truth.gravity_m_s2
-    world.do("shake y 5 4 0.6")
+    carry_out(world, "shake y 5 4 0.6")
     felt = np.array([run(world, STEP_S).gravity_m_s2[1] for _ in range(300)])
     assert felt.max() == pytest.approx(0.005 * (2.0 * math.pi * 4.0) ** 2, rel=0.05)
     assert felt.min() == pytest.approx(-felt.max(), rel=0.05)
@@ -80,13 +79,13 @@ def test_a_shaken_hand_ends_where_it_was() -> None:
 def test_motors_fail_by_the_same_words_as_on_the_bus() -> None:
     world = HandWorld(HandWorldConfig(object="none", overload_after_s=0.2))
     switch_on(world)
-    world.do("lose 3")
+    carry_out(world, "lose 3")
     assert world.bus.find(3) is None
-    world.do("find 3")
+    carry_out(world, "find 3")
     assert world.bus.find(3) is world.motors[3]
-    world.do("overheat 4")
+    carry_out(world, "overheat 4")
     assert world.motors[4]["torque_enable"] == 0
-    world.do("block 1")
+    carry_out(world, "block 1")
     world.motors[1].write(116, (3500).to_bytes(4, "little"))
     run(world, 0.3)
     assert world.motors[1]["hardware_error_status"] == 0x20  # stalled for too long, as was asked for
@@ -97,7 +96,7 @@ def test_motors_fail_by_the_same_words_as_on_the_bus() -> None:
 @settings(max_examples=150)
 def test_any_line_is_done_or_refused(any_world: HandWorld, word: str, rest: list[str]) -> None:
     with suppress(SettingsError):
-        any_world.do(" ".join([word, *rest]))
+        carry_out(any_world, " ".join([word, *rest]))
     any_world.step()
     assert np.isfinite(any_world.counts).all()
     assert np.isfinite(any_world.truth.q_rad).all()
@@ -114,7 +113,7 @@ def test_every_object_comes_to_rest_on_the_palm_with_its_weight(name: str) -> No
 
 def test_the_loop_writes_each_step_ahead_of_the_clock(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     now_ns = 10**12
-    monkeypatch.setattr("acts_sim.hand.loop.time.monotonic_ns", lambda: now_ns)
+    monkeypatch.setattr("acts_sim.hand.process.loop.time.monotonic_ns", lambda: now_ns)
     world = HandWorld(HandWorldConfig(object="none"))
     patches = [patch.name for patch in world.layout.patches]
     with (
@@ -144,7 +143,7 @@ def test_a_light_object_squeezed_and_shaken_stays_within_reason(name: str, mass_
     world = HandWorld(HandWorldConfig(object=name, object_mass_kg=mass_kg, pose="thumb_up", object_held=True))
     switch_on(world)
     close(world, AROUND_SPHERE, 150, 50)
-    world.do("shake x 10 4 0.5")
+    carry_out(world, "shake x 10 4 0.5")
     fastest = max(float(np.linalg.norm(run(world, STEP_S).object_velocity_m_s)) for _ in range(300))
     assert fastest < 1.0
 

@@ -6,9 +6,9 @@ import mujoco
 import numpy as np
 import pytest
 
-from acts_core.layouts import layout
-from acts_sim.hand import kinematics, model
-from acts_sim.hand.kinematics import FINGER_SKIN_RADIUS_M, LINKS, PALM_SURFACE_Z_M, SOLIDS
+from acts_core.skin import layout
+from acts_sim.hand import SOLIDS, kinematics, model
+from acts_sim.hand.kinematics import FINGER_SKIN_RADIUS_M, LINKS, PALM_SURFACE_Z_M
 
 # Motor, anchor [m] and axis of its joint in the palm's frame with all joints at 0, from the published body offsets.
 PUBLISHED = [

@@ -8,10 +8,10 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from acts_core.errors import ActsError
-from acts_sim.hand.drawing import draw_hand
-from acts_sim.hand.objects import OBJECTS, held_object
-from acts_sim.hand.picture import VIEWS, HandPicture
-from acts_sim.hand.world import HandWorld, HandWorldConfig
+from acts_sim.hand import HandWorld, HandWorldConfig, held_object
+from acts_sim.hand.objects import OBJECTS
+from acts_sim.hand.pictures import HandPicture, draw_hand
+from acts_sim.hand.pictures.picture import VIEWS
 
 
 @pytest.fixture(scope="module")

@@ -17,9 +17,9 @@ import pytest
 from dynamixel_sdk import COMM_SUCCESS, GroupSyncRead, GroupSyncWrite, PacketHandler, PortHandler, port_handler
 from hand_motors import AROUND_SPHERE
 
-from acts_core.layouts import layout
-from acts_sim.hand.truth import HandTruth, TruthFollower
-from acts_sim.timed_ring import TimedRingReader
+from acts_core.skin import layout
+from acts_sim.hand import HandTruth, TruthFollower
+from acts_sim.shared import TimedRingReader
 
 IDS = list(range(16))
 # The library waits for an answer for twice this and 2 ms [ms]; as it comes, it is too short for a loaded machine.
@@ -36,7 +36,7 @@ class Rig:
         paths = [word for option, name in names.items() for word in (f"--{option}", str(folder / name))]
         self.process = subprocess.Popen(
             [
-                *(sys.executable, "-m", "acts_ros.program", "acts_sim.hand.main", *paths),
+                *(sys.executable, "-m", "acts_ros.executables.program", "acts_sim.hand.process.main", *paths),
                 *("--return-delay-time", "0", "--lead-ms", "4", *options),
             ],
             stdout=subprocess.PIPE,

@@ -7,8 +7,7 @@ import pytest
 from hand_motors import switch_on
 from numpy.typing import NDArray
 
-from acts_sim.hand.tip import BLUNT_RADIUS_M, SHARP_RADIUS_M
-from acts_sim.hand.world import STEP_S, HandWorld, HandWorldConfig
+from acts_sim.hand import BLUNT_RADIUS_M, SHARP_RADIUS_M, STEP_S, HandWorld, HandWorldConfig, carry_out
 
 
 def palm(world: HandWorld) -> NDArray[np.float64]:
@@ -33,7 +32,7 @@ def test_a_press_of_twice_the_force_has_a_larger_footprint() -> None:
     world = HandWorld()
     run(world, 0.3)
     force, pressed = palm(world).sum(), np.count_nonzero(palm(world) > 0.005)
-    world.do("load 1")
+    carry_out(world, "load 1")
     run(world, 0.3)
     assert palm(world).sum() == pytest.approx(2.0 * force, rel=0.01)
     assert np.count_nonzero(palm(world) > 0.005) > pressed
@@ -73,7 +72,7 @@ def test_a_tip_finds_every_patch_and_pushes_its_finger_away(patch: str) -> None:
 
 def test_the_pattern_moves_with_an_object_that_slides_and_its_rim_slides_first() -> None:
     world = HandWorld(HandWorldConfig(object_held=True))
-    world.do("load 2 20")
+    carry_out(world, "load 2 20")
     run(world, 0.2)
     before_m, was_m = centre_m(world), np.array(world.truth.object_position_m)
     world.holder.move(np.array([0.004, 0.006, 0.0]), np.zeros(3), 0.3)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from hand_motors import AROUND_SPHERE, close, switch_on
 
-from acts_sim.hand.world import HandWorld, HandWorldConfig
+from acts_sim.hand import HandWorld, HandWorldConfig
 
 
 def test_a_sphere_lies_on_the_palm_with_its_weight() -> None:
@@ -70,7 +70,7 @@ def test_motors_see_their_joints() -> None:
 
 
 def test_what_needs_no_hand_does_not_load_mujoco() -> None:
-    modules = "acts_sim.world_loop, acts_sim.timed_ring, acts_sim.dynamixel.main, acts_sim.ur.main"
+    modules = "acts_sim.ball.world_loop, acts_sim.shared.timed_ring, acts_sim.dynamixel.main, acts_sim.ur.main"
     code = f"import sys, {modules}; sys.exit('mujoco' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], timeout=60).returncode == 0
 

@@ -2,8 +2,7 @@ import numpy as np
 import pytest
 
 from acts_core.errors import SettingsError
-from acts_sim.objects import object_named
-from acts_sim.pressing_arm import PressingArm, PressingConfig
+from acts_sim.pressing import PressingArm, PressingConfig, object_named
 
 CIRCLE, BALL = object_named("circle"), object_named("rubber_ball")
 

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from acts_core.errors import RecordingError
-from acts_sim.recording import export_recording
+from acts_sim.pressing.recording import export_recording
 
 
 def evaluation(path: Path, **changes: object) -> Path:

@@ -8,12 +8,12 @@ from pathlib import Path
 import pytest
 
 from acts_core.errors import ActsError
-from acts_sim.run_folder import Claim, default_run_dir, make_private
+from acts_sim.shared import Claim, default_run_dir, make_private
 
 HOLDER = """
 import sys
 from pathlib import Path
-from acts_sim.run_folder import Claim
+from acts_sim.shared.run_folder import Claim
 claim = Claim(Path(sys.argv[1]))
 print("claimed", flush=True)
 sys.stdin.read()

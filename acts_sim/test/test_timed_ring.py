@@ -14,7 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from acts_core.errors import ActsError
-from acts_sim.timed_ring import TimedRingReader, TimedRingWriter
+from acts_sim.shared import TimedRingReader, TimedRingWriter
 
 
 @pytest.fixture
@@ -226,7 +226,7 @@ WRITER = """
 import sys
 from pathlib import Path
 import numpy as np
-from acts_sim.timed_ring import TimedRingWriter
+from acts_sim.shared.timed_ring import TimedRingWriter
 
 # Far faster than any real writer, through a short ring, so that readers meet torn and overwritten slots.
 with TimedRingWriter(Path(sys.argv[1]), 256, slots=16) as writer:

@@ -17,7 +17,7 @@ import pytest
 from ur_process import HOOK_PORT, Simulator, wait_for
 
 from acts_core.ur5e import LEVEL_Q_RAD
-from acts_sim.timed_ring import TimedRingReader
+from acts_sim.shared import TimedRingReader
 from acts_sim.ur.main import JOINT_RING_WIDTH, parse
 from acts_sim.ur.rtde import PacketType, encode
 

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from acts_sim.lines import LineSession
+from acts_sim.shared import LineSession
 from acts_sim.ur.config import ControllerConfig
 from acts_sim.ur.controller import Controller, RuntimeState
 from acts_sim.ur.pose import pose_from_transform, transform_from_pose

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from acts_core.errors import SettingsError
-from acts_core.force import ForceResponse
+from acts_core.skin import ForceResponse
 from acts_core.ur5e import LEVEL_Q_RAD, wrist_angles_for_tilt
-from acts_sim.ball_plate import JointMotion
-from acts_sim.world import Phase, World, WorldConfig, WorldState
+from acts_sim.ball.ball_plate import JointMotion
+from acts_sim.ball.world import Phase, World, WorldConfig, WorldState
 
 DT_S = 0.001
 LEVEL = JointMotion.still(np.array(LEVEL_Q_RAD))

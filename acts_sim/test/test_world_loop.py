@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from acts_core.ur5e import LEVEL_Q_RAD
-from acts_sim.joint_follower import JOINT_RING_WIDTH, JointFollower, JointSource
-from acts_sim.timed_ring import TimedRingReader, TimedRingWriter
-from acts_sim.world import World, WorldConfig, WorldState
-from acts_sim.world_loop import LEAD_NS, LONGEST_CATCH_UP_STEPS, STEP_NS, WAKE_NS, WorldLoop
+from acts_sim.ball.joint_follower import JOINT_RING_WIDTH, JointFollower, JointSource
+from acts_sim.ball.world import World, WorldConfig, WorldState
+from acts_sim.ball.world_loop import LEAD_NS, LONGEST_CATCH_UP_STEPS, STEP_NS, WAKE_NS, WorldLoop
+from acts_sim.shared import TimedRingReader, TimedRingWriter
 
 MS = 1_000_000
 

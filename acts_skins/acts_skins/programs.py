@@ -1,6 +1,6 @@
 """The executables of this package, see setup.py. Nothing else is imported here: signals come first."""
 
-from acts_ros.program import Program
+from acts_ros.executables.program import Program
 
 skin_contacts = Program("acts_skins.contacts.main")
 skin_overview = Program("acts_skins.overview.main")

@@ -15,7 +15,7 @@ from acts_core.errors import SettingsError
 from acts_core.stop_signals import StopSignals
 from acts_ros.processes.console import Console
 from acts_ros.processes.launcher import Launcher
-from acts_sim.run_folder import default_run_dir, make_private
+from acts_sim.shared import default_run_dir, make_private
 from acts_skins.skin_processes import SkinProcesses
 from acts_skins.skins_file import read_skins
 

@@ -13,9 +13,9 @@ from pathlib import Path
 from typing import Any
 
 from acts_core.errors import ActsError, SettingsError
-from acts_core.layouts import LAYOUTS, layout_path
+from acts_core.files import Section, is_number, read_yaml
+from acts_core.skin import LAYOUTS, layout_path
 from acts_core.transforms import Transform
-from acts_core.yaml_places import Section, is_number, read_yaml
 from acts_skins.frame_tree import FrameTree, Pose
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,63}")

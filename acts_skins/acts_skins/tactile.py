@@ -11,10 +11,10 @@ from collections.abc import Sequence
 
 from acts_core.kernels import skip_extras
 from acts_core.stop_signals import StopSignals
-from acts_driver.driver_node import DriverNode
+from acts_driver.nodes.driver_node import DriverNode
 from acts_driver.settings import DriverSettings
-from acts_recon.reconstruction_node import ReconstructionNode
-from acts_recon.reconstruction_settings import ReconstructionSettings
+from acts_recon.nodes.reconstruction_node import ReconstructionNode
+from acts_recon.settings import ReconstructionSettings
 from acts_ros.composition import parameters_from
 from acts_ros.executor import run
 

@@ -10,10 +10,10 @@ from typing import Any, TypeVar
 import yaml
 
 from acts_core.errors import ActsError
+from acts_core.files import Section
 from acts_core.settings import checked, default_of, describe, unknown_key_message
-from acts_core.yaml_places import Section
 from acts_driver.settings import DriverSettings
-from acts_recon.reconstruction_settings import ReconstructionSettings
+from acts_recon.settings import ReconstructionSettings
 from acts_skins.skins_file import Skin
 
 T = TypeVar("T")

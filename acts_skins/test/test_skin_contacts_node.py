@@ -107,7 +107,7 @@ def running(folder: Path, domain_id: int, *words: str, module: str = "contacts")
     path = folder / "skins.yaml"
     path.write_text(SKINS)
     nodes = ["skin_frames", "skin_diagnostics", *(["skin_contacts"] if module == "contacts" else [])]
-    command = [sys.executable, "-m", "acts_ros.program", f"acts_skins.{module}.main"]
+    command = [sys.executable, "-m", "acts_ros.executables.program", f"acts_skins.{module}.main"]
     command += [word for node in nodes for word in ("--set", f"{node}.skins_file={path}")]
     environment = {**os.environ, "ROS_DOMAIN_ID": str(domain_id), "ROS_PYTHON_CHECK_FIELDS": "1"}
     with subprocess.Popen(

@@ -70,7 +70,7 @@ class Skins:
 @contextmanager
 def running(folder: Path, path: Path, domain_id: int, *words: str) -> Iterator[Skins]:
     environment = {**os.environ, "ROS_DOMAIN_ID": str(domain_id), "ROS_PYTHON_CHECK_FIELDS": "1"}
-    command = [sys.executable, "-m", "acts_ros.program", "acts_skins.skins", "--skins-file", str(path)]
+    command = [sys.executable, "-m", "acts_ros.executables.program", "acts_skins.skins", "--skins-file", str(path)]
     command += ["--run-dir", str(folder / "run"), *words]
     log = folder / "output.txt"
     with (

@@ -104,7 +104,14 @@ def listener(request: pytest.FixtureRequest) -> Iterator[Listener]:
 
 
 def tactile(link: Path, *words: str) -> list[str]:
-    program = [sys.executable, "-m", "acts_ros.program", "acts_skins.tactile", "--set", f"driver.port={link}"]
+    program = [
+        sys.executable,
+        "-m",
+        "acts_ros.executables.program",
+        "acts_skins.tactile",
+        "--set",
+        f"driver.port={link}",
+    ]
     return [*program, *words, "--ros-args", "-r", "__ns:=/plate"]
 
 

@@ -18,12 +18,12 @@ recorder = recording.__enter__()
 from acts_core.array import ArrayGeometry
 from acts_core.frames import SampleFrame, Scheme
 from acts_core.wire import StreamDecoder, encode_frame
-from acts_driver.baseline_tracker import BaselineTracker
+from acts_driver.baseline.baseline_tracker import BaselineTracker
 from acts_driver.stream import FrameStream
-from acts_recon.baseline import BaselineSubtraction
-from acts_recon.blob_tracker import BlobTracker
-from acts_recon.image import mono16, rgb8
-from acts_recon.reconstruction_settings import ReconstructionSettings
+from acts_recon.images.baseline import BaselineSubtraction
+from acts_recon.contacts.blob_tracker import BlobTracker
+from acts_recon.images.image import mono16, rgb8
+from acts_recon.settings import ReconstructionSettings
 
 skip_extras()
 decoder, stream, baseline = StreamDecoder(), FrameStream(32, 32), BaselineTracker(32, 32)

@@ -75,7 +75,7 @@ def parameters_of(words: list[str]) -> dict[str, Any]:
     SettingsError
         No such parameter, or a value of another type.
     """
-    from acts_driver.board_parameters import BOARD_PARAMETERS, BoardParameters
+    from acts_driver.board import BOARD_PARAMETERS, BoardParameters
 
     values: dict[str, Any] = {}
     for word in words:

@@ -8,11 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from acts_core.errors import RecordingError
-from acts_core.frames_file import load_frames, without_contact
-from acts_recon.image_classification import ImageClassifierConfig
-from acts_recon.object_library import build_object_library, save_object_library
-from acts_sim.objects import OBJECTS, object_named
-from acts_sim.pressing_arm import PressingArm
+from acts_core.files import load_frames, without_contact
+from acts_recon.objects import ImageClassifierConfig, build_object_library, save_object_library
+from acts_sim.pressing import OBJECTS, PressingArm, object_named
 from acts_tools.output_file import require_writable
 
 

@@ -13,13 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import RecordingError, SettingsError
-from acts_core.frames_file import without_contact
+from acts_core.files import without_contact
 from acts_core.settings import default_of
-from acts_recon.dictionary import Dictionary, save_dictionary
-from acts_recon.ksvd import KsvdConfig, KsvdProgress, learn_dictionary
-from acts_recon.training_patches import prune_coherent, random_patches
-from acts_sim.contact_model import FoamConfig
-from acts_sim.objects import OBJECTS, object_named
+from acts_recon.learning import KsvdConfig, KsvdProgress, learn_dictionary, prune_coherent, random_patches
+from acts_recon.sparse import Dictionary, save_dictionary
+from acts_sim.pressing import OBJECTS, FoamConfig, object_named
 from acts_tools.output_file import require_writable
 from acts_tools.training.checkpoint import Checkpoint
 from acts_tools.training.frames import Source, model_frames, recorded_frames

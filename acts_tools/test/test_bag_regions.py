@@ -10,16 +10,15 @@ import numpy as np
 import pytest
 from rclpy.qos import QoSProfile
 
-from acts_control.hand.bus import HandReading
-from acts_control.hand.description_file import LEAP_RIGHT
-from acts_control.hand.kinematics import HandKinematics
-from acts_control.hand.reflexes.registry import REFLEXES, make_reflexes
-from acts_control.hand.reflexes_node import HandReflexesSettings
-from acts_control.hand.supervisor import HandSupervisor, SupervisorConfig
-from acts_core.region_contact import RegionContact
+from acts_control.hand.control import HandSupervisor, SupervisorConfig
+from acts_control.hand.description import LEAP_RIGHT, HandKinematics
+from acts_control.hand.motors import HandReading
+from acts_control.hand.nodes.reflexes_node import HandReflexesSettings
+from acts_control.hand.reflexes import REFLEXES, make_reflexes
+from acts_core.skin import RegionContact
 from acts_msgs.msg import RegionContacts
 from acts_ros.bags.reading import open_bag
-from acts_ros.regions_cdr import read_regions, write_regions
+from acts_ros.messages import read_regions, write_regions
 from acts_tools.bags.player import Player
 from acts_tools.bags.recorder import Recorder
 from acts_tools.bags.writing import BagWriter

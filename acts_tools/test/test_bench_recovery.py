@@ -8,9 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from acts_recon.fastomp import fast_omp
-from acts_recon.ksvd import KsvdConfig
-from acts_recon.patches import patch_layout
+from acts_recon.learning import KsvdConfig
+from acts_recon.sparse import fast_omp, patch_layout
 from acts_tools.bags.stopping import StopFlag
 from acts_tools.bench import multiply_adds, peers, recovery, train
 from acts_tools.bench.workbench import Workbench

@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from acts_core.errors import ArrayError, SettingsError
-from acts_core.sampling import NEIGHBOURS, SCHEMES, Measure, Sampler, SamplingConfig
+from acts_core.sampling import NEIGHBOURS, SCHEMES, Sampler, SamplingConfig
+from acts_core.sampling.schemes import Measure
 from acts_tools.evaluate.board_sampler import BoardSampler
 
 

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from acts_core.errors import RecordingError
-from acts_core.frames_file import load_frames
+from acts_core.files import load_frames
 from acts_tools.cli import main
 from acts_tools.evaluate.public import insole, weiss
 

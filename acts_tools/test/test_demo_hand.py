@@ -14,9 +14,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from acts_core.layouts import layout
-from acts_core.region_contact import RegionContact
-from acts_sim.hand.world import HandWorld, HandWorldConfig
+from acts_core.skin import RegionContact, layout
+from acts_sim.hand import HandWorld, HandWorldConfig
 from acts_tools.cli import main
 from acts_tools.demo.hand.act import Act
 from acts_tools.demo.hand.picture import draw

@@ -27,8 +27,8 @@ def driver(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
             [
                 sys.executable,
                 "-m",
-                "acts_ros.program",
-                "acts_driver.driver_node",
+                "acts_ros.executables.program",
+                "acts_driver.nodes.driver_node",
                 "--ros-args",
                 "-r",
                 "__ns:=/hand",

@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 
 from acts_core.sampling import SamplingConfig
-from acts_recon.dictionary import load_dictionary
-from acts_recon.shipped import shipped_dictionary_path
-from acts_sim.events import EVENT_RATE_HZ, event_recordings
+from acts_recon.sparse import load_dictionary, shipped_dictionary_path
+from acts_sim.pressing import EVENT_RATE_HZ, event_recordings
 from acts_tools.evaluate.recovery import FOLLOW_COUNTS, Recording, Task, evaluate
 
 

@@ -9,9 +9,8 @@ import numpy as np
 import pytest
 
 from acts_core.errors import ActsError, RecordingError, SettingsError
-from acts_recon.object_library import load_object_library
-from acts_sim.objects import object_named
-from acts_sim.pressing_arm import PressingArm
+from acts_recon.objects import load_object_library
+from acts_sim.pressing import PressingArm, object_named
 from acts_tools import library
 from acts_tools.evaluate import command
 from acts_tools.evaluate.classification import Trials, accuracy, run_trials

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from acts_sim.hand.world import HandWorldConfig
+from acts_sim.hand import HandWorldConfig
 from acts_tools.cli import main
 from acts_tools.evaluate.hand import scenarios, slip
 from acts_tools.evaluate.hand.rig import HandRig, RigOptions

@@ -9,9 +9,7 @@ from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
 from acts_core.errors import DictionaryError, SettingsError
-from acts_recon.dictionary import Dictionary, load_dictionary
-from acts_recon.reconstructor import ReconstructorConfig
-from acts_recon.shipped import shipped_dictionary_path
+from acts_recon.sparse import Dictionary, ReconstructorConfig, load_dictionary, shipped_dictionary_path
 from acts_tools.evaluate.dictionaries import cosine_dictionary, dictionary_named, haar_dictionary
 from acts_tools.evaluate.methods import METHODS, Method, method_named
 

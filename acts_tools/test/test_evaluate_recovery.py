@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
 from acts_core.sampling import SamplingConfig
-from acts_recon.dictionary import Dictionary, load_dictionary
-from acts_recon.shipped import shipped_dictionary_path
+from acts_recon.sparse import Dictionary, load_dictionary, shipped_dictionary_path
 from acts_tools.cli import main
 from acts_tools.evaluate import calibration
 from acts_tools.evaluate.recovery import Recording, Task, evaluate

@@ -7,11 +7,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from acts_core.frames_file import load_frames
+from acts_core.files import load_frames
 from acts_core.sampling import SamplingConfig
-from acts_recon.dictionary import Dictionary, load_dictionary
-from acts_recon.shipped import shipped_dictionary_path
-from acts_sim.objects import OBJECTS
+from acts_recon.sparse import Dictionary, load_dictionary, shipped_dictionary_path
+from acts_sim.pressing import OBJECTS
 from acts_tools.evaluate.recovery import Recording, Task, evaluate
 from acts_tools.train import model_frames
 

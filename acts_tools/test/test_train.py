@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from acts_core.errors import ActsError, ArrayError, RecordingError, SettingsError
-from acts_recon.dictionary import load_dictionary
+from acts_recon.sparse import load_dictionary
 from acts_tools import train
 
 

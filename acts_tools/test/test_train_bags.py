@@ -15,7 +15,7 @@ from sensor_msgs.msg import Image
 
 from acts_core.errors import RecordingError
 from acts_msgs.msg import Baseline, Contact, TactileSamples
-from acts_recon.dictionary import load_dictionary
+from acts_recon.sparse import load_dictionary
 from acts_ros.bags.message_types import Definitions
 from acts_tools import train
 from acts_tools.bags.writing import BagWriter

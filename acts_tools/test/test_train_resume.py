@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 from acts_core.errors import RecordingError
-from acts_recon.dictionary import load_dictionary
-from acts_recon.ksvd import KsvdState
+from acts_recon.learning import KsvdState
+from acts_recon.sparse import load_dictionary
 from acts_tools.cli import main
 from acts_tools.training.checkpoint import Checkpoint
 from acts_tools.training.progress import ProgressBar

@@ -1,5 +1,5 @@
 """The executables of this package, see setup.py. Nothing else is imported here: signals come first."""
 
-from acts_ros.program import Program
+from acts_ros.executables.program import Program
 
 view = Program("acts_view.main")

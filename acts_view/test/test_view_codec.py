@@ -14,7 +14,7 @@ from hypothesis.extra import numpy as arrays
 from numpy.typing import NDArray
 
 from acts_core.errors import ArrayError
-from acts_core.layouts import LAYOUTS, layout
+from acts_core.skin import LAYOUTS, layout
 from acts_view.skin.arrangement import arrangement
 from acts_view.skin.snapshot import Frame, SkinShape, describe_skin, encode_frame
 from acts_view.web.codec import DTYPES, encode

@@ -20,12 +20,11 @@ from sensor_msgs.msg import Image
 from test_view_codec import decode
 from websockets.sync.client import ClientConnection, connect
 
-from acts_core.region_contact import RegionContact
+from acts_core.skin import RegionContact
 from acts_msgs.msg import Contact, Contacts, HandStatus, RegionContacts, TrackedContact
 from acts_ros import qos
-from acts_ros.cdr import ContactFields, write_contact
 from acts_ros.executor import spin_for
-from acts_ros.regions_cdr import write_regions
+from acts_ros.messages import ContactFields, write_contact, write_regions
 from acts_view.nodes.view_node import ViewNode
 
 DOMAIN_ID = 176

@@ -1,1 +1,4 @@
-"""Hands that move by touch: the bus of their motors, and what is known of a hand apart from it."""
+"""A hand that holds by touch: its description, its motors, its reflexes, and the loop that runs them.
+
+Each is a room of its own; see theirs.
+"""

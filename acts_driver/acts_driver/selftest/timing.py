@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_driver.clock import ClockFilter
 from acts_driver.selftest.findings import Finding, Level, Thresholds
 from acts_driver.selftest.record import FrameRecord
+from acts_driver.stream import ClockFilter
 
 _SEQUENCE_MODULUS = 2**32
 _DRIFT_FROM_S = 2.0

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.kernels import kernel
-from acts_recon.uncertainty_kernels import force_of
+from acts_recon.images import force_of
 
 RESULTS = 19
 """Numbers of a patch that `find_regions` writes."""
@@ -44,7 +44,7 @@ def find_regions(
     touch_counts : float
         A taxel above it is pressed.
     force_n : np.ndarray [shape=(1025,), dtype=float64]
-        The table of `acts_core.force.force_table`.
+        The table of `acts_core.skin.force.force_table`.
     results : np.ndarray [shape=(patches, RESULTS), dtype=float64]
         Written: pressed taxels, force [N], centre [m] (3), normal (3), area [m^2], peak [N], spread [m], concentration,
         sum of the patch's counts, and how the skin goes on from the centre, one taxel along the columns and one along

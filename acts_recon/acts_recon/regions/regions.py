@@ -8,13 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import ArrayError
-from acts_core.force import ForceResponse, MeasuredForceResponse, force_table
-from acts_core.layouts import Layout
-from acts_core.region_contact import RegionContact, Vector
+from acts_core.skin import ForceResponse, Layout, MeasuredForceResponse, RegionContact, Vector, force_table
 from acts_recon.regions import region_kernels as kernels
-from acts_recon.slip.config import SlipConfig
-from acts_recon.slip.motion import SMALLEST_SIDE
-from acts_recon.slip.watch import NO_SLIP, Slip, SlipWatch
+from acts_recon.slip import NO_SLIP, SMALLEST_SIDE, Slip, SlipConfig, SlipWatch
 
 # Of a slip rate, so that a time that is a little early counts as due.
 _EARLY = 0.9

@@ -1,1 +1,11 @@
-"""How what touches a patch of skin moves along it, and whether it slips."""
+"""Slip: how far a pattern of pressure moves along the skin, and whether that is sliding.
+
+In come images, one after another; out come the motion in metres and events of slip (docs/slip.md).
+"""
+
+from acts_recon.slip.config import SlipConfig
+from acts_recon.slip.detector import SlipDetector
+from acts_recon.slip.motion import SMALLEST_SIDE
+from acts_recon.slip.watch import NO_SLIP, Slip, SlipWatch
+
+__all__ = ["NO_SLIP", "SMALLEST_SIDE", "Slip", "SlipConfig", "SlipDetector", "SlipWatch"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_core.skin_patch import SkinPatch
+from acts_core.skin import SkinPatch
 from acts_recon.slip.config import SlipConfig
 from acts_recon.slip.watch import Slip, SlipWatch
 

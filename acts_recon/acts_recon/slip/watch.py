@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import ArrayError
-from acts_core.skin_patch import SkinPatch
+from acts_core.skin import SkinPatch
 from acts_recon.slip import watch_kernels as kernels
 from acts_recon.slip.config import SlipConfig
 from acts_recon.slip.motion import RIDGE, SMALLEST_SIDE, Motion

@@ -13,7 +13,7 @@ from rosbags.rosbag2 import Reader
 from rosbags.rosbag2.storage_mcap import McapReader
 
 from acts_core.errors import RecordingError
-from acts_core.regular_file import TEXT_BYTES_MAX, require_regular
+from acts_core.files import TEXT_BYTES_MAX, require_regular
 from acts_ros.bags.message_types import Definitions
 from acts_ros.bags.salvage import WholeRecords, largest_chunk
 

@@ -17,10 +17,10 @@ from dataclasses import dataclass, field
 from typing import IO
 
 from acts_core.errors import REFUSED_EXIT_CODE
+from acts_ros.executables.refused import LAUNCHER_VARIABLE
 from acts_ros.processes.console import Console
 from acts_ros.processes.process import Process
 from acts_ros.processes.respawn import RespawnWait
-from acts_ros.refused import LAUNCHER_VARIABLE
 
 _STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT)
 # How a process may end once it has been asked to; shells report a signal as 128 + its number.

@@ -1,1 +1,25 @@
-"""A bus of simulated Dynamixel motors, Protocol 2.0, that an unmodified ``dynamixel_sdk`` talks to."""
+"""Simulated Dynamixel motors on a bus: registers, packets and faults, for the unmodified SDK.
+
+In come packets on a pseudo-terminal; out come replies. A drive moves each motor, or a world does.
+"""
+
+from acts_sim.dynamixel.bus import Bus
+from acts_sim.dynamixel.control import ControlSocket
+from acts_sim.dynamixel.control_table import MODELS
+from acts_sim.dynamixel.drive import RAD_PER_TICK
+from acts_sim.dynamixel.faults import MOTOR_FAULTS, do_to_motor, state
+from acts_sim.dynamixel.motor import Motor, OverloadLaw
+from acts_sim.dynamixel.port import BusPort
+
+__all__ = [
+    "MODELS",
+    "MOTOR_FAULTS",
+    "RAD_PER_TICK",
+    "Bus",
+    "BusPort",
+    "ControlSocket",
+    "Motor",
+    "OverloadLaw",
+    "do_to_motor",
+    "state",
+]

@@ -8,7 +8,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from acts_core.errors import RobotError
-from acts_sim.lines import LineSession
+from acts_sim.shared import LineSession
 
 _READ_BYTES = 4096
 _MAX_CLIENTS = 16

@@ -10,7 +10,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from acts_core.realtime import RealtimeConfig, enter_realtime
+from acts_core.runtime import RealtimeConfig, enter_realtime
 from acts_core.stop_signals import StopSignals
 from acts_sim.dynamixel.bus import Bus
 from acts_sim.dynamixel.control import ControlSocket

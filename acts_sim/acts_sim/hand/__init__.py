@@ -1,1 +1,38 @@
-"""A simulated LEAP hand: joints in MuJoCo, a skin of 1024 taxels, an object in its grasp, motors on a bus."""
+"""The simulated LEAP hand, what it holds, and its skin.
+
+In come goals of motors and commands; out come angles, currents, pressures of 1024 taxels, and the truth to judge by.
+The world has no clock and no process of its own: the same seed gives the same bits.
+"""
+
+from acts_sim.hand.commands import carry_out
+from acts_sim.hand.kinematics import PALM, SOLIDS, frames, rotation_of
+from acts_sim.hand.objects import HeldObject, Piece, held_object
+from acts_sim.hand.skin_kernels import BOX, CAPSULE, CYLINDER
+from acts_sim.hand.tip import BLUNT_RADIUS_M, SHARP_RADIUS_M
+from acts_sim.hand.truth import COLUMN, PATCH_COLUMNS, PATCHES_FROM, HandTruth, TruthFollower, row_width
+from acts_sim.hand.world import STEP_S, HandWorld, HandWorldConfig
+
+__all__ = [
+    "BLUNT_RADIUS_M",
+    "BOX",
+    "CAPSULE",
+    "COLUMN",
+    "CYLINDER",
+    "PALM",
+    "PATCHES_FROM",
+    "PATCH_COLUMNS",
+    "SHARP_RADIUS_M",
+    "SOLIDS",
+    "STEP_S",
+    "HandTruth",
+    "HandWorld",
+    "HandWorldConfig",
+    "HeldObject",
+    "Piece",
+    "TruthFollower",
+    "carry_out",
+    "frames",
+    "held_object",
+    "rotation_of",
+    "row_width",
+]

@@ -4,16 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from acts_core.errors import SettingsError
-from acts_sim.dynamixel.faults import MOTOR_FAULTS, do_to_motor
+from acts_sim.dynamixel import MOTOR_FAULTS, do_to_motor
 from acts_sim.hand.tip import BLUNT_RADIUS_M, SHARP_RADIUS_M
-
-if TYPE_CHECKING:
-    from acts_sim.hand.world import HandWorld
+from acts_sim.hand.world import HandWorld
 
 _MM = 1e-3
 _MS = 1e-3

@@ -10,9 +10,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_core.force import ForceResponse
-from acts_core.layouts import Layout, SkinPatch
 from acts_core.settings import setting, validate
+from acts_core.skin import ForceResponse, Layout, SkinPatch
 from acts_sim.hand.kinematics import SKIN_THICKNESS_M
 from acts_sim.hand.skin_kernels import PATCH_RESULTS, WAVES, press
 from acts_sim.hand.solids import Solids

@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_core.layouts import Layout, SkinPatch
+from acts_core.skin import Layout, SkinPatch
 from acts_sim.hand import model as hand_model
 from acts_sim.hand.solids import Solids
 

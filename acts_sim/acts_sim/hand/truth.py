@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_sim.timed_ring import TimedRingReader
+from acts_sim.shared import TimedRingReader
 
 JOINTS = 16
 

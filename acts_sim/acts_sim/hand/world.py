@@ -13,12 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import ActsError, SettingsError
-from acts_core.layouts import layout
 from acts_core.settings import setting, validate
-from acts_sim.dynamixel.bus import Bus
-from acts_sim.dynamixel.control_table import MODELS
-from acts_sim.dynamixel.motor import Motor, OverloadLaw
-from acts_sim.hand import commands
+from acts_core.skin import layout
+from acts_sim.dynamixel import MODELS, Bus, Motor, OverloadLaw
 from acts_sim.hand import model as hand_model
 from acts_sim.hand.disturbances import Disturbances
 from acts_sim.hand.holder import Holder
@@ -192,16 +189,6 @@ class HandWorld:
     def has_object(self) -> bool:
         """Whether there is one."""
         return self._thing is not None
-
-    def do(self, command: str) -> None:
-        """Let something happen to hand or object: a line of words, see `acts_sim.hand.commands`.
-
-        Raises
-        ------
-        SettingsError
-            For a command that is not allowed; nothing has happened then.
-        """
-        commands.carry_out(self, command)
 
     def hold(self) -> None:
         """Let something hold the object where it is."""

@@ -14,12 +14,10 @@ from pathlib import Path
 import numpy as np
 
 from acts_core.errors import ActsError
-from acts_core.realtime import RealtimeConfig, enter_realtime
+from acts_core.runtime import RealtimeConfig, enter_realtime
 from acts_core.settings import default_of, describe, from_mapping
 from acts_core.stop_signals import StopSignals
-from acts_sim.lines import LineSession
-from acts_sim.run_folder import Claim
-from acts_sim.timed_ring import TimedRingWriter
+from acts_sim.shared import Claim, LineSession, TimedRingWriter
 from acts_sim.ur import dashboard, hooks
 from acts_sim.ur.config import ControllerConfig
 from acts_sim.ur.controller import Controller

@@ -16,8 +16,8 @@ from acts_core.settings import setting
 from acts_msgs.msg import SkinContact, SkinContacts
 from acts_msgs.msg import SkinState as StateMessage
 from acts_ros import qos
-from acts_ros.cdr import header_of
 from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
+from acts_ros.messages import header_of
 from acts_ros.parameters import declare, node_options
 from acts_ros.polled import PollingNode
 from acts_skins.contacts.alignment import Aligned, AlignedSkin, Aligner, AlignmentConfig, SkinState

@@ -12,8 +12,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from acts_core.frames import SampleFrame
-from acts_core.raster_ascii import RasterDecoder
-from acts_core.wire import StreamDecoder
+from acts_core.wire import RasterDecoder, StreamDecoder
 from acts_tools.bench.naive_decoder import NaiveDecoder
 from acts_tools.bench.processes import virtual_board
 from acts_tools.bench.result import Figure, Result

@@ -17,14 +17,14 @@ import numpy as np
 
 from acts_core.frames import SampleFrame
 from acts_core.wire import StreamDecoder
-from acts_driver.baseline_tracker import BaselineTracker
-from acts_driver.source import SerialSource
+from acts_driver.baseline import BaselineTracker
+from acts_driver.port import SerialSource
 from acts_driver.stream import FrameStream
 from acts_msgs.msg import TactileSamples
-from acts_recon.reconstruction_node import ReconstructionNode
+from acts_recon.nodes.reconstruction_node import ReconstructionNode
+from acts_ros.messages import SamplesMessage, frame_of, stamp_ns_of
 from acts_ros.polled import PollingNode
 from acts_ros.qos import STREAM
-from acts_ros.sample_messages import SamplesMessage, frame_of, stamp_ns_of
 from acts_tools.bench.graph import Graph
 from acts_tools.bench.processes import NAMESPACE, START_TIMEOUT_S, check_alive, python_module, virtual_board
 from acts_tools.bench.result import Figure, Result

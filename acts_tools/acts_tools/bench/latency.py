@@ -16,10 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 from rclpy.executors import SingleThreadedExecutor
 
-from acts_control.stream_statistics import StreamCounter
 from acts_core.frames import SampleFrame
+from acts_core.runtime import StreamCounter
 from acts_core.wire import StreamDecoder
-from acts_driver.source import SerialSource
+from acts_driver.port import SerialSource
 from acts_msgs.msg import TactileSamples
 from acts_ros.qos import STREAM
 from acts_tools.bench.graph import Graph

@@ -15,7 +15,7 @@ from collections.abc import Iterator, Sequence
 
 from acts_core.errors import ActsError, LaunchError
 from acts_core.wire import StreamDecoder
-from acts_driver.source import SerialSource
+from acts_driver.port import SerialSource
 from acts_driver.stream import FrameStream
 from acts_tools.bench.naive_decoder import NaiveDecoder
 from acts_tools.bench.processes import START_TIMEOUT_S, check_alive, python_module, virtual_board

@@ -24,13 +24,20 @@ from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX
 from acts_core.sampling import Sampler, SamplingConfig, measure_in
-from acts_recon import fastomp_kernels as kernels
-from acts_recon.dictionary import load_dictionary
-from acts_recon.fastomp import SPARSITY_RATIO, fast_omp, sparsity
-from acts_recon.fastomp_model import PatchModel, Workspace
-from acts_recon.patches import PatchLayout, patch_layout
-from acts_recon.shipped import shipped_dictionary_path
-from acts_sim.objects import OBJECTS
+from acts_recon.images import OK
+from acts_recon.sparse import (
+    SPARSITY_RATIO,
+    PatchLayout,
+    PatchModel,
+    Workspace,
+    fast_omp,
+    load_dictionary,
+    patch_layout,
+    shipped_dictionary_path,
+    sparsity,
+)
+from acts_recon.sparse import fastomp_kernels as kernels
+from acts_sim.pressing import OBJECTS
 from acts_tools.bench.multiply_adds import peak_per_s
 from acts_tools.bench.peers import SCIKIT_LEARN, SPAMS, missing, peer
 from acts_tools.bench.result import Figure, Result
@@ -153,7 +160,7 @@ def _recovery(layout: PatchLayout, atoms: NDArray[np.float32]) -> Callable[[Samp
 
     def recover(samples: Samples) -> None:
         code = kernels.recover_image(*model, *samples, TOUCH_COUNTS, COUNT_MAX, SPARSITY_RATIO, True, *workspace, image)
-        assert code == kernels.OK
+        assert code == OK
 
     return recover
 

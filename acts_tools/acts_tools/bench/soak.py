@@ -15,7 +15,7 @@ import numpy as np
 import psutil
 from diagnostic_msgs.msg import DiagnosticArray
 
-from acts_control.stream_statistics import StreamCounter
+from acts_core.runtime import StreamCounter
 from acts_msgs.msg import TactileSamples
 from acts_ros.qos import STREAM
 from acts_tools.bench.graph import Graph

@@ -8,7 +8,7 @@ from typing import Protocol
 
 from acts_core.errors import PortError
 from acts_core.frames import SampleFrame
-from acts_driver.source import SerialSource
+from acts_driver.port import SerialSource
 from acts_tools.bench.workbench import Workbench
 
 _TIMEOUT_S = 30.0

@@ -14,9 +14,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_recon.ksvd import KsvdConfig, learn_dictionary
-from acts_recon.ksvd_kernels import code_patches
-from acts_sim.objects import OBJECTS
+from acts_recon.learning import KsvdConfig, code_patches, learn_dictionary
+from acts_sim.pressing import OBJECTS
 from acts_tools.bench.peers import SCIKIT_LEARN, missing, peer
 from acts_tools.bench.result import Figure, Result
 from acts_tools.bench.workbench import Workbench

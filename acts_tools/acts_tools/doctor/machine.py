@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from acts_core.errors import SettingsError
-from acts_core.realtime import parse_cores
+from acts_core.runtime import parse_cores
 
 _CPU_SETSIZE = 1024
 

@@ -34,7 +34,7 @@ def _library() -> ctypes.CDLL:
 
 
 class BoardSampler:
-    """The C++ twin of `acts_core.sampling.Sampler`, a hundred times as fast, on recordings.
+    """The C++ twin of `acts_core.sampling.schemes.Sampler`, a hundred times as fast, on recordings.
 
     Parameters
     ----------
@@ -89,7 +89,7 @@ class BoardSampler:
         Returns
         -------
         indices, counts : np.ndarray [shape=(m,), dtype=uint16]
-            As in `acts_core.sampling.Sampler.frame`; overwritten by the next call.
+            As in `acts_core.sampling.schemes.Sampler.frame`; overwritten by the next call.
         """
         shape = (self.config.rows, self.config.cols)
         if frames.dtype != np.uint16 or frames.shape[1:] != shape or not len(frames) or not frames.flags.c_contiguous:

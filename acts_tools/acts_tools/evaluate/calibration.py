@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
-from acts_core.force import ForceResponse
 from acts_core.kernels import kernel
-from acts_recon.contact_finder import ContactFinder
+from acts_core.skin import ForceResponse
+from acts_recon.contacts import ContactFinder
 
 ROWS = ("touched", "untouched", "x", "y", "force", "area", "spread")
 """Taxels that are touched and that are not; then numbers of the contact that all pressed taxels make."""

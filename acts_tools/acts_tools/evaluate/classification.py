@@ -1,7 +1,7 @@
 """Which object presses: the paper's SRC and ours on the same presses of simulated objects, over M and over time.
 
-The paper's method: adaptive sampling, each frame alone (`acts_recon.classification`). Ours: tracking sampling, what is
-known of several frames (`acts_recon.image_classification`). Both sample the same recordings through the firmware's own
+The paper's method: adaptive sampling, each frame alone (`Classifier`). Ours: tracking sampling, what is
+known of several frames (`ImageClassifier`). Both sample the same recordings through the firmware's own
 sampler with frames that begin at the same times, and know the objects from the same library presses.
 """
 
@@ -17,14 +17,18 @@ from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
 from acts_core.sampling import SamplingConfig
-from acts_recon.classification import Classification, Classifier, ClassifierConfig
 from acts_recon.fusion import FusionEstimator
-from acts_recon.image_classification import ImageClassifier, ImageClassifierConfig
-from acts_recon.object_library import ObjectLibrary, build_object_library
-from acts_sim.contact_model import FoamConfig
-from acts_sim.objects import ContactObject
-from acts_sim.pressing_arm import RATE_HZ as RECORDED_HZ
-from acts_sim.pressing_arm import PressingArm, PressingConfig
+from acts_recon.objects import (
+    Classification,
+    Classifier,
+    ClassifierConfig,
+    ImageClassifier,
+    ImageClassifierConfig,
+    ObjectLibrary,
+    build_object_library,
+)
+from acts_sim.pressing import RATE_HZ as RECORDED_HZ
+from acts_sim.pressing import ContactObject, FoamConfig, PressingArm, PressingConfig
 from acts_tools.evaluate.board_sampler import BoardSampler
 from acts_tools.evaluate.recovery import SAMPLE_US
 from acts_tools.evaluate.shares import wilson

@@ -7,10 +7,9 @@ from pathlib import Path
 from typing import Any
 
 from acts_core.errors import SettingsError
-from acts_core.frames_file import load_frames
+from acts_core.files import load_frames
 from acts_core.settings import default_of
-from acts_sim.objects import OBJECTS, object_named
-from acts_sim.pressing_arm import PressingConfig
+from acts_sim.pressing import OBJECTS, PressingConfig, object_named
 from acts_tools.evaluate import options, report
 from acts_tools.evaluate.classification import M_OVER_TIME, MS, Trials, run_trials
 from acts_tools.evaluate.classification_recorded import run_recorded

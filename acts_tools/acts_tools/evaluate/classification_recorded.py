@@ -8,9 +8,8 @@ from typing import Any
 import numpy as np
 
 from acts_core.errors import RecordingError
-from acts_core.frames_file import FramesFile, without_contact
-from acts_recon.image_classification import ImageClassifierConfig
-from acts_recon.object_library import build_object_library
+from acts_core.files import FramesFile, without_contact
+from acts_recon.objects import ImageClassifierConfig, build_object_library
 from acts_tools.evaluate.classification import (
     ACTS,
     PAPER,

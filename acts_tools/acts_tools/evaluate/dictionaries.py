@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import DictionaryError
-from acts_core.npz_file import read_npz
-from acts_recon.dictionary import Dictionary, load_dictionary
+from acts_core.files import read_npz
+from acts_recon.sparse import Dictionary, load_dictionary
 
 _ATOMS = 1000
 _SIDE = 8

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from acts_sim.events import EVENT_RATE_HZ, EVENTS, event_recordings
+from acts_sim.pressing import EVENT_RATE_HZ, EVENTS, event_recordings
 from acts_tools.evaluate import options, report
 from acts_tools.evaluate.progress import evaluate_shown, require_methods
 from acts_tools.evaluate.recovery import Recording

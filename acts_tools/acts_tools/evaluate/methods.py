@@ -10,9 +10,8 @@ from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
 from acts_core.errors import SettingsError
-from acts_recon.dictionary import Dictionary
 from acts_recon.fusion import FusionEstimator
-from acts_recon.reconstructor import Reconstructor, ReconstructorConfig
+from acts_recon.sparse import Dictionary, Reconstructor, ReconstructorConfig
 from acts_tools.evaluate.dictionaries import cosine_dictionary, haar_dictionary
 from acts_tools.evaluate.interpolation import GaussianProcess, Linear
 

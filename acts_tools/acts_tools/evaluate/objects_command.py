@@ -9,9 +9,7 @@ from typing import Any
 import numpy as np
 
 from acts_core.errors import RecordingError
-from acts_sim.contact_model import ContactModel, FoamConfig
-from acts_sim.objects import OBJECTS, object_named
-from acts_sim.presses import PRESS_RATE_HZ, press_over_time
+from acts_sim.pressing import OBJECTS, PRESS_RATE_HZ, ContactModel, FoamConfig, object_named, press_over_time
 from acts_tools.evaluate import options, report
 from acts_tools.evaluate.methods import METHODS
 from acts_tools.evaluate.progress import evaluate_all

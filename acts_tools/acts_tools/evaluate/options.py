@@ -7,8 +7,7 @@ from pathlib import Path
 
 from acts_core.sampling import SCHEMES, SamplingConfig
 from acts_core.settings import default_of, describe
-from acts_recon.dictionary import Dictionary
-from acts_recon.shipped import shipped_dictionary_path
+from acts_recon.sparse import Dictionary, shipped_dictionary_path
 from acts_tools.evaluate.dictionaries import dictionary_named
 from acts_tools.evaluate.methods import METHODS
 from acts_tools.evaluate.recovery import FOLLOW_COUNTS, Task

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from types import TracebackType
 from typing import Any, TextIO
 
-from acts_recon.dictionary import Dictionary
+from acts_recon.sparse import Dictionary
 from acts_tools.evaluate import report
 from acts_tools.evaluate.recovery import Recording, Task, evaluate, images, method_of
 

@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 from acts_core.array import COUNT_MAX, ArrayGeometry
 from acts_core.sampling import SamplingConfig
 from acts_core.settings import setting, validate
-from acts_recon.dictionary import Dictionary
-from acts_recon.reconstructor import ReconstructorConfig
+from acts_recon.sparse import Dictionary, ReconstructorConfig
 from acts_tools.evaluate import calibration
 from acts_tools.evaluate.board_sampler import BoardSampler
 from acts_tools.evaluate.methods import Method, method_named

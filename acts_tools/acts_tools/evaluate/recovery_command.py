@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from acts_core.errors import RecordingError
-from acts_core.frames_file import load_frames, without_contact
-from acts_sim.objects import OBJECTS
+from acts_core.files import load_frames, without_contact
+from acts_sim.pressing import OBJECTS
 from acts_tools.evaluate import options, report
 from acts_tools.evaluate.progress import evaluate_all
 from acts_tools.evaluate.recovery import Recording

@@ -18,9 +18,9 @@ from scipy import ndimage
 
 from acts_core.array import ArrayGeometry
 from acts_core.errors import RecordingError
-from acts_core.frames_file import FramesFile, load_frames
+from acts_core.files import FramesFile, load_frames
 from acts_core.settings import default_of, describe
-from acts_recon.slip.detector import SlipConfig, SlipDetector
+from acts_recon.slip import SlipConfig, SlipDetector
 from acts_tools.evaluate import report
 from acts_tools.output_file import require_writable
 

@@ -16,12 +16,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_core.force import ForceResponse
-from acts_core.layouts import Layout, layout
 from acts_core.sampling import SamplingConfig
-from acts_core.skin_patch import SkinPatch
+from acts_core.skin import ForceResponse, Layout, SkinPatch, layout
 from acts_recon.fusion import FusionConfig, FusionEstimator
-from acts_recon.regions.regions import Regions
+from acts_recon.regions import Regions
 from acts_tools.evaluate import report
 from acts_tools.evaluate.board_sampler import BoardSampler
 

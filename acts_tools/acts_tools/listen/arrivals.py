@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from acts_control.stream_statistics import StreamCounter
+from acts_core.runtime import StreamCounter
 
 
 @dataclass(frozen=True)

@@ -10,13 +10,13 @@ from rclpy.task import Future
 from std_srvs.srv import Trigger
 
 from acts_core.errors import ActsError, PacketError
-from acts_core.layouts import layout
+from acts_core.skin import layout
 from acts_msgs.msg import HandStatus, HandTiming, RegionContacts
 from acts_ros import qos
+from acts_ros.messages import read_regions
 from acts_ros.polled import PollingNode
-from acts_ros.regions_cdr import read_regions
-from acts_sim.hand.truth import TruthFollower
-from acts_sim.timed_ring import TimedRingReader
+from acts_sim.hand import TruthFollower
+from acts_sim.shared import TimedRingReader
 from acts_tools.live_hand.recording import HandRecording, StatusSample
 
 # Of the most frequent topic twice as many as come in a second.

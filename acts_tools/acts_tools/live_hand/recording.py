@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_core.region_contact import RegionContact
-from acts_sim.hand.truth import COLUMN, PATCH_COLUMNS, PATCHES_FROM
+from acts_core.skin import RegionContact
+from acts_sim.hand import COLUMN, PATCH_COLUMNS, PATCHES_FROM
 from acts_tools.percentiles import percentiles
 
 Array = NDArray[np.float64]

@@ -14,12 +14,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_control.hand.reflexes.reflex import HandState
+from acts_control.hand.reflexes import HandState
 from acts_core.errors import LaunchError
-from acts_core.region_contact import RegionContact
-from acts_sim.hand.objects import held_object
-from acts_sim.hand.truth import HandTruth
-from acts_sim.hand.world import HandWorldConfig
+from acts_core.skin import RegionContact
+from acts_sim.hand import HandTruth, HandWorldConfig, held_object
 from acts_tools.live_hand.live import LiveHand
 from acts_tools.live_hand.recording import Array
 

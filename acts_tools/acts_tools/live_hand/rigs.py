@@ -12,7 +12,7 @@ from types import TracebackType
 import yaml
 from ament_index_python.packages import get_package_share_directory
 
-from acts_sim.hand.world import HandWorldConfig
+from acts_sim.hand import HandWorldConfig
 from acts_tools.bags.stopping import StopFlag
 from acts_tools.evaluate.hand.rig import RigOptions
 from acts_tools.live_hand.collector import HandCollector

@@ -17,7 +17,7 @@ from acts_core.array import MAX_SIDE
 from acts_core.errors import ActsError
 
 if TYPE_CHECKING:
-    from acts_driver.selftest.record import FrameRecord
+    from acts_driver.selftest import FrameRecord
     from acts_tools.selftest.result import SelfTest
     from acts_tools.selftest.session import BoardReader
     from acts_tools.selftest.simulation import SimulatedSkin
@@ -74,7 +74,7 @@ def run(arguments: argparse.Namespace) -> int:
         skin = _simulated(arguments, stack) if arguments.sim else None
         test = _test(arguments, skin)
     # Not at the top: matplotlib takes a second.
-    from acts_driver.selftest.findings import Level
+    from acts_driver.selftest import Level
     from acts_tools.selftest.picture import draw
 
     print(test.text())
@@ -100,7 +100,7 @@ def _simulated(arguments: argparse.Namespace, stack: ExitStack) -> SimulatedSkin
 
 
 def _test(arguments: argparse.Namespace, skin: SimulatedSkin | None) -> SelfTest:
-    from acts_driver.board_session import version_in_words
+    from acts_driver.board import version_in_words
     from acts_tools.selftest.session import BoardReader
 
     port = arguments.port if skin is None else skin.port
@@ -117,10 +117,16 @@ def _test(arguments: argparse.Namespace, skin: SimulatedSkin | None) -> SelfTest
 def _phases(
     arguments: argparse.Namespace, skin: SimulatedSkin | None, board: BoardReader, who: str, frame_period_us: float
 ) -> SelfTest:
-    from acts_driver.selftest.findings import Thresholds
-    from acts_driver.selftest.timing import judge_timing, measure_timing
-    from acts_driver.selftest.touched import judge_touched, measure_touched
-    from acts_driver.selftest.untouched import judge_high, judge_untouched, measure_untouched
+    from acts_driver.selftest import (
+        Thresholds,
+        judge_high,
+        judge_timing,
+        judge_touched,
+        judge_untouched,
+        measure_timing,
+        measure_touched,
+        measure_untouched,
+    )
     from acts_tools.selftest.result import SelfTest
 
     thresholds = Thresholds()

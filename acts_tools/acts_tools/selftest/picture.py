@@ -9,7 +9,7 @@ import matplotlib as mpl
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_driver.selftest.findings import Finding, Level, listed
+from acts_driver.selftest import Finding, Level, listed
 from acts_tools.selftest.result import SelfTest
 
 mpl.use("Agg")

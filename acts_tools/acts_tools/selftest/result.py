@@ -9,10 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_driver.selftest.findings import Finding, Level, Thresholds
-from acts_driver.selftest.timing import Timing
-from acts_driver.selftest.touched import Touched
-from acts_driver.selftest.untouched import Untouched
+from acts_driver.selftest import Finding, Level, Thresholds, Timing, Touched, Untouched
 
 _WIDTH = 16
 

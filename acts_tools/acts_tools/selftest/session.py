@@ -8,16 +8,12 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 
-from acts_core.commands import BoardSettings, BoardState
-from acts_core.delimited import DelimitedDecoder
 from acts_core.errors import PortError
 from acts_core.frames import SampleFrame
-from acts_core.raster_ascii import RasterDecoder
-from acts_core.wire import StreamDecoder
+from acts_core.wire import BoardSettings, BoardState, DelimitedDecoder, RasterDecoder, StreamDecoder
 from acts_driver.board import BoardLink, NoAnswerError, RefusedError
-from acts_driver.reader import Reader
-from acts_driver.selftest.record import FrameRecord
-from acts_driver.source import SerialSource
+from acts_driver.port import Reader, SerialSource
+from acts_driver.selftest import FrameRecord
 
 _REPLY_S = 0.5
 _TRIES = 4

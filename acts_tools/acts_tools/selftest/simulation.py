@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_sim.timed_ring import TimedRingWriter
+from acts_sim.shared import TimedRingWriter
 from acts_tools.bench.processes import virtual_board
 
 _STEP_S = 0.01

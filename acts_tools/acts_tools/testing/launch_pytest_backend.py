@@ -25,7 +25,7 @@ from launch.events import Shutdown
 from launch.launch_description_sources import AnyLaunchDescriptionSource
 
 from acts_ros.processes import packages
-from acts_tools.testing.launch_runner import Launched, LaunchFile
+from acts_tools.testing.launched import Launched, LaunchFile
 
 _STOPPED_CODES = (0, -signal.SIGINT, -signal.SIGTERM, 128 + signal.SIGINT, 128 + signal.SIGTERM)
 

@@ -15,7 +15,7 @@ from sensor_msgs.msg import Image
 from acts_core.array import COUNT_MAX
 from acts_core.errors import ArrayError, RecordingError
 from acts_msgs.msg import Baseline, TactileSamples
-from acts_recon.baseline import BaselineSubtraction
+from acts_recon.images import BaselineSubtraction
 from acts_ros.bags import require_rosbags
 
 _IMAGE = "sensor_msgs/msg/Image"

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 
 from acts_core.errors import RecordingError
-from acts_recon.ksvd import KsvdState
-from acts_recon.model_file import ModelFile
+from acts_core.files import ModelFile
+from acts_recon.learning import KsvdState
 
 
 @dataclass(frozen=True)

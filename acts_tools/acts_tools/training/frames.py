@@ -11,9 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import RecordingError
-from acts_core.frames_file import load_frames
-from acts_sim.contact_model import ContactModel
-from acts_sim.objects import ContactObject
+from acts_core.files import load_frames
+from acts_sim.pressing import ContactModel, ContactObject
 
 
 @dataclass(frozen=True)

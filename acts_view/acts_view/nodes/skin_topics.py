@@ -12,9 +12,8 @@ from sensor_msgs.msg import Image
 from acts_core.errors import PacketError
 from acts_msgs.msg import Contact, Contacts, HandStatus, RegionContacts
 from acts_ros import qos
-from acts_ros.cdr import ContactFields, read_contact
+from acts_ros.messages import ContactFields, read_contact, read_regions
 from acts_ros.polled import PolledSubscription, PollingNode
-from acts_ros.regions_cdr import read_regions
 from acts_view.skin.snapshot import CONTACT_COLUMNS, Frame, RegionState, Sample
 
 _SEQUENCE_MODULUS = 1 << 32

@@ -8,8 +8,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from acts_core.layouts import Layout
-from acts_core.skin_patch import SkinPatch
+from acts_core.skin import Layout, SkinPatch
 
 # From the left: of a right hand whose palm one looks at.
 _FINGERS = ("little", "ring", "middle", "index")

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import ActsError
-from acts_core.layouts import Layout, layout
+from acts_core.skin import Layout, layout
 from acts_view.skin.arrangement import arrangement
 from acts_view.skin.history import COLUMNS
 from acts_view.web.codec import encode
@@ -78,7 +78,7 @@ class SkinShape:
     Attributes
     ----------
     layout : str
-        As `acts_core.layouts.layout` takes it.
+        As `acts_core.skin.layouts.layout` takes it.
     rows, cols : int
         Of the matrix.
     pitch_m, row_pitch_m : float

@@ -11,7 +11,7 @@ import hmac
 import secrets
 from urllib.parse import parse_qs, urlsplit
 
-from acts_core.addresses import is_loopback
+from acts_core.runtime import is_loopback
 
 
 def is_local_host(host: str) -> bool:

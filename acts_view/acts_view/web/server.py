@@ -16,7 +16,7 @@ from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
 
 from acts_core.errors import SettingsError
-from acts_core.realtime_guard import LogCallback
+from acts_core.runtime import LogCallback
 from acts_view.skin.snapshot import Frame, Sample, SkinShape
 from acts_view.web.access import is_local_host, new_token, refusal
 from acts_view.web.display import Display, Reader

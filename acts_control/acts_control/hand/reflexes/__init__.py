@@ -1,1 +1,10 @@
-"""What a hand does by itself when it is touched: behaviours that know joints and regions of skin, and nothing else."""
+"""Reflexes: each answers what the hand feels with steps of its joints.
+
+In comes `Sensed`, out comes a `Wish` or nothing. `registry` names them all; another one is a file and a line there.
+"""
+
+from acts_control.hand.reflexes.hand_to_hand import HandToHandConfig
+from acts_control.hand.reflexes.reflex import HandState, Reflex, Sensed, Wish
+from acts_control.hand.reflexes.registry import REFLEXES, make_reflexes
+
+__all__ = ["REFLEXES", "HandState", "HandToHandConfig", "Reflex", "Sensed", "Wish", "make_reflexes"]

@@ -12,9 +12,8 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_control.hand.description import HandDescription, Role
-from acts_control.hand.kinematics import HandKinematics, HandPose
-from acts_core.region_contact import RegionContact
+from acts_control.hand.description import HandDescription, HandKinematics, HandPose, Role
+from acts_core.skin import RegionContact
 
 Array = NDArray[np.float64]
 
@@ -115,7 +114,7 @@ class Wish(NamedTuple):
     Attributes
     ----------
     steps : np.ndarray [shape=(joints,)]
-        How many base steps each joint's goal is to move; positive closes. See `acts_control.hand.step_rule`.
+        How many base steps each joint's goal is to move; positive closes. See `acts_control.hand.control.step_rule`.
     why : str
         In words, for a person.
     claimed : np.ndarray [shape=(joints,), dtype=bool] or None

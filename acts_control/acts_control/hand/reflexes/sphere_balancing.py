@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_control.hand.reflexes.reflex import HandState, Reflex, Sensed, Wish
-from acts_core.region_contact import RegionContact
 from acts_core.settings import setting, validate
+from acts_core.skin import RegionContact
 
 Array = NDArray[np.float64]
 

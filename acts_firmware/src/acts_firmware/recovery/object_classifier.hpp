@@ -1,5 +1,5 @@
 // Which object presses: sparse representation-based classification (SRC) on the samples of one frame, as the paper's
-// Fig. 9 does on the board. acts_recon/classification.py is the readable reference.
+// Fig. 9 does on the board. acts_recon/objects/classification.py is the readable reference.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// Overlapping square patches that cover an array: the units in which it is recovered. acts_recon/patches.py is the
-// readable reference. What it lists taxel by taxel follows here from the two sides, so that it takes 400 bytes.
+// Overlapping square patches that cover an array: the units in which it is recovered. acts_recon/sparse/patches.py is
+// the readable reference. What it lists taxel by taxel follows here from the two sides, so that it takes 400 bytes.
 #pragma once
 
 #include <array>

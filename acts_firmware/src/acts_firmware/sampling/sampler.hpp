@@ -1,4 +1,4 @@
-// The sampling schemes. acts_core/sampling.py is their readable reference; a test compares the two.
+// The sampling schemes. acts_core/sampling/schemes.py is their readable reference; a test compares the two.
 #pragma once
 
 #include "acts_firmware/board/scanner.hpp"
@@ -19,7 +19,7 @@ namespace acts {
 // follow).
 //
 // A new scheme is a number in `Scheme` (frame.hpp) and `known` (config.cpp), a class in a file of its own, a branch in
-// `sample`, and its twin in acts_core/sampling.py.
+// `sample`, and its twin in acts_core/sampling/schemes.py.
 class Sampler {
  public:
   Sampler();

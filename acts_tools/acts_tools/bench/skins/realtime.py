@@ -7,8 +7,7 @@ import sys
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 
-from acts_core.realtime import RealtimeConfig, enter_realtime
-from acts_core.realtime_guard import demote_process
+from acts_core.runtime import RealtimeConfig, demote_process, enter_realtime
 
 BOARD_PRIORITY = 45
 SKIN_PRIORITY = 40

@@ -6,7 +6,7 @@ import time
 
 import numpy as np
 
-from acts_control.stream_statistics import StreamCounter
+from acts_core.runtime import StreamCounter
 from acts_msgs.msg import Contact
 from acts_tools.percentiles import percentiles
 

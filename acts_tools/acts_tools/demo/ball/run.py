@@ -11,10 +11,10 @@ from pathlib import Path
 import rclpy
 from rclpy.signals import SignalHandlerOptions
 
-from acts_control.trajectory import Trajectory, TrajectoryConfig
-from acts_core.addresses import is_loopback
+from acts_control.ball import Trajectory, TrajectoryConfig
 from acts_core.array import ArrayGeometry
 from acts_core.errors import ActsError, LaunchError
+from acts_core.runtime import is_loopback
 from acts_msgs.msg import BalanceStatus
 from acts_ros import middleware
 from acts_tools.bags.stopping import StopFlag

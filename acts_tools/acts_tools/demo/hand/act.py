@@ -7,8 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_sim.hand.truth import HandTruth
-from acts_sim.hand.world import HandWorldConfig
+from acts_sim.hand import HandTruth, HandWorldConfig
 from acts_tools.evaluate.hand.scenario import Outcome
 from acts_tools.live_hand.recording import HandRecording
 

@@ -11,14 +11,12 @@ import matplotlib.patches
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_control.hand.description_file import LEAP_RIGHT
+from acts_control.hand.description import LEAP_RIGHT
 from acts_core.errors import ActsError
-from acts_core.layouts import layout
+from acts_core.skin import layout
 from acts_msgs.msg import HandStatus
-from acts_sim.hand.drawing import draw_hand
-from acts_sim.hand.objects import held_object
-from acts_sim.hand.picture import HandPicture
-from acts_sim.hand.world import HandWorld
+from acts_sim.hand import HandWorld, held_object
+from acts_sim.hand.pictures import HandPicture, draw_hand
 from acts_tools.demo.hand.act import Act, Moment
 from acts_tools.live_hand.recording import column, patch_column
 

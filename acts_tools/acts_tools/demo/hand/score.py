@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_control.hand.reflexes.hand_to_hand import HandToHandConfig
+from acts_control.hand.reflexes import HandToHandConfig
 from acts_tools.demo.hand.act import Act
 from acts_tools.percentiles import percentiles
 

@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 
-from acts_control.hand.description_file import LEAP_RIGHT
-from acts_control.hand.reflexes.hand_to_hand import HandToHandConfig
-from acts_sim.hand.world import HandWorldConfig
+from acts_control.hand.description import LEAP_RIGHT
+from acts_control.hand.reflexes import HandToHandConfig
+from acts_sim.hand import HandWorldConfig
 from acts_tools.evaluate.hand.rig import RigOptions
 from acts_tools.evaluate.hand.scenario import Outcome, Run
 

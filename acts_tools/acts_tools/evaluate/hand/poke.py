@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from acts_control.hand.description_file import LEAP_RIGHT
-from acts_sim.hand.tip import BLUNT_RADIUS_M, SHARP_RADIUS_M
-from acts_sim.hand.world import HandWorldConfig
+from acts_control.hand.description import LEAP_RIGHT
+from acts_sim.hand import BLUNT_RADIUS_M, SHARP_RADIUS_M, HandWorldConfig
 from acts_tools.evaluate.hand.rig import RigOptions
 from acts_tools.evaluate.hand.scenario import Outcome, Run
 

@@ -13,21 +13,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_control.hand.bus import HandReading
-from acts_control.hand.description_file import LEAP_RIGHT
-from acts_control.hand.dynamixel import DynamixelConfig
-from acts_control.hand.kinematics import HandKinematics
-from acts_control.hand.reflexes.reflex import HandState, Reflex
-from acts_control.hand.reflexes.registry import REFLEXES
-from acts_control.hand.supervisor import HandSupervisor, SupervisorConfig
+from acts_control.hand.control import HandSupervisor, SupervisorConfig
+from acts_control.hand.description import LEAP_RIGHT, HandKinematics
+from acts_control.hand.motors import DynamixelConfig, HandReading
+from acts_control.hand.reflexes import REFLEXES, HandState, Reflex
 from acts_core.array import COUNT_MAX
-from acts_core.force import ForceResponse
-from acts_core.region_contact import RegionContact
 from acts_core.settings import describe
-from acts_recon.regions.regions import Regions
-from acts_recon.slip.config import SlipConfig
-from acts_sim.dynamixel.drive import RAD_PER_TICK
-from acts_sim.hand.world import STEP_S, HandWorld, HandWorldConfig
+from acts_core.skin import ForceResponse, RegionContact
+from acts_recon.regions import Regions
+from acts_recon.slip import SlipConfig
+from acts_sim.dynamixel import RAD_PER_TICK
+from acts_sim.hand import STEP_S, HandWorld, HandWorldConfig
 
 _CURRENT_BASED_POSITION = 5
 _NOISE_COUNTS = 1.5

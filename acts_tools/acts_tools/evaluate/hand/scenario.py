@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from acts_sim.hand.world import HandWorldConfig
+from acts_sim.hand import HandWorldConfig
 from acts_tools.evaluate.hand.rig import HandRig, RigOptions
 
 

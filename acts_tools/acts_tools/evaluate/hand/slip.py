@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from acts_sim.hand.world import HandWorldConfig
+from acts_sim.hand import HandWorldConfig
 from acts_tools.evaluate.hand.rig import RigOptions
 from acts_tools.evaluate.hand.scenario import Outcome, Run
 

@@ -1,0 +1,371 @@
+"""The control loop: a thread with absolute deadlines that takes the robot from connecting to a defined stop."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from math import hypot
+
+from acts_control.ball.controller import BallController, BallReport, ControlInput, ControllerConfig, Phase
+from acts_control.ball.reference import ReferenceReport
+from acts_control.robots import (
+    CommandGate,
+    Robot,
+    RobotConfig,
+    RobotReading,
+    RobotStoppedError,
+    RobotTakenError,
+    RobotWatch,
+)
+from acts_core.errors import ActsError, ArrayError, RobotError, SettingsError
+from acts_core.settings import setting
+from acts_core.ur5e import JOINTS, LEVEL_Q_RAD, WRIST_1, WRIST_2, tilt_of, wrist_angles_for_tilt
+
+# A pose further from level than this cannot be meant as the level one.
+_LEVEL_TOLERANCE_RAD = 0.02
+
+_HOMING_PERIOD_S = 0.02
+_ENDING_PERIOD_S = 0.002
+_ENDING_TIMEOUT_S = 3.0
+_HOMED_RAD = 0.002
+_STANDING_STILL_RAD = 2e-4
+_STANDING_STILL_POLLS = 5
+
+# Longest step the controller is told of: after the process was held up, it goes on from where it was.
+_MAX_PERIODS = 4
+_MIN_STEP_S = 1e-4
+
+# How long after a refused command its reason is looked for.
+_REASON_S = 0.1
+
+
+@dataclass(frozen=True)
+class LoopConfig(ControllerConfig, RobotConfig):
+    """All of the control loop."""
+
+    level_q_rad: tuple[float, ...] = setting(
+        tuple(round(angle, 9) for angle in LEVEL_Q_RAD),
+        "joint angles with the plate level and the skin facing up, base to wrist 3 [rad]",
+        minimum=-6.3,
+        maximum=6.3,
+        length=JOINTS,
+    )
+    mount_yaw_rad: float = setting(
+        0.0, "how far the skin is turned on the flange about its z axis [rad]", minimum=-6.3, maximum=6.3
+    )
+    autostart: bool = setting(True, "whether to connect and move to the level pose at once; else on ~/start")
+    connect_retry_s: float = setting(1.0, "time between attempts to connect [s]", minimum=0.05, maximum=60.0)
+
+    def __post_init__(self) -> None:
+        ControllerConfig.__post_init__(self)
+        RobotConfig.__post_init__(self)
+        tilt = tilt_of(self.level_q_rad, self.mount_yaw_rad)
+        if hypot(*tilt) > _LEVEL_TOLERANCE_RAD:
+            raise SettingsError(
+                f"level_q_rad = {self.level_q_rad}: the flange is tilted by {hypot(*tilt):.3f} rad there; "
+                f"give a pose in which it faces straight up"
+            )
+
+
+@dataclass(frozen=True)
+class LoopStatus:
+    """What the loop does, as of the last step; see BalanceStatus for the meaning of the fields."""
+
+    phase: Phase = Phase.STOPPED
+    reason: str = "not started"
+    error_m: tuple[float, float] = (0.0, 0.0)
+    tilt_commanded_rad: tuple[float, float] = (0.0, 0.0)
+    tilt_measured_rad: tuple[float, float] = (0.0, 0.0)
+    joints_rad: tuple[float, ...] = (0.0,) * JOINTS
+    touch_age_s: float = float("inf")
+    steps: int = 0
+    late_steps: int = 0
+
+
+class ControlLoop:
+    """Runs the robot in a thread of its own.
+
+    Parameters
+    ----------
+    config : LoopConfig
+    robot : Robot
+    now_ns : callable
+        The clock of the stamps [ns].
+    on_step : callable
+        Called after every control step with the time [ns] and the measured tilt [rad].
+
+    Attributes
+    ----------
+    look : callable
+        Called at the begin of every control step with the phase; may renew `ball` and `reference`.
+    ball : BallReport or None
+        Newest estimate, to be set by `look` or by whoever receives it.
+    reference : ReferenceReport or None
+        Newest reference, likewise.
+    status : LoopStatus
+        Replaced as a whole after every step.
+    """
+
+    def __init__(
+        self,
+        config: LoopConfig,
+        robot: Robot,
+        now_ns: Callable[[], int],
+        on_step: Callable[[int, tuple[float, float]], None] = lambda _now_ns, _tilt: None,
+    ) -> None:
+        self.look: Callable[[Phase], None] = lambda _phase: None
+        self.ball: BallReport | None = None
+        self.reference: ReferenceReport | None = None
+        self.status = LoopStatus()
+        self._config = config
+        self._newest_config = config
+        self._robot = robot
+        self._now_ns = now_ns
+        self._on_step = on_step
+        # Guards the three below, and wakes the thread when one changes.
+        self._changed = threading.Condition()
+        self._wanted = False
+        # What ended the session asked for, in words; empty while it should go on.
+        self._stop_reason = ""
+        self._closing = False
+        self._thread = threading.Thread(target=self._run, name="control_loop", daemon=True)
+
+    def launch(self) -> None:
+        """Start the thread, and with `autostart` the robot."""
+        self._wanted = self._config.autostart
+        self._thread.start()
+
+    @property
+    def is_stopping(self) -> bool:
+        """Whether motion has been asked to end and has not ended yet."""
+        return self._wanted and bool(self._stop_reason)
+
+    def start(self) -> bool:
+        """Begin anew; False when it is running already."""
+        with self._changed:
+            if self._wanted or self._closing or not self._thread.is_alive():
+                return False
+            self._stop_reason = ""
+            self._wanted = True
+            self._changed.notify_all()
+            return True
+
+    def change(self, config: LoopConfig) -> None:
+        """Use other settings from the next control step on, where they are `Changeable.RUNNING`. From any thread."""
+        self._newest_config = config
+
+    def stop(self, reason: str) -> bool:
+        """End motion: level the plate, stop the servo, release the robot. False when it is stopped already."""
+        with self._changed:
+            if not self._wanted:
+                return False
+            self._stop_reason = self._stop_reason or reason
+            self._changed.notify_all()
+            return True
+
+    def close(self, timeout_s: float = 5.0) -> None:
+        """End motion and the thread."""
+        with self._changed:
+            self._closing = True
+            self._stop_reason = self._stop_reason or "shutting down"
+            self._changed.notify_all()
+        if self._thread.is_alive():
+            self._thread.join(timeout_s)
+
+    def _run(self) -> None:
+        while True:
+            with self._changed:
+                self._changed.wait_for(lambda: self._wanted or self._closing)
+                if self._closing:
+                    return
+            self._session()
+
+    def _session(self) -> None:
+        """From connecting to a stop, whatever the reason."""
+        lost, reason = False, "the control loop failed"
+        watch = RobotWatch(self._config)
+        try:
+            if not self._connect():
+                reason = self._stop_reason
+                return
+            reason = self._servo(watch) if self._home(watch) else self._stop_reason
+        except ActsError as error:
+            # After a stop or loss of the robot nothing is sent to it any more; otherwise its program is ended.
+            lost, reason = isinstance(error, RobotError), str(error)
+        except Exception:
+            self._closing = True  # the thread ends with it, and nothing can be started any more
+            raise
+        finally:
+            if not lost:
+                reason += self._end_program(watch)
+            # Told before the connection is cut, however long that takes; a start asked for from now on comes after it.
+            with self._changed:
+                self._wanted = False
+                self.status = replace(self.status, phase=Phase.STOPPED, reason=reason)
+            self._robot.disconnect()
+
+    def _connect(self) -> bool:
+        self.status = LoopStatus(phase=Phase.CONNECTING, reason="connecting")
+        while not self._stop_reason:
+            try:
+                self._robot.connect(lambda: not self._stop_reason)
+                return True
+            except (RobotStoppedError, RobotTakenError):
+                raise
+            except RobotError as error:
+                self.status = replace(self.status, reason=str(error))
+            with self._changed:
+                self._changed.wait_for(lambda: self._stop_reason, self._config.connect_retry_s)
+        return False
+
+    def _home(self, watch: RobotWatch) -> bool:
+        """Move to the level pose; False when that was broken off by request."""
+        level = self._config.level_q_rad
+        self.status = replace(self.status, phase=Phase.HOMING, reason="moving to the level pose")
+        before = self._checked(watch, 0.0).q_rad
+        farthest = max(abs(angle - target) for angle, target in zip(before, level, strict=True))
+        timeout_s = 5.0 + 3.0 * farthest / self._config.homing_speed_rad_s
+        self._robot.begin_move(level)
+        still = 0
+        end = time.monotonic() + timeout_s
+        while time.monotonic() < end:
+            if self._stop_reason:
+                self._robot.end_move()
+                self._await_end(watch)
+                return False
+            time.sleep(_HOMING_PERIOD_S)
+            reading = self._checked(watch, _HOMING_PERIOD_S)
+            moved = max(abs(angle - last) for angle, last in zip(reading.q_rad, before, strict=True))
+            off = max(abs(angle - target) for angle, target in zip(reading.q_rad, level, strict=True))
+            before = reading.q_rad
+            still = still + 1 if moved < _STANDING_STILL_RAD and off < _HOMED_RAD else 0
+            if still >= _STANDING_STILL_POLLS:
+                return True
+        self._robot.end_move()
+        self._await_end(watch)
+        raise RobotError(f"the level pose was not reached within {timeout_s:.1f} s")
+
+    def _servo(self, watch: RobotWatch) -> str:
+        """Close the loop until motion has ended; the reason."""
+        config, robot = self._config, self._robot
+        period = 1.0 / config.control_rate_hz
+        controller = BallController(config)
+        gate = CommandGate(config, config.level_q_rad)
+        joints = list(config.level_q_rad)
+        steps = late = refused = 0
+        last = deadline = time.monotonic()
+        while controller.state.phase is not Phase.STOPPED:
+            deadline += period
+            wait = deadline - time.monotonic()
+            if wait > 0.0:
+                time.sleep(wait)
+            elif wait < -period:
+                deadline -= wait  # no burst of steps to make up for lost ones
+            now = time.monotonic()
+            steps += 1
+            late += now - last > 1.5 * period
+            dt = min(max(now - last, _MIN_STEP_S), _MAX_PERIODS * period)
+            last = now
+            # Before the robot is read and the time taken: it may have a whole queue of contacts to work on.
+            self.look(controller.state.phase)
+            reading = self._checked(watch, dt)
+            if self._stop_reason:
+                controller.end(self._stop_reason)
+            self._take_changes(controller)
+            now_ns = self._now_ns()
+            measured = tilt_of(reading.q_rad, config.mount_yaw_rad)
+            tilt = controller.step(ControlInput(now_ns, self.ball, self.reference, measured), dt)
+            fault = self._aim(joints, tilt) or gate.fault(joints)
+            refused = refused + 1 if fault else 0
+            if refused > 1:
+                # Not even the way back to level can be sent.
+                robot.end_servo()
+                self._await_end(watch)
+                return fault
+            if fault:
+                controller.end(fault)
+            else:
+                self._send(watch, joints)
+            state = controller.state
+            self.status = LoopStatus(
+                # The robot counts as stopped only once the servo has ended.
+                state.phase if state.phase is not Phase.STOPPED else self.status.phase,
+                state.reason,
+                state.error_m,
+                tilt,
+                measured,
+                tuple(joints),
+                state.touch_age_s,
+                steps,
+                late,
+            )
+            self._on_step(now_ns, measured)
+        robot.end_servo()
+        self._await_end(watch)
+        return controller.state.reason
+
+    def _take_changes(self, controller: BallController) -> None:
+        if self._newest_config is not self._config:
+            self._config = self._newest_config
+            controller.change(self._config)
+
+    def _send(self, watch: RobotWatch, joints: list[float]) -> None:
+        try:
+            self._robot.servo(joints)
+        except RobotError as error:
+            raise RobotError(self._cause(watch) or str(error)) from error
+
+    def _aim(self, joints: list[float], tilt: tuple[float, float]) -> str:
+        """Write the wrist angles of a tilt into `joints`; why that cannot be, or nothing."""
+        config = self._config
+        try:
+            joints[WRIST_1], joints[WRIST_2] = wrist_angles_for_tilt(config.level_q_rad, *tilt, config.mount_yaw_rad)
+        except ArrayError as error:
+            return str(error)
+        return ""
+
+    def _end_program(self, watch: RobotWatch) -> str:
+        """End the robot's program; what went wrong, to be added to the reason."""
+        try:
+            self._robot.end_program()
+            self._await_end(watch)
+        except RobotError as error:
+            return f"; the robot's program may still run: {error}"
+        return ""
+
+    def _await_end(self, watch: RobotWatch) -> None:
+        """Wait until the robot has done what ends motion. It may brake for a while, but it must be there."""
+        end = time.monotonic() + _ENDING_TIMEOUT_S
+        last = time.monotonic()
+        while self._robot.is_busy:
+            time.sleep(_ENDING_PERIOD_S)
+            last, before = time.monotonic(), last
+            loss = watch.loss(self._robot.read(), last - before)
+            if loss:
+                raise RobotError(loss)
+            if last > end:
+                raise RobotError(f"the robot has not ended its motion within {_ENDING_TIMEOUT_S:g} s")
+
+    def _checked(self, watch: RobotWatch, dt: float) -> RobotReading:
+        try:
+            reading = self._robot.read()
+        except RobotError as error:
+            raise RobotError(self._cause(watch) or str(error)) from error
+        fault = watch.step(reading, dt)
+        if fault:
+            raise RobotError(fault)
+        return reading
+
+    def _cause(self, watch: RobotWatch) -> str:
+        """Why a command was refused, or nothing: that it was is often known a packet earlier than why."""
+        end = time.monotonic() + _REASON_S
+        while time.monotonic() < end:
+            with suppress(RobotError):
+                fault = watch.step(self._robot.read(), 0.0)
+                if fault:
+                    return fault
+            time.sleep(0.002)
+        return ""

@@ -1,0 +1,20 @@
+"""Grasping and holding: from what the hand feels to the goals of its joints.
+
+In come regions and readings of the motors; out come goals, limited in step, rate and lead. `HandSupervisor` decides
+between closing, holding and avoiding; the reflexes say what they want.
+"""
+
+from acts_control.hand.control.cycle_times import CycleTimes
+from acts_control.hand.control.loop import Behaviour, HandLoop, HandLoopConfig, HandPhase
+from acts_control.hand.control.supervisor import HandSupervisor, SupervisorConfig, SupervisorStatus
+
+__all__ = [
+    "Behaviour",
+    "CycleTimes",
+    "HandLoop",
+    "HandLoopConfig",
+    "HandPhase",
+    "HandSupervisor",
+    "SupervisorConfig",
+    "SupervisorStatus",
+]

@@ -1,0 +1,294 @@
+"""What the hand is about: it opens, closes, holds, avoids or stands still, and asks the reflexes that belong to that.
+
+Plain logic of one step, for the loop's own thread; `grasp`, `release` and `stop` may be called from any other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from math import isfinite
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_control.hand.control.grasp import Grasp, GraspConfig, towards
+from acts_control.hand.control.step_rule import StepRule, StepRuleConfig
+from acts_control.hand.description import HandKinematics
+from acts_control.hand.motors import HandReading
+from acts_control.hand.reflexes import HandState, Reflex, Sensed, Wish
+from acts_core.errors import SettingsError
+from acts_core.settings import setting, validate
+from acts_core.skin import RegionContact
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class SupervisorConfig(StepRuleConfig, GraspConfig):
+    """When the hand does what."""
+
+    touch_stale_after_s: float = setting(0.1, "touch that is older counts as none [s]", minimum=0.005, maximum=5.0)
+    max_force_n: float = setting(
+        40.0, "a finger gives way where a region feels more, whatever else is wanted [N]", minimum=0.5, maximum=140.0
+    )
+
+    def __post_init__(self) -> None:
+        validate(self)
+
+
+@dataclass(frozen=True)
+class SupervisorStatus:
+    """What is worth publishing, as of the last step.
+
+    Attributes
+    ----------
+    state : HandState
+    reason : str
+        Why, in words.
+    touch_age_s : float
+        Of the newest touch; infinite before the first [s].
+    is_stale : bool
+        Whether that counts as none.
+    active : tuple of str
+        Reflexes that ask for something, in the order of their priority.
+    events : mapping of str to int
+        How often each reflex has been set off.
+    steps, refused : int
+        Steps so far; messages of touch and answers of reflexes left out for numbers that are not finite.
+    """
+
+    state: HandState = HandState.STOPPED
+    reason: str = "not started"
+    touch_age_s: float = float("inf")
+    is_stale: bool = True
+    active: tuple[str, ...] = ()
+    events: Mapping[str, int] = field(default_factory=dict)
+    steps: int = 0
+    refused: int = 0
+
+
+class HandSupervisor:
+    """Composes reflexes into goals for the joints.
+
+    Parameters
+    ----------
+    kinematics : HandKinematics
+    reflexes : mapping of str to Reflex
+    config : SupervisorConfig
+
+    Attributes
+    ----------
+    status : SupervisorStatus
+        Replaced as a whole.
+    """
+
+    def __init__(self, kinematics: HandKinematics, reflexes: Mapping[str, Reflex], config: SupervisorConfig) -> None:
+        if config.grasp_posture not in kinematics.hand.postures:
+            known = ", ".join(kinematics.hand.postures)
+            raise SettingsError(f"grasp_posture = {config.grasp_posture!r}: the hand has {known}")
+        self.status = SupervisorStatus()
+        self._kinematics = kinematics
+        self._hand = kinematics.hand
+        self._reflexes = dict(sorted(reflexes.items(), key=lambda item: -item[1].priority))
+        self._config = config
+        self._rule = StepRule(self._hand, config)
+        self._state, self._reason = self.status.state, self.status.reason
+        self._resumed = self._state
+        self._wanted: str | None = None
+        self._grasp = Grasp(config)
+        self._regions: dict[str, RegionContact] = {}
+        self._touch_s = -float("inf")
+        self._is_new = False
+        self._was_stale = True
+        self._refused = 0
+
+    # --- from any thread
+
+    def grasp(self) -> str:
+        """Close until something is gripped, then hold it; why that cannot be, or nothing."""
+        if self.status.is_stale:
+            return f"no touch for {self.status.touch_age_s:.2g} s: is the skin's topic `regions` published?"
+        self._wanted = "grasp"
+        return ""
+
+    def release(self) -> str:
+        """Open the hand."""
+        self._wanted = "release"
+        return ""
+
+    def stop(self) -> str:
+        """Stand still, the torque on; what is held stays held."""
+        self._wanted = "stop"
+        return ""
+
+    # --- from the loop's thread
+
+    def restart(self, *, recovered: bool) -> None:
+        """The motors were without torque, and hold now where they are; `recovered`: because one had failed."""
+        self._rule.reset()
+        self._reset_reflexes()
+        if recovered and self._state in (HandState.CLOSING, HandState.HOLDING, HandState.AVOIDING):
+            self._wanted = self._wanted or "grasp"
+        else:
+            self._become(HandState.STOPPED, "goals stand where the joints are")
+
+    def touch(self, regions: Sequence[RegionContact], stamp_s: float) -> None:
+        """Take what the skin feels; `stamp_s`: when it was measured, by the clock of `step` [s]."""
+        if not all(map(_is_finite, regions)) or not isfinite(stamp_s):
+            self.refuse()
+            return
+        if stamp_s <= self._touch_s:
+            return
+        self._regions = {one.name: one for one in regions if one.name in self._hand.regions}
+        self._touch_s = stamp_s
+        self._is_new = True
+
+    def refuse(self) -> None:
+        """Count touch that has come and cannot be used."""
+        self._refused += 1
+
+    def step(self, reading: HandReading, goal_rad: Sequence[float], now_s: float, dt_s: float) -> Array:
+        """The goals of all joints for now.
+
+        Parameters
+        ----------
+        reading : HandReading
+        goal_rad : sequence of float
+            Those that were sent last [rad].
+        now_s, dt_s : float
+            The time, and since the step before [s].
+
+        Returns
+        -------
+        np.ndarray [shape=(joints,)]
+            [rad]
+        """
+        q, goal = np.array(reading.q_rad), np.array(goal_rad)
+        self._obey()
+        is_stale = now_s - self._touch_s > self._config.touch_stale_after_s
+        if is_stale and not self._was_stale:
+            self._lose_touch()
+        elif self._was_stale and not is_stale:
+            self._find_touch()
+        self._was_stale = is_stale
+        sensed = Sensed(
+            now_s,
+            dt_s,
+            self._state,
+            self._kinematics,
+            q,
+            goal,
+            np.array(reading.current_ma),
+            self._rule.step_rad_s,
+            {} if is_stale else self._regions,
+            self._is_new and not is_stale,
+        )
+        self._is_new = False
+        asked, active = self._ask(sensed, is_stale)
+        goal = self._rule.goals(goal, q, sensed.current_ma, asked, dt_s)
+        self.status = SupervisorStatus(
+            self._state,
+            self._reason,
+            now_s - self._touch_s,
+            is_stale,
+            tuple(active),
+            {name: reflex.events for name, reflex in self._reflexes.items()},
+            self.status.steps + 1,
+            self._refused + self._rule.refused,
+        )
+        return goal
+
+    def _ask(self, sensed: Sensed, is_stale: bool) -> tuple[list[Wish], list[str]]:
+        """What is to be done now, that of the highest priority first, and the reflexes that ask for it."""
+        wishes, active = [], []
+        limited = self._give_way(sensed)
+        if limited is not None:
+            wishes.append(limited)
+        avoids = ""
+        for name, reflex in self._reflexes.items():
+            if is_stale or sensed.state not in reflex.states:
+                continue
+            wish = reflex.step(sensed)
+            if wish is None:
+                continue
+            wishes.append(wish)
+            active.append(name)
+            if wish.avoids:
+                avoids = avoids or wish.why
+        own = self._own(sensed, is_stale)
+        if own is not None:
+            wishes.append(own)
+        if avoids and sensed.state in (HandState.CLOSING, HandState.HOLDING):
+            self._resumed = sensed.state
+            self._become(HandState.AVOIDING, avoids)
+        elif not avoids and sensed.state is HandState.AVOIDING:
+            self._become(self._resumed, "nothing sharp any more")
+        return wishes, active
+
+    # --- what the supervisor itself does
+
+    def _own(self, sensed: Sensed, is_stale: bool) -> Wish | None:
+        if sensed.state is HandState.OPEN:
+            return towards(sensed, "open", self._config.open_speed_rad_s)
+        if sensed.state is HandState.CLOSING and not is_stale:
+            wish = self._grasp.step(sensed)
+            if self._grasp.ended:
+                state = HandState.HOLDING if self._grasp.has_gripped else HandState.OPEN
+                self._become(state, self._grasp.ended)
+            return wish
+        return None
+
+    def _give_way(self, sensed: Sensed) -> Wish | None:
+        """Open every finger that presses with more than is allowed, whatever is asked for besides."""
+        pressed = [name for name, one in sensed.regions.items() if one.force_n > self._config.max_force_n]
+        if not pressed:
+            return None
+        steps = sensed.steps()
+        fingers = [name for name in map(sensed.finger, pressed) if name] or list(self._hand.fingers)
+        for finger in fingers:
+            steps -= self._config.max_steps * 0.2 * sensed.closing(finger)
+        return Wish(steps, f"{', '.join(pressed)} felt more than is allowed", steps < 0.0, at_once=True)
+
+    # --- changes
+
+    def _obey(self) -> None:
+        wanted, self._wanted = self._wanted, None
+        if wanted == "grasp":
+            self._reset_reflexes()
+            self._grasp.reset()
+            self._become(HandState.CLOSING, "grasp")
+        elif wanted == "release":
+            self._become(HandState.OPEN, "released by request")
+        elif wanted == "stop":
+            self._become(HandState.STOPPED, "stopped by request")
+
+    def _lose_touch(self) -> None:
+        if self._state is HandState.CLOSING:
+            self._become(HandState.STOPPED, "touch is stale while closing; grasp anew")
+        elif self._state in (HandState.HOLDING, HandState.AVOIDING):
+            self._become(HandState.HOLDING, "touch is stale: the grip stays as it is, no reflex acts")
+
+    def _find_touch(self) -> None:
+        self._reset_reflexes()
+        if self._state is HandState.HOLDING:
+            self._reason = "touch is back"
+
+    def _become(self, state: HandState, reason: str) -> None:
+        if state is HandState.STOPPED:
+            self._rule.reset()
+        self._state, self._reason = state, reason
+
+    def _reset_reflexes(self) -> None:
+        for reflex in self._reflexes.values():
+            reflex.reset()
+
+
+def _is_finite(region: RegionContact) -> bool:
+    numbers = (
+        *(region.force_n, region.area_m2, region.peak_n, region.spread_m, region.concentration, region.slip_m),
+        *region.centre_m,
+        *region.normal,
+        *region.motion_m_s,
+    )
+    return all(map(isfinite, numbers))

@@ -1,0 +1,184 @@
+"""Hands as YAML files: the shipped ones in `hands/`, or anybody's (docs/hand.md). An error names file and line."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+from acts_control.hand.description.description import ROLES, Finger, HandDescription, Joint, Link, Region
+from acts_core.errors import SettingsError
+from acts_core.files import Section, is_number, read_yaml, shown
+from acts_core.transforms import Vector
+
+_SHIPPED = Path(__file__).parent / "hands"
+_UNIT_TOLERANCE = 1e-3
+_KEYS = ("name", "base", "joints", "links", "fingers", "regions", "postures")
+
+
+@lru_cache
+def hand_description(name_or_path: str) -> HandDescription:
+    """A hand by the name of a shipped one, or the path of a file (what ends in .yaml).
+
+    Raises
+    ------
+    SettingsError
+        With file and line, where something is missing, unknown, or cannot be.
+    """
+    if name_or_path.endswith((".yaml", ".yml")):
+        return _read(Path(name_or_path))
+    path = _SHIPPED / f"{name_or_path}.yaml"
+    if not path.is_file():
+        shipped = ", ".join(sorted(file.stem for file in _SHIPPED.glob("*.yaml")))
+        raise SettingsError(f"hand {name_or_path!r}: allowed is one of {shipped}, or the path of a .yaml file")
+    return _read(path)
+
+
+def _read(path: Path) -> HandDescription:
+    file = read_yaml(path)
+    file.check_keys(_KEYS)
+    name, base = _text(file, "name"), _text(file, "base")
+    joints = tuple(_joint(one, key) for key, one in _entries(file, "joints", "joint"))
+    names = {joint.name for joint in joints}
+    links: list[Link] = []
+    for key, one in _entries(file, "links", "link"):
+        links.append(_link(one, key, [base, *(link.name for link in links)], names))
+    link_names = {base, *(link.name for link in links)}
+    fingers = {key: _finger(one, key, link_names, names) for key, one in _entries(file, "fingers", "finger")}
+    regions = {key: _region(one, key, link_names, fingers) for key, one in _entries(file, "regions", "region")}
+    postures = {key: _posture(one, joints) for key, one in _entries(file, "postures", "posture")}
+    for needed in ("open", "pregrasp"):
+        if needed not in postures:
+            raise file.error(f"posture {needed} is missing", "postures")
+    try:
+        return HandDescription(name, joints, base, tuple(links), fingers, regions, postures)
+    except SettingsError as error:
+        raise file.error(str(error), "joints") from error
+
+
+def _joint(one: Section, name: str) -> Joint:
+    one.check_keys(("motor", "limits_rad", "zero_rad", "direction", "gain_scale", "step_scale"))
+    if "limits_rad" not in one.values:
+        raise one.error("limits_rad is missing")
+    lower, upper = one.numbers("limits_rad", (0.0, 0.0))
+    try:
+        return Joint(
+            name,
+            _whole(one, "motor"),
+            lower,
+            upper,
+            _number(one, "zero_rad", math.pi),
+            _whole(one, "direction", 1),
+            _number(one, "gain_scale", 1.0),
+            _number(one, "step_scale", 1.0),
+        )
+    except SettingsError as error:
+        raise one.error(str(error)) from error
+
+
+def _link(one: Section, name: str, parents: list[str], joints: set[str]) -> Link:
+    one.check_keys(("parent", "joint", "position_m", "rpy_rad", "quaternion_xyzw", "axis"))
+    axis = _unit(one, "axis")
+    return Link(name, _one_of(one, "parent", parents), _one_of(one, "joint", joints), one.transform(), axis)
+
+
+def _finger(one: Section, name: str, links: set[str], joints: set[str]) -> Finger:
+    one.check_keys(("closes", "tip_link", "tip_m"))
+    closes = one.section("closes", f"finger {name}")
+    if not closes.values:
+        raise one.error("closes: at least one joint is needed", "closes")
+    for joint in closes.values:
+        if joint not in joints:
+            raise closes.error(f"{joint!r} is no joint of this hand", joint)
+    shares = {joint: _number(closes, joint) for joint in closes.values}
+    return Finger(name, shares, _one_of(one, "tip_link", links), _vector(one, "tip_m", (0.0, 0.0, 0.0)))
+
+
+def _region(one: Section, name: str, links: set[str], fingers: dict[str, Finger]) -> Region:
+    one.check_keys(("link", "finger", "role", "centre_m", "normal", "reach_m"))
+    finger = one.text("finger", "") or ""
+    role = next(known for known in ROLES if known == _one_of(one, "role", ROLES))
+    if bool(finger) == (role == "palm") or (finger and finger not in fingers):
+        raise one.error(f"finger = {finger!r}: a palm has none, all else has one of {', '.join(fingers)}", "finger")
+    if role == "palm":
+        for needed in ("centre_m", "normal"):
+            if needed not in one.values:
+                raise one.error(f"{needed} is missing; a palm has it")
+    normal = _unit(one, "normal") if "normal" in one.values else (0.0, 0.0, 0.0)
+    reach_m = _number(one, "reach_m", 0.0)
+    if reach_m and "centre_m" not in one.values:
+        raise one.error("centre_m is missing; reach_m is counted from there", "reach_m")
+    centre_m = _vector(one, "centre_m", (0.0, 0.0, 0.0))
+    return Region(name, _one_of(one, "link", links), finger, role, centre_m, normal, reach_m)
+
+
+def _posture(one: Section, joints: tuple[Joint, ...]) -> tuple[float, ...]:
+    one.check_keys([joint.name for joint in joints])
+    angles = []
+    for joint in joints:
+        angle = _number(one, joint.name, joint.clipped(0.0))
+        if angle != joint.clipped(angle):
+            raise one.error(
+                f"{joint.name} = {angle:g}: allowed is {joint.lower_rad:g} to {joint.upper_rad:g}", joint.name
+            )
+        angles.append(angle)
+    return tuple(angles)
+
+
+# --- single values
+
+
+def _entries(file: Section, key: str, what: str) -> list[tuple[str, Section]]:
+    all_of = file.section(key, key)
+    for name in all_of.values:
+        if not isinstance(name, str):
+            raise all_of.error(f"{name!r}: names are text", name)
+    return [(name, all_of.section(name, f"{what} {name}")) for name in all_of.values]
+
+
+def _text(one: Section, key: str) -> str:
+    text = one.text(key)
+    if text is None:
+        raise one.error(f"{key} is missing", key)
+    return text
+
+
+def _one_of(one: Section, key: str, known: Iterable[str]) -> str:
+    text = _text(one, key)
+    allowed = list(known)
+    if text not in allowed:
+        raise one.error(f"{key} = {text!r}: allowed is one of {', '.join(sorted(allowed))}", key)
+    return text
+
+
+def _number(one: Section, key: str, default: float | None = None) -> float:
+    value: Any = one.values.get(key, default)
+    if not is_number(value):
+        raise one.error(f"{key} = {shown(value)}: needed is a finite number", key)
+    return float(value)
+
+
+def _whole(one: Section, key: str, default: int | None = None) -> int:
+    value = one.values.get(key, default)
+    if isinstance(value, bool) or not isinstance(value, int):
+        raise one.error(f"{key} = {shown(value)}: needed is a whole number", key)
+    return value
+
+
+def _unit(one: Section, key: str) -> Vector:
+    vector = _vector(one, key, (0.0, 0.0, 1.0))
+    length = math.hypot(*vector)
+    if abs(length - 1.0) > _UNIT_TOLERANCE:
+        raise one.error(f"{key} = {list(vector)}: its length is {length:g}; needed is 1", key)
+    return vector
+
+
+def _vector(one: Section, key: str, default: Vector) -> Vector:
+    x, y, z = one.numbers(key, default)
+    return (x, y, z)
+
+
+LEAP_RIGHT = hand_description("leap_right")
+"""The right LEAP hand: joints and limits of its URDF, motors open at pi."""

@@ -1,0 +1,67 @@
+"""The LEAP hand through the LEAP team's own ROS node: angles go out on `cmd_leap`, nothing comes back.
+
+That node (package `leap_hand` of LEAP_Hand_API) takes sensor_msgs/JointState with 16 positions in the order of the
+motors, open and flat at pi, and opens the hand when it starts. It publishes no joint states and cannot switch the
+torque off, so what is told here as read is what was sent.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from math import isfinite
+
+from acts_control.hand.description import HandDescription
+from acts_control.hand.motors import HandError, HandReading
+
+
+class CmdLeapBus:
+    """A hand that somebody else's node moves.
+
+    Parameters
+    ----------
+    hand : HandDescription
+    publish : callable
+        Takes the motors' angles, in the order of their IDs [rad].
+    """
+
+    def __init__(self, hand: HandDescription, publish: Callable[[list[float]], None]) -> None:
+        self._hand = hand
+        self._publish = publish
+        self._order = sorted(range(len(hand.joints)), key=lambda k: hand.joints[k].motor_id)
+        self._q = tuple(joint.clipped(0.0) for joint in hand.joints)
+
+    def connect(self) -> list[str]:
+        """Nothing to connect to; what a person should know of."""
+        return ["through cmd_leap nothing is read from the motors: limits and speed are kept, faults are not seen"]
+
+    def enable(self) -> None:
+        """Nothing is sent before the first command."""
+
+    def release(self) -> None:
+        """Send nothing more; the torque is the other node's."""
+
+    def read(self) -> HandReading:
+        """What was sent last."""
+        count = len(self._q)
+        return HandReading(self._q, (0.0,) * count, (0.0,) * count, (0,) * count, ("",) * count)
+
+    def command(self, q_rad: Sequence[float]) -> None:
+        """Publish the motors' angles.
+
+        Raises
+        ------
+        HandError
+            When an angle is not finite, or their number is wrong: nothing is sent then.
+        """
+        q = [float(angle) for angle in q_rad]
+        joints = self._hand.joints
+        if len(q) != len(joints) or not all(map(isfinite, q)):
+            raise HandError(f"joint angles {q} cannot be sent: {len(joints)} finite numbers are needed")
+        self._q = tuple(joint.clipped(angle) for joint, angle in zip(joints, q, strict=True))
+        self._publish([joints[k].to_motor_rad(self._q[k]) for k in self._order])
+
+    def recover(self, joint: int) -> None:
+        """Nothing can be done from here."""
+
+    def close(self) -> None:
+        """Nothing to give back."""

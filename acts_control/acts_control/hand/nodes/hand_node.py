@@ -1,0 +1,58 @@
+"""The node `hand`: joint angles in, the motors' bus out, and what the joints do.
+
+Topics: ~/command in; joint_states out, and cmd_leap where the hand is moved by that. Services: ~/enable, ~/release.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from sensor_msgs.msg import JointState
+
+from acts_control.hand.motors import HandError
+from acts_control.hand.nodes.motor_node import MotorNode, MotorSettings
+from acts_core.stop_signals import StopSignals
+from acts_ros.composition import parameters_from
+from acts_ros.executor import run
+from acts_ros.parameters import declare, node_options
+from acts_ros.qos import STATE
+
+
+@dataclass(frozen=True)
+class HandSettings(MotorSettings):
+    """Parameters of the node."""
+
+
+class HandNode(MotorNode):
+    """Hands messages to the hand's loop and publishes what it reads."""
+
+    def __init__(self, **node_arguments: Any) -> None:
+        super().__init__("hand", **node_options(), **node_arguments)
+        self.start_with(declare(self, HandSettings), None, "release")
+        self.create_subscription(JointState, "~/command", self._on_command, STATE)
+
+    def _on_command(self, message: JointState) -> None:
+        if len(message.name) != len(message.position):
+            self._refuse(f"{len(message.name)} names with {len(message.position)} positions")
+            return
+        try:
+            self.loop.command(dict(zip(message.name, message.position, strict=True)))
+        except HandError as error:
+            self._refuse(str(error))
+
+    def _refuse(self, why: str) -> None:
+        self.get_logger().error(f"a command was left out: {why}", throttle_duration_sec=1.0)
+
+
+SETTINGS: dict[str, type] = {"hand": HandSettings}
+"""The settings class of the node, by name."""
+
+
+def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
+    """Run the node; the exit code."""
+    words = list(sys.argv if args is None else args)
+    given = parameters_from(words, SETTINGS)
+    return run([lambda: HandNode(parameter_overrides=given["hand"])], words, signals)

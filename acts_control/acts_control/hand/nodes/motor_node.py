@@ -1,0 +1,126 @@
+"""What the nodes of a hand share: its description, its motors' loop, joint states, torque on and off, diagnostics."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from rclpy.node import Node
+from sensor_msgs.msg import JointState
+from std_srvs.srv import Trigger
+
+from acts_control.hand.control import Behaviour, HandLoop, HandLoopConfig, HandPhase
+from acts_control.hand.description import HandDescription, hand_description
+from acts_control.hand.motors import DynamixelConfig, DynamixelHand, HandBus, HandReading
+from acts_control.hand.nodes.cmd_leap import CmdLeapBus
+from acts_core.runtime import RealtimeConfig, enter_realtime
+from acts_core.settings import setting
+from acts_ros.clocks import keep_system_clock
+from acts_ros.diagnostics import ERROR, OK, WARN, DiagnosticsReporter, Report
+from acts_ros.log import log_of
+from acts_ros.polled import PollingNode
+from acts_ros.qos import STATE
+
+_LEVELS = {HandPhase.CONNECTING: WARN, HandPhase.RECOVERING: WARN, HandPhase.GIVEN_UP: ERROR}
+
+
+@dataclass(frozen=True)
+class MotorSettings(RealtimeConfig, HandLoopConfig, DynamixelConfig):
+    """Parameters of a node that moves a hand."""
+
+    hand: str = setting("leap_right", "the hand: leap_right, or the path of a .yaml file (docs/hand.md)")
+    interface: str = setting(
+        "dynamixel",
+        "how the hand is moved: its motors' bus at port, or the topic cmd_leap of the LEAP team's own node",
+        choices=("dynamixel", "cmd_leap"),
+    )
+    frame_id: str = setting("palm_lower", "frame of the joint states")
+
+    def __post_init__(self) -> None:
+        DynamixelConfig.__post_init__(self)
+        RealtimeConfig.__post_init__(self)
+
+
+def make_bus(node: Node, hand: HandDescription, settings: MotorSettings) -> HandBus:
+    """The motors that the settings name."""
+    if settings.interface == "dynamixel":
+        return DynamixelHand(hand, settings)
+    publisher = node.create_publisher(JointState, "cmd_leap", STATE)
+    return CmdLeapBus(hand, lambda angles_rad: publisher.publish(JointState(position=angles_rad)))
+
+
+class MotorNode(PollingNode):
+    """A node that moves a hand; `start_with` is to be called once, after the parameters are declared."""
+
+    def start_with(self, settings: MotorSettings, behaviour: Behaviour | None, torque_off: str) -> None:
+        """Make the loop and everything that shows it.
+
+        Parameters
+        ----------
+        settings : MotorSettings
+        behaviour : Behaviour or None
+            Says where the joints go; None: `HandLoop.command` does.
+        torque_off : str
+            Name of the service that switches the torque off.
+        """
+        keep_system_clock(self, "it moves a hand, which knows nothing of simulated time")
+        self.settings = settings
+        self.hand = hand_description(settings.hand)
+        self._states = JointState()
+        self._states.header.frame_id = settings.frame_id
+        self._states.name = self.hand.names
+        self._publisher = self.create_publisher(JointState, "joint_states", STATE)
+        bus = make_bus(self, self.hand, settings)
+        self.loop = HandLoop(self.hand, bus, settings, log_of(self), self._on_reading, behaviour)
+        self.create_service(Trigger, "~/enable", self._on_enable)
+        self.create_service(Trigger, f"~/{torque_off}", self._on_torque_off)
+        self.diagnostics = DiagnosticsReporter(self, settings.port, self.report)
+
+    def begin(self) -> None:
+        """Start the loop, and with `autostart` the motors."""
+        enter_realtime(self.settings, self.get_name(), log_of(self))
+        self.loop.launch()
+
+    def close(self) -> None:
+        """Release the hand in order."""
+        self.loop.close()
+
+    def report(self) -> Report:
+        """What the diagnostics say of the motors."""
+        status = self.loop.status
+        values: dict[str, object] = {
+            "state": status.phase.name,
+            "cycles": status.cycles,
+            "late_cycles": status.late,
+            "unanswered": status.unanswered,
+            "recovered": status.recovered,
+        }
+        if status.reading is not None:
+            values["hottest_c"] = max(status.reading.temperature_c)
+            values["largest_current_ma"] = max(map(abs, status.reading.current_ma))
+        return _LEVELS.get(status.phase, OK), f"{status.phase.name.lower()}: {status.reason}", values
+
+    def _on_reading(self, reading: HandReading) -> None:
+        # From the loop's thread.
+        message = self._states
+        message.header.stamp = self.get_clock().now().to_msg()
+        message.position = list(reading.q_rad)
+        message.velocity = list(reading.qd_rad_s)
+        message.effort = list(reading.current_ma)
+        self._publisher.publish(message)
+
+    def _on_enable(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        return answered(response, self.loop.enable())
+
+    def _on_torque_off(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        self.loop.release()
+        response.success = True
+        response.message = "releasing"
+        return response
+
+
+def answered(response: Trigger.Response, objection: str) -> Any:
+    """The answer of a service that says why not, or nothing."""
+    response.success = not objection
+    response.message = objection
+    return response

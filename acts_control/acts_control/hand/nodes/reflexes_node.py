@@ -1,0 +1,207 @@
+"""The node `hand_reflexes`: what the hand's skin feels in, the motors' bus out; it opens, grasps, holds and avoids.
+
+Topics: regions in; joint_states, hand/status and hand/timing out. Services: ~/grasp, ~/release, ~/stop; ~/enable and
+~/disable for the torque.
+"""
+
+from __future__ import annotations
+
+import sys
+import threading
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import make_dataclass
+from typing import Any
+
+from std_srvs.srv import Trigger
+
+from acts_control.hand.control import CycleTimes, HandPhase, HandSupervisor, SupervisorConfig, SupervisorStatus
+from acts_control.hand.description import HandKinematics, hand_description
+from acts_control.hand.motors import HandReading
+from acts_control.hand.nodes.motor_node import MotorNode, MotorSettings, answered
+from acts_control.hand.reflexes import REFLEXES, make_reflexes
+from acts_control.names import set_stamp
+from acts_core.errors import PacketError
+from acts_core.settings import setting
+from acts_core.stop_signals import StopSignals
+from acts_msgs.msg import HandStatus, HandTiming, RegionContacts
+from acts_ros.clocks import steady_timer
+from acts_ros.composition import parameters_from
+from acts_ros.diagnostics import OK, WARN, Report
+from acts_ros.executor import run
+from acts_ros.messages import read_regions
+from acts_ros.parameters import declare, node_options
+from acts_ros.polled import PolledSubscription
+from acts_ros.qos import STATE, STREAM
+
+_LONG_AGO_S = 1e6
+# Touch that has come while the loop was held up: the newest counts, the others are dropped.
+_TOUCH_DEPTH = 64
+_TIMING_PERIOD_S = 1.0
+
+
+def settings_class() -> type:
+    """The node's own parameters, those of the motors and the supervisor, and those of every reflex there is."""
+    own: list[tuple[str, type, Any]] = [
+        ("rate_hz", float, setting(250.0, "how often the hand is read and moved", minimum=10.0, maximum=500.0)),
+        (
+            "max_speed_rad_s",
+            float,
+            setting(12.0, "fastest that a joint's goal moves [rad/s]", minimum=0.01, maximum=30.0),
+        ),
+        ("reflexes", str, setting("sharp slip sphere", f"which act, with blanks between: {', '.join(REFLEXES)}")),
+        ("status_rate_hz", float, setting(50.0, "how often the status is published", minimum=1.0, maximum=500.0)),
+    ]
+    bases = (*(kind.Config for kind in REFLEXES.values()), SupervisorConfig, MotorSettings)
+    checks = {"__post_init__": MotorSettings.__post_init__}
+    return make_dataclass("HandReflexesSettings", own, bases=bases, namespace=checks, frozen=True)
+
+
+HandReflexesSettings = settings_class()
+
+
+class TouchedHand:
+    """A supervisor that takes the newest touch at each cycle of the hand's loop, from the loop's own thread.
+
+    Attributes
+    ----------
+    times : CycleTimes
+    """
+
+    def __init__(
+        self,
+        supervisor: HandSupervisor,
+        regions: PolledSubscription[bytes],
+        now_ns: Callable[[], int],
+        on_change: Callable[[], None],
+    ) -> None:
+        self.times = CycleTimes()
+        self._supervisor = supervisor
+        self._regions = regions
+        self._now_ns = now_ns
+        self._on_change = on_change
+        self._touched_ns: int | None = None
+
+    def restart(self, *, recovered: bool) -> None:
+        """See `acts_control.hand.control.loop.Behaviour`."""
+        self._supervisor.restart(recovered=recovered)
+
+    def step(self, reading: HandReading, goal_rad: Sequence[float], now_s: float, dt_s: float) -> Sequence[float]:
+        """See `acts_control.hand.control.loop.Behaviour`."""
+        taken = self._regions.take_all()
+        self._touched_ns = None
+        if taken:
+            try:
+                touch = read_regions(taken[-1][0])
+            except PacketError:
+                self._supervisor.refuse()
+            else:
+                self._touched_ns = touch.stamp_ns
+                self._supervisor.touch(touch.regions, now_s - 1e-9 * (self._now_ns() - touch.stamp_ns))
+        before = self._supervisor.status
+        goals = [float(angle) for angle in self._supervisor.step(reading, goal_rad, now_s, dt_s)]
+        status = self._supervisor.status
+        if (status.state, status.events) != (before.state, before.events):
+            self._on_change()
+        return goals
+
+    def sent(self, began_s: float, sent_s: float) -> None:
+        """See `acts_control.hand.control.loop.Behaviour`."""
+        latency_s = None if self._touched_ns is None else 1e-9 * (self._now_ns() - self._touched_ns)
+        self.times.add(sent_s - began_s, latency_s)
+
+
+class HandReflexesNode(MotorNode):
+    """Hands touch to the supervisor in the hand's loop, and publishes what it does."""
+
+    def __init__(self, **node_arguments: Any) -> None:
+        super().__init__("hand_reflexes", **node_options(), **node_arguments)
+        settings: Any = declare(self, HandReflexesSettings)
+        reflexes = make_reflexes(settings.reflexes, settings)
+        self._supervisor = HandSupervisor(HandKinematics(hand_description(settings.hand)), reflexes, settings)
+        self._status_lock = threading.Lock()
+        self._status = HandStatus()
+        self._status.header.frame_id = settings.frame_id
+        self._status_publisher = self.create_publisher(HandStatus, "hand/status", STATE)
+        self._timing = HandTiming()
+        self._timing.header.frame_id = settings.frame_id
+        self._timing_publisher = self.create_publisher(HandTiming, "hand/timing", STATE)
+        regions = self.create_raw_polled_subscription(RegionContacts, "regions", STREAM, depth=_TOUCH_DEPTH)
+        clock = self.get_clock()
+        touched = TouchedHand(self._supervisor, regions, lambda: clock.now().nanoseconds, self._publish_status)
+        self._times, self._timed_s = touched.times, time.monotonic()
+        self._told = SupervisorStatus()
+        self.start_with(settings, touched, "disable")
+        for name in ("grasp", "release", "stop"):
+            self.create_service(Trigger, f"~/{name}", self._answer(name))
+        self._steady_timers = (
+            steady_timer(self, 1.0 / settings.status_rate_hz, self._publish_status),
+            steady_timer(self, _TIMING_PERIOD_S, self._publish_timing),
+        )
+
+    def report(self) -> Report:
+        """What the diagnostics say: of the motors, and of what the hand is about."""
+        level, words, values = super().report()
+        status = self._supervisor.status
+        about = {
+            "hand": status.state.name,
+            "hand_reason": status.reason,
+            "touch_age_ms": 1e3 * min(status.touch_age_s, _LONG_AGO_S),
+            "refused": status.refused,
+            **{f"{name}_events": count for name, count in status.events.items()},
+        }
+        if level == OK and status.is_stale:
+            level, words = WARN, f"no touch for {min(status.touch_age_s, _LONG_AGO_S):.2g} s; {words}"
+        return level, words, {**values, **about}
+
+    def _answer(self, name: str) -> Callable[[Trigger.Request, Trigger.Response], Trigger.Response]:
+        def on_request(_request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+            if self.loop.status.phase is not HandPhase.ENABLED:
+                return answered(response, f"the hand is {self.loop.status.phase.name.lower()}; call ~/enable before")
+            return answered(response, getattr(self._supervisor, name)())
+
+        return on_request
+
+    def _publish_status(self) -> None:
+        # By the timer, and at once by the hand's loop where a reflex has been set off or the state has changed.
+        with self._status_lock:
+            self._send_status()
+
+    def _send_status(self) -> None:
+        status, loop, message = self._supervisor.status, self.loop.status, self._status
+        if (status.state, status.reason) != (self._told.state, self._told.reason):
+            self.get_logger().info(f"{status.state.name.lower()}: {status.reason}")
+        self._told = status
+        set_stamp(message.header.stamp, self.get_clock().now().nanoseconds)
+        message.state = int(status.state)
+        message.reason = status.reason
+        message.active = list(status.active)
+        message.reflexes = list(status.events)
+        message.events = list(status.events.values())
+        message.touch_age = min(status.touch_age_s, _LONG_AGO_S)
+        message.goals = list(loop.goal_rad)
+        message.steps = status.steps
+        message.late_steps = loop.late
+        self._status_publisher.publish(message)
+
+    def _publish_timing(self) -> None:
+        message = self._timing
+        before_s, self._timed_s = self._timed_s, time.monotonic()
+        message.durations, message.latencies = self._times.take()
+        if not message.durations:
+            return
+        set_stamp(message.header.stamp, self.get_clock().now().nanoseconds)
+        message.interval = self._timed_s - before_s
+        message.cycles = self._times.cycles
+        self._timing_publisher.publish(message)
+
+
+SETTINGS: dict[str, type] = {"hand_reflexes": HandReflexesSettings}
+"""The settings class of the node, by name."""
+
+
+def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
+    """Run the node; the exit code."""
+    words = list(sys.argv if args is None else args)
+    given = parameters_from(words, SETTINGS)
+    return run([lambda: HandReflexesNode(parameter_overrides=given["hand_reflexes"])], words, signals)

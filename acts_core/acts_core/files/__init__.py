@@ -1,0 +1,27 @@
+"""Files that users name: read with limits, checked, and refused with the reason.
+
+In come paths; out come arrays, text, or sections of YAML with the line of each key. Writing goes by the same classes.
+"""
+
+from acts_core.files.frames_file import FramesFile, load_frames, without_contact
+from acts_core.files.model_file import ModelFile
+from acts_core.files.npz_file import UNPACKED_BYTES_MAX, half_of_memory_bytes, read_npz
+from acts_core.files.regular_file import TEXT_BYTES_MAX, read_text, require_regular
+from acts_core.files.yaml_places import Section, is_number, read_yaml, shown
+
+__all__ = [
+    "TEXT_BYTES_MAX",
+    "UNPACKED_BYTES_MAX",
+    "FramesFile",
+    "ModelFile",
+    "Section",
+    "half_of_memory_bytes",
+    "is_number",
+    "load_frames",
+    "read_npz",
+    "read_text",
+    "read_yaml",
+    "require_regular",
+    "shown",
+    "without_contact",
+]

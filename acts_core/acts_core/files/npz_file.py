@@ -1,0 +1,93 @@
+"""Arrays out of npz files, whatever is in them."""
+
+from __future__ import annotations
+
+import os
+import struct
+import tokenize
+import zipfile
+import zlib
+from collections.abc import Collection
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.errors import ActsError
+from acts_core.files.regular_file import require_regular
+
+# What zipfile, zlib and NumPy raise for damaged files; a length that was hit may also ask for more than there is.
+_DAMAGED = (
+    zipfile.BadZipFile,
+    zlib.error,
+    struct.error,
+    tokenize.TokenError,
+    SyntaxError,
+    ValueError,
+    TypeError,
+    KeyError,
+    IndexError,
+    AttributeError,
+    EOFError,
+    OverflowError,
+    MemoryError,
+    RuntimeError,
+)
+
+UNPACKED_BYTES_MAX = 1 << 30
+"""Arrays that a node reads take at most so much, and few seconds; what a command reads see `half_of_memory_bytes`."""
+
+
+def half_of_memory_bytes() -> int:
+    """Half of the memory of this machine [bytes]."""
+    return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // 2
+
+
+def read_npz(
+    path: Path,
+    names: Collection[str] | None = None,
+    *,
+    error: type[ActsError],
+    hint: str = "",
+    limit_bytes: int = UNPACKED_BYTES_MAX,
+) -> dict[str, NDArray[Any]]:
+    """Read arrays of an npz file; pickled ones are refused.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    names : collection of str or None
+        Which arrays to read where they are there; None for all.
+    error : type
+        What to raise.
+    hint : str
+        What to do, for the message.
+    limit_bytes : int
+        How much the arrays may take unpacked; a small file may hold very large ones.
+
+    Raises
+    ------
+    error
+        The file is missing, is no npz file, is damaged, or holds more than is allowed.
+    """
+    tail = f"; {hint}" if hint else ""
+    require_regular(path, error=error, hint=hint)
+    try:
+        with path.open("rb") as file:
+            is_npz = zipfile.is_zipfile(file)
+        # NumPy would take anything else for a pickle, and say so.
+        if not is_npz:
+            raise error(f"{path}: not an npz file, or a part of one{tail}")
+        with zipfile.ZipFile(path) as archive:
+            wanted = [entry for entry in archive.infolist() if names is None or entry.filename[:-4] in names]
+        unpacked = sum(entry.file_size for entry in wanted)
+        if unpacked > limit_bytes:
+            raise error(f"{path}: unpacks to {unpacked / 1e6:.0f} MB; allowed are {limit_bytes / 1e6:.0f} MB{tail}")
+        with np.load(path, allow_pickle=False) as arrays:
+            return {name: arrays[name] for name in arrays.files if names is None or name in names}
+    except OSError as failure:
+        raise error(f"{path}: cannot be read ({failure.strerror or failure}){tail}") from failure
+    except _DAMAGED as failure:
+        raise error(f"{path}: a damaged npz file ({failure}){tail}") from failure

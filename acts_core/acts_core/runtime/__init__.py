@@ -1,0 +1,32 @@
+"""What a process needs that runs for days: real-time scheduling, work in the background, clocks that are set.
+
+In come settings and stamps; out come decisions and warnings. Nothing here knows tactile skins.
+"""
+
+from acts_core.runtime import background
+from acts_core.runtime.addresses import is_loopback
+from acts_core.runtime.background import begin, is_done, within_patience
+from acts_core.runtime.process_names import process_name
+from acts_core.runtime.rate_limit import RateLimit
+from acts_core.runtime.realtime import RealtimeConfig, enter_realtime, parse_cores
+from acts_core.runtime.realtime_guard import LogCallback, demote_process
+from acts_core.runtime.stamp_order import Order, StampOrder
+from acts_core.runtime.stream_statistics import StreamCounter
+
+__all__ = [
+    "LogCallback",
+    "Order",
+    "RateLimit",
+    "RealtimeConfig",
+    "StampOrder",
+    "StreamCounter",
+    "background",
+    "begin",
+    "demote_process",
+    "enter_realtime",
+    "is_done",
+    "is_loopback",
+    "parse_cores",
+    "process_name",
+    "within_patience",
+]

@@ -1,0 +1,24 @@
+"""What a skin is: how its taxels lie, and what a force makes of their counts.
+
+In come layout files and measured force responses; out come `Layout`, `SkinPatch` and `ForceResponse`, of which all
+other packages learn where a taxel lies and what it reads. `RegionContact` is what a patch of a skin feels.
+"""
+
+from acts_core.skin.force import ForceResponse, MeasuredForceResponse, force_table
+from acts_core.skin.layouts import LAYOUTS, NO_PATCH, Layout, layout, layout_path
+from acts_core.skin.region_contact import RegionContact, Vector
+from acts_core.skin.skin_patch import SkinPatch
+
+__all__ = [
+    "LAYOUTS",
+    "NO_PATCH",
+    "ForceResponse",
+    "Layout",
+    "MeasuredForceResponse",
+    "RegionContact",
+    "SkinPatch",
+    "Vector",
+    "force_table",
+    "layout",
+    "layout_path",
+]

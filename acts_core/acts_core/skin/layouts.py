@@ -1,0 +1,172 @@
+"""Layouts: how the taxels of the readout matrix lie on the skin.
+
+The board reads a matrix of rows and columns of wires. On a square pad the matrix is the picture. On the paper's insole
+and glove, and on a hand, the same 32 x 32 wires run otherwise: a layout says which taxel of the matrix lies at which
+place of the picture, and which rectangles of the picture are patches of skin. Samples, and everything before the
+recovery, stay in matrix indices; images and contacts are the picture's. A layout is a file (`layout_file`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from acts_core.array import ArrayGeometry
+from acts_core.errors import ArrayError
+from acts_core.skin.layout_file import NO_PATCH, read_layout
+from acts_core.skin.skin_patch import SkinPatch
+
+__all__ = ["LAYOUTS", "NO_PATCH", "Layout", "SkinPatch", "layout", "layout_path"]
+
+LAYOUTS = ("square", "insole", "glove", "leap_right")
+"""Names of the layouts that come with ACTS; ``square`` is the matrix itself, of any size."""
+
+
+@dataclass(frozen=True)
+class Layout:
+    """A permutation of the matrix' taxels into a picture, and the patches of that.
+
+    Attributes
+    ----------
+    name : str
+        As given to `layout`.
+    taxels : np.ndarray [shape=(rows, cols), dtype=uint16, read-only]
+        Matrix index (row-major) of the taxel at each place of the picture.
+    places : np.ndarray [shape=(matrix_rows * matrix_cols,), dtype=uint16, read-only]
+        The inverse: place in the picture (row-major) of each taxel of the matrix.
+    matrix_rows, matrix_cols : int
+        Size of the matrix.
+    pitch_m, row_pitch_m : float
+        Distances of neighbouring columns and rows of the picture [m].
+    patches : tuple of SkinPatch
+        None overlap. Their edges are borders: nothing is made of taxels on both sides of one.
+    patch_of : np.ndarray [shape=(rows, cols), dtype=uint8, read-only]
+        Index in `patches` of the patch at each place of the picture, `NO_PATCH` where there is no skin.
+    """
+
+    name: str
+    taxels: NDArray[np.uint16]
+    places: NDArray[np.uint16]
+    matrix_rows: int
+    matrix_cols: int
+    pitch_m: float
+    row_pitch_m: float
+    patches: tuple[SkinPatch, ...]
+    patch_of: NDArray[np.uint8]
+
+    @property
+    def rows(self) -> int:
+        """Rows of the picture."""
+        return int(self.taxels.shape[0])
+
+    @property
+    def cols(self) -> int:
+        """Columns of the picture."""
+        return int(self.taxels.shape[1])
+
+    @cached_property
+    def patch_of_taxel(self) -> NDArray[np.uint8]:
+        """`patch_of` by matrix taxel; np.ndarray [shape=(matrix_rows, matrix_cols), dtype=uint8, read-only]."""
+        by_taxel = self.patch_of.ravel()[self.places].reshape(self.matrix_rows, self.matrix_cols)
+        by_taxel.flags.writeable = False
+        return by_taxel
+
+    @cached_property
+    def is_matrix(self) -> bool:
+        """Whether the picture is the matrix itself and one patch, as that of a square pad."""
+        taxels = np.arange(self.matrix_rows * self.matrix_cols)
+        is_same = (self.rows, self.cols) == (self.matrix_rows, self.matrix_cols)
+        return is_same and bool((self.taxels.ravel() == taxels).all() and (self.patch_of == 0).all())
+
+    def picture(self, matrix: ArrayLike) -> NDArray[np.generic]:
+        """Values by matrix taxel, shape (matrix_rows, matrix_cols), as a picture, shape (rows, cols)."""
+        values = np.asarray(matrix)
+        self._check(values.shape, (self.matrix_rows, self.matrix_cols), "matrix")
+        return values.ravel()[self.taxels]
+
+    def matrix(self, picture: ArrayLike) -> NDArray[np.generic]:
+        """The inverse of `picture`."""
+        values = np.asarray(picture)
+        self._check(values.shape, (self.rows, self.cols), "picture")
+        return values.ravel()[self.places].reshape(self.matrix_rows, self.matrix_cols)
+
+    def geometry(self, pitch_m: float = 0.0, row_pitch_m: float = 0.0) -> ArrayGeometry:
+        """The picture's geometry.
+
+        Parameters
+        ----------
+        pitch_m, row_pitch_m : float
+            Distances of neighbouring columns and rows [m]. Without the second it is the first; without both they are
+            those of the layout.
+        """
+        if not pitch_m:
+            return ArrayGeometry(self.rows, self.cols, self.pitch_m, row_pitch_m or self.row_pitch_m)
+        return ArrayGeometry(self.rows, self.cols, pitch_m, row_pitch_m or pitch_m)
+
+    def patch(self, row: int, col: int) -> SkinPatch:
+        """The patch that holds a place of the picture."""
+        for patch in self.patches:
+            if patch.holds(row, col):
+                return patch
+        raise ArrayError(
+            f"place ({row}, {col}): none of the patches of the layout {self.name} holds it; its picture has "
+            f"{self.rows} rows and {self.cols} columns"
+        )
+
+    def _check(self, given: tuple[int, ...], wanted: tuple[int, ...], what: str) -> None:
+        if given != wanted:
+            raise ArrayError(f"{what} of shape {given}: the layout {self.name} has {wanted}")
+
+
+def layout_path(name_or_path: str) -> Path:
+    """The file of a layout: one that comes with ACTS, or any that the text names by a path.
+
+    Raises
+    ------
+    ArrayError
+        When it is neither a known name nor looks like a path. Whether there is such a file is not asked.
+    """
+    if name_or_path in LAYOUTS:
+        return Path(__file__).with_name("skin_layouts") / f"{name_or_path}.yaml"
+    if "/" in name_or_path or name_or_path.endswith((".yaml", ".yml")):
+        try:
+            return Path(name_or_path).expanduser()
+        except RuntimeError as error:  # ~somebody who does not exist
+            raise ArrayError(f"layout {name_or_path!r}: {error}") from None
+    raise ArrayError(
+        f"layout {name_or_path!r}: allowed is one of {', '.join(LAYOUTS)}, or the path of a layout file (.yaml)"
+    )
+
+
+def layout(name_or_path: str, rows: int = 32, cols: int = 32) -> Layout:
+    """A layout of a matrix.
+
+    Parameters
+    ----------
+    name_or_path : str
+        One of `LAYOUTS`: ``square``, the matrix as it is; ``insole``, 64 x 16; ``glove``, 32 x 32 turned, with palm,
+        thumb and four fingers (both as in the authors' published analysis); ``leap_right``, the right LEAP hand, 13
+        patches. Or the path of a layout file of one's own.
+    rows, cols : int
+        Size of the matrix.
+
+    Raises
+    ------
+    ArrayError
+        When there is no such layout, or it is made for another matrix.
+    SettingsError
+        When the file is not a layout; with file and line.
+    """
+    path = layout_path(name_or_path)
+    ArrayGeometry(rows, cols)  # refuses sizes that are none
+    read = read_layout(path, rows, cols)
+    places = np.argsort(read.taxels.ravel()).astype(np.uint16)
+    for array in (read.taxels, read.patch_of, places):
+        array.flags.writeable = False
+    return Layout(
+        name_or_path, read.taxels, places, rows, cols, read.pitch_m, read.row_pitch_m, read.patches, read.patch_of
+    )

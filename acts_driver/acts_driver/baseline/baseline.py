@@ -1,0 +1,123 @@
+"""What each taxel reads untouched: the baseline, and its file."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from enum import IntEnum
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.array import COUNT_MAX, MAX_SIDE
+from acts_core.errors import ArrayError, SettingsError
+from acts_core.files import read_npz
+
+_FORMAT = "acts_baseline"
+_VERSION = 1
+# Of the largest array 50 kB are needed.
+_BYTES_MAX = 1 << 24
+
+
+class BaselineSource(IntEnum):
+    """How a baseline was determined; the numbers are those of acts_msgs/Baseline."""
+
+    FILE = 1
+    CALIBRATION = 2
+    TARE = 3
+
+
+@dataclass(frozen=True, eq=False)
+class Baseline:
+    """Reading and noise of every untouched taxel.
+
+    Attributes
+    ----------
+    counts : np.ndarray [shape=(rows, cols), dtype=float32]
+        Mean reading [counts]; 0 where it is not known.
+    noise_counts : np.ndarray [shape=(rows, cols), dtype=float32]
+        Standard deviation of one reading about it [counts].
+    valid : np.ndarray [shape=(rows, cols), dtype=bool]
+        Whether it is known.
+    source : BaselineSource
+        How it was determined.
+    time_ns : int
+        When, in ROS time [ns].
+    """
+
+    counts: NDArray[np.float32]
+    noise_counts: NDArray[np.float32]
+    valid: NDArray[np.bool_]
+    source: BaselineSource
+    time_ns: int
+
+    def __post_init__(self) -> None:
+        shape = self.counts.shape
+        if len(shape) != 2 or not all(1 <= side <= MAX_SIDE for side in shape):
+            raise ArrayError(f"a baseline of shape {shape}: needed are rows and columns, 1 to {MAX_SIDE}")
+        if self.noise_counts.shape != shape or self.valid.shape != shape:
+            raise ArrayError(
+                f"baseline {shape}, noise {self.noise_counts.shape}, valid {self.valid.shape}: needed are equal shapes"
+            )
+        for name, values in (("baseline", self.counts), ("noise", self.noise_counts)):
+            # Written so that NaN fails too.
+            if not (np.all(values >= 0) and np.all(values <= COUNT_MAX)):
+                raise ArrayError(f"{name} must lie between 0 and {COUNT_MAX} counts, without NaN")
+
+    def save(self, path: Path) -> None:
+        """Write an npz file; an older one is replaced only by a whole new one.
+
+        Raises
+        ------
+        SettingsError
+            When it cannot be written.
+        """
+        temporary = path.with_name(f".{path.name}.{os.getpid()}.new")
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            with temporary.open("wb") as file:
+                np.savez(
+                    file,
+                    format=_FORMAT,
+                    version=_VERSION,
+                    baseline=self.counts,
+                    noise=self.noise_counts,
+                    valid=self.valid,
+                    time_ns=self.time_ns,
+                )
+            temporary.replace(path)
+        except OSError as error:
+            temporary.unlink(missing_ok=True)
+            raise SettingsError(
+                f"{path}: the baseline cannot be saved ({error.strerror}); set calibration_file to a path that can be "
+                "written"
+            ) from error
+
+    @classmethod
+    def load(cls, path: Path, rows: int, cols: int) -> Baseline:
+        """Read what `save` wrote.
+
+        Raises
+        ------
+        SettingsError
+            When the file cannot be read, is no baseline, or one of another array.
+        """
+        again = "calibrate again, or remove the file"
+        content = read_npz(path, error=SettingsError, hint=again, limit_bytes=_BYTES_MAX)
+        try:
+            if str(content["format"]) != _FORMAT or int(content["version"]) != _VERSION:
+                raise SettingsError(f"{path}: no baseline of this release; {again}")
+            baseline = cls(
+                counts=content["baseline"].astype(np.float32),
+                noise_counts=content["noise"].astype(np.float32),
+                valid=content["valid"].astype(np.bool_),
+                source=BaselineSource.FILE,
+                time_ns=int(content["time_ns"]),
+            )
+        except (ValueError, KeyError, TypeError, ArrayError) as error:
+            raise SettingsError(f"{path}: no baseline, or a damaged one ({error}); {again}") from error
+        if baseline.counts.shape != (rows, cols):
+            given = " x ".join(map(str, baseline.counts.shape))
+            raise SettingsError(f"{path}: a baseline of {given} taxels, the array has {rows} x {cols}; {again}")
+        return baseline

@@ -1,0 +1,50 @@
+"""The plain twin of `acts_driver.baseline.baseline_kernels`: the same in NumPy, for reading and for tests."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def observe(
+    indices: NDArray[np.uint16],
+    counts: NDArray[np.uint16],
+    time_ns: int,
+    rows: int,
+    cols: int,
+    block_n: NDArray[np.int64],
+    block_sums: NDArray[np.float64],
+    block_ends: NDArray[np.int64],
+    baseline: NDArray[np.float32],
+    freeze_counts: NDArray[np.float32],
+    measured_ns: NDArray[np.int64],
+    frozen_until_ns: NDArray[np.int64],
+    is_tracking: bool,
+    tau_ns: float,
+    hold_ns: int,
+    largest_step: float,
+) -> None:
+    """Take one frame; parameters as of the kernel.
+
+    The kernel goes through the samples one by one, so a sample freezes what comes after it in the frame. Here the order
+    is the same.
+    """
+    values = counts.astype(np.int64)
+    block_n[indices] += 1
+    block_sums[indices] += np.column_stack([values, values**2])
+    block_ends[indices, 0] = np.minimum(block_ends[indices, 0], values)
+    block_ends[indices, 1] = np.maximum(block_ends[indices, 1], values)
+    since_ns = time_ns - measured_ns[indices]
+    measured_ns[indices] = time_ns
+    if not is_tracking:
+        return
+    frozen = frozen_until_ns.reshape(rows, cols)
+    for taxel, value, since in zip(indices.tolist(), values.tolist(), since_ns.tolist(), strict=True):
+        if freeze_counts[taxel] < 0:
+            continue
+        difference = value - float(baseline[taxel])
+        row, col = divmod(taxel, cols)
+        if abs(difference) > freeze_counts[taxel]:
+            frozen[max(row - 1, 0) : row + 2, max(col - 1, 0) : col + 2] = time_ns + hold_ns
+        elif time_ns >= frozen_until_ns[taxel]:
+            baseline[taxel] += np.float32(np.clip(since / tau_ns, 0.0, largest_step) * difference)

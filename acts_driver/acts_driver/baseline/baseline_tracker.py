@@ -1,0 +1,329 @@
+"""Keeps the baseline of a skin: determines it from the last seconds of the stream, and follows its drift."""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.array import COUNT_MAX
+from acts_core.errors import CalibrationError
+from acts_core.frames import SampleFrame
+from acts_core.settings import setting, validate
+from acts_driver.baseline import baseline_kernels
+from acts_driver.baseline.baseline import Baseline, BaselineSource
+
+_NS_PER_S = 1_000_000_000
+_LARGEST_STEP = 0.05
+_HISTORY_STEP_NS = 10 * _NS_PER_S
+_HISTORY_STEPS = 6
+
+
+@dataclass(frozen=True)
+class BaselineConfig:
+    """Settings of `BaselineTracker`."""
+
+    touch_counts: int = setting(
+        60, "counts above its baseline at which a taxel is pressed", minimum=1, maximum=COUNT_MAX
+    )
+    tare_s: float = setting(
+        0.25, "shortest time a tare is averaged over [s]; up to twice as long", minimum=0.01, maximum=10.0
+    )
+    calibration_blocks: int = setting(
+        8, "shortest untouched time a calibration is made from, in times tare_s", minimum=1, maximum=100
+    )
+    least_readings: int = setting(8, "readings of a taxel that a calibration needs", minimum=2, maximum=10_000)
+    tau_s: float = setting(
+        60.0, "time constant of following the drift of untouched taxels [s]; 0: the baseline stays", minimum=0.0
+    )
+    freeze_counts: float = setting(
+        20.0, "a reading farther from the baseline than this is no drift, nor one beyond freeze_sigmas", minimum=1.0
+    )
+    freeze_sigmas: float = setting(6.0, "the same in standard deviations of the taxel's noise", minimum=1.0)
+    hold_s: float = setting(1.0, "how long a baseline stays frozen after the touch [s]", minimum=0.0)
+
+    def __post_init__(self) -> None:
+        validate(self)
+
+
+class Drift(NamedTuple):
+    """How fast the baseline moves [counts per minute]: the median taxel, and the one that moves fastest."""
+
+    median: float
+    largest: float
+
+
+class _Block:
+    """Statistics of every taxel over some time."""
+
+    def __init__(self, size: int) -> None:
+        self.n = np.zeros(size, dtype=np.int64)
+        self.sums = np.zeros((size, 2))
+        self.ends = np.zeros((size, 2), dtype=np.int64)
+        self.clear()
+
+    def clear(self) -> None:
+        self.n[:] = 0
+        self.sums[:] = 0.0
+        self.ends[:, 0] = COUNT_MAX + 1
+        self.ends[:, 1] = -1
+
+
+class _Readings(NamedTuple):
+    """Of every taxel: number of readings, their mean, standard deviation and largest difference; 0 without readings."""
+
+    n: NDArray[np.int64]
+    mean: NDArray[np.float64]
+    deviation: NDArray[np.float64]
+    span: NDArray[np.int64]
+
+
+def _readings(blocks: Sequence[_Block]) -> _Readings:
+    n = np.sum([block.n for block in blocks], axis=0)
+    sums = np.sum([block.sums for block in blocks], axis=0)
+    known = np.maximum(n, 1)
+    mean = sums[:, 0] / known
+    deviation = np.sqrt(np.maximum(sums[:, 1] / known - mean**2, 0.0))
+    low = np.min([block.ends[:, 0] for block in blocks], axis=0)
+    high = np.max([block.ends[:, 1] for block in blocks], axis=0)
+    return _Readings(n, mean, deviation, np.where(n > 0, high - low, 0))
+
+
+class BaselineTracker:
+    """Takes every frame of a stream on one thread; may be asked and told from another.
+
+    Calibration and tare look back: the statistics of the last seconds are always there, so both answer at once. The
+    baseline of a taxel then follows its readings slowly, but stays where they are farther from it than drift goes, at
+    the taxel and the eight around it and for a while after.
+
+    Parameters
+    ----------
+    rows, cols : int
+        Size of the array; every frame must have it.
+    config : BaselineConfig
+    """
+
+    def __init__(self, rows: int, cols: int, config: BaselineConfig | None = None) -> None:
+        self.config = config or BaselineConfig()
+        self._shape = (rows, cols)
+        size = rows * cols
+        self._lock = threading.Lock()
+        self._block_ns = int(self.config.tare_s * _NS_PER_S)
+        # One grows, the others are the last whole ones.
+        self._blocks = [_Block(size) for _ in range(self.config.calibration_blocks + 1)]
+        self._growing = 0
+        self._growing_since_ns = -1
+        self._whole = 0
+        self._baseline = np.zeros(size, dtype=np.float32)
+        self._noise = np.zeros(size, dtype=np.float32)
+        self._freeze = np.full(size, -1.0, dtype=np.float32)
+        self._measured_ns = np.zeros(size, dtype=np.int64)
+        self._frozen_until_ns = np.zeros(size, dtype=np.int64)
+        self._source: BaselineSource | None = None
+        self._now_ns = 0
+        self._history: deque[tuple[int, NDArray[np.float32]]] = deque(maxlen=_HISTORY_STEPS + 1)
+        # Compiled, or loaded, before the first frame.
+        self._take(np.zeros(1, dtype=np.uint16), np.zeros(1, dtype=np.uint16), 0)
+        self._blocks[self._growing].clear()
+
+    def observe(self, frames: Sequence[tuple[SampleFrame, int]]) -> None:
+        """Take frames with the times of their measurement [ns], in order."""
+        with self._lock:
+            for frame, time_ns in frames:
+                self._advance(time_ns)
+                self._take(frame.indices, frame.counts, time_ns)
+
+    def set(self, baseline: Baseline) -> None:
+        """Take over a baseline, for example from a file."""
+        with self._lock:
+            self._set(
+                baseline.counts.ravel(),
+                baseline.noise_counts.ravel(),
+                baseline.valid.ravel(),
+                baseline.source,
+            )
+
+    def calibrate(self) -> Baseline:
+        """Determine baseline and noise from the last seconds, in which the skin must have been untouched.
+
+        Taxels that were hardly measured meanwhile keep what was known of them.
+
+        Raises
+        ------
+        CalibrationError
+            When there were too few frames, or something touched the skin.
+        """
+        with self._lock:
+            needed = self.config.calibration_blocks
+            if self._whole < needed:
+                raise CalibrationError(
+                    f"{self._whole * self.config.tare_s:g} s of frames so far, a calibration needs "
+                    f"{needed * self.config.tare_s:g} s: wait and call again"
+                )
+            readings = _readings(self._blocks)
+            measured = readings.n >= self.config.least_readings
+            if not measured.any():
+                raise CalibrationError(
+                    f"no taxel was measured {self.config.least_readings} times in the last "
+                    f"{needed * self.config.tare_s:g} s: raise the frame rate"
+                )
+            touched = self._touched(readings)
+            if touched.any():
+                row, col = divmod(int(np.flatnonzero(touched)[0]), self._shape[1])
+                raise CalibrationError(
+                    f"the skin was touched: {int(touched.sum())} taxels, for example row {row}, column {col}. Leave it "
+                    f"alone for {(needed + 1) * self.config.tare_s:g} s and call again; where nothing touches it, tare "
+                    "first"
+                )
+            known = self._freeze >= 0
+            self._set(
+                np.where(measured, readings.mean, self._baseline),
+                np.where(measured, readings.deviation, self._noise),
+                measured | known,
+                BaselineSource.CALIBRATION,
+            )
+            return self._present()
+
+    def tare(self) -> Baseline:
+        """Take the present readings as the baseline, whatever lies on the skin; noise stays what it was.
+
+        Taxels that were not measured in the last moment keep what was known of them.
+
+        Raises
+        ------
+        CalibrationError
+            When there were too few frames.
+        """
+        with self._lock:
+            if self._whole < 1:
+                raise CalibrationError(
+                    f"less than {self.config.tare_s:g} s of frames so far: wait until the board is read and call again"
+                )
+            readings = _readings([self._blocks[self._growing], self._blocks[self._growing - 1]])
+            measured = readings.n > 0
+            known = self._freeze >= 0
+            self._set(
+                np.where(measured, readings.mean, self._baseline),
+                np.where(known, self._noise, readings.deviation),
+                measured | known,
+                BaselineSource.TARE,
+            )
+            return self._present()
+
+    def present(self) -> Baseline | None:
+        """The baseline now; None where there is none."""
+        with self._lock:
+            return None if self._source is None else self._present()
+
+    def drift(self) -> Drift | None:
+        """How fast the baseline has moved over the last minute, or since it was determined; None for less than 10 s.
+
+        Call it at least every 10 s.
+        """
+        with self._lock:
+            if self._source is None:
+                return None
+            now_ns, baseline = self._now_ns, self._baseline.copy()
+            known = self._freeze >= 0
+        if not self._history or now_ns < self._history[-1][0]:
+            self._history.clear()
+            self._history.append((now_ns, baseline))
+        elif now_ns - self._history[-1][0] >= _HISTORY_STEP_NS:
+            self._history.append((now_ns, baseline))
+        then_ns, then = self._history[0]
+        minutes = (now_ns - then_ns) / (60 * _NS_PER_S)
+        if now_ns - then_ns < _HISTORY_STEP_NS or not known.any():
+            return None
+        speed = (baseline - then)[known] / minutes
+        return Drift(float(np.median(speed)), float(speed[np.argmax(np.abs(speed))]))
+
+    def below(self) -> int:
+        """How many taxels read lower than drift explains, as after a tare with something on the skin that is gone."""
+        with self._lock:
+            if self._source is None or self._whole < 1:
+                return 0
+            readings = _readings([self._blocks[self._growing - 1]])
+            low = readings.mean < self._baseline - self._freeze
+            return int(np.count_nonzero((readings.n > 0) & (self._freeze >= 0) & low))
+
+    def _advance(self, time_ns: int) -> None:
+        """Begin the next block where it is time; begin anew after a pause or a jump of the clock."""
+        self._now_ns = time_ns
+        since_ns = time_ns - self._growing_since_ns
+        if 0 <= since_ns < self._block_ns and self._growing_since_ns >= 0:
+            return
+        if since_ns < 0:
+            # The clock was set back: no taxel is kept as it is for longer than after a touch now.
+            latest_ns = time_ns + int(self.config.hold_s * _NS_PER_S)
+            np.minimum(self._frozen_until_ns, latest_ns, out=self._frozen_until_ns)
+        if self._growing_since_ns >= 0 and 0 <= since_ns < 2 * self._block_ns:
+            self._growing = (self._growing + 1) % len(self._blocks)
+            self._whole = min(self._whole + 1, len(self._blocks) - 1)
+        else:
+            self._whole = 0
+            for block in self._blocks:
+                block.clear()
+        self._growing_since_ns = time_ns
+        self._blocks[self._growing].clear()
+
+    def _take(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], time_ns: int) -> None:
+        config, block = self.config, self._blocks[self._growing]
+        baseline_kernels.observe(
+            indices,
+            counts,
+            time_ns,
+            self._shape[0],
+            self._shape[1],
+            block.n,
+            block.sums,
+            block.ends,
+            self._baseline,
+            self._freeze,
+            self._measured_ns,
+            self._frozen_until_ns,
+            self._source is not None and config.tau_s > 0,
+            max(config.tau_s, 1e-9) * _NS_PER_S,
+            int(config.hold_s * _NS_PER_S),
+            _LARGEST_STEP,
+        )
+
+    def _touched(self, readings: _Readings) -> NDArray[np.bool_]:
+        """Taxels that were pressed, or let go, in the time of these readings. One alone is a broken taxel, no touch."""
+        known = np.where(self._freeze >= 0, self._baseline, 0.0)
+        limit = self.config.touch_counts
+        suspicious = (readings.n > 0) & ((readings.mean - known > limit) | (readings.span > limit))
+        grid = np.pad(suspicious.reshape(self._shape), 1).astype(np.int64)
+        rows, cols = self._shape
+        around = sum(grid[r : r + rows, c : c + cols] for r in range(3) for c in range(3))
+        return suspicious & (np.asarray(around).ravel() > 1)
+
+    def _set(
+        self,
+        counts: NDArray[np.floating],
+        noise: NDArray[np.floating],
+        valid: NDArray[np.bool_],
+        source: BaselineSource,
+    ) -> None:
+        config = self.config
+        self._baseline[:] = np.where(valid, counts, 0.0)
+        self._noise[:] = np.where(valid, noise, 0.0)
+        drift = np.maximum(config.freeze_counts, config.freeze_sigmas * self._noise)
+        self._freeze[:] = np.where(valid, np.minimum(drift, max(config.touch_counts, config.freeze_counts)), -1.0)
+        self._frozen_until_ns[:] = 0
+        self._source = source
+        self._history.clear()
+
+    def _present(self) -> Baseline:
+        assert self._source is not None
+        return Baseline(
+            self._baseline.reshape(self._shape).copy(),
+            self._noise.reshape(self._shape).copy(),
+            (self._freeze >= 0).reshape(self._shape),
+            self._source,
+            self._now_ns,
+        )

@@ -1,0 +1,180 @@
+"""The dialogue with a board: a command out, its reply in, within bounded time."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+from functools import partial
+
+from acts_core.errors import BoardError
+from acts_core.sampling import SkinMap
+from acts_core.wire import (
+    MAP_PIECE_MAX,
+    UPLOAD_PIECE_MAX,
+    BoardMessage,
+    BoardModel,
+    BoardSettings,
+    Reply,
+    ReplyStatus,
+    encode_configure,
+    encode_map_data,
+    encode_map_end,
+    encode_query,
+    encode_upload_begin,
+    encode_upload_data,
+    encode_upload_end,
+)
+
+REPLY_TIMEOUT_S = 0.1
+"""How long one reply is waited for; a virtual board answers after a frame, within a millisecond or two."""
+
+TRIES = 3
+"""How often a command is sent before the board counts as silent. Repeating one is harmless."""
+
+Write = Callable[[bytes, float], None]
+"""Writes bytes to the board within a time [s], or raises `PortError`; see `acts_driver.port.source.Source.write`."""
+
+
+class NoAnswerError(BoardError):
+    """The board does not answer: an older firmware, another sketch, or a stuck one."""
+
+
+class RefusedError(BoardError):
+    """The board answers that it does not do what it was told; `reply` is its answer."""
+
+    def __init__(self, reply: Reply) -> None:
+        super().__init__(reply.problem)
+        self.reply = reply
+
+
+class BoardLink:
+    """Commands and replies, one at a time, over a source that somebody else reads.
+
+    Give `take` to the decoder as `on_message`. Whoever calls a command waits; the thread that reads never does.
+
+    Parameters
+    ----------
+    write : callable
+        See `Write`.
+    reply_timeout_s : float
+        How long a reply is waited for, and how long writing may take [s].
+    tries : int
+        How often a command is sent.
+    """
+
+    def __init__(self, write: Write, *, reply_timeout_s: float = REPLY_TIMEOUT_S, tries: int = TRIES) -> None:
+        self._write = write
+        self._timeout_s = reply_timeout_s
+        self._tries = tries
+        self._turn = threading.Lock()
+        self._arrived = threading.Condition()
+        # Of another process before this one, replies may still be on their way: begin at a number of our own.
+        self._request = time.monotonic_ns() & 0xFFFFFFFF
+        self._reply: Reply | None = None
+
+    def take(self, message: BoardMessage) -> None:
+        """Take what the board said; on the reader's thread. What is no reply to the last command is left alone."""
+        if isinstance(message, Reply):
+            with self._arrived:
+                if message.request == self._request:
+                    self._reply = message
+                    self._arrived.notify_all()
+
+    def query(self) -> Reply:
+        """Ask for the board's state.
+
+        Raises
+        ------
+        NoAnswerError
+            No reply came, however often it was asked.
+        PortError
+            The port is not open, was lost, or takes no bytes.
+        RefusedError
+            The board does not know the command.
+        """
+        return self._done(self._exchange(encode_query))
+
+    def configure(self, settings: BoardSettings) -> Reply:
+        """Tell the board its settings; raises as `query` does, `RefusedError` for a setting that it refuses."""
+        return self._done(self._exchange(lambda request: encode_configure(request, settings)))
+
+    def arrange(self, skin_map: SkinMap | None) -> Reply:
+        """Tell the board how its taxels lie on the skin, None: as in the matrix; raises as `query` does."""
+        if skin_map is not None:
+            for first in range(0, len(skin_map.taxels), MAP_PIECE_MAX):
+                self._done(self._exchange(partial(_encode_places, skin_map, first)))
+        return self._done(self._exchange(lambda request: encode_map_end(request, skin_map)))
+
+    def announce(self, model: BoardModel) -> Reply:
+        """Begin an upload, which ends one under way; raises as `query` does, `RefusedError` where it cannot be held.
+
+        What the board held is gone then.
+        """
+        return self._done(self._exchange(lambda request: encode_upload_begin(request, model)))
+
+    def upload(self, model: BoardModel, is_wanted: Callable[[], bool] = lambda: True) -> Reply | None:
+        """Give the board a model.
+
+        Parameters
+        ----------
+        model : BoardModel
+        is_wanted : callable
+            Asked before every piece; the upload is given up where it says no.
+
+        Returns
+        -------
+        Reply or None
+            None where it was given up.
+
+        Raises
+        ------
+        NoAnswerError, PortError, RefusedError
+            As `query`, and for a model that the board cannot hold, or a board that was restarted meanwhile.
+        """
+        self.announce(model)
+        size = len(model.payload)
+        at = 0
+        # Each piece may be asked for again; a board that never gets on is given up.
+        for _ in range(2 * (size // UPLOAD_PIECE_MAX + 2)):
+            if not is_wanted():
+                return None
+            if at >= size:
+                return self._done(self._exchange(encode_upload_end))
+            piece = model.payload[at : at + UPLOAD_PIECE_MAX]
+            reply = self._exchange(partial(_encode_data, at, piece))
+            if reply.status is ReplyStatus.UPLOAD_OUT_OF_ORDER and reply.state.uploading and reply.detail <= size:
+                # The piece was there already, its reply was lost.
+                at = reply.detail
+                continue
+            self._done(reply)
+            at += len(piece)
+        raise NoAnswerError(f"the board took no more than {at} of the model's {size} bytes; reset it")
+
+    def _exchange(self, encode: Callable[[int], bytes]) -> Reply:
+        with self._turn:
+            with self._arrived:
+                self._request = (self._request + 1) & 0xFFFFFFFF
+                self._reply = None
+            packet = encode(self._request)
+            for _ in range(self._tries):
+                self._write(packet, self._timeout_s)
+                with self._arrived:
+                    if self._arrived.wait_for(lambda: self._reply is not None, self._timeout_s):
+                        assert self._reply is not None
+                        return self._reply
+        raise NoAnswerError("the board does not answer commands (an older firmware, or another sketch)")
+
+    @staticmethod
+    def _done(reply: Reply) -> Reply:
+        if not reply.ok:
+            raise RefusedError(reply)
+        return reply
+
+
+def _encode_places(skin_map: SkinMap, first: int, request: int) -> bytes:
+    return encode_map_data(request, skin_map, first)
+
+
+def _encode_data(offset: int, piece: bytes, request: int) -> bytes:
+    return encode_upload_data(request, offset, piece)

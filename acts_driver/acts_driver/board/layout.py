@@ -1,0 +1,77 @@
+"""Keeps a board's layout of the skin as the parameters want it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import Future
+from functools import partial
+
+from acts_core.runtime import begin, is_done
+from acts_core.sampling import SkinMap
+from acts_core.wire import BoardState
+from acts_driver.board.dialogue import BoardLink
+from acts_driver.board.parameters import BoardParameters
+
+
+class BoardLayout:
+    """Part of a `acts_driver.board.session.BoardSession`.
+
+    Parameters
+    ----------
+    link : BoardLink
+    log : callable
+        Takes a level and a sentence.
+    """
+
+    def __init__(self, link: BoardLink, log: Callable[[str, str], None]) -> None:
+        self._link = link
+        self._log = log
+        self._map: SkinMap | None = None
+        self._map_of: tuple[str, tuple[int, int]] | None = None
+        self._reading: Future[SkinMap | None] | None = None
+        self._is_told = False
+
+    def begin_anew(self) -> None:
+        """Tell that there is another board, or another life of it."""
+        self._is_told = False
+
+    def read_again(self) -> None:
+        """Tell that the file may be another by now."""
+        self._map_of = None
+        self._reading = None
+
+    def bring(self, parameters: BoardParameters, state: BoardState) -> BoardState:
+        """Bring the board from a state to the layout that is wanted; its state then.
+
+        Where the layout's file takes long to read, the board stays as it is until a later call.
+
+        Raises
+        ------
+        BoardError, PortError
+            As `BoardLink.query`.
+        SettingsError, ArrayError
+            When the layout cannot be read, or cannot be the board's.
+        """
+        name, size = parameters.layout, (state.settings.rows, state.settings.cols)
+        if not name:
+            return state
+        if self._map_of != (name, size):
+            self._map_of, self._reading = (name, size), begin(partial(parameters.skin_map, *size))
+        if self._reading is not None:
+            if not is_done(self._reading):
+                return state
+            self._map, self._reading = self._reading.result(), None
+        wanted = 0 if self._map is None else self._map.crc32
+        if state.map_crc32 is None:
+            if wanted and not self._is_told:
+                self._is_told = True
+                self._log(
+                    "warning",
+                    f"the board's firmware knows no layouts: it looks for neighbours in the matrix, not as {name} has "
+                    "them; load the firmware of the driver's release onto the board",
+                )
+            return state
+        if state.map_crc32 != wanted:
+            state = self._link.arrange(self._map).state
+            self._log("info", f"the board has taken the layout {name}")
+        return state

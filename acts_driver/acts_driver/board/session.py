@@ -1,0 +1,373 @@
+"""Keeps a board as the parameters want it: asks who it is, tells it its settings, again after every reset."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from acts_core.errors import ActsError, BoardError, PortError
+from acts_core.wire import BoardModel, BoardSettings, BoardState, ReplyStatus
+from acts_driver.board.dialogue import BoardLink, NoAnswerError, RefusedError
+from acts_driver.board.layout import BoardLayout
+from acts_driver.board.model_file import ModelFile
+from acts_driver.board.parameters import BoardParameters
+
+FIRMWARE = (0, 1)
+"""Major and minor version of the firmware that this driver belongs to; any patch version will do."""
+
+_ASK_EVERY_S = 1.0
+_STOP_S = 5.0
+# A reply tells the time of the last frame, and frames may be a second apart.
+_SAME_START_S = 2.0
+_DRIFT_MAX = 1e-3
+
+
+@dataclass(frozen=True)
+class BoardStatus:
+    """What is known of the board.
+
+    Attributes
+    ----------
+    state : BoardState or None
+        What it said last; None before its first answer and when it has stopped answering.
+    is_wrong_version : bool
+        Whether its firmware is of another version, so that nothing it sends is to be used.
+    problem : str
+        Why it is not as the parameters want it, for a person; empty where it is.
+    is_silent : bool
+        Whether it was asked and did not answer.
+    """
+
+    state: BoardState | None = None
+    is_wrong_version: bool = False
+    problem: str = ""
+    is_silent: bool = False
+
+
+class BoardSession:
+    """The dialogue of one driver with whatever board is plugged in, on a thread of its own.
+
+    The board is asked every second, at once after `wake`, and brought to what the parameters want wherever it is not.
+    What it had by itself when it was first seen after its start counts as its own. Models are uploaded on this thread
+    alone, and read on another one, so that nobody else waits for as long as that takes.
+
+    Parameters
+    ----------
+    link : BoardLink
+        To the board.
+    parameters : BoardParameters
+        What is wanted.
+    size : tuple of int
+        Rows and columns that the driver expects.
+    log : callable
+        Takes a level ("info", "warning" or "error") and a sentence.
+    on_change : callable
+        Called with the status when anything but times and counters in it has changed; from any thread.
+    """
+
+    def __init__(
+        self,
+        link: BoardLink,
+        parameters: BoardParameters,
+        *,
+        size: tuple[int, int],
+        log: Callable[[str, str], None],
+        on_change: Callable[[BoardStatus], None] = lambda status: None,
+    ) -> None:
+        self._link = link
+        self._parameters = parameters
+        self._size = size
+        self._log = log
+        self._on_change = on_change
+        self._own: BoardSettings | None = None
+        self._seen: BoardState | None = None
+        self._seen_s = 0.0
+        # How often the port was opened, and at which of these the board's answer, or its silence, was heard last.
+        self._opening = 0
+        self._heard = -1
+        self._settled: tuple[BoardSettings, BoardSettings] | None = None
+        self._refused: object = None
+        self._layout = BoardLayout(link, log)
+        self._model = self._file_of(parameters)
+        self._due: BoardModel | None = None
+        self._uploading: BoardModel | None = None
+        self._turn = threading.Lock()
+        self._wake = threading.Event()
+        self._verdict = threading.Event()
+        self._stop = threading.Event()
+        self._thread = threading.Thread(target=self._run, name="acts_board", daemon=True)
+        self._told = ""
+        self.status = BoardStatus()
+
+    def start(self) -> None:
+        """Begin the dialogue; the source is open."""
+        self._thread.start()
+
+    def stop(self) -> None:
+        """End the dialogue. May be called again."""
+        self._stop.set()
+        self._wake.set()
+        if self._thread.is_alive():
+            self._thread.join(_STOP_S)
+
+    def wake(self) -> None:
+        """Tell that the board may have begun anew: it is asked at once."""
+        self._wake.set()
+
+    def reconnected(self) -> None:
+        """Tell that the port was lost and is open again, perhaps with another board."""
+        self._opening += 1
+        self.wake()
+
+    def wait_for_verdict(self, timeout_s: float) -> bool:
+        """Wait until the first board has answered or turned out not to; False where that takes longer."""
+        return self._verdict.wait(timeout_s)
+
+    @property
+    def may_publish(self) -> bool:
+        """Whether frames of this board may be used: it has answered, rightly, or turned out not to. Cheap."""
+        return self._heard == self._opening and not self.status.is_wrong_version
+
+    @property
+    def asks_for_something(self) -> bool:
+        """Whether any parameter wants something of the board."""
+        return bool(self._parameters.given())
+
+    def ask(self) -> BoardState:
+        """Ask the board now.
+
+        Raises
+        ------
+        BoardError, PortError
+            As `BoardLink.query`.
+        """
+        with self._turn:
+            state = self._link.query().state
+            self._see(state)
+            return state
+
+    def change(self, parameters: BoardParameters) -> None:
+        """Want something else from now on, and bring the board to it.
+
+        While no board is connected the wish is only noted. A model is announced, which tells whether the board can hold
+        it; `status` tells when it is there. One whose file cannot be read at once counts as wanted: `status` tells what
+        becomes of it.
+
+        Raises
+        ------
+        BoardError, SettingsError
+            It cannot be; the settings are as they were and the old wish stays.
+        """
+        model = self._model
+        if parameters.model != self._parameters.model:
+            model = self._file_of(parameters)
+        if model is not None:
+            # The board may be asked meanwhile.
+            model.wait()
+        with self._turn:
+            self._change(parameters, model)
+        self.wake()
+
+    def _change(self, parameters: BoardParameters, model: ModelFile | None) -> None:
+        before = self._parameters, self._model
+        try:
+            self._check_that_it_listens()
+            self._parameters, self._model = parameters, model
+            self._refused = None
+            self._layout.read_again()
+            self._wanted_model()
+            if self.status.state is not None:
+                state = self._link.query().state
+                self._see(state)
+                self._check_that_it_listens()
+                self._bring(state)
+            if self._due is not None and self._due is not self._uploading:
+                self._link.announce(self._due)
+        except PortError as error:
+            # Just lost: told to the board when it is back.
+            self._set(BoardStatus(problem=str(error)))
+        except ActsError:
+            self._parameters, self._model = before
+            # Part of it may have been done.
+            self.wake()
+            raise
+
+    def _check_that_it_listens(self) -> None:
+        if self.status.is_silent or self.status.is_wrong_version:
+            raise BoardError(f"the board cannot be told settings: {self.status.problem}")
+
+    def _run(self) -> None:
+        while not self._stop.is_set():
+            self._wake.clear()
+            opening = self._opening
+            with self._turn:
+                if not self._round():
+                    self._due = None
+                due = self._due
+            self._heard = opening
+            self._verdict.set()
+            # With a port opened meanwhile: first who this is.
+            if due is not None and opening == self._opening:
+                self._upload(due, opening)
+            self._wake.wait(_ASK_EVERY_S)
+
+    def _round(self) -> bool:
+        """Ask the board and bring it to what is wanted; whether that came off, so that a model may be due."""
+        try:
+            state = self._link.query().state
+        except PortError as error:
+            self._set(BoardStatus(problem=str(error)))
+            return False
+        except NoAnswerError as error:
+            self._set(BoardStatus(problem=str(error), is_silent=True))
+            return False
+        except BoardError as error:
+            self._set(BoardStatus(problem=str(error), is_wrong_version=True))
+            return False
+        self._see(state)
+        wanted = (self._parameters, self._own)
+        if self.status.is_wrong_version or wanted == self._refused:
+            return False
+        try:
+            self._bring(state)
+        except PortError:
+            return False
+        except NoAnswerError:
+            self.wake()
+            return False
+        except ActsError as error:
+            # Not told again until something has changed.
+            self._refused = wanted
+            self._set(replace(self.status, problem=str(error)))
+            return False
+        return True
+
+    def _see(self, state: BoardState) -> None:
+        """Take notice of what the board said about itself."""
+        now_s = time.monotonic()
+        if self._has_begun_anew(state, now_s):
+            self._own = state.settings
+            self._layout.begin_anew()
+            self._settled = None
+            self._refused = None
+        self._seen, self._seen_s = state, now_s
+        if state.firmware_version[:2] != FIRMWARE:
+            self._set(BoardStatus(state, is_wrong_version=True, problem=_other_version(state)))
+            return
+        problem = self.status.problem if self._refused is not None else self._mismatch(state)
+        self._set(BoardStatus(state, problem=problem))
+
+    def _has_begun_anew(self, state: BoardState, now_s: float) -> bool:
+        """Whether this is another board than the last one, or another life of it: it has forgotten what it was told."""
+        seen = self._seen
+        if seen is None or seen.board_id != state.board_id or state.uptime_us < seen.uptime_us:
+            return True
+        passed_s = now_s - self._seen_s
+        return passed_s - (state.uptime_us - seen.uptime_us) * 1e-6 > _SAME_START_S + _DRIFT_MAX * passed_s
+
+    def _bring(self, state: BoardState) -> None:
+        """Bring the board from a state to what is wanted."""
+        assert self._own is not None
+        wanted = self._parameters.wanted(self._own)
+        if state.settings != wanted and self._settled != (wanted, state.settings):
+            state = self._link.configure(wanted).state
+            # A board may take a setting in its own way; it is not told again and again then.
+            self._settled = (wanted, state.settings)
+            self._log("info", f"the board has taken its settings: {settings_in_words(state.settings)}")
+        state = self._layout.bring(self._parameters, state)
+        model = self._wanted_model()
+        self._due = model if model is not None and state.model.crc32 != model.crc32 else None
+        self._set(BoardStatus(state, problem=self._mismatch(state)))
+
+    def _upload(self, model: BoardModel, opening: int) -> None:
+        """Give the board the model that is due. Others may ask it and change settings between two pieces."""
+
+        def is_wanted() -> bool:
+            return self._due is model and self._opening == opening and not self._stop.is_set()
+
+        parameters = self._parameters
+        wanted = (parameters, self._own)
+        self._uploading = model
+        try:
+            reply = self._link.upload(model, is_wanted)
+        except (NoAnswerError, PortError):
+            # The next round tells what has become of the board.
+            return
+        except RefusedError as error:
+            with self._turn:
+                if not is_wanted():
+                    return
+                self._set(replace(self.status, problem=str(error)))
+                # Anything else was an accident on the way, or the board's restart.
+                if error.reply.status is ReplyStatus.MODEL_IMPOSSIBLE:
+                    self._refused = wanted
+            return
+        finally:
+            self._uploading = None
+        if reply is not None:
+            self._log("info", f"the board has taken the model {parameters.model}")
+            with self._turn:
+                self._due = None
+                self._see(reply.state)
+
+    def _wanted_model(self) -> BoardModel | None:
+        """The model that the parameters ask for, where there is one and it has been read."""
+        return None if self._model is None else self._model.model()
+
+    def _file_of(self, parameters: BoardParameters) -> ModelFile | None:
+        return None if parameters.model in ("", "none") else ModelFile(Path(parameters.model), self.wake)
+
+    def _mismatch(self, state: BoardState) -> str:
+        settings = state.settings
+        if (settings.rows, settings.cols) != self._size:
+            return (
+                f"the board measures {settings.rows} x {settings.cols} taxels, the parameters rows and cols say "
+                f"{self._size[0]} x {self._size[1]}: set them alike"
+            )
+        if self._model is not None and self._model.problem:
+            return self._model.problem
+        if state.samples_only and self._due is None and (self._model is None or self._model.is_read):
+            return (
+                f"the board holds no model for output {settings.output}, it sends samples only: set the parameter model"
+            )
+        return ""
+
+    def _set(self, status: BoardStatus) -> None:
+        before, self.status = self.status, status
+        # A silent board may be as it should be, and a lost port is told by the reader.
+        if status.state is not None or status.is_wrong_version:
+            if status.problem and status.problem != self._told:
+                self._log("error", status.problem)
+            self._told = status.problem
+        if _lasting(before) != _lasting(status):
+            self._on_change(status)
+
+
+def settings_in_words(settings: BoardSettings) -> str:
+    """Settings for a person, in one line."""
+    rate = f"at most {1e6 / settings.frame_period_us:g} Hz" if settings.frame_period_us else "as fast as it can"
+    return (
+        f"{settings.rows} x {settings.cols}, {settings.scheme}, M = {settings.frame_size}, {rate}, threshold "
+        f"{settings.threshold_counts}, output {settings.output}, LED {settings.led}"
+    )
+
+
+def version_in_words(state: BoardState) -> str:
+    """A firmware version for a person."""
+    return ".".join(map(str, state.firmware_version))
+
+
+def _other_version(state: BoardState) -> str:
+    return (
+        f"the board's firmware is {version_in_words(state)}, this driver needs {FIRMWARE[0]}.{FIRMWARE[1]}.x: load the "
+        "firmware of the driver's release onto the board; its frames are not published"
+    )
+
+
+def _lasting(status: BoardStatus) -> BoardStatus:
+    if status.state is None:
+        return status
+    return replace(status, state=replace(status.state, uptime_us=0, overruns=0, bad_commands=0))

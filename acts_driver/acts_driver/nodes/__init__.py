@@ -1,0 +1,4 @@
+"""The node `driver` and its topics and services: the only modules of this package that know ROS.
+
+In come parameters and a source of bytes; out come the topics. Each module is one part of the node.
+"""

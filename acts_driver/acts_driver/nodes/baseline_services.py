@@ -1,0 +1,176 @@
+"""The driver's services `calibrate` and `tare`, and the topic `baseline`."""
+
+from __future__ import annotations
+
+import time
+from array import array
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import numpy as np
+from rclpy.node import Node
+from std_srvs.srv import Trigger
+
+from acts_core.errors import ActsError, CalibrationError, SettingsError
+from acts_core.frames import SampleFrame
+from acts_core.runtime import within_patience
+from acts_driver.baseline import Baseline, BaselineParameters, BaselineTracker
+from acts_msgs.msg import Baseline as BaselineMessage
+from acts_ros.clocks import steady_timer
+from acts_ros.qos import LATCHED, overridable
+
+_NS_PER_S = 1_000_000_000
+_PUBLISH_PERIOD_S = 1.0
+_MOVED_COUNTS = 0.5
+# Without a frame for so long, nothing is known of the skin of now [s].
+_FRESH_S = 0.5
+
+_WaitFor = Callable[[Callable[[], Baseline | None], str], Baseline | None]
+"""Does a work, of which it is told what it is for a person, and returns its result."""
+
+
+class BaselineServices:
+    """Publishes the baseline of a node's skin, and lets it be determined.
+
+    The baseline in the file is taken over at the start; it is written by `calibrate`, not by `tare`.
+
+    Parameters
+    ----------
+    node : rclpy.node.Node
+        Gets the services ``~/calibrate`` and ``~/tare`` (std_srvs/Trigger) and the topic ``baseline``.
+    parameters : BaselineParameters
+    rows, cols : int
+        Size of the array.
+    frame_id : str
+        Of the messages' headers.
+
+    Raises
+    ------
+    SettingsError
+        When the file holds no baseline of this array.
+    """
+
+    def __init__(self, node: Node, parameters: BaselineParameters, rows: int, cols: int, frame_id: str) -> None:
+        self._node = node
+        self._frame_id = frame_id
+        self._path: Path | None = None
+        self._tracker: BaselineTracker
+        self._published: Baseline | None = None
+        self._heard_s: float | None = None
+        self._publisher = node.create_publisher(BaselineMessage, "baseline", **overridable(LATCHED))
+        node.create_service(Trigger, "~/calibrate", self._calibrate)
+        node.create_service(Trigger, "~/tare", self._tare)
+        # Nobody is answered yet: a slow file has all the time it needs.
+        self._begin(parameters, rows, cols, lambda load, _what: load())
+        self._timer = steady_timer(node, _PUBLISH_PERIOD_S, self._publish_where_moved)
+
+    def begin(self, parameters: BaselineParameters, rows: int, cols: int) -> None:
+        """Begin anew with other parameters, while no frames come.
+
+        Raises
+        ------
+        SettingsError
+            When the file holds no baseline of this array, or takes too long to be read; nothing has changed then.
+        """
+        self._begin(parameters, rows, cols, lambda load, what: within_patience(load, SettingsError, what))
+
+    def _begin(self, parameters: BaselineParameters, rows: int, cols: int, wait_for: _WaitFor) -> None:
+        file = parameters.calibration_file
+        path = None if file in ("", "none") else Path(file).expanduser()
+        tracker = BaselineTracker(rows, cols, parameters.baseline_config())
+
+        def load() -> Baseline | None:
+            return Baseline.load(path, rows, cols) if path is not None and path.exists() else None
+
+        baseline = None if path is None else wait_for(load, f"reading calibration_file = {path}")
+        self._path, self._tracker, self._published, self._heard_s = path, tracker, None, None
+        if baseline is not None:
+            tracker.set(baseline)
+            self._publish(baseline)
+            self._node.get_logger().info(f"baseline of {int(baseline.valid.sum())} taxels from {path}")
+        elif path is not None:
+            self._node.get_logger().info(f"no baseline yet: {path} is not there, the service ~/calibrate writes it")
+
+    def observe(self, frames: Sequence[tuple[SampleFrame, int]]) -> None:
+        """Take frames with their stamps [ns], on the reader's thread."""
+        if frames:
+            self._heard_s = time.monotonic()
+            self._tracker.observe(frames)
+
+    def values(self) -> dict[str, object]:
+        """What the driver's diagnostics say of the baseline."""
+        present, drift = self._tracker.present(), self._tracker.drift()
+        return {
+            "baseline": "none" if present is None else present.source.name.lower(),
+            "baseline_taxels": 0 if present is None else int(present.valid.sum()),
+            "baseline_below": self._tracker.below(),
+            "baseline_drift_per_min.median": "none" if drift is None else drift.median,
+            "baseline_drift_per_min.largest": "none" if drift is None else drift.largest,
+        }
+
+    def _calibrate(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        try:
+            self._require_frames()
+            baseline = self._tracker.calibrate()
+            # In force even where the file cannot be written.
+            self._publish(baseline)
+            path = self._path
+            if path is not None:
+                within_patience(lambda: baseline.save(path), SettingsError, f"{path}: storing the baseline")
+        except ActsError as error:
+            return self._answer(response, False, str(error))
+        noise = float(np.median(baseline.noise_counts[baseline.valid]))
+        stored = "" if self._path is None else f"; stored in {self._path}"
+        return self._answer(
+            response,
+            True,
+            f"calibrated {int(baseline.valid.sum())} of {baseline.valid.size} taxels, noise {noise:.2f} counts "
+            f"(median){stored}",
+        )
+
+    def _tare(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        try:
+            self._require_frames()
+            baseline = self._tracker.tare()
+        except ActsError as error:
+            return self._answer(response, False, str(error))
+        self._publish(baseline)
+        return self._answer(response, True, f"tared {int(baseline.valid.sum())} of {baseline.valid.size} taxels")
+
+    def _require_frames(self) -> None:
+        """Raise where there are none: what is remembered says nothing about the skin of now."""
+        if self._heard_s is None:
+            raise CalibrationError("no frames so far: is the driver configured, and does the board send?")
+        silent_s = time.monotonic() - self._heard_s
+        if silent_s > _FRESH_S:
+            raise CalibrationError(
+                f"no frames for {silent_s:.1f} s: the driver's diagnostics tell why; call again when they are back"
+            )
+
+    def _answer(self, response: Trigger.Response, success: bool, message: str) -> Trigger.Response:
+        if success:
+            self._node.get_logger().info(message)
+        else:
+            self._node.get_logger().warning(message)
+        response.success = success
+        response.message = message
+        return response
+
+    def _publish_where_moved(self) -> None:
+        present, last = self._tracker.present(), self._published
+        if present is None or (last is not None and np.abs(present.counts - last.counts).max() < _MOVED_COUNTS):
+            return
+        self._publish(present)
+
+    def _publish(self, baseline: Baseline) -> None:
+        message = BaselineMessage()
+        message.header.frame_id = self._frame_id
+        stamp_ns = baseline.time_ns or time.time_ns()
+        message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp_ns, _NS_PER_S)
+        message.rows, message.cols = baseline.counts.shape
+        message.source = int(baseline.source)
+        message.baseline = array("f", baseline.counts.tobytes())
+        message.noise = array("f", baseline.noise_counts.tobytes())
+        message.valid = baseline.valid.ravel().tolist()
+        self._publisher.publish(message)
+        self._published = baseline

@@ -1,0 +1,150 @@
+"""From an open source to frames worth publishing: reader, decoder, stream and the dialogue with the board."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from acts_core.errors import BoardError
+from acts_core.frames import SampleFrame
+from acts_core.wire import BoardMessage
+from acts_driver.board import BoardLink, BoardResult, BoardResults, BoardSession, BoardStatus
+from acts_driver.nodes.report import DriverReport
+from acts_driver.port import LeftOver, LogCallback, Reader, Source
+from acts_driver.settings import DriverSettings
+from acts_driver.stream import FrameStream
+from acts_ros.diagnostics import Report
+
+VERDICT_S = 1.0
+"""Longest time that starting waits for a board to say who it is, or for it to turn out that it says nothing."""
+
+Consume = Callable[[list[tuple[SampleFrame, int]], list[tuple[BoardResult, int]]], None]
+"""Takes frames, and results of the board, each with its stamp [ns]; on the reader's thread."""
+
+
+class Intake:
+    """All that a driver does between its port and its topics.
+
+    Parameters
+    ----------
+    settings : DriverSettings
+        The driver's parameters.
+    source : Source
+        Open already.
+    consume : callable
+        See `Consume`. Called for what may be used: of boards with another firmware nothing.
+    log : callable
+        Takes a level ("info", "warning" or "error") and a sentence; from any thread.
+    on_board : callable
+        Takes what is known of the board whenever it has changed; from any thread.
+
+    Attributes
+    ----------
+    reader : Reader
+    stream : FrameStream
+    session : BoardSession or None
+        The dialogue with the board; None where the source takes no commands.
+    """
+
+    def __init__(
+        self,
+        settings: DriverSettings,
+        source: Source,
+        consume: Consume,
+        *,
+        log: LogCallback,
+        on_board: Callable[[BoardStatus], None],
+    ) -> None:
+        size = (settings.rows, settings.cols)
+        self._size = size
+        self._consume = consume
+        self._log = log
+        self._results = BoardResults()
+        self._link = BoardLink(source.write)
+        decoder = settings.make_decoder(self._take)
+        self._left_over = LeftOver(decoder)
+        self.stream = FrameStream(*size, has_board_clock=decoder.has_board_clock)
+        self.session = (
+            BoardSession(self._link, settings, size=size, log=log, on_change=on_board)
+            if settings.has_dialogue
+            else None
+        )
+        self.reader = Reader(
+            source,
+            decoder,
+            self._on_frames,
+            has_results=self._results.has_results,
+            reconnect_s=settings.reconnect_s,
+            realtime=settings,
+            log=log,
+            on_reconnect=self._on_reconnect,
+        )
+        self._report = DriverReport(source, self.reader, decoder, self.stream, size, self.session, log)
+        self._restarts_told = 0
+        self._wrong_size_told = (0, 0)
+
+    def start(self) -> None:
+        """Begin to read, and wait until it is known which board this is, `VERDICT_S` at most."""
+        self.reader.start(is_open=True)
+        if self.session is not None:
+            self.session.start()
+            self.session.wait_for_verdict(VERDICT_S)
+
+    def stop(self) -> None:
+        """End the threads and close the source. May be called again."""
+        if self.session is not None:
+            self.session.stop()
+        self.reader.stop()
+
+    def change(self, settings: DriverSettings) -> None:
+        """Tell the board what the parameters ask for now.
+
+        Raises
+        ------
+        BoardError, SettingsError
+            It cannot be, see `BoardSession.change`.
+        """
+        if self.session is None:
+            raise BoardError("only a board that speaks the binary protocol can be told settings while the driver runs")
+        self.session.change(settings)
+
+    def report(self, state: str, now_ns: int) -> Report:
+        """What happened since the last call, see `DriverReport.make`."""
+        level, message, values = self._report.make(state, now_ns)
+        results = {"board_results": self._results.results, "board_results_dropped": self._results.dropped}
+        return level, message, {**values, **results}
+
+    def _take(self, message: BoardMessage) -> None:
+        self._left_over.take(message)
+        self._link.take(message)
+        self._results.take(message)
+
+    def _on_frames(self, frames: list[SampleFrame], arrival_ns: int) -> None:
+        """Frames that were read together; on the reader's thread."""
+        session = self.session
+        frames = self._left_over.new(frames, is_known=session is None or session.wait_for_verdict(0.0))
+        accepted = self.stream.accept(frames, arrival_ns)
+        results = self._results.stamped(accepted)
+        if self.stream.wrong_size_last != self._wrong_size_told:
+            self._tell_wrong_size()
+        if session is not None:
+            if self.stream.statistics.restarts != self._restarts_told:
+                self._restarts_told = self.stream.statistics.restarts
+                session.wake()
+            if not session.may_publish:
+                return
+        self._consume(accepted, results)
+
+    def _on_reconnect(self) -> None:
+        """The port is open again; on the reader's thread, before the first frame."""
+        self.stream.statistics.reconnected()
+        if self.session is not None:
+            self.session.reconnected()
+
+    def _tell_wrong_size(self) -> None:
+        self._wrong_size_told = self.stream.wrong_size_last
+        rows, cols = self._wrong_size_told
+        self._log(
+            "error",
+            f"the board sends frames of {rows} x {cols} taxels, expected are {self._size[0]} x {self._size[1]}; they "
+            "are dropped: set the parameters rows and cols",
+        )

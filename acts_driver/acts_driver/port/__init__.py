@@ -1,0 +1,12 @@
+"""Where the bytes come from: serial ports, found and opened, and the thread that reads them.
+
+In comes the name of a port or of a board; out come decoded frames and messages, handed on by `Reader`. A port that is
+lost is opened again.
+"""
+
+from acts_driver.port.left_over import LeftOver
+from acts_driver.port.port_choice import check_port
+from acts_driver.port.reader import LogCallback, Reader
+from acts_driver.port.source import READ_TIMEOUT_S, SerialSource, Source
+
+__all__ = ["READ_TIMEOUT_S", "LeftOver", "LogCallback", "Reader", "SerialSource", "Source", "check_port"]

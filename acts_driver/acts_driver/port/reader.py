@@ -1,0 +1,175 @@
+"""The thread that reads a source, decodes and hands frames on, and opens the source again whenever it is lost."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+
+from acts_core.errors import ActsError, PortError
+from acts_core.frames import SampleFrame
+from acts_core.runtime import RealtimeConfig, enter_realtime
+from acts_core.wire import DelimitedDecoder
+from acts_driver.port.source import READ_TIMEOUT_S, Source
+
+FramesCallback = Callable[[list[SampleFrame], int], None]
+"""Takes frames that were read together and the host time of their arrival [ns], on the reader's thread.
+
+There may be none of them where `Reader` was told to look for results."""
+
+LogCallback = Callable[[str, str], None]
+"""Takes a level ("info", "warning" or "error") and a sentence, on the reader's thread."""
+
+_FIRST_RETRY_S = 0.02
+_STOP_S = 5.0
+
+
+class Reader:
+    """Reads a source on a thread of its own until it is stopped.
+
+    Bad bytes are the decoder's business and never a reason to open the port again. What the consumer raises is logged
+    and counted, and reading goes on. A lost source is opened again after 0.02 s, then after waits that double up to
+    `reconnect_s`; loss and recovery are logged once each.
+
+    Parameters
+    ----------
+    source : Source
+        Open already, or else opened by the thread.
+    decoder : DelimitedDecoder
+        Used by the reader's thread alone; its counters may be read from any.
+    on_frames : callable
+        See `FramesCallback`.
+    has_results : callable
+        Whether the bytes just decoded held anything besides frames that `on_frames` is to be called for.
+    reconnect_s : float
+        Longest wait between two attempts to open a lost source [s].
+    realtime : RealtimeConfig or None
+        How the process is scheduled once its first frames have been handed on.
+    log : callable
+        See `LogCallback`.
+    on_reconnect : callable or None
+        Called on the reader's thread when a lost source is open again, before its first frame.
+    now_ns : callable
+        The host's clock [ns].
+
+    Attributes
+    ----------
+    connected : bool
+        Whether the source is open.
+    problem : str
+        Why it is not, for a person; empty while it is.
+    reconnects : int
+        How many times a lost source was opened again.
+    consumer_errors : int
+        How many times `on_frames` raised.
+    """
+
+    def __init__(
+        self,
+        source: Source,
+        decoder: DelimitedDecoder,
+        on_frames: FramesCallback,
+        *,
+        has_results: Callable[[], bool] = lambda: False,
+        reconnect_s: float = 0.5,
+        realtime: RealtimeConfig | None = None,
+        log: LogCallback = lambda level, message: None,
+        on_reconnect: Callable[[], None] | None = None,
+        now_ns: Callable[[], int] = time.time_ns,
+    ) -> None:
+        self._source = source
+        self._decoder = decoder
+        self._on_frames = on_frames
+        self._on_reconnect = on_reconnect
+        self._has_results = has_results
+        self._reconnect_s = reconnect_s
+        self._realtime = realtime
+        self._log = log
+        self._now_ns = now_ns
+        self._stop = threading.Event()
+        self._thread = threading.Thread(target=self._run, name="acts_reader", daemon=True)
+        self._consumer_error = ""
+        self.connected = False
+        self.problem = ""
+        self.reconnects = 0
+        self.consumer_errors = 0
+
+    def start(self, *, is_open: bool = False) -> None:
+        """Begin to read; `is_open` tells that the source is open already."""
+        self.connected = is_open
+        self._decoder.reset()
+        self._thread.start()
+
+    def stop(self) -> None:
+        """End the thread and close the source. May be called again, and before `start`."""
+        self._stop.set()
+        if self._thread.is_alive():
+            self._thread.join(READ_TIMEOUT_S + _STOP_S)
+            if self._thread.is_alive():
+                self._log("error", f"the reader of {self._source.name} does not end; its consumer is stuck")
+                return
+        self._source.close()
+        self.connected = False
+
+    def _run(self) -> None:
+        was_lost = False
+        while not self._stop.is_set():
+            if not self.connected and not self._open(was_lost):
+                return
+            try:
+                self._read_until_stopped()
+            except PortError as error:
+                self.connected = False
+                was_lost = True
+                self.problem = str(error)
+                self._source.close()
+                self._log("warning", f"{error}; trying again at least every {self._reconnect_s:g} s")
+
+    def _open(self, was_lost: bool) -> bool:
+        """Open the source, however long that takes; False when stopped meanwhile."""
+        wait_s = min(_FIRST_RETRY_S, self._reconnect_s)
+        begin = time.monotonic()
+        while not self._stop.is_set():
+            try:
+                self._source.open()
+            except ActsError as error:
+                self.problem = str(error)
+                self._stop.wait(wait_s)
+                wait_s = min(2 * wait_s, self._reconnect_s)
+                continue
+            self._decoder.reset()
+            if was_lost:
+                self.reconnects += 1
+                if self._on_reconnect is not None:
+                    self._on_reconnect()
+                self._log("info", f"port {self._source.name} is back after {time.monotonic() - begin:.2f} s")
+            self.problem = ""
+            self.connected = True
+            return True
+        return False
+
+    def _read_until_stopped(self) -> None:
+        read, feed, now_ns, has_results = self._source.read, self._decoder.feed, self._now_ns, self._has_results
+        while not self._stop.is_set():
+            data = read()
+            arrival_ns = now_ns()
+            if not data:
+                continue
+            frames = feed(data)
+            if frames or has_results():
+                self._hand_on(frames, arrival_ns)
+                if self._realtime is not None:
+                    # Only now: what decodes the first frames may have to be compiled, which is no work for real time.
+                    enter_realtime(self._realtime, "driver", self._log)
+                    self._realtime = None
+
+    def _hand_on(self, frames: list[SampleFrame], arrival_ns: int) -> None:
+        try:
+            self._on_frames(frames, arrival_ns)
+        except Exception as error:  # noqa: BLE001 - reading goes on, whatever the consumer does
+            self.consumer_errors += 1
+            message = f"frames could not be handed on: {type(error).__name__}: {error}"
+            # Once for each kind: at 1 kHz a log line a frame would be an error of its own.
+            if message != self._consumer_error:
+                self._consumer_error = message
+                self._log("error", message)

@@ -1,0 +1,77 @@
+"""Recorded `samples` messages out of a bag, as frames."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from rclpy.serialization import deserialize_message
+
+from acts_core.errors import RecordingError
+from acts_core.frames import SampleFrame
+from acts_msgs.msg import TactileSamples
+from acts_ros.bags import require_rosbags
+from acts_ros.messages import frame_of
+
+_TYPE = "acts_msgs/msg/TactileSamples"
+
+
+class BagRecording:
+    """One topic of a bag; times are the stamps of the messages, not those of the recorder.
+
+    Parameters
+    ----------
+    path : Path
+        Folder in rosbag2's layout, or an MCAP file.
+    topic : str
+        Full name of the topic; empty for the only one of type TactileSamples.
+
+    Raises
+    ------
+    RecordingError
+        There is no bag, no such topic, several to choose from, or no message on it that can be read with the installed
+        definition.
+    """
+
+    def __init__(self, path: Path, topic: str = "") -> None:
+        require_rosbags()
+        from acts_ros.bags.reading import open_bag
+
+        self._open = open_bag
+        self._path = path
+        with open_bag(path) as bag:
+            self.note = bag.note
+            self._topic = _choose(path, topic, bag.topics())
+            bag.check_definition(self._topic)
+        if next(self.frames(), None) is None:
+            raise RecordingError(f"the bag '{path}' has no messages on {self._topic}")
+
+    def frames(self) -> Iterator[SampleFrame]:
+        """One pass; see `acts_driver.replay.recordings.Recording.frames`."""
+        with self._open(self._path) as bag:
+            for number, (_, _, data) in enumerate(bag.messages([self._topic])):
+                try:
+                    yield frame_of(deserialize_message(data, TactileSamples))
+                # rclpy has no exception of its own for bytes that are no such message.
+                except (RuntimeError, ValueError) as error:
+                    raise RecordingError(
+                        f"message {number} of {self._topic} in '{self._path}' cannot be read: {error}; was it recorded "
+                        "with another version of acts_msgs?"
+                    ) from error
+
+
+def _choose(path: Path, topic: str, types: dict[str, str]) -> str:
+    fitting = sorted(name for name, kind in types.items() if kind == _TYPE)
+    if topic and topic not in fitting:
+        raise RecordingError(f"the bag '{path}' has no topic {topic} of {_TYPE}; it has {_listed(fitting)}")
+    if not fitting or (len(fitting) > 1 and not topic):
+        raise RecordingError(
+            f"the bag '{path}' has {_listed(fitting)} of {_TYPE}; needed is one: set the parameter replay_topic"
+            if fitting
+            else f"the bag '{path}' has no topic of {_TYPE}, only {_listed(sorted(types))}"
+        )
+    return topic or fitting[0]
+
+
+def _listed(names: list[str]) -> str:
+    return ", ".join(names) or "none"

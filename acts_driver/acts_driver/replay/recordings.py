@@ -1,0 +1,288 @@
+"""Recordings that stand in for a board: frames of samples out of files."""
+
+from __future__ import annotations
+
+import zipfile
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.array import COUNT_MAX, MAX_SIDE
+from acts_core.errors import RecordingError
+from acts_core.files import UNPACKED_BYTES_MAX, FramesFile, load_frames, read_npz
+from acts_core.frames import SampleFrame, Scheme
+from acts_core.sampling import SCHEMES, Sampler, SamplingConfig, SkinMap, measure_in
+
+MEASUREMENT_US = 17.877
+"""Time of one measurement on the paper's board (55,936 samples per second) [us]."""
+
+BOARD_RATE_HZ = 1000.0
+"""Frames per second at which recorded full frames are sampled unless something else is asked."""
+
+
+class Recording(Protocol):
+    """Frames that can be gone through again and again."""
+
+    def frames(self) -> Iterator[SampleFrame]:
+        """One pass. `board_us` is the time of the recording, from any zero.
+
+        Raises `RecordingError` where the recording is damaged.
+        """
+
+
+@dataclass(frozen=True)
+class ReplayOptions:
+    """What is to be replayed.
+
+    Attributes
+    ----------
+    path : Path
+        A bag (folder or MCAP file) or an npz file.
+    topic : str
+        Topic of a bag; empty for its only one of type TactileSamples.
+    frames_hz : float
+        Frames per second of full frames; 0 for the file's own `rate_hz`.
+    sampling : SamplingConfig
+        How full frames are sampled; its rows and columns are ignored.
+    rate_cap_hz : float
+        At most so many samplings per second of full frames; 0 for `BOARD_RATE_HZ`.
+    skin_map : callable
+        From rows and columns to how the taxels of full frames lie on the skin.
+    """
+
+    path: Path
+    topic: str = ""
+    frames_hz: float = 0.0
+    sampling: Callable[[int, int], SamplingConfig] = lambda rows, cols: SamplingConfig(rows=rows, cols=cols)
+    rate_cap_hz: float = 0.0
+    skin_map: Callable[[int, int], SkinMap | None] = lambda rows, cols: None
+
+
+def open_recording(options: ReplayOptions) -> Recording:
+    """Open a recording, and read enough of it to know that it can be replayed.
+
+    Raises
+    ------
+    RecordingError
+        The file is missing, damaged, or lacks what is needed.
+    SettingsError, ArrayError
+        Its array cannot be sampled as asked.
+    """
+    path = options.path
+    if not path.exists():
+        raise RecordingError(f"there is no recording '{path}'; give a bag (folder or .mcap) or an .npz file")
+    if path.suffix == ".npz":
+        if _has_samples(path):
+            return RecordedSamples.load(path)
+        content = load_frames(path, limit_bytes=UNPACKED_BYTES_MAX)
+        rows, cols = content.frames.shape[1:]
+        if max(rows, cols) > MAX_SIDE:
+            raise RecordingError(f"{path}: frames of {rows} x {cols} taxels; an array has up to {MAX_SIDE} each way")
+        return SampledFrames(
+            content,
+            options.frames_hz or _rate_of(content, path),
+            options.sampling(rows, cols),
+            options.rate_cap_hz,
+            options.skin_map(rows, cols),
+        )
+    if path.is_dir() or path.suffix == ".mcap":
+        # Late: rosbags is needed for bags alone.
+        from acts_driver.replay.bag_recording import BagRecording
+
+        return BagRecording(path, options.topic)
+    raise RecordingError(
+        f"'{path}' is no recording that can be replayed: needed is a bag (folder or .mcap), or an .npz file with "
+        "samples (indices, counts) or full frames (frames, rate_hz)"
+    )
+
+
+class SampledFrames:
+    """Full frames, sampled as a board would sample the skin while it lives through them.
+
+    Values between two recorded frames are interpolated. A frame sees the skin as it is at the end of its last
+    measurement.
+
+    Parameters
+    ----------
+    content : FramesFile
+        The frames.
+    frames_hz : float
+        Frames per second.
+    sampling : SamplingConfig
+        How the taxels are chosen; every pass begins with a new `Sampler`.
+    rate_cap_hz : float
+        At most so many samplings per second; 0 for `BOARD_RATE_HZ`.
+    skin_map : SkinMap, optional
+        See `acts_core.sampling.schemes.Sampler`.
+    """
+
+    def __init__(
+        self,
+        content: FramesFile,
+        frames_hz: float,
+        sampling: SamplingConfig,
+        rate_cap_hz: float,
+        skin_map: SkinMap | None = None,
+    ) -> None:
+        self._map = skin_map
+        self._frames = content.frames
+        self._frames_hz = frames_hz
+        self._sampling = sampling
+        m = sampling.rows * sampling.cols if sampling.scheme == "raster" else sampling.m
+        self._duration_us = m * MEASUREMENT_US
+        self._period_us = max(1e6 / (rate_cap_hz or BOARD_RATE_HZ), self._duration_us)
+
+    def frames(self) -> Iterator[SampleFrame]:
+        """One pass; see `Recording.frames`."""
+        sampler = Sampler(self._sampling, self._map)
+        scheme = SCHEMES[self._sampling.scheme]
+        length_us = len(self._frames) / self._frames_hz * 1e6
+        for sequence in range(max(1, int(length_us / self._period_us))):
+            end_us = sequence * self._period_us + self._duration_us
+            indices, counts = sampler.frame(measure_in(self._at(end_us)))
+            yield SampleFrame(
+                sequence=sequence,
+                board_us=round(end_us),
+                duration_us=round(self._duration_us),
+                scheme=scheme,
+                rows=self._sampling.rows,
+                cols=self._sampling.cols,
+                overruns=0,
+                indices=indices,
+                counts=counts,
+            )
+
+    def _at(self, time_us: float) -> NDArray[np.uint16]:
+        before, share = divmod(time_us * 1e-6 * self._frames_hz, 1.0)
+        last = len(self._frames) - 1
+        if before >= last:
+            return self._frames[last]
+        first, second = self._frames[int(before)], self._frames[int(before) + 1]
+        return np.rint(first * (1 - share) + second * share).astype(np.uint16)
+
+
+class RecordedSamples:
+    """Frames of samples out of an npz file.
+
+    Needed are `indices` and `counts` (n, m), and either `stamp_ns` (n,) or `rate_hz`; optional are `sequence` (n,),
+    `duration_us`, `scheme` (a name or number), `rows` and `cols` (32).
+    """
+
+    def __init__(
+        self,
+        indices: NDArray[np.uint16],
+        counts: NDArray[np.uint16],
+        board_us: NDArray[np.int64],
+        sequence: NDArray[np.int64],
+        size: tuple[int, int],
+        scheme: Scheme,
+        duration_us: int,
+    ) -> None:
+        self._indices = indices
+        self._counts = counts
+        self._board_us = board_us
+        self._sequence = sequence
+        self._size = size
+        self._scheme = scheme
+        self._duration_us = duration_us
+
+    @classmethod
+    def load(cls, path: Path) -> RecordedSamples:
+        """Read a file.
+
+        Raises
+        ------
+        RecordingError
+            It cannot be read, or its arrays do not fit together.
+        """
+        content = read_npz(path, error=RecordingError, hint="longer ones as a bag, which is not read whole")
+        for name in ("indices", "counts"):
+            if name not in content or content[name].ndim != 2 or content[name].dtype.kind not in "iu":
+                raise RecordingError(f"{path}: needed are whole numbers indices (n, m) and counts (n, m)")
+        indices, counts = content["indices"], content["counts"]
+        n = len(indices)
+        if indices.shape != counts.shape or not indices.size:
+            raise RecordingError(
+                f"{path}: indices {indices.shape} and counts {counts.shape}: needed is (n, m) for both"
+            )
+        size = (_whole(path, content, "rows", 32, 1, MAX_SIDE), _whole(path, content, "cols", 32, 1, MAX_SIDE))
+        ordered = np.sort(indices, axis=1)
+        if ordered.min() < 0 or ordered.max() >= size[0] * size[1] or (ordered[:, 1:] == ordered[:, :-1]).any():
+            raise RecordingError(f"{path}: indices must be taxels of {size[0]} x {size[1]}, none twice in a frame")
+        if counts.min() < 0 or counts.max() > COUNT_MAX:
+            raise RecordingError(f"{path}: counts must lie between 0 and {COUNT_MAX}")
+        sequence = content.get("sequence", np.arange(n))
+        if sequence.shape != (n,) or sequence.dtype.kind not in "iu":
+            raise RecordingError(f"{path}: sequence {sequence.shape}: needed are {n} whole numbers")
+        return cls(
+            indices.astype(np.uint16),
+            counts.astype(np.uint16),
+            _times_us(path, content, n),
+            sequence.astype(np.int64),
+            size,
+            _scheme(path, content),
+            _whole(path, content, "duration_us", round(indices.shape[1] * MEASUREMENT_US), 0, 2**32 - 1),
+        )
+
+    def frames(self) -> Iterator[SampleFrame]:
+        """One pass; see `Recording.frames`."""
+        for row in range(len(self._indices)):
+            yield SampleFrame(
+                sequence=int(self._sequence[row]),
+                board_us=int(self._board_us[row]),
+                duration_us=self._duration_us,
+                scheme=self._scheme,
+                rows=self._size[0],
+                cols=self._size[1],
+                overruns=0,
+                indices=self._indices[row],
+                counts=self._counts[row],
+            )
+
+
+def _has_samples(path: Path) -> bool:
+    try:
+        with zipfile.ZipFile(path) as archive:
+            return "indices.npy" in archive.namelist()
+    except (OSError, ValueError, zipfile.BadZipFile):
+        # Who reads it tells what is wrong with it.
+        return False
+
+
+def _rate_of(content: FramesFile, path: Path) -> float:
+    if content.rate_hz is None:
+        raise RecordingError(f"{path}: rate_hz is missing; set the parameter replay_frames_hz to its frames per second")
+    return content.rate_hz
+
+
+def _times_us(path: Path, content: dict[str, NDArray[Any]], n: int) -> NDArray[np.int64]:
+    if "stamp_ns" in content:
+        stamps = content["stamp_ns"]
+        if stamps.shape != (n,) or stamps.dtype.kind not in "iu" or (np.diff(stamps.astype(np.int64)) <= 0).any():
+            raise RecordingError(f"{path}: stamp_ns {stamps.shape}: needed are {n} ascending whole numbers")
+        return (stamps.astype(np.int64) - int(stamps[0])) // 1000
+    rate_hz = content.get("rate_hz", np.array(0.0))
+    if rate_hz.size != 1 or rate_hz.dtype.kind not in "fiu" or not 0 < rate_hz.item() < np.inf:
+        raise RecordingError(f"{path}: needed is stamp_ns (n,) or rate_hz, a positive number of frames per second")
+    return np.rint(np.arange(n) * (1e6 / rate_hz.item())).astype(np.int64)
+
+
+def _scheme(path: Path, content: dict[str, NDArray[Any]]) -> Scheme:
+    given = content.get("scheme", np.array(0))
+    value = given.item() if given.size == 1 else None
+    if value in SCHEMES:
+        return SCHEMES[value]
+    if isinstance(value, int) and value in list(Scheme):
+        return Scheme(value)
+    raise RecordingError(f"{path}: scheme {given}: needed is one of {', '.join(SCHEMES)}, or a number of Scheme")
+
+
+def _whole(path: Path, content: dict[str, NDArray[Any]], name: str, default: int, lowest: int, highest: int) -> int:
+    given = content.get(name, np.array(default))
+    if given.size != 1 or given.dtype.kind not in "iu" or not lowest <= given.item() <= highest:
+        raise RecordingError(f"{path}: {name} = {given}: needed is a whole number from {lowest} to {highest}")
+    return int(given.item())

@@ -1,0 +1,10 @@
+"""Frames with the time of their measurement: which are new, which are missing, when they were taken.
+
+In come decoded frames and the time of their arrival; out come frames with the host's time, and what the stream's
+statistics say of it. `ClockFilter` maps the board's clock onto the host's.
+"""
+
+from acts_driver.stream.clock import ClockFilter
+from acts_driver.stream.stream import FrameStream
+
+__all__ = ["ClockFilter", "FrameStream"]

@@ -1,0 +1,184 @@
+"""The board's clock mapped onto the host's: offset, drift, jumps.
+
+A frame measured at board time b arrives at host time a. The delay a - b is the offset of the two clocks plus the time
+on the way, which is never negative and mostly short. So the line under all delays of the last seconds (`LowerEnvelope`)
+is the offset, plus the shortest time on the way, which cannot be told from it; its slope is the drift.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from acts_core.settings import setting, validate
+from acts_driver.stream.envelope import LowerEnvelope
+
+_NS_PER_S = 1e9
+
+
+@dataclass(frozen=True)
+class ClockFilterConfig:
+    """Settings of `ClockFilter`."""
+
+    window_s: float = setting(10.0, "time over which offset and drift are estimated", minimum=1.0, maximum=600.0)
+    drift_from_s: float = setting(2.0, "time after which drift is estimated", minimum=0.1, maximum=60.0)
+    drift_max_ppm: float = setting(500.0, "largest drift of a quartz, faulty ones included", minimum=0.0, maximum=1e5)
+    jump_s: float = setting(0.05, "difference from the expected delay that means a clock has jumped", minimum=1e-3)
+    jump_confirm_s: float = setting(2.0, "how long frames must be late by that much, since a stall passes", minimum=0.1)
+
+    def __post_init__(self) -> None:
+        validate(self)
+
+
+@dataclass(frozen=True)
+class ClockFilterState:
+    """What the filter knows.
+
+    Attributes
+    ----------
+    offset_us : int
+        Host time minus board time at the newest frame [us].
+    drift_ppm : float
+        Growth of the offset [us per s]; positive where the board's clock is slow.
+    delay_us : float
+        How much longer the newest frame was on the way than the fastest ones [us].
+    resets : int
+        Jumps of a clock, including restarts of the board.
+    """
+
+    offset_us: int = 0
+    drift_ppm: float = 0.0
+    delay_us: float = 0.0
+    resets: int = 0
+
+
+class ClockFilter:
+    """Stamps frames with the host time of their measurement.
+
+    Stamps increase strictly and never lie after the arrival. Only where the host's own clock is set back do they follow
+    it. A jump of either clock starts the estimate anew: forwards of the board's, backwards of the host's, and any that
+    `host_was_set` tells of, at once; others, which look like a stall on the way, after `jump_confirm_s`.
+    """
+
+    def __init__(self, config: ClockFilterConfig | None = None) -> None:
+        self._config = config if config is not None else ClockFilterConfig()
+        self._jump_ns = int(self._config.jump_s * _NS_PER_S)
+        self._confirm_ns = int(self._config.jump_confirm_s * _NS_PER_S)
+        self._resets = 0
+        self._envelope: LowerEnvelope | None = None
+        # Points of the envelope are relative to the first frame, so that they stay small.
+        self._origin_board_ns = 0
+        self._origin_delay_ns = 0
+        self._late_since_ns: int | None = None
+        self._height_ns = 0
+        self._last_board_us = 0
+        self._last_arrival_ns = 0
+        self._last_stamp_ns: int | None = None
+
+    @property
+    def state(self) -> ClockFilterState:
+        """Present estimate."""
+        envelope = self._envelope
+        if envelope is None:
+            return ClockFilterState()
+        x = self._last_board_us * 1000 - self._origin_board_ns
+        return ClockFilterState(
+            offset_us=(self._origin_delay_ns + envelope.at(x)) // 1000,
+            drift_ppm=envelope.slope * 1e6,
+            delay_us=max(self._height_ns, 0) * 1e-3,
+            resets=self._resets,
+        )
+
+    def host_was_set(self) -> None:
+        """Tell that the host's clock was set: the estimate begins anew with the next frame, and stamps follow it."""
+        self._resets += 1
+        self._envelope = None
+        self._last_arrival_ns = 0
+        self._last_stamp_ns = None
+
+    def step(self, board_us: int, arrival_ns: int) -> int:
+        """Take one frame; see `step_batch`."""
+        return self.step_batch((board_us,), arrival_ns)[0]
+
+    def step_batch(self, board_us: Sequence[int], arrival_ns: int, *, restarted: bool = False) -> list[int]:
+        """Take frames that arrived together, and return their stamps.
+
+        Parameters
+        ----------
+        board_us : sequence of int
+            Board times, in order of arrival [us]. The last frame was the shortest on the way, so it is the one whose
+            delay counts.
+        arrival_ns : int
+            When they were read, on the host's clock [ns].
+        restarted : bool
+            Whether the first of them is known to be of a board that was restarted, even where its clock is ahead of the
+            last frame's.
+
+        Returns
+        -------
+        list of int
+            Host time of each measurement [ns].
+        """
+        if arrival_ns < self._last_arrival_ns:
+            self._restart(board_us[-1], arrival_ns)
+            self._last_stamp_ns = None
+        self._last_arrival_ns = arrival_ns
+        stamps: list[int] = []
+        begin = 0
+        for end in range(1, len(board_us) + 1):
+            # A board that restarts within a batch begins a batch of its own.
+            if end == len(board_us) or board_us[end] < board_us[end - 1]:
+                anew = board_us[begin] < self._last_board_us or (restarted and begin == 0)
+                stamps += self._stamps(board_us[begin:end], arrival_ns, len(board_us) - begin, anew)
+                begin = end
+        return stamps
+
+    def _stamps(self, board_us: Sequence[int], arrival_ns: int, room: int, restarted: bool) -> list[int]:
+        envelope = self._observe(board_us[-1], arrival_ns, restarted)
+        self._last_board_us = board_us[-1]
+        stamps = []
+        last = self._last_stamp_ns
+        for time_us in board_us:
+            board_ns = time_us * 1000
+            stamp = board_ns + self._origin_delay_ns + envelope.at(board_ns - self._origin_board_ns)
+            if last is not None and stamp <= last:
+                stamp = last + 1
+            # One nanosecond of room for each frame that is still to come before the arrival.
+            room -= 1
+            last = min(stamp, arrival_ns - room)
+            stamps.append(last)
+        self._last_stamp_ns = last
+        return stamps
+
+    def _observe(self, board_us: int, arrival_ns: int, restarted: bool) -> LowerEnvelope:
+        if self._envelope is None:
+            return self._start(board_us, arrival_ns)
+        if restarted:
+            return self._restart(board_us, arrival_ns)
+        self._height_ns = self._envelope.observe(
+            board_us * 1000 - self._origin_board_ns, arrival_ns - board_us * 1000 - self._origin_delay_ns
+        )
+        if self._height_ns < -self._jump_ns:
+            return self._restart(board_us, arrival_ns)
+        if self._height_ns <= self._jump_ns:
+            self._late_since_ns = None
+        elif self._late_since_ns is None:
+            self._late_since_ns = arrival_ns
+        elif arrival_ns - self._late_since_ns > self._confirm_ns:
+            return self._restart(board_us, arrival_ns)
+        return self._envelope
+
+    def _start(self, board_us: int, arrival_ns: int) -> LowerEnvelope:
+        config = self._config
+        self._origin_board_ns = board_us * 1000
+        self._origin_delay_ns = arrival_ns - self._origin_board_ns
+        self._late_since_ns = None
+        self._height_ns = 0
+        self._envelope = LowerEnvelope(
+            int(config.window_s * _NS_PER_S), int(config.drift_from_s * _NS_PER_S), config.drift_max_ppm * 1e-6, (0, 0)
+        )
+        return self._envelope
+
+    def _restart(self, board_us: int, arrival_ns: int) -> LowerEnvelope:
+        self._resets += 1
+        return self._start(board_us, arrival_ns)

@@ -1,0 +1,88 @@
+"""From decoded frames to those worth publishing: new, of the expected size, with the time of their measurement."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from acts_core.frames import SampleFrame
+from acts_driver.stream.clock import ClockFilter
+from acts_driver.stream.host_clock import HostClock
+from acts_driver.stream.statistics import StreamStatistics
+
+
+class FrameStream:
+    """Statistics, size check and stamps of one board's frames.
+
+    Parameters
+    ----------
+    rows, cols : int
+        Expected size of the array.
+    has_board_clock : bool
+        Whether the frames' `board_us` is a clock; otherwise they are stamped with their arrival.
+    host_clock : HostClock or None
+        What tells that the clock of the arrivals was set; None: that of this machine.
+
+    Attributes
+    ----------
+    statistics : StreamStatistics
+        Counts over all new frames, also those of a wrong size.
+    clock : ClockFilter
+        The mapping of the clocks.
+    wrong_size : int
+        Frames dropped because of their size.
+    wrong_size_last : tuple of int
+        Rows and columns of the last of them; (0, 0) for none.
+    """
+
+    def __init__(
+        self, rows: int, cols: int, *, has_board_clock: bool = True, host_clock: HostClock | None = None
+    ) -> None:
+        self._host_clock = HostClock() if host_clock is None else host_clock
+        self.statistics = StreamStatistics()
+        self.clock = ClockFilter()
+        self.has_board_clock = has_board_clock
+        self.wrong_size = 0
+        self.wrong_size_last = (0, 0)
+        self._rows = rows
+        self._cols = cols
+
+    def accept(self, frames: Sequence[SampleFrame], arrival_ns: int) -> list[tuple[SampleFrame, int]]:
+        """Take frames that were read together, and return those to publish with their stamps.
+
+        Parameters
+        ----------
+        frames : sequence of SampleFrame
+            In order of arrival.
+        arrival_ns : int
+            When they were read, in ROS time [ns].
+
+        Returns
+        -------
+        list of (SampleFrame, int)
+            The stamp is the ROS time at the end of the frame's last measurement [ns].
+        """
+        statistics = self.statistics
+        new: list[SampleFrame] = []
+        restarted = False
+        for frame in frames:
+            restarts = statistics.restarts
+            if statistics.observe(frame.sequence, frame.board_us, frame.overruns, arrival_ns):
+                restarted |= not new and statistics.restarts > restarts
+                new.append(frame)
+        if not new:
+            return []
+        if self.has_board_clock:
+            if self._host_clock.was_set():
+                self.clock.host_was_set()
+            stamps = self.clock.step_batch([frame.board_us for frame in new], arrival_ns, restarted=restarted)
+            statistics.stamped(stamps[-1])
+        else:
+            stamps = [arrival_ns - (len(new) - 1 - number) for number in range(len(new))]
+        return [(frame, stamp) for frame, stamp in zip(new, stamps, strict=True) if self._fits(frame)]
+
+    def _fits(self, frame: SampleFrame) -> bool:
+        if frame.rows == self._rows and frame.cols == self._cols:
+            return True
+        self.wrong_size += 1
+        self.wrong_size_last = (frame.rows, frame.cols)
+        return False

@@ -1,0 +1,13 @@
+"""Contacts in an image: the whole of them as one, and one by one with numbers that stay.
+
+In comes an image with the uncertainty of its taxels; out come places, forces and areas, each with its uncertainty, and
+the tracks of the contacts from frame to frame.
+"""
+
+from acts_recon.contacts.blob_kernels import MAX_BLOBS
+from acts_recon.contacts.blob_tracker import BlobTracker
+from acts_recon.contacts.blobs import BlobConfig, TrackedBlob
+from acts_recon.contacts.contact import Contact
+from acts_recon.contacts.contact_finder import ContactFinder
+
+__all__ = ["MAX_BLOBS", "BlobConfig", "BlobTracker", "Contact", "ContactFinder", "TrackedBlob"]

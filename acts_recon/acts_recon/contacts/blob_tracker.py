@@ -1,0 +1,150 @@
+"""Contacts with numbers, frame after frame."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.array import ArrayGeometry
+from acts_core.errors import ArrayError
+from acts_core.skin import ForceResponse, MeasuredForceResponse, force_table
+from acts_recon.contacts import blob_kernels, blob_track_kernels
+from acts_recon.contacts.blob_kernels import MAX_BLOBS
+from acts_recon.contacts.blob_tracks import FREE, MAX_TRACKS, TRACK
+from acts_recon.contacts.blobs import BlobConfig, TrackedBlob
+from acts_recon.images import Borders, borders_of, slope_table
+
+_LONGEST_PAUSE_S = 1.0
+_UNKNOWN = np.empty(0, dtype=np.float32)
+
+
+class BlobTracker:
+    """Finds the contacts in image after image, without allocation, and keeps their numbers.
+
+    Parameters
+    ----------
+    geometry : ArrayGeometry
+        Of the image.
+    response : ForceResponse or MeasuredForceResponse, optional
+        From counts to newtons.
+    config : BlobConfig, optional
+    borders : Borders, optional
+        No contact reaches over one, or goes from one side to the other.
+    """
+
+    def __init__(
+        self,
+        geometry: ArrayGeometry,
+        response: ForceResponse | MeasuredForceResponse | None = None,
+        config: BlobConfig | None = None,
+        borders: Borders | None = None,
+    ) -> None:
+        self.geometry = geometry
+        self.config = config or BlobConfig()
+        self.dropped = 0
+        """Contacts of the last frame that were left out because there were more than `MAX_BLOBS`: the weakest."""
+        self._force_n = force_table(response or ForceResponse())
+        self._slope_n = slope_table(self._force_n)
+        self._bounds = (borders or borders_of(geometry.rows, geometry.cols)).bounds()
+        size = geometry.size
+        self._state = np.zeros(size, dtype=np.uint8)
+        self._work = tuple(np.zeros(size, dtype=np.int32) for _ in range(3))
+        self._blobs = np.zeros(MAX_BLOBS + 1, dtype=blob_kernels.BLOB)
+        self._tracks = np.zeros(MAX_TRACKS, dtype=TRACK)
+        self._owner = np.full(size, -1, dtype=np.int8)
+        self._pairs = np.zeros((MAX_BLOBS, MAX_TRACKS), dtype=np.int32), np.zeros((MAX_BLOBS, MAX_TRACKS))
+        self._track_of = np.zeros(MAX_BLOBS, dtype=np.int64)
+        self._next_number = np.ones(1, dtype=np.int64)
+        self._found = np.zeros(MAX_BLOBS, dtype=blob_track_kernels.FOUND)
+        self._time_s: float | None = None
+        self._warm_up()
+
+    def step(
+        self, image: NDArray[np.float32], time_s: float, sigma: NDArray[np.float32] | None = None
+    ) -> tuple[TrackedBlob, ...]:
+        """Find the contacts of the next frame.
+
+        Parameters
+        ----------
+        image : np.ndarray [shape=(rows, cols), dtype=float32]
+            Counts; C-contiguous.
+        time_s : float
+            Of the frame. Where it goes back, or on by more than a second, all contacts are new.
+        sigma : np.ndarray [shape=(rows, cols), dtype=float32], optional
+            Standard deviation of each taxel [counts]; C-contiguous. Without it standard deviations are 0.
+
+        Returns
+        -------
+        tuple of TrackedBlob
+            The oldest first; at most `MAX_BLOBS`.
+
+        Raises
+        ------
+        ArrayError
+            When image or sigma are of another kind or size.
+        """
+        flat = self._flat(image, "image")
+        deviations = _UNKNOWN if sigma is None else self._flat(sigma, "sigma")
+        dt_s = 0.0 if self._time_s is None else time_s - self._time_s
+        if not 0.0 <= dt_s <= _LONGEST_PAUSE_S:
+            self.reset()
+            dt_s = 0.0
+        self._time_s = time_s
+        geometry, config = self.geometry, self.config
+        label, members, border = self._work
+        n, self.dropped = blob_kernels.find_blobs(
+            flat,
+            deviations,
+            self._bounds,
+            geometry.cols,
+            float(config.touch_counts),
+            float(config.release_counts),
+            config.noise_counts,
+            config.err_together,
+            self._force_n,
+            self._slope_n,
+            geometry.pitch_m,
+            geometry.pitch_y_m,
+            self._state,
+            label,
+            members,
+            border,
+            self._blobs,
+        )
+        blob_track_kernels.follow(
+            time_s,
+            dt_s,
+            n,
+            self._blobs,
+            members,
+            geometry.pitch_m,
+            geometry.pitch_y_m,
+            sigma is not None,
+            config.bridge_s,
+            config.memory_s,
+            self._tracks,
+            self._owner,
+            *self._pairs,
+            self._track_of,
+            self._next_number,
+            self._found,
+        )
+        return tuple(map(TrackedBlob._make, self._found[:n].tolist()))
+
+    def reset(self) -> None:
+        """Forget all contacts; numbers go on."""
+        self._state[:] = 0
+        self._tracks["state"] = FREE
+        self._owner[:] = -1
+
+    def _flat(self, image: NDArray[np.float32], name: str) -> NDArray[np.float32]:
+        shape = (self.geometry.rows, self.geometry.cols)
+        if image.shape != shape or image.dtype != np.float32 or not image.flags.c_contiguous:
+            raise ArrayError(f"{name} of shape {image.shape}, {image.dtype}: needed is {shape}, float32, C-contiguous")
+        return image.reshape(-1)
+
+    def _warm_up(self) -> None:
+        """Compile, or load from the cache, what the first frame would otherwise wait seconds for."""
+        image = np.zeros((self.geometry.rows, self.geometry.cols), dtype=np.float32)
+        self.step(image, 0.0, image)
+        self._time_s = None

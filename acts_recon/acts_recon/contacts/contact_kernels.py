@@ -1,0 +1,126 @@
+"""The contact in an image, in numba: the same as `acts_recon.contacts.contact.find_contact`, without allocation."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.kernels import kernel
+from acts_recon.images import FAR, force_of, taxel_variances
+
+RESULTS = 11
+"""Numbers that `find_contact` writes."""
+
+_TINY_N = 1e-30
+
+
+@kernel
+def find_contact(
+    image: NDArray[np.float32],
+    sigma: NDArray[np.float32],
+    bounds: NDArray[np.int32],
+    cols: int,
+    touch_counts: float,
+    noise_counts: float,
+    together: float,
+    force_n: NDArray[np.float64],
+    slope_n: NDArray[np.float64],
+    pitch_m: float,
+    pitch_y_m: float,
+    results: NDArray[np.float64],
+) -> None:
+    """Describe the contact.
+
+    Parameters
+    ----------
+    image : np.ndarray [shape=(rows * cols,), dtype=float32]
+        Counts, 0 to 1023.
+    sigma : np.ndarray [shape=(rows * cols,) or (0,), dtype=float32]
+        Standard deviations of the taxels [counts]; empty where not known, the variances are then 0.
+    bounds : np.ndarray [shape=(rows * cols, 4), dtype=int32]
+        See `acts_recon.images.borders.Borders`.
+    cols : int
+    touch_counts : float
+        A taxel above it is pressed.
+    noise_counts, together : float
+        Deviations beyond the first are of guesses; so many guesses err together.
+    force_n, slope_n : np.ndarray [shape=(1025,) and (1024,), dtype=float64]
+        The table of `acts_core.skin.force.force_table`, between two counts interpolated, and its slope, see
+        `acts_recon.images.uncertainty.slope_table`.
+    pitch_m, pitch_y_m : float
+    results : np.ndarray [shape=(RESULTS,), dtype=float64]
+        Written: x and y of the centre [m], force [N], peak [counts], pressed taxels, square of the spread [m^2]; then
+        variances of x and y [m^2], force [N^2], number of taxels and square of the spread [m^4]. All 0 without contact.
+    """
+    total = by_col = by_row = by_col_square = by_row_square = peak = 0.0
+    pressed = 0
+    rows = image.shape[0] // cols
+    top, bottom, left, right = rows, -1, cols, -1
+    for t in range(image.shape[0]):
+        value = np.float64(image[t])
+        if not value > touch_counts:
+            continue
+        row = t // cols
+        col = t - row * cols
+        top, bottom = min(top, row), max(bottom, row)
+        left, right = min(left, col), max(right, col)
+        weight = force_of(value, force_n)
+        total += weight
+        by_col += weight * col
+        by_row += weight * row
+        by_col_square += weight * (col * col)
+        by_row_square += weight * (row * row)
+        peak = max(peak, value)
+        pressed += 1
+    for i in range(RESULTS):
+        results[i] = 0.0
+    if pressed == 0:
+        return
+    total = max(total, _TINY_N)
+    mean_col = by_col / total
+    mean_row = by_row / total
+    x_square = max(by_col_square / total - mean_col * mean_col, 0.0) * pitch_m * pitch_m
+    y_square = max(by_row_square / total - mean_row * mean_row, 0.0) * pitch_y_m * pitch_y_m
+    results[0] = (mean_col - (cols - 1) / 2) * pitch_m
+    results[1] = ((rows - 1) / 2 - mean_row) * pitch_y_m
+    results[2] = total
+    results[3] = peak
+    results[4] = pressed
+    results[5] = x_square + y_square
+    if sigma.shape[0] == 0:
+        return
+    for row in range(max(top - 1, 0), min(bottom + 2, rows)):
+        for col in range(max(left - 1, 0), min(right + 2, cols)):
+            t = row * cols + col
+            value = np.float64(image[t])
+            deviation = np.float64(sigma[t])
+            inside = value > touch_counts
+            if not deviation > 0.0 or (not inside and value + FAR * deviation < touch_counts):
+                continue
+            if not (inside or _beside(image, bounds[t], cols, row, col, touch_counts)):
+                continue
+            square, wrong = taxel_variances(
+                max(value, 0.0), deviation, inside, touch_counts, noise_counts, together, force_n, slope_n
+            )
+            x_away = ((col - mean_col) * pitch_m) ** 2
+            y_away = ((row - mean_row) * pitch_y_m) ** 2
+            results[6] += square * x_away
+            results[7] += square * y_away
+            results[8] += square
+            results[9] += wrong
+            results[10] += square * (x_away + y_away - results[5]) ** 2
+    results[6] /= total * total
+    results[7] /= total * total
+    results[10] /= total * total
+
+
+@kernel
+def _beside(
+    image: NDArray[np.float32], bounds: NDArray[np.int32], cols: int, row: int, col: int, touch_counts: float
+) -> bool:
+    """Whether a taxel around this one is pressed, on the same side of all borders."""
+    for r in range(max(row - 1, bounds[0]), min(row + 2, bounds[1])):
+        for c in range(max(col - 1, bounds[2]), min(col + 2, bounds[3])):
+            if image[r * cols + c] > touch_counts:
+                return True
+    return False

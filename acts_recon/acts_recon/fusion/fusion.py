@@ -1,0 +1,197 @@
+"""Fusion of samples over time: an image at every frame out of all samples so far, and how sure it is.
+
+A frame of 55 samples shows little, but at 1 kHz the skin hardly changes from one to the next. The estimator keeps for
+every taxel the last measurement, its age and how fast it changed, and carries the image from frame to frame:
+
+- **Motion.** Where changes of samples fit a shift of the image, what is pressed is moved on. Velocities are found for
+  tiles of 4 x 4 taxels out of the 20 x 20 around them by least squares over the last milliseconds, so that two contacts
+  may move differently; where they explain less than a share of the changes they are not used.
+- **Slopes.** What motion does not explain goes on changing as it did, for a while.
+- **Innovations.** What a sample shows beyond what was predicted, holds in part for the taxels around it.
+- **No invented pressure.** A taxel that was measured untouched, with none beside it pressed, is 0: noise of a thousand
+  taxels, small as it is, would draw the centre of pressure to the middle. (In the frame that measures it, it is
+  what was measured.)
+- **Doubt.** Sigma grows with age, as fast as predictions of the taxel and those around it have failed so far; one
+  factor for all follows how well the sigmas themselves have held, another the surprise of the last frame.
+
+`acts_recon.fusion.fusion_kernels` does the work, `acts_recon.fusion.fusion_reference` is its readable twin.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.array import COUNT_MAX, ArrayGeometry
+from acts_core.errors import ArrayError
+from acts_core.settings import setting, validate
+from acts_core.skin import Layout
+from acts_recon.fusion import fusion_kernels as kernels
+from acts_recon.fusion.fusion_state import Tuning, forget, new_memory, state_of
+from acts_recon.images import OK, borders_of, check_frame, place_table, require_samples, skin_table, why_refused
+
+
+@dataclass(frozen=True)
+class FusionConfig:
+    """Settings of the fusion of samples over time."""
+
+    noise_counts: float = setting(
+        2.0, "standard deviation of a reading about the truth [counts]", minimum=0.0, maximum=100.0
+    )
+    quiet_counts: float = setting(
+        9.0, "a taxel at or below is untouched, a surprise at or below is noise [counts]", minimum=0.0, maximum=500.0
+    )
+    quiet_s: float = setting(0.010, "how long a taxel measured untouched is taken for untouched [s]", minimum=0.0)
+    horizon_s: float = setting(0.020, "measurements older than this foretell no change [s]", minimum=1e-4, maximum=10.0)
+    damping_s: float = setting(0.050, "time in which a taxel's slope fades to 37 % [s]", minimum=1e-4, maximum=10.0)
+    slope_memory_s: float = setting(
+        0.001, "two measurements so far apart renew half of a slope [s]", minimum=1e-5, maximum=10.0
+    )
+    motion_memory_s: float = setting(
+        0.004, "time in which what is known of the motion fades to 37 % [s]", minimum=1e-4, maximum=10.0
+    )
+    motion_share: float = setting(
+        0.3, "a motion is used where it explains more than this share of the changes", minimum=0.0, maximum=1.0
+    )
+    spread_gain: float = setting(
+        0.6, "share of a sample's surprise that its neighbours take over", minimum=0.0, maximum=1.0
+    )
+    reset_after_s: float = setting(0.5, "after a gap this long nothing is known any more [s]", minimum=1e-3)
+    confidence_counts: float = setting(
+        30.0, "sigma at which the confidence is one half [counts]", minimum=0.1, maximum=float(COUNT_MAX)
+    )
+
+    def __post_init__(self) -> None:
+        validate(self)
+
+    @property
+    def tuning(self) -> Tuning:
+        """For the kernels."""
+        return Tuning(*(float(getattr(self, name)) for name in Tuning._fields))
+
+
+class FusionEstimator:
+    """Estimates the image after each frame of samples; everything is allocated and compiled before the first.
+
+    Parameters
+    ----------
+    geometry : ArrayGeometry
+        Of the picture; without a layout that is the matrix itself.
+    config : FusionConfig
+    layout : Layout, optional
+        Where the taxels of the matrix lie in the picture. `step` takes matrix indices, all results are the picture's.
+        Its patches are skins of their own, taken together: none learns anything from another. Where there is no skin
+        the image is 0.
+
+    Raises
+    ------
+    ArrayError
+        When the layout is of another size.
+    """
+
+    def __init__(
+        self, geometry: ArrayGeometry, config: FusionConfig | None = None, layout: Layout | None = None
+    ) -> None:
+        self.geometry = geometry
+        self.config = config or FusionConfig()
+        self._tuning = self.config.tuning
+        self._matrix_size = (geometry.rows, geometry.cols)
+        self._places: NDArray[np.uint16] | None = None
+        self._skin: NDArray[np.uint16] | None = None
+        if layout is not None:
+            self._places = place_table(layout, geometry)
+            self._skin = skin_table(layout)
+            self._matrix_size = (layout.matrix_rows, layout.matrix_cols)
+        self.borders = borders_of(geometry.rows, geometry.cols, layout)
+        self._memory = new_memory(geometry.rows, geometry.cols, self.borders)
+        self._state = state_of(self._memory)
+        self._confidence = np.zeros(geometry.size, dtype=np.uint8)
+        self._end_s: float | None = None
+        shape = (geometry.rows, geometry.cols)
+        self.image: NDArray[np.float32] = self._state.image.reshape(shape)
+        """The image at the end of the last frame [counts, 0 to 1023]; np.ndarray [shape=(rows, cols), dtype=float32].
+
+        Overwritten by the next frame, as are `sigma`, `age_s` and `measured`: copy what is to be kept.
+        """
+        self.sigma: NDArray[np.float32] = self._state.sigma.reshape(shape)
+        """Standard deviation of `image` [counts]; np.ndarray [shape=(rows, cols), dtype=float32]."""
+        self.age_s: NDArray[np.float32] = self._state.age.reshape(shape)
+        """Time since each taxel was measured [s], inf: never; np.ndarray [shape=(rows, cols), dtype=float32]."""
+        self.measured: NDArray[np.float32] = self._state.value.reshape(shape)
+        """What was measured then [counts]; np.ndarray [shape=(rows, cols), dtype=float32]."""
+        self._warm_up()
+
+    def reset(self) -> None:
+        """Forget everything."""
+        forget(self._memory)
+        self._end_s = None
+
+    def step(
+        self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float
+    ) -> NDArray[np.float32]:
+        """Take one frame of samples.
+
+        Frames may be lost and may be repeated; a clock that goes back, or stands still for more than `reset_after_s`
+        between two frames, begins anew.
+
+        Parameters
+        ----------
+        indices : np.ndarray [shape=(m,), dtype=uint16]
+            Row-major taxel indices of the matrix in the order of measurement, none twice; at least one.
+        counts : np.ndarray [shape=(m,), dtype=uint16]
+            What was measured there, 0 to 1023.
+        end_s : float
+            When the last measurement ended [s], on any clock.
+        duration_s : float
+            From the start of the first measurement to the end of the last [s]; they are evenly spaced.
+
+        Returns
+        -------
+        np.ndarray [shape=(rows, cols), dtype=float32]
+            `image`.
+
+        Raises
+        ------
+        ArrayError
+            When the frame does not fit the array or holds impossible values. Everything is left as it was.
+        """
+        require_samples(indices, counts)
+        if not (math.isfinite(end_s) and 0 <= duration_s < math.inf):
+            raise ArrayError(f"end {end_s} s and duration {duration_s} s: needed are finite times, none negative")
+        places = indices if self._places is None else self._places[indices]
+        code = check_frame(places, counts, self._state.seen)
+        if code != OK:
+            raise ArrayError(why_refused(code, indices, counts, *self._matrix_size))
+        if self._skin is not None:
+            counts = counts * self._skin[indices]
+        period_s = duration_s
+        if self._end_s is not None:
+            period_s = end_s - self._end_s
+            if not 0 <= period_s <= self.config.reset_after_s:
+                self.reset()
+                period_s = duration_s
+        self._end_s = end_s
+        kernels.fuse(self._memory, places, counts, period_s, duration_s, self.geometry.cols, self._tuning)
+        return self.image
+
+    def confidence(self) -> NDArray[np.uint8]:
+        """How sure the image is: 255 sure, 128 where sigma is `confidence_counts`, near 0 unknown.
+
+        Returns
+        -------
+        np.ndarray [shape=(rows, cols), dtype=uint8]
+            Overwritten by the next call.
+        """
+        kernels.confidence(self._state.sigma, self.config.confidence_counts, self._confidence)
+        return self._confidence.reshape(self.image.shape)
+
+    def _warm_up(self) -> None:
+        """Compile, or load from the cache, what the first frame would otherwise wait seconds for."""
+        one = np.zeros(1, dtype=np.uint16)
+        self.step(one, one, 0.0, 0.0)
+        self.step(one, one, 1e-3, 1e-3)
+        self.confidence()
+        self.reset()

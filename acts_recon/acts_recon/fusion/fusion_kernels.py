@@ -1,0 +1,302 @@
+"""Fusion of samples over time in numba: the same as `fusion_reference`, in float32 and without allocation.
+
+One frame goes through `fuse`: find how the contacts move, carry the image on to the end of the frame, take the samples,
+tell the taxels around them what they taught, and say how sure all of it is. `fusion` explains the method.
+(Indices are made signed before anything is taken away from them: numba keeps them unsigned.) The patches of a layout
+are skins of their own, taken together: none learns anything from another.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.array import COUNT_MAX
+from acts_core.kernels import kernel
+from acts_recon.fusion.fusion_motion_kernels import FASTMATH, TINY, find_velocities, moved, observe_motion
+from acts_recon.fusion.fusion_state import TILE, UNKNOWN_COUNTS, Memory, State, Tuning, state_of
+
+REACH = 2
+"""How far a sample teaches the taxels around it [taxels]."""
+
+# What a taxel that nobody looks at may change by itself [counts/s].
+IDLE_COUNTS_PER_S = 20.0
+# Share of a new error in what is remembered of the errors of a taxel.
+UNREST_SHARE = 0.3
+# Errors over less time than this say little about the error per time [s].
+SHORTEST_S = 5e-4
+# What surprises on a taxel not measured within the horizon is a new contact, which came about so long ago [s].
+NOTICED_S = 3e-3
+# From 1 error at odds with sigma to the correction of all sigmas, as a logarithm; and its limit.
+SCALE_STEP = 0.01
+SCALE_LIMIT = 3.0
+# What the surprise of one frame says of that frame counts as if so many samples more had been as expected.
+CALM_SAMPLES = 4.0
+# Squared errors beyond this many variances count as this many: a new contact says little about known ones.
+OUTLIER = 25.0
+# What a sample says about the others is halved where their weights sum up to this.
+SPREAD_PRIOR = 0.5
+
+_F = np.float32
+_TOP = np.float32(COUNT_MAX)
+
+
+def _weights_around() -> NDArray[np.float32]:
+    """What a sample's innovation counts for the taxels around it: 1 over the fourth power of their distance."""
+    away = np.arange(-REACH, REACH + 1, dtype=np.float32)
+    square = away[:, None] ** 2 + away[None, :] ** 2
+    square[REACH, REACH] = np.inf
+    return np.asarray(1.0 / square**2, dtype=np.float32)
+
+
+_NEAR = _weights_around()
+
+_state_of = kernel(fastmath=FASTMATH)(state_of)
+
+
+@kernel(fastmath=FASTMATH)
+def _predict(state: State, period_s: float, cols: int, tuning: Tuning) -> None:
+    """Carry the image on to the end of the frame by motion and, for the share it does not explain, by slopes.
+
+    First all taxels by their slopes, without a branch, so that the compiler takes several at once; then anew those that
+    move.
+    """
+    image, before, age, elapsed, rate = state.image, state.before, state.age, state.elapsed, state.rate
+    period, horizon = _F(period_s), _F(tuning.horizon_s)
+    fading = _F(math.exp(-period_s / tuning.damping_s))
+    for i in range(image.shape[0]):
+        before[i] = image[i]
+        age[i] += period
+        # A measured taxel stood at its own time, not at the end of the frame.
+        elapsed[i] = min(age[i] if state.fresh[i] else period, horizon)
+        state.fresh[i] = False
+        faded = state.fade[i] * fading
+        state.fade[i] = faded if faded > TINY else _F(0)
+        rate[i] = state.slope[i] * state.fade[i] if age[i] < horizon and elapsed[i] > _F(0) else _F(0)
+        image[i] = min(max(before[i] + rate[i] * elapsed[i], _F(0)), _TOP)
+    patches = state.patches
+    for p in range(patches.shape[0]):
+        top, bottom, left, right = patches[p, 0], patches[p, 1], patches[p, 2], patches[p, 3]
+        tile_cols = patches[p, 6]
+        for tile in range(patches[p, 5] * tile_cols):
+            velocity = state.velocity[patches[p, 4] + tile]
+            share = velocity[2]
+            if not share > _F(0):
+                continue
+            first_row, first_col = top + tile // tile_cols * TILE, left + tile % tile_cols * TILE
+            for row in range(first_row, min(first_row + TILE, bottom)):
+                for col in range(first_col, min(first_col + TILE, right)):
+                    i = row * cols + col
+                    time = elapsed[i]
+                    came = moved(
+                        before, row, col, velocity[1] * time, velocity[0] * time, top, bottom, left, right, cols
+                    )
+                    change = share * (came - before[i]) + (_F(1) - share) * rate[i] * time
+                    rate[i] = change / time if time > _F(0) else _F(0)
+                    image[i] = min(max(before[i] + change, _F(0)), _TOP)
+
+
+@kernel(fastmath=FASTMATH)
+def _take(
+    state: State, indices: NDArray[np.uint16], counts: NDArray[np.uint16], lag_step_s: float, tuning: Tuning
+) -> None:
+    """Compare every sample with what was predicted for its own time, and take it over."""
+    m = indices.shape[0]
+    horizon, noise_variance = _F(tuning.horizon_s), _F(tuning.noise_counts) ** 2
+    scale, surprise, compared = state.scale, state.surprise, state.compared
+    for p in range(scale.shape[0]):
+        scale[p] = _F(math.exp(state.log_scale[p]))
+        surprise[p], compared[p] = _F(0), _F(0)
+    for k in range(m):
+        i = int(np.int64(indices[k]))
+        p = int(np.int64(state.patch_of[i]))
+        lag = _F(lag_step_s * (m - 1 - k))
+        since = state.age[i] - lag
+        count = _F(counts[k])
+        innovation = count - (state.image[i] - state.rate[i] * lag)
+        state.innovation[k] = innovation
+        if _F(0) < since < horizon:
+            gathered = state.unrest[i] * since * since
+            if gathered > noise_variance:
+                ratio = innovation * innovation / (_F(2) * noise_variance + scale[p] * gathered)
+                surprise[p] += min(ratio, _F(OUTLIER)) - _F(1)
+                compared[p] += _F(1)
+            share = since / (since + _F(tuning.slope_memory_s))
+            state.slope[i] += share * ((count - state.value[i]) / since - state.slope[i])
+        elif not since < horizon:
+            state.slope[i] = _F(0)
+        if since > _F(0):
+            error = _excess(innovation, since if since < horizon else _F(NOTICED_S), noise_variance)
+            begins = error > state.unrest[i] and not since < horizon
+            state.unrest[i] += (_F(1) if begins else _F(UNREST_SHARE)) * (error - state.unrest[i])
+        state.value[i] = count
+        state.age[i] = lag
+        state.fade[i] = _F(math.exp(-lag / _F(tuning.damping_s)))
+        state.fresh[i] = True
+    for p in range(scale.shape[0]):
+        log_scale = state.log_scale[p] + _F(SCALE_STEP) * surprise[p]
+        state.log_scale[p] = min(max(log_scale, -_F(SCALE_LIMIT)), _F(SCALE_LIMIT))
+        state.frame_scale[p] = max(_F(1) + surprise[p] / (compared[p] + _F(CALM_SAMPLES)), _F(1))
+
+
+@kernel(fastmath=FASTMATH)
+def _excess(innovation: np.float32, since: np.float32, noise_variance: np.float32) -> np.float32:
+    """Squared error per squared second of a prediction that noise does not account for."""
+    time = since + _F(SHORTEST_S)
+    return max(innovation * innovation - _F(2) * noise_variance, _F(0)) / (time * time)
+
+
+@kernel(fastmath=FASTMATH)
+def _spread(state: State, indices: NDArray[np.uint16], cols: int, tuning: Tuning) -> None:
+    """Correct the taxels around the samples by the samples' innovations, the near ones most."""
+    m = indices.shape[0]
+    total, unrest_total, weight = state.total, state.unrest_total, state.weight
+    image, unrest, fresh = state.image, state.unrest, state.fresh
+    patches, patch_of = state.patches, state.patch_of
+    for k in range(m):
+        i = int(np.int64(indices[k]))
+        row = i // cols
+        col = i - row * cols
+        innovation = state.innovation[k]
+        if abs(innovation) <= _F(tuning.quiet_counts):
+            innovation = _F(0)
+        p = patch_of[i]
+        top, bottom, left, right = patches[p, 0], patches[p, 1], patches[p, 2], patches[p, 3]
+        for r in range(max(row - REACH, top), min(row + REACH + 1, bottom)):
+            for c in range(max(col - REACH, left), min(col + REACH + 1, right)):
+                j = r * cols + c
+                near = _F(0) if fresh[j] else _NEAR[r - row + REACH, c - col + REACH]
+                total[j] += near * innovation
+                unrest_total[j] += near * unrest[i]
+                weight[j] += near
+    gain = _F(tuning.spread_gain)
+    # All taxels without a branch, so that the compiler takes several at once; what nothing has reached stays as it is.
+    for j in range(image.shape[0]):
+        shrunk = weight[j] + _F(SPREAD_PRIOR)
+        image[j] = min(max(image[j] + gain * total[j] / shrunk, _F(0)), _TOP)
+        unrest[j] += _F(UNREST_SHARE) * (unrest_total[j] - weight[j] * unrest[j]) / shrunk
+        total[j], unrest_total[j], weight[j] = _F(0), _F(0), _F(0)
+    for k in range(m):
+        i = int(np.int64(indices[k]))
+        image[i] = state.value[i]
+
+
+@kernel(fastmath=FASTMATH)
+def _look_around(state: State, values: NDArray[np.float32], cols: int) -> NDArray[np.float32]:
+    """The largest of every taxel and the eight around it in its patch; overwritten by the next call."""
+    in_row, around = state.in_row, state.around
+    for p in range(state.patches.shape[0]):
+        top, bottom, left, right = state.patches[p, 0], state.patches[p, 1], state.patches[p, 2], state.patches[p, 3]
+        width = right - left
+        for row in range(top, bottom):
+            first, last = row * cols + left, row * cols + right - 1
+            in_row[first] = max(values[first], values[min(first + 1, last)])
+            for i in range(first + 1, last):
+                in_row[i] = max(values[i], values[i - 1], values[i + 1])
+            in_row[last] = max(values[last], values[max(last - 1, first)])
+        for row in range(top, bottom):
+            # Slices, so that the compiler sees that no index is negative, and takes several taxels at once.
+            here = in_row[row * cols + left : row * cols + right]
+            before, behind = max(row - 1, top) * cols, min(row + 1, bottom - 1) * cols
+            above = in_row[before + left : before + right]
+            below = in_row[behind + left : behind + right]
+            largest = around[row * cols + left : row * cols + right]
+            for c in range(width):
+                largest[c] = max(here[c], above[c], below[c])
+    return around
+
+
+@kernel(fastmath=FASTMATH)
+def _keep_quiet(state: State, cols: int, tuning: Tuning) -> None:
+    """A taxel measured untouched, with none beside it pressed, is 0: lately, or as long as nothing was added."""
+    image, age, fresh = state.image, state.age, state.fresh
+    quiet, quiet_s = _F(tuning.quiet_counts), _F(tuning.quiet_s)
+    around = _look_around(state, state.value, cols)
+    for i in range(image.shape[0]):
+        is_settled = image[i] <= quiet or age[i] < quiet_s
+        image[i] = _F(0) if around[i] <= quiet and is_settled and not fresh[i] else image[i]
+
+
+@kernel(fastmath=FASTMATH)
+def _doubt(state: State, cols: int, tuning: Tuning) -> None:
+    """Standard deviations from noise, age, what predictions of the taxel gathered, and how well all have held.
+
+    Where a taxel was not measured, what moves beside it may have come to it: half of its doubt is that of the most
+    doubtful around it.
+    """
+    around = _look_around(state, state.unrest, cols)
+    for p in range(state.patches.shape[0]):
+        top, bottom, left, right = state.patches[p, 0], state.patches[p, 1], state.patches[p, 2], state.patches[p, 3]
+        scale = _F(math.exp(state.log_scale[p])) * state.frame_scale[p]
+        if right - left == cols:
+            _doubt_of(state, around, top * cols, bottom * cols, scale, tuning)
+            continue
+        for row in range(top, bottom):
+            _doubt_of(state, around, row * cols + left, row * cols + right, scale, tuning)
+
+
+@kernel(fastmath=FASTMATH)
+def _doubt_of(
+    state: State, around: NDArray[np.float32], first: int, end: int, scale: np.float32, tuning: Tuning
+) -> None:
+    """`_doubt` of taxels that follow one another."""
+    idle, horizon = _F(IDLE_COUNTS_PER_S), _F(tuning.horizon_s)
+    noise_variance = _F(tuning.noise_counts) ** 2
+    limit = _F(UNKNOWN_COUNTS)
+    unrest, rate, sigma = state.unrest[first:end], state.rate[first:end], state.sigma[first:end]
+    fresh_ones, ages, around = state.fresh[first:end], state.age[first:end], around[first:end]
+    for i in range(sigma.shape[0]):
+        # A fresh taxel's value is kept as measured, though it has been changing since.
+        fresh, age = fresh_ones[i], ages[i]
+        gathers = unrest[i] if fresh else _F(0.5) * (unrest[i] + around[i])
+        lag_error = rate[i] * age if fresh else _F(0)
+        gathering = min(age, horizon)
+        idled = idle * min(age, _F(1e3))
+        variance = noise_variance + idled * idled + scale * gathers * gathering * gathering + lag_error * lag_error
+        sigma[i] = min(_F(math.sqrt(variance)), limit)
+
+
+@kernel(fastmath=FASTMATH)
+def fuse(
+    memory: Memory,
+    indices: NDArray[np.uint16],
+    counts: NDArray[np.uint16],
+    period_s: float,
+    duration_s: float,
+    cols: int,
+    tuning: Tuning,
+) -> None:
+    """Take one frame that `check` has found to fit.
+
+    Parameters
+    ----------
+    memory : Memory
+        Written.
+    indices, counts : np.ndarray [shape=(m,), dtype=uint16]
+        Samples in the order of measurement, at least one.
+    period_s : float
+        From the end of the last frame to the end of this one, at least 0.
+    duration_s : float
+        Sample k of m was taken ``duration_s * (m - 1 - k) / m`` before the end.
+    cols : int
+    tuning : Tuning
+    """
+    state = _state_of(memory)
+    lag_step_s = duration_s / indices.shape[0]
+    observe_motion(state, indices, counts, period_s, lag_step_s, cols, tuning)
+    find_velocities(state, tuning)
+    _predict(state, period_s, cols, tuning)
+    _take(state, indices, counts, lag_step_s, tuning)
+    _spread(state, indices, cols, tuning)
+    _keep_quiet(state, cols, tuning)
+    _doubt(state, cols, tuning)
+
+
+@kernel(fastmath=FASTMATH)
+def confidence(sigma: NDArray[np.float32], half_counts: float, out: NDArray[np.uint8]) -> None:
+    """Write 255 where nothing is in doubt, half of it where sigma is `half_counts`, towards 0 beyond."""
+    for i in range(sigma.shape[0]):
+        ratio = sigma[i] / _F(half_counts)
+        out[i] = np.uint8(_F(255) / (_F(1) + ratio * ratio) + _F(0.5))

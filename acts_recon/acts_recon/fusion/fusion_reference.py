@@ -1,0 +1,220 @@
+"""Fusion of samples over time, plain: the readable twin of `acts_recon.fusion.fusion_kernels`, in double precision."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from acts_core.array import COUNT_MAX
+from acts_recon.fusion.fusion_kernels import (
+    CALM_SAMPLES,
+    IDLE_COUNTS_PER_S,
+    NOTICED_S,
+    OUTLIER,
+    REACH,
+    SCALE_LIMIT,
+    SCALE_STEP,
+    SHORTEST_S,
+    SPREAD_PRIOR,
+    UNREST_SHARE,
+)
+from acts_recon.fusion.fusion_motion_kernels import AROUND, RIDGE
+from acts_recon.fusion.fusion_state import TILE, UNKNOWN_COUNTS, Tuning
+from acts_recon.images import Borders
+
+Floats = NDArray[np.float64]
+
+
+class PlainFusion:
+    """What is known of every taxel, as `acts_recon.fusion.fusion_state.State`; arrays are (rows, cols).
+
+    Parameters
+    ----------
+    rows, cols : int
+    tuning : Tuning
+    """
+
+    def __init__(self, rows: int, cols: int, tuning: Tuning) -> None:
+        shape = (rows, cols)
+        tiles = (-(-rows // TILE), -(-cols // TILE))
+        self._tuning = tuning
+        self._tile_of = np.ix_(np.arange(rows) // TILE, np.arange(cols) // TILE)
+        self.image = np.zeros(shape)
+        self.sigma = np.full(shape, UNKNOWN_COUNTS)
+        self.value = np.zeros(shape)
+        self.slope = np.zeros(shape)
+        self.age = np.full(shape, np.inf)
+        self.unrest = np.zeros(shape)
+        self.fresh = np.zeros(shape, dtype=bool)
+        self.evidence = np.zeros((6, *tiles))
+        self.log_scale = 0.0
+        self.frame_scale = 1.0
+
+    def step(
+        self, indices: NDArray[np.integer], counts: NDArray[np.integer], period_s: float, duration_s: float
+    ) -> None:
+        """Take one frame that fits the array; parameters as of `acts_recon.fusion.fusion_kernels.fuse`."""
+        self.take(indices, counts, lags(indices.size, duration_s), period_s)
+
+    def take(self, indices: NDArray[np.integer], counts: NDArray[np.integer], lag: Floats, period_s: float) -> None:
+        """Take samples that were measured so long before the end of a frame [s]; none where nothing was measured."""
+        at = np.unravel_index(indices.astype(np.intp), self.image.shape)
+        y = counts.astype(np.float64)
+
+        self._observe_motion(at, y, self.age[at] + period_s - lag, period_s)
+        rate = self._predict(period_s)
+        innovation = self._take(at, y, lag, rate)
+        self._spread(at, innovation)
+        self._keep_quiet()
+        self._doubt(rate)
+
+    def _observe_motion(self, at: tuple[NDArray[np.intp], ...], y: Floats, since: Floats, period_s: float) -> None:
+        self.evidence *= np.exp(-period_s / self._tuning.motion_memory_s)
+        used = (since > 0) & (since < self._tuning.horizon_s)
+        row, col = at[0][used], at[1][used]
+        change = (y[used] - self.value[row, col]) / since[used]
+        padded = np.pad(self.image, 1, mode="edge")
+        along_cols = (padded[row + 1, col + 2] - padded[row + 1, col]) / 2
+        along_rows = (padded[row + 2, col + 1] - padded[row, col + 1]) / 2
+        terms = (
+            along_cols * along_cols,
+            along_cols * along_rows,
+            along_rows * along_rows,
+            -along_cols * change,
+            -along_rows * change,
+            change * change,
+        )
+        for q, term in enumerate(terms):
+            np.add.at(self.evidence[q], (row // TILE, col // TILE), term)
+
+    def _velocities(self) -> tuple[Floats, Floats, Floats]:
+        """Columns and rows per second and the share explained, of every taxel."""
+        side = np.ones((2 * AROUND + 1,) * 2)
+        cc, cr, rr, ct, rt, tt = (ndimage.convolve(term, side, mode="constant") for term in self.evidence)
+        cc, rr = cc + RIDGE, rr + RIDGE
+        determinant = cc * rr - cr * cr
+        by_cols = (rr * ct - cr * rt) / determinant
+        by_rows = (cc * rt - cr * ct) / determinant
+        share = np.divide(by_cols * ct + by_rows * rt, tt, out=np.zeros_like(tt), where=tt > 0)
+        share = np.where(share > self._tuning.motion_share, np.minimum(share, 1), 0)
+        return by_cols[self._tile_of], by_rows[self._tile_of], share[self._tile_of]
+
+    def _predict(self, period_s: float) -> Floats:
+        tuning = self._tuning
+        by_cols, by_rows, share = self._velocities()
+        self.age += period_s
+        elapsed = np.minimum(np.where(self.fresh, self.age, period_s), tuning.horizon_s)
+        self.fresh[:] = False
+        row, col = np.indices(self.image.shape)
+        places = np.array([row - by_rows * elapsed, col - by_cols * elapsed])
+        moved = ndimage.map_coordinates(self.image, places, order=1, mode="nearest")
+        slope = np.where(self.age < tuning.horizon_s, self.slope * np.exp(-self.age / tuning.damping_s), 0)
+        change = share * (moved - self.image) + (1 - share) * slope * elapsed
+        self.image = np.clip(self.image + change, 0, COUNT_MAX)
+        rate: Floats = np.zeros_like(change)
+        np.divide(change, elapsed, out=rate, where=elapsed > 0)
+        return rate
+
+    def _take(self, at: tuple[NDArray[np.intp], ...], y: Floats, lag: Floats, rate: Floats) -> Floats:
+        tuning = self._tuning
+        noise_variance = tuning.noise_counts**2
+        since = self.age[at] - lag
+        innovation = y - (self.image[at] - rate[at] * lag)
+        known = (since > 0) & (since < tuning.horizon_s)
+
+        gathered = np.where(known, self.unrest[at] * np.where(known, since, 0) ** 2, 0)
+        moving = gathered > noise_variance
+        ratio = innovation[moving] ** 2 / (2 * noise_variance + np.exp(self.log_scale) * gathered[moving])
+        surprise = float((np.minimum(ratio, OUTLIER) - 1).sum())
+        self.frame_scale = max(1 + surprise / (np.count_nonzero(moving) + CALM_SAMPLES), 1.0)
+        self.log_scale = float(np.clip(self.log_scale + SCALE_STEP * surprise, -SCALE_LIMIT, SCALE_LIMIT))
+
+        time = np.where(known, since, 1.0)
+        share = time / (time + tuning.slope_memory_s)
+        slope = self.slope[at] + share * ((y - self.value[at]) / time - self.slope[at])
+        self.slope[at] = np.where(known, slope, np.where(since < tuning.horizon_s, self.slope[at], 0))
+        stale = since >= tuning.horizon_s
+        over = np.where(stale, NOTICED_S, np.maximum(since, 0)) + SHORTEST_S
+        excess = np.maximum(innovation**2 - 2 * noise_variance, 0) / over**2
+        begins = stale & (excess > self.unrest[at])
+        share = np.where(begins, 1, np.where(since > 0, UNREST_SHARE, 0))
+        self.unrest[at] += share * (excess - self.unrest[at])
+        self.value[at], self.age[at], self.fresh[at] = y, lag, True
+        return innovation
+
+    def _spread(self, at: tuple[NDArray[np.intp], ...], innovation: Floats) -> None:
+        tuning = self._tuning
+        step_rows, step_cols = np.indices((2 * REACH + 1,) * 2) - REACH
+        square = (step_rows**2 + step_cols**2).astype(np.float64)
+        near = np.divide(1, square**2, out=np.zeros_like(square), where=square > 0)
+
+        def reached(values: Floats | float) -> Floats:
+            field = np.zeros(self.image.shape)
+            field[at] = values
+            return ndimage.convolve(field, near, mode="constant")
+
+        weight = reached(1.0)
+        total = reached(np.where(np.abs(innovation) > tuning.quiet_counts, innovation, 0))
+        unrest_total = reached(self.unrest[at])
+        to = ~self.fresh & (weight > 1e-9)
+        shrunk = weight[to] + SPREAD_PRIOR
+        self.image[to] = np.clip(self.image[to] + tuning.spread_gain * total[to] / shrunk, 0, COUNT_MAX)
+        self.unrest[to] += UNREST_SHARE * weight[to] / shrunk * (unrest_total[to] / weight[to] - self.unrest[to])
+        self.image[at] = self.value[at]
+
+    def _keep_quiet(self) -> None:
+        tuning = self._tuning
+        untouched = self.value <= tuning.quiet_counts
+        beside = ndimage.binary_dilation(~untouched, structure=np.ones((3, 3)))
+        lately = self.age < tuning.quiet_s
+        quiet = untouched & ~beside & ~self.fresh & (lately | (self.image <= tuning.quiet_counts))
+        self.image[quiet] = 0
+
+    def _doubt(self, rate: Floats) -> None:
+        tuning = self._tuning
+        gathering = np.minimum(self.age, tuning.horizon_s)
+        around = ndimage.maximum_filter(self.unrest, size=3, mode="nearest")
+        unrest = np.where(self.fresh, self.unrest, (self.unrest + around) / 2)
+        variance = tuning.noise_counts**2 + self.frame_scale * np.exp(self.log_scale) * unrest * gathering**2
+        variance += (IDLE_COUNTS_PER_S * np.minimum(self.age, 1e3)) ** 2
+        variance += np.where(self.fresh, rate * np.where(self.fresh, self.age, 0), 0) ** 2
+        self.sigma = np.minimum(np.sqrt(variance), UNKNOWN_COUNTS)
+
+
+class PlainFusions:
+    """What is known of a skin with borders: one `PlainFusion` for each of its rectangles.
+
+    Parameters
+    ----------
+    rows, cols : int
+    borders : Borders
+    tuning : Tuning
+    """
+
+    def __init__(self, rows: int, cols: int, borders: Borders, tuning: Tuning) -> None:
+        self._shape = (rows, cols)
+        self._rectangles = borders.rectangles.tolist()
+        self.parts = [PlainFusion(r1 - r0, c1 - c0, tuning) for r0, r1, c0, c1 in self._rectangles]
+
+    def step(
+        self, indices: NDArray[np.integer], counts: NDArray[np.integer], period_s: float, duration_s: float
+    ) -> None:
+        """As `PlainFusion.step`, every sample for the rectangle that holds it."""
+        lag = lags(indices.size, duration_s)
+        row, col = np.unravel_index(indices.astype(np.intp), self._shape)
+        for part, (r0, r1, c0, c1) in zip(self.parts, self._rectangles, strict=True):
+            own = (row >= r0) & (row < r1) & (col >= c0) & (col < c1)
+            part.take((row[own] - r0) * (c1 - c0) + col[own] - c0, counts[own], lag[own], period_s)
+
+    def field(self, name: str) -> Floats:
+        """One of the arrays of `PlainFusion`, of the whole skin."""
+        whole = np.zeros(self._shape)
+        for part, (r0, r1, c0, c1) in zip(self.parts, self._rectangles, strict=True):
+            whole[r0:r1, c0:c1] = getattr(part, name)
+        return whole
+
+
+def lags(m: int, duration_s: float) -> Floats:
+    """How long before the end of a frame each of its m samples was measured [s]."""
+    return np.arange(m - 1, -1, -1, dtype=np.float64) * (duration_s / m)

@@ -1,0 +1,61 @@
+"""Borders in a picture: the edges of its patches, over which no taxel has a neighbour."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.skin import NO_PATCH, Layout
+
+
+class Borders(NamedTuple):
+    """The rectangles into which borders divide a picture.
+
+    Attributes
+    ----------
+    rectangles : np.ndarray [shape=(n, 4), dtype=int32]
+        First row, row behind the last, first column, column behind the last of each.
+    rectangle_of : np.ndarray [shape=(rows * cols,), dtype=uint16]
+        Index of the rectangle that holds each taxel.
+    """
+
+    rectangles: NDArray[np.int32]
+    rectangle_of: NDArray[np.uint16]
+
+    def bounds(self) -> NDArray[np.int32]:
+        """The rectangle around each taxel; np.ndarray [shape=(rows * cols, 4), dtype=int32]."""
+        return np.ascontiguousarray(self.rectangles[self.rectangle_of])
+
+
+def borders_of(rows: int, cols: int, layout: Layout | None = None) -> Borders:
+    """The borders of a picture: without a layout it is one rectangle.
+
+    Parameters
+    ----------
+    rows, cols : int
+        Of the picture.
+    layout : Layout, optional
+        Its patches are the rectangles. Where there is no skin, every taxel is one of its own.
+    """
+    if layout is None:
+        return Borders(np.array([[0, rows, 0, cols]], dtype=np.int32), np.zeros(rows * cols, dtype=np.uint16))
+    patches = [(patch.first_row, patch.end_row, patch.first_col, patch.end_col) for patch in layout.patches]
+    of = layout.patch_of.astype(np.uint16)
+    bare = np.argwhere(layout.patch_of == NO_PATCH)
+    of[layout.patch_of == NO_PATCH] = len(patches) + np.arange(len(bare))
+    return Borders(np.array([*patches, *((r, r + 1, c, c + 1) for r, c in bare)], dtype=np.int32), of.ravel())
+
+
+def grown(mask: NDArray[np.bool_], borders: Borders) -> NDArray[np.bool_]:
+    """A mask of taxels, shape (rows, cols), with the eight around each on the same side of all borders."""
+    # Here: half the time a node takes to start would go by importing it, and nodes use kernels.
+    from scipy import ndimage
+
+    result = np.zeros_like(mask)
+    for first_row, end_row, first_col, end_col in borders.rectangles.tolist():
+        there = np.s_[first_row:end_row, first_col:end_col]
+        if mask[there].any():
+            result[there] = ndimage.binary_dilation(mask[there], structure=np.ones((3, 3)))
+    return result

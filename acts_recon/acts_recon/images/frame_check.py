@@ -1,0 +1,56 @@
+"""What the samples of a frame must be for recovery, and what is said where they are not."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.array import COUNT_MAX, ArrayGeometry
+from acts_core.errors import ArrayError
+from acts_core.skin import NO_PATCH, Layout
+from acts_recon.images.frame_check_kernels import COUNT_OUT_OF_RANGE, INDEX_OUT_OF_RANGE
+
+
+def require_samples(indices: NDArray[np.uint16], counts: NDArray[np.uint16]) -> None:
+    """Raise `ArrayError` unless these are two rows of uint16, as long as one another and not empty."""
+    if indices.dtype != np.uint16 or counts.dtype != np.uint16 or indices.ndim != 1 or counts.ndim != 1:
+        raise ArrayError(f"indices {_kind(indices)} and counts {_kind(counts)}: needed are two rows of uint16")
+    if indices.size != counts.size or indices.size == 0:
+        raise ArrayError(f"{indices.size} indices and {counts.size} counts: needed are as many, at least one")
+
+
+def why_refused(code: int, indices: NDArray[np.uint16], counts: NDArray[np.uint16], rows: int, cols: int) -> str:
+    """What is wrong with a frame for a matrix of `rows` x `cols`, by the code of the kernel that refused it."""
+    if code == INDEX_OUT_OF_RANGE:
+        return f"index {indices.max()}: an array of {rows} x {cols} has 0 to {rows * cols - 1}"
+    if code == COUNT_OUT_OF_RANGE:
+        return f"count {counts.max()}: the board reads 0 to {COUNT_MAX}"
+    values, times = np.unique(indices, return_counts=True)
+    return f"index {values[np.argmax(times)]} occurs twice in a frame; each taxel is measured at most once"
+
+
+def place_table(layout: Layout, geometry: ArrayGeometry) -> NDArray[np.uint16]:
+    """Places in the picture by matrix index; an index that is out of range stays so. Shape (65536,), uint16."""
+    if (layout.rows, layout.cols) != (geometry.rows, geometry.cols):
+        raise ArrayError(
+            f"geometry of {geometry.rows} x {geometry.cols}: the layout {layout.name} is {layout.rows} x {layout.cols}"
+        )
+    table = np.arange(2**16, dtype=np.uint16)
+    table[: layout.places.size] = layout.places
+    return table
+
+
+def skin_table(layout: Layout) -> NDArray[np.uint16] | None:
+    """1 for matrix indices with skin, 0 for those without, which count as untouched; None where all have it.
+
+    Shape (65536,), uint16.
+    """
+    if not (layout.patch_of == NO_PATCH).any():
+        return None
+    table = np.ones(2**16, dtype=np.uint16)
+    table[: layout.places.size] = layout.patch_of_taxel.ravel() != NO_PATCH
+    return table
+
+
+def _kind(array: NDArray) -> str:
+    return f"of shape {array.shape}, {array.dtype}"

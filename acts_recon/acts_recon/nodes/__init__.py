@@ -1,0 +1,4 @@
+"""The node `reconstruction` and its topics: the only modules of this package that know ROS.
+
+In come frames, in memory or as messages; out come images, contacts, regions and objects.
+"""

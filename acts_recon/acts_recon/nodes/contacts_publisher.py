@@ -1,0 +1,154 @@
+"""Topics ``contacts``, ``view/contacts`` and ``contacts_view`` of the reconstruction node: the contacts one by one."""
+
+from __future__ import annotations
+
+import time
+
+import numpy as np
+from builtin_interfaces.msg import Duration
+from numpy.typing import NDArray
+from rclpy.node import Node
+from std_msgs.msg import Header
+from visualization_msgs.msg import Marker, MarkerArray
+
+from acts_core.array import ArrayGeometry
+from acts_core.runtime import RateLimit
+from acts_core.skin import ForceResponse, MeasuredForceResponse
+from acts_msgs.msg import Contacts, TrackedContact
+from acts_recon.contacts import MAX_BLOBS, BlobConfig, BlobTracker, TrackedBlob
+from acts_recon.images import Borders
+from acts_ros import qos
+
+_VIEW_RATE_HZ = 30.0
+_MARKER_LIFETIME_S = 0.2
+_MARKER_HEIGHT_M = 0.004
+_MAX_ID = 2**31
+
+
+class ContactsPublisher:
+    """Finds and follows the contacts of every image, and publishes acts_msgs/Contacts, while somebody listens.
+
+    For viewers there are besides, at most 30 times a second, the same message on ``view/contacts``, and on
+    ``contacts_view`` a visualization_msgs/MarkerArray: a disc as large as the contact and its number.
+
+    Parameters
+    ----------
+    node : Node
+    geometry : ArrayGeometry
+        Of the images.
+    response : ForceResponse or MeasuredForceResponse
+    config : BlobConfig
+    borders : Borders, optional
+        Of the images.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        geometry: ArrayGeometry,
+        response: ForceResponse | MeasuredForceResponse,
+        config: BlobConfig,
+        borders: Borders | None = None,
+    ) -> None:
+        self._tracker = BlobTracker(geometry, response, config, borders)
+        self._publisher = node.create_publisher(Contacts, "contacts", **qos.overridable(qos.STREAM))
+        self._view_publisher = node.create_publisher(Contacts, "view/contacts", **qos.overridable(qos.VIEW))
+        self._marker_publisher = node.create_publisher(MarkerArray, "contacts_view", **qos.overridable(qos.VIEW))
+        self._view_limit = RateLimit(_VIEW_RATE_HZ)
+        # Filled anew for every frame: making messages costs more than sending them.
+        self._message = Contacts()
+        self._entries = [TrackedContact() for _ in range(MAX_BLOBS)]
+        self._send = False
+        self._send_view = False
+        self._send_markers = False
+
+    def look_for_subscribers(self) -> None:
+        """To be called now and then: whether somebody listens."""
+        self._send = self._publisher.get_subscription_count() > 0
+        self._send_view = self._view_publisher.get_subscription_count() > 0
+        self._send_markers = self._marker_publisher.get_subscription_count() > 0
+
+    def publish(
+        self, header: Header, sequence: int, image: NDArray[np.float32], sigma: NDArray[np.float32] | None = None
+    ) -> None:
+        """Find the contacts in the image of a frame, and publish them.
+
+        Parameters
+        ----------
+        header : Header
+            Of the frame.
+        sequence : int
+            The frame's number.
+        image : np.ndarray [shape=(rows, cols), dtype=float32]
+            Counts.
+        sigma : np.ndarray [shape=(rows, cols), dtype=float32], optional
+            Standard deviation of every taxel [counts], where it is known.
+        """
+        if not (self._send or self._send_view or self._send_markers):
+            return
+        stamp = header.stamp
+        found = self._tracker.step(image, stamp.sec + 1e-9 * stamp.nanosec, sigma)
+        is_view_due = (self._send_view or self._send_markers) and self._view_limit.due(time.monotonic())
+        to_view = self._send_view and is_view_due
+        if self._send or to_view:
+            message = self._message
+            message.header = header
+            message.sequence = sequence
+            message.dropped = self._tracker.dropped
+            for blob, entry in zip(found, self._entries, strict=False):
+                _fill(entry, blob)
+            message.contacts = self._entries[: len(found)]
+            if self._send:
+                self._publisher.publish(message)
+            if to_view:
+                self._view_publisher.publish(message)
+        if self._send_markers and is_view_due:
+            markers = [marker for blob in found for marker in _markers(header, blob)]
+            self._marker_publisher.publish(MarkerArray(markers=markers))
+
+
+def _fill(entry: TrackedContact, blob: TrackedBlob) -> None:
+    entry.number = blob.number
+    entry.merged = blob.merged
+    entry.age = blob.age_s
+    entry.position.x = blob.x_m
+    entry.position.y = blob.y_m
+    entry.velocity.x = blob.vx_m_s
+    entry.velocity.y = blob.vy_m_s
+    entry.force = blob.force_n
+    entry.peak = blob.peak_counts
+    entry.area = blob.area_m2
+    entry.active_taxels = blob.active_taxels
+    entry.spread = blob.spread_m
+    entry.orientation = blob.angle_rad
+    entry.position_sigma.x = blob.x_sd_m
+    entry.position_sigma.y = blob.y_sd_m
+    entry.velocity_sigma.x = blob.vx_sd_m_s
+    entry.velocity_sigma.y = blob.vy_sd_m_s
+    entry.force_sigma = blob.force_sd_n
+    entry.area_sigma = blob.area_sd_m2
+    entry.spread_sigma = blob.spread_sd_m
+
+
+def _markers(header: Header, blob: TrackedBlob) -> list[Marker]:
+    """A disc and a number; both vanish by themselves when they are not sent again."""
+    markers = []
+    diameter_m = 2.0 * float(np.sqrt(blob.area_m2 / np.pi))
+    # Colours by number, far apart for numbers that follow one another.
+    hue = 2 * np.pi * ((blob.number * 0.618) % 1.0)
+    red, green, blue = (float(0.5 + 0.5 * np.cos(hue + shift)) for shift in (0.0, 2.1, 4.2))
+    for namespace, kind in (("contacts", Marker.CYLINDER), ("numbers", Marker.TEXT_VIEW_FACING)):
+        marker = Marker(header=header, ns=namespace, id=blob.number % _MAX_ID, type=kind, action=Marker.ADD)
+        marker.lifetime = Duration(nanosec=round(1e9 * _MARKER_LIFETIME_S))
+        marker.pose.position.x, marker.pose.position.y = blob.x_m, blob.y_m
+        marker.pose.orientation.w = 1.0
+        marker.color.r, marker.color.g, marker.color.b, marker.color.a = red, green, blue, 0.8
+        if kind == Marker.CYLINDER:
+            marker.scale.x = marker.scale.y = diameter_m
+            marker.scale.z = _MARKER_HEIGHT_M
+        else:
+            marker.pose.position.z = 3 * _MARKER_HEIGHT_M
+            marker.scale.z = 2.5 * _MARKER_HEIGHT_M
+            marker.text = str(blob.number)
+        markers.append(marker)
+    return markers

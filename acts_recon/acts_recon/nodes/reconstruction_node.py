@@ -1,0 +1,366 @@
+"""Node ``reconstruction``: samples in; full images and the contact in them out, as fast as the samples come.
+
+Topics: samples and baseline in; contact, contacts, regions, cop, image_raw, image, confidence, object and view/* out.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from array import array
+from collections import Counter, deque
+from collections.abc import Sequence
+from statistics import median
+
+import numpy as np
+from geometry_msgs.msg import PointStamped
+from rclpy.node import Node
+from rclpy.publisher import Publisher
+from sensor_msgs.msg import Image
+from std_msgs.msg import Header
+
+from acts_core.errors import ArrayError, PacketError
+from acts_core.frames import SampleFrame
+from acts_core.kernels import skip_extras
+from acts_core.runtime import RateLimit, enter_realtime
+from acts_core.stop_signals import StopSignals
+from acts_msgs.msg import Baseline, TactileSamples
+from acts_msgs.msg import Contact as ContactMessage
+from acts_recon.contacts import Contact
+from acts_recon.images import BaselineSubtraction, mono16, rgb8
+from acts_recon.nodes.contacts_publisher import ContactsPublisher
+from acts_recon.nodes.object_publisher import ObjectPublisher
+from acts_recon.nodes.region_publisher import RegionsPublisher
+from acts_recon.settings import ReconstructionSettings
+from acts_ros import qos
+from acts_ros.clocks import steady_timer
+from acts_ros.composition import parameters_from
+from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
+from acts_ros.executor import run
+from acts_ros.log import log_of
+from acts_ros.messages import ContactFields, frame_of, stamp_ns_of, write_contact
+from acts_ros.parameters import declare, node_options
+
+_SUBSCRIBERS_PERIOD_S = 0.2
+_SEQUENCE_MODULUS = 2**32
+_NS_PER_S = 1_000_000_000
+# Of frames that come together, those older than this are not published one by one [ns].
+_LATE_NS = 20_000_000
+# And those older than this are not recovered.
+_VERY_LATE_NS = 60_000_000
+# Stalls so far apart are no lack of CPU: what they have held up is caught up with.
+_STALLS_APART_NS = 1_000_000_000
+
+
+class ReconstructionNode(Node):
+    """Translates between topics and a `Recovery`.
+
+    Subscribes ``samples`` (acts_msgs/TactileSamples), or takes frames by `take` from a driver in the same process.
+    Publishes for every frame ``contact`` (acts_msgs/Contact), while
+    in contact ``cop`` (geometry_msgs/PointStamped), and where somebody listens ``image_raw`` (sensor_msgs/Image,
+    mono16, counts), ``confidence`` (mono8, with the method ``fusion``), ``image`` (rgb8, for viewers), ``contacts``
+    with a layout of several patches, or of one on a link, ``regions`` (acts_msgs/RegionContacts), and, with an object
+    library, ``object`` (acts_msgs/ObjectClass). For viewers that draw by themselves ``image_raw``, ``confidence`` and
+    ``contacts`` are also below ``view/``, at most `image_rate_hz` times a second.
+
+    Parameters
+    ----------
+    subscribes : bool
+        Whether frames come as messages; otherwise somebody calls `take`.
+    """
+
+    def __init__(self, *, subscribes: bool = True, cli_args: Sequence[str] | None = None, **options: object) -> None:
+        super().__init__("reconstruction", cli_args=cli_args, **node_options(), **options)
+        self._settings = declare(self, ReconstructionSettings, self._change)
+        if self._settings.unused:
+            self.get_logger().warning(f"{', '.join(self._settings.unused)}: not used by method {self._settings.method}")
+        self.get_logger().info("compiling (the first time on a machine takes some seconds)")
+        self._recovery = self._settings.recovery()
+        self._baseline = BaselineSubtraction(self._settings.rows * self._settings.cols)
+        self._contact_publisher = self.create_publisher(ContactMessage, "contact", **qos.overridable(qos.STREAM))
+        self._cop_publisher = self.create_publisher(PointStamped, "cop", **qos.overridable(qos.STREAM))
+        self._raw_publisher = self.create_publisher(Image, "image_raw", **qos.overridable(qos.STREAM))
+        self._confidence_publisher = self.create_publisher(Image, "confidence", **qos.overridable(qos.STREAM))
+        self._view_publisher = self.create_publisher(Image, "image", **qos.overridable(qos.VIEW))
+        self._view_raw_publisher = self.create_publisher(Image, "view/image_raw", **qos.overridable(qos.VIEW))
+        self._view_confidence_publisher = self.create_publisher(Image, "view/confidence", **qos.overridable(qos.VIEW))
+        # Filled anew for every frame: making messages costs more than sending them.
+        self._header = Header()
+        self._cop = PointStamped()
+        rows, cols = self._recovery.image.shape
+        self._raw = _empty_image(rows, cols, "mono16", 2)
+        self._sureness = _empty_image(rows, cols, "mono8", 1)
+        scale = self._settings.image_scale
+        self._view = _empty_image(rows * scale, cols * scale, "rgb8", 3)
+        self._raw_limit = RateLimit(self._settings.image_raw_rate_hz)
+        self._view_limit = RateLimit(self._settings.image_rate_hz)
+        recogniser = self._settings.recogniser(self._recovery)
+        self._objects: ObjectPublisher | None = None
+        if recogniser is not None:
+            self._objects = ObjectPublisher(self, recogniser, self._settings.object_rate_hz)
+        self._contacts = ContactsPublisher(
+            self, self._recovery.geometry, self._recovery.response, self._settings.blob_config(), self._recovery.borders
+        )
+        regions = self._settings.regions(self._recovery)
+        self._regions: RegionsPublisher | None = None
+        if regions is not None:
+            self._regions = RegionsPublisher(self, regions, self._settings.regions_rate_hz)
+
+        self._frames = 0
+        self._lost = 0
+        self._untold = 0
+        self._unused = 0
+        self._stalled_ns = -_STALLS_APART_NS
+        self._rejected: Counter[str] = Counter()
+        self._last_sequence: int | None = None
+        self._durations_s: deque[float] = deque(maxlen=1000)
+        self._reported = (time.monotonic(), 0, 0, 0)
+
+        self._look_for_subscribers()
+        steady_timer(self, _SUBSCRIBERS_PERIOD_S, self._look_for_subscribers)
+        self._diagnostics = DiagnosticsReporter(self, self.resolve_topic_name("samples"), self._report)
+        if self._settings.subtract_baseline:
+            self.create_subscription(Baseline, "baseline", self._on_baseline, **qos.overridable(qos.LATCHED))
+        if subscribes:
+            self.create_subscription(TactileSamples, "samples", self._on_samples, **qos.overridable(qos.STREAM))
+        self.get_logger().info(
+            f"ready: array of {self._settings.rows} x {self._settings.cols}, image of {rows} x {cols}"
+        )
+
+    def begin(self) -> None:
+        """Let this process be scheduled as the parameters ask."""
+        enter_realtime(self._settings, "reconstruction", log_of(self))
+
+    def _change(self, settings: ReconstructionSettings) -> str:
+        """Put changed parameters in force."""
+        self._settings = settings
+        self._raw_limit.set_rate(settings.image_raw_rate_hz)
+        self._view_limit.set_rate(settings.image_rate_hz)
+        if self._objects is not None:
+            self._objects.set_rate(settings.object_rate_hz)
+        if self._regions is not None:
+            self._regions.set_rate(settings.regions_rate_hz)
+        return ""
+
+    def _look_for_subscribers(self) -> None:
+        self._send_cop = self._cop_publisher.get_subscription_count() > 0
+        self._send_raw = self._raw_publisher.get_subscription_count() > 0
+        self._send_confidence = self._confidence_publisher.get_subscription_count() > 0
+        self._send_view = self._view_publisher.get_subscription_count() > 0
+        self._send_view_raw = self._view_raw_publisher.get_subscription_count() > 0
+        self._send_view_confidence = self._view_confidence_publisher.get_subscription_count() > 0
+        self._contacts.look_for_subscribers()
+        if self._objects is not None:
+            self._objects.look_for_subscribers()
+        if self._regions is not None:
+            self._regions.look_for_subscribers()
+
+    def _on_samples(self, samples: TactileSamples) -> None:
+        try:
+            stamp_ns = stamp_ns_of(samples)
+        except PacketError as error:
+            self._reject("bad_stamp", str(error))
+            return
+        self.take([(frame_of(samples), stamp_ns)], samples.header.frame_id)
+
+    def take(self, frames: Sequence[tuple[SampleFrame, int]], frame_id: str) -> None:
+        """Recover frames that have come together, and publish what is in them; always from the same thread.
+
+        Where they are late already again and again, as with too little CPU, only what is in the newest is published,
+        though the image is made of all; and of very late ones only the newest is used at all. Touch may become rare,
+        but it does not become old. What a single stall has held up is published.
+
+        Parameters
+        ----------
+        frames : sequence of (SampleFrame, int)
+            At least one, each with the ROS time at the end of its last measurement [ns].
+        frame_id : str
+            Frame of the skin.
+        """
+        *older, newest = frames
+        if older:
+            now_ns = time.time_ns()
+            told_ns = self._told_ns(now_ns - older[0][1])
+            for frame, stamp_ns in older:
+                late_ns = now_ns - stamp_ns
+                self._untold += late_ns > told_ns
+                if late_ns > _VERY_LATE_NS:
+                    self._unused += 1
+                    self._begin_anew_with(frame.sequence)
+                    self._follow(frame.sequence)
+                else:
+                    self._step(frame, stamp_ns, frame_id, is_told=late_ns <= told_ns)
+        self._step(*newest, frame_id, is_told=True)
+
+    def _told_ns(self, late_ns: int) -> int:
+        """Age up to which frames that have come together are published, where the oldest is so late [ns]."""
+        if late_ns <= _LATE_NS:
+            return _LATE_NS
+        now_ns = time.monotonic_ns()
+        is_single, self._stalled_ns = now_ns - self._stalled_ns > _STALLS_APART_NS, now_ns
+        return _VERY_LATE_NS if is_single else _LATE_NS
+
+    def _step(self, frame: SampleFrame, stamp_ns: int, frame_id: str, *, is_told: bool) -> None:
+        began_s = time.perf_counter()
+        settings = self._settings
+        if frame.rows != settings.rows or frame.cols != settings.cols:
+            self._reject(
+                "wrong_array_size",
+                f"array of {frame.rows} x {frame.cols}: the parameters rows and cols say "
+                f"{settings.rows} x {settings.cols}",
+            )
+            return
+        self._begin_anew_with(frame.sequence)
+        counts = self._baseline.apply(frame.indices, frame.counts)
+        end_s, duration_s = stamp_ns * 1e-9, frame.duration_us * 1e-6
+        try:
+            contact = self._recovery.step(frame.indices, counts, end_s, duration_s)
+        except ArrayError as error:
+            self._reject("bad_frame", str(error))
+            return
+        self._frames += 1
+        self._follow(frame.sequence)
+        if not is_told:
+            return
+        header = self._header
+        header.frame_id = frame_id
+        header.stamp.sec, header.stamp.nanosec = divmod(stamp_ns, _NS_PER_S)
+        self._publish_contact(stamp_ns, frame_id, frame.sequence, contact)
+        if self._regions is not None:
+            self._regions.publish(stamp_ns, frame_id, frame.sequence, self._recovery)
+        self._publish_images()
+        self._contacts.publish(header, frame.sequence, self._recovery.image, self._recovery.sigma)
+        if self._objects is not None:
+            self._objects.publish(header, frame.sequence, frame.indices, counts, end_s, duration_s)
+        self._durations_s.append(time.perf_counter() - began_s)
+
+    def _publish_images(self) -> None:
+        is_view_wanted = self._send_view or self._send_view_raw or self._send_view_confidence
+        is_view_due = is_view_wanted and self._view_limit.due(time.monotonic())
+        if self._send_raw and self._raw_limit.due(time.monotonic()):
+            self._publish_raw(self._raw_publisher)
+        if self._send_view_raw and is_view_due:
+            self._publish_raw(self._view_raw_publisher)
+        if self._send_confidence:
+            self._publish_confidence(self._confidence_publisher)
+        if self._send_view_confidence and is_view_due:
+            self._publish_confidence(self._view_confidence_publisher)
+        if self._send_view and is_view_due:
+            self._publish_view()
+
+    def _on_baseline(self, message: Baseline) -> None:
+        settings = self._settings
+        try:
+            if (message.rows, message.cols) != (settings.rows, settings.cols):
+                raise ArrayError(
+                    f"baseline of {message.rows} x {message.cols}: the parameters rows and cols say "
+                    f"{settings.rows} x {settings.cols}"
+                )
+            self._baseline.set(
+                np.asarray(message.baseline, dtype=np.float32), np.asarray(message.valid, dtype=np.bool_)
+            )
+        except ArrayError as error:
+            self._rejected["bad_baseline"] += 1
+            self.get_logger().warning(f"baseline not used: {error}")
+
+    def _publish_contact(self, stamp_ns: int, frame_id: str, sequence: int, contact: Contact) -> None:
+        self._contact_publisher.publish(write_contact(ContactFields(stamp_ns, frame_id, sequence, *contact)))
+        if self._send_cop and contact.in_contact:
+            self._cop.header = self._header
+            self._cop.point.x, self._cop.point.y = contact.x_m, contact.y_m
+            self._cop_publisher.publish(self._cop)
+
+    def _publish_raw(self, publisher: Publisher) -> None:
+        self._raw.header = self._header
+        self._raw.data = array("B", mono16(self._recovery.image))
+        publisher.publish(self._raw)
+
+    def _publish_confidence(self, publisher: Publisher) -> None:
+        confidence = self._recovery.confidence()
+        if confidence is None:
+            return
+        self._sureness.header = self._header
+        self._sureness.data = array("B", confidence.tobytes())
+        publisher.publish(self._sureness)
+
+    def _publish_view(self) -> None:
+        self._view.header = self._header
+        pixels = rgb8(
+            self._recovery.image,
+            scale=self._settings.image_scale,
+            full_scale_counts=self._settings.image_full_scale_counts,
+        )
+        self._view.data = array("B", pixels)
+        self._view_publisher.publish(self._view)
+
+    def _begin_anew_with(self, sequence: int) -> None:
+        """Forget all frames where this one is of a board that counts from the start again."""
+        if self._began_anew(sequence):
+            self._recovery.reset()
+            if self._objects is not None:
+                self._objects.reset()
+            if self._regions is not None:
+                self._regions.reset()
+
+    def _began_anew(self, sequence: int) -> bool:
+        """Whether the board counts from the start again: half the range back is no gap."""
+        return self._last_sequence is not None and self._gap(sequence) >= _SEQUENCE_MODULUS // 2
+
+    def _follow(self, sequence: int) -> None:
+        if self._last_sequence is not None and not self._began_anew(sequence):
+            self._lost += self._gap(sequence)
+        self._last_sequence = sequence
+
+    def _gap(self, sequence: int) -> int:
+        return (sequence - (self._last_sequence or 0) - 1) % _SEQUENCE_MODULUS
+
+    def _reject(self, kind: str, reason: str) -> None:
+        self._rejected[kind] += 1
+        self.get_logger().warning(f"samples dropped: {reason}", throttle_duration_sec=5.0)
+
+    def _report(self) -> Report:
+        now_s = time.monotonic()
+        rejected = self._rejected.total()
+        before_s, frames, rejected_before, lost_before = self._reported
+        self._reported = (now_s, self._frames, rejected, self._lost)
+        new_frames, new_rejected = self._frames - frames, rejected - rejected_before
+        new_lost = self._lost - lost_before
+        rate_hz = new_frames / max(now_s - before_s, 1e-9)
+        durations_s = list(self._durations_s)
+        self._durations_s.clear()
+        values = {
+            "rate_hz": rate_hz,
+            "frames": self._frames,
+            "lost": self._lost,
+            "rejected.wrong_array_size": self._rejected["wrong_array_size"],
+            "rejected.bad_frame": self._rejected["bad_frame"],
+            "rejected.bad_stamp": self._rejected["bad_stamp"],
+            "rejected.bad_baseline": self._rejected["bad_baseline"],
+            "not_published": self._untold,
+            "not_used": self._unused,
+            "baseline": "subtracted" if self._baseline.is_set else "none",
+            "frame_us.median": 1e6 * median(durations_s) if durations_s else 0.0,
+        }
+        if new_rejected:
+            return WARN, f"{new_rejected} messages dropped that do not fit, see the log", values
+        if not new_frames:
+            return WARN, "no samples", values
+        if new_lost:
+            return WARN, f"{new_lost} frames lost before they came here, {rate_hz:.0f} frames/s", values
+        return OK, f"{rate_hz:.0f} frames/s", values
+
+
+def _empty_image(height: int, width: int, encoding: str, bytes_per_pixel: int) -> Image:
+    return Image(height=height, width=width, encoding=encoding, is_bigendian=0, step=width * bytes_per_pixel)
+
+
+SETTINGS: dict[str, type] = {"reconstruction": ReconstructionSettings}
+"""The settings class of the node, by name."""
+
+
+def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
+    """Run the node; the exit code."""
+    skip_extras()
+    words = list(sys.argv if args is None else args)
+    given = parameters_from(words, SETTINGS)
+    return run([lambda: ReconstructionNode(parameter_overrides=given["reconstruction"])], words, signals)

@@ -1,0 +1,29 @@
+"""Which object presses: sparse representation-based classification, on samples and on images.
+
+In come frames or images and a library of known objects; out comes a class with its confidence, or that none is known.
+"""
+
+from acts_recon.objects.classification import Classification, Classifier, ClassifierConfig
+from acts_recon.objects.image_classification import ImageClassifier, ImageClassifierConfig
+from acts_recon.objects.object_library import (
+    ObjectLibrary,
+    build_object_library,
+    load_object_library,
+    save_object_library,
+)
+from acts_recon.objects.object_recognition import FusedObjects, ObjectRecogniser, PerFrameObjects
+
+__all__ = [
+    "Classification",
+    "Classifier",
+    "ClassifierConfig",
+    "FusedObjects",
+    "ImageClassifier",
+    "ImageClassifierConfig",
+    "ObjectLibrary",
+    "ObjectRecogniser",
+    "PerFrameObjects",
+    "build_object_library",
+    "load_object_library",
+    "save_object_library",
+]

@@ -1,0 +1,322 @@
+"""Which object presses: known objects against an image of which some taxels are surer than others.
+
+Beyond the paper's SRC (`classification`), which explains the samples of one frame. Here the whole skin is
+compared, as far as it is known: an image put together from the samples of several frames, each taxel weighted by its
+uncertainty. Six things make the difference (docs/recovery.md has the figures):
+
+- What was measured and not pressed speaks against an object as loudly as what is pressed speaks for it.
+- An object that has only begun to press shows its lowest parts. Each column of the library is therefore known at
+  several depths: a constant taken off its forces, cut at 0, is on an elastic foundation the same object less deep.
+- How hard is pressed goes with how deep: a small object pressed hard is no large one that has just touched.
+- A class explains the image by a mixture without negative parts of its own columns only: presses between the known.
+- What the last frames left unexplained counts on, fading.
+- Once the skin rests, nothing has to be guessed from few, old or shallow values: SRC on the whole image, among the
+  classes that the comparison ranks first (`image_src`), is then the better judge of objects that are alike,
+  and has its say.
+
+`classify_image` is the plain version, in double precision, of a single image; `ImageClassifier` runs
+`acts_recon.objects.image_classification_kernels`, in single precision, and remembers.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.array import COUNT_MAX
+from acts_core.errors import ArrayError
+from acts_core.settings import setting, validate
+from acts_core.skin import ForceResponse, MeasuredForceResponse
+from acts_core.wire import confidence_of
+from acts_recon.objects import image_classification_kernels as kernels
+from acts_recon.objects import image_src_kernels
+from acts_recon.objects.classification import Classification
+from acts_recon.objects.classification_kernels import decide
+from acts_recon.objects.image_src import (
+    KNOWN_COUNTS,
+    PROPOSED_CLASSES,
+    PROPOSED_COLUMNS,
+    explain_among,
+    proposed_columns,
+)
+from acts_recon.objects.object_library import ObjectLibrary
+from acts_recon.objects.rate_of_change import Unrest
+
+LEVELS = (0.0, 0.2, 0.4, 0.6, 0.75, 0.87, 0.94)
+"""What is taken off a column's forces to know it less deep, as shares of the largest."""
+
+REFINED_CLASSES = 5
+"""Classes that may mix their columns: those of which one column alone explains most."""
+
+MIXED_COLUMNS = 6
+"""Columns, of all depths, that a class mixes: those that alone explain most."""
+
+_LEAST_WEIGHT = 0.01
+"""Below it SRC is not asked: it would take time and change nothing."""
+
+
+@dataclass(frozen=True)
+class ImageClassifierConfig:
+    """Settings of the classification of images."""
+
+    touch_counts: int = setting(15, "counts above which a taxel is pressed; others are 0", minimum=0, maximum=COUNT_MAX)
+    noise_counts: float = setting(6.0, "standard deviation of a fresh, unpressed taxel", minimum=0.1, maximum=COUNT_MAX)
+    relative_error: float = setting(
+        0.08, "standard deviation of a pressed taxel from the library's, of its value", minimum=0, maximum=10
+    )
+    force_error: float = setting(
+        0.2, "standard deviation of how hard is pressed, from the library's at that depth, as a logarithm", minimum=0.01
+    )
+    memory_s: float = setting(0.003, "time in which what a frame said fades to a third [s]", minimum=0, maximum=10)
+    src_weight: float = setting(
+        2.0, "weight of SRC on a resting image against the comparison of images; 0: none", minimum=0, maximum=100
+    )
+    rest_counts_per_s: float = setting(
+        4000.0, "unrest of the skin at which SRC has half its weight [counts/s]", minimum=1, maximum=1e9
+    )
+
+    def __post_init__(self) -> None:
+        validate(self)
+
+
+def less_deep(
+    library: ObjectLibrary, response: ForceResponse | MeasuredForceResponse | None = None
+) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.int64]]:
+    """Every column of a library at all `LEVELS`.
+
+    Parameters
+    ----------
+    library : ObjectLibrary
+    response : ForceResponse or MeasuredForceResponse, optional
+        From counts to newtons and back.
+
+    Returns
+    -------
+    patterns : np.ndarray [shape=(n_columns * n_levels, taxels), dtype=float32]
+        Each of norm 1; 0 throughout where nothing is left of a faint press.
+    norms_counts : np.ndarray [shape=(n_columns * n_levels,), dtype=float32]
+        Norm of each as it was pressed [counts]; 1 where nothing is left.
+    classes : np.ndarray [shape=(n_columns * n_levels,), dtype=int64]
+    """
+    response = ForceResponse() if response is None else response
+    counts = (library.columns * library.norms_counts).T.astype(np.float64)
+    forces_n = response.force_n(counts)
+    # Level 0 is the frame as it was measured; above full scale there is no way from counts to force and back.
+    cut = [counts]
+    for level in LEVELS[1:]:
+        less_n = np.maximum(forces_n - level * forces_n.max(axis=1, keepdims=True), 0.0)
+        cut.append(np.where(less_n > 0, response.counts(less_n), 0.0))
+    patterns = np.stack(cut, axis=1).reshape(-1, counts.shape[1])
+    norms_counts = np.linalg.norm(patterns, axis=1)
+    norms_counts[norms_counts == 0] = 1.0
+    return (
+        (patterns / norms_counts[:, None]).astype(np.float32),
+        norms_counts.astype(np.float32),
+        np.repeat(library.classes, len(LEVELS)),
+    )
+
+
+def against_force(force: float, config: ImageClassifierConfig) -> float:
+    """What a force speaks against a pattern, as a share of the image's square.
+
+    Parameters
+    ----------
+    force : float
+        Of the image in relation to the pattern as it was pressed; above 0.
+    config : ImageClassifierConfig
+    """
+    return (config.relative_error / config.force_error * math.log(force)) ** 2
+
+
+def src_weight(rate_counts_per_s: float, config: ImageClassifierConfig) -> float:
+    """Weight of SRC's residuals against those of the comparison of images, by the unrest of the skin."""
+    return config.src_weight / (1 + (rate_counts_per_s / config.rest_counts_per_s) ** 2)
+
+
+def classify_image(
+    library: ObjectLibrary,
+    image: NDArray[np.floating],
+    sigma: NDArray[np.floating],
+    config: ImageClassifierConfig | None = None,
+    response: ForceResponse | MeasuredForceResponse | None = None,
+) -> Classification:
+    """Classify one image of a resting skin, plainly, without memory; see `ImageClassifier.step`."""
+    # Here: half the time a node takes to start would go by importing it, and nodes use the kernels.
+    from scipy.optimize import nnls
+
+    config = config or ImageClassifierConfig()
+    patterns, norms_counts, classes = less_deep(library, response)
+    x = np.asarray(image, dtype=np.float64).ravel()
+    x = np.where(x > config.touch_counts, x, 0.0)
+    residuals = np.ones(library.n_classes)
+    if not x.any():
+        return Classification(False, 0, residuals, 0.0)
+    spread = np.asarray(sigma, dtype=np.float64).ravel()
+    root = 1 / np.sqrt(config.noise_counts**2 + (config.relative_error * x) ** 2 + spread**2)
+    y, A = root * x, root[:, None] * patterns.T.astype(np.float64)
+    square = y @ y
+    dots, norms = y @ A, np.einsum("ij,ij->j", A, A)
+    left = np.full(library.n_classes, square)
+    # How much of the image each pattern alone explains, less what its force speaks against it.
+    explained = np.zeros(classes.size)
+    for p in np.flatnonzero((dots > 0) & (norms > 0)):
+        force = dots[p] / norms[p] / norms_counts[p]
+        explained[p] = max(dots[p] ** 2 / norms[p] - square * against_force(force, config), 0.0)
+    best = np.array([explained[classes == number].max() for number in range(library.n_classes)])
+    left -= best
+    for number in np.argsort(-best, kind="stable")[:REFINED_CLASSES]:
+        own = np.flatnonzero(classes == number)
+        mixed = own[np.argsort(-explained[own], kind="stable")[:MIXED_COLUMNS]]
+        shares, unexplained = nnls(A[:, mixed], y)
+        force = float((shares / norms_counts[mixed]).sum())
+        if force > 0:
+            left[number] = min(left[number], unexplained**2 + square * against_force(force, config))
+    residuals = np.sqrt(np.maximum(left, 0) / square)
+    src = explain_among(library, proposed_columns(library, residuals, explained[:: len(LEVELS)]), x, spread)
+    if src is not None:
+        weight = src_weight(0.0, config)
+        residuals = (residuals * src**weight) ** (1 / (1 + weight))
+    return Classification(True, int(np.argmin(residuals)), residuals, confidence_of(residuals))
+
+
+class ImageClassifier:
+    """Classifies image after image without allocating; everything is compiled before the first one.
+
+    Parameters
+    ----------
+    library : ObjectLibrary
+        Best of frames whose counts above some 15 are kept: also faint parts tell objects apart.
+    config : ImageClassifierConfig, optional
+    response : ForceResponse or MeasuredForceResponse, optional
+        From counts to newtons and back: how the library's objects look less deep.
+    """
+
+    def __init__(
+        self,
+        library: ObjectLibrary,
+        config: ImageClassifierConfig | None = None,
+        response: ForceResponse | MeasuredForceResponse | None = None,
+    ) -> None:
+        self.library = library
+        self.config = config or ImageClassifierConfig()
+        taxels, n_classes = library.rows * library.cols, library.n_classes
+        model = kernels.Model(*less_deep(library, response), len(LEVELS), n_classes)
+        self._state = kernels.State(taxels, len(model.classes), n_classes)
+        self._model, self._buffers = model.arrays(), self._state.arrays()
+        self._unrest = Unrest(library.rows, library.cols, self.config.touch_counts)
+        workspace = image_src_kernels.Workspace(taxels, n_classes, PROPOSED_CLASSES * PROPOSED_COLUMNS)
+        self._src_model, self._src_buffers = image_src_kernels.Model(library).arrays(), workspace.arrays()
+        self._src_residuals = workspace.residuals
+        self._explained = self._state.explained[:: len(LEVELS)]
+        self._unheard_s = 0.0
+        # Compile, or load from the cache, what the first image would otherwise wait seconds for.
+        image = np.full((library.rows, library.cols), COUNT_MAX, dtype=np.float32)
+        # Nothing was measured, so the skin rests, and everything has its say.
+        self.step(image, np.zeros_like(image), np.full_like(image, np.inf), 0.001)
+        self.reset()
+
+    def reset(self) -> None:
+        """Forget all frames."""
+        self._unrest.reset()
+        self._unheard_s = 0.0
+        self._state.left.fill(0)
+        self._state.energy.fill(0)
+
+    def take(
+        self,
+        image: NDArray[np.float32],
+        sigma: NDArray[np.float32],
+        age_s: NDArray[np.float32],
+        period_s: float,
+    ) -> None:
+        """Take the next image without classifying it: only what it says of how fast the skin changes counts.
+
+        Parameters and errors are those of `step`.
+        """
+        self._doubt(image, sigma, age_s, period_s)
+
+    def step(
+        self,
+        image: NDArray[np.float32],
+        sigma: NDArray[np.float32],
+        age_s: NDArray[np.float32],
+        period_s: float,
+    ) -> Classification:
+        """Classify the next image.
+
+        Parameters
+        ----------
+        image : np.ndarray [shape=(rows, cols), dtype=float32]
+            Counts.
+        sigma : np.ndarray [shape=(rows, cols), dtype=float32]
+            How far each may be off, a standard deviation [counts].
+        age_s : np.ndarray [shape=(rows, cols), dtype=float32]
+            Time since each was measured [s]; inf: never.
+        period_s : float
+            Time since the last image [s].
+
+        Returns
+        -------
+        Classification
+            Its `residuals` are overwritten by the next image: copy what is to be kept.
+
+        Raises
+        ------
+        ArrayError
+            When the image does not fit the library.
+        """
+        config, residuals = self.config, self._state.residuals
+        doubt = self._doubt(image, sigma, age_s, period_s)
+        # What earlier images said fades over the images that were only taken, too.
+        unheard_s, self._unheard_s = self._unheard_s, 0.0
+        touched = kernels.class_residuals(
+            *self._model,
+            image.ravel(),
+            doubt,
+            config.touch_counts,
+            config.noise_counts,
+            config.relative_error,
+            config.relative_error / config.force_error,
+            math.exp(-unheard_s / config.memory_s) if config.memory_s > 0 else 0.0,
+            REFINED_CLASSES,
+            MIXED_COLUMNS,
+            *self._buffers,
+        )
+        if not touched:
+            return Classification(False, 0, residuals, 0.0)
+        weight = src_weight(self._unrest.rate_counts_per_s, config)
+        if weight >= _LEAST_WEIGHT and image_src_kernels.class_residuals(
+            *self._src_model,
+            image.ravel(),
+            doubt,
+            residuals,
+            self._explained,
+            config.touch_counts,
+            KNOWN_COUNTS,
+            PROPOSED_CLASSES,
+            PROPOSED_COLUMNS,
+            *self._src_buffers,
+        ):
+            kernels.weigh(residuals, self._src_residuals, weight)
+        best, confidence = decide(residuals)
+        return Classification(True, best, residuals, confidence)
+
+    def _doubt(
+        self, image: NDArray[np.float32], sigma: NDArray[np.float32], age_s: NDArray[np.float32], period_s: float
+    ) -> NDArray[np.float32]:
+        """How far each taxel may be off by now [counts], flat; checks the image."""
+        shape = (self.library.rows, self.library.cols)
+        for name, array in (("image", image), ("sigma", sigma), ("age_s", age_s)):
+            if array.shape != shape or array.dtype != np.float32 or not array.flags.c_contiguous:
+                raise ArrayError(
+                    f"{name} {array.shape}, {array.dtype}: needed is a C-contiguous float32 array of "
+                    f"{shape[0]} x {shape[1]}"
+                )
+        if not 0 <= period_s < math.inf:
+            raise ArrayError(f"period_s = {period_s}: needed is a finite time, not negative")
+        doubt = self._unrest.step(image, sigma, age_s, period_s).ravel()
+        self._unheard_s += period_s
+        return doubt

@@ -1,0 +1,129 @@
+"""How fast the skin changes at this moment, and so how little an old measurement is worth.
+
+An object that comes down presses many taxels at once. Those not measured since still read untouched; their own past
+gives no reason to doubt them, only what the others do does.
+
+`rate_of_change` is the plain version of what `Unrest` finds in `acts_recon.objects.rate_of_change_kernels`.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.errors import ArrayError
+from acts_recon.objects import rate_of_change_kernels as kernels
+
+_KEPT = 0.6
+"""Part of the rate of change that is kept from frame to frame."""
+
+_SHORTEST_S = 0.0005
+_LONGEST_S = 1.0
+"""Changes within less are not taken for faster, older measurements not for worse."""
+
+_NOISE_COUNTS = 10.0
+"""Changes up to it are none."""
+
+
+def rate_of_change(
+    before: NDArray[np.floating],
+    image: NDArray[np.floating],
+    since_s: NDArray[np.floating],
+    fresh: NDArray[np.bool_],
+    touch_counts: float,
+) -> float:
+    """How fast taxels changed that are or were pressed [counts/s], a root mean square; 0 where there are none.
+
+    Parameters
+    ----------
+    before, image : np.ndarray [dtype=float]
+        What was measured last, and now [counts].
+    since_s : np.ndarray [dtype=float]
+        Time between the two measurements [s].
+    fresh : np.ndarray [dtype=bool]
+        Which taxels were measured now.
+    touch_counts : float
+        Above it a taxel is pressed.
+    """
+    pressed = fresh & (np.maximum(image, before) > touch_counts)
+    change = np.abs(image - before)[pressed]
+    rates = np.where(change > _NOISE_COUNTS, change / np.clip(since_s[pressed], _SHORTEST_S, _LONGEST_S), 0)
+    return float(np.sqrt(np.mean(np.square(rates, dtype=np.float64)))) if rates.size else 0.0
+
+
+class Unrest:
+    """Follows the rate at which pressed taxels change from one measurement to the next, without allocating.
+
+    Parameters
+    ----------
+    rows, cols : int
+    touch_counts : float
+        Above it a taxel is pressed.
+
+    Attributes
+    ----------
+    rate_counts_per_s : float
+        `rate_of_change` of the last frames.
+    """
+
+    def __init__(self, rows: int, cols: int, touch_counts: float) -> None:
+        self._touch_counts = float(touch_counts)
+        self._values = np.zeros(rows * cols, dtype=np.float32)
+        self._ages_s = np.zeros(rows * cols, dtype=np.float32)
+        self._doubt = np.zeros((rows, cols), dtype=np.float32)
+        self.reset()
+
+    def reset(self) -> None:
+        """Forget everything."""
+        self._values.fill(0)
+        self._ages_s.fill(_LONGEST_S)
+        self.rate_counts_per_s = 0.0
+
+    def step(
+        self, image: NDArray[np.float32], sigma: NDArray[np.float32], age_s: NDArray[np.float32], period_s: float
+    ) -> NDArray[np.float32]:
+        """Take the next image.
+
+        Parameters
+        ----------
+        image : np.ndarray [shape=(rows, cols), dtype=float32]
+            Counts; measured taxels have their measured value.
+        sigma : np.ndarray [shape=(rows, cols), dtype=float32]
+            How far each may be off by its own past, a standard deviation [counts].
+        age_s : np.ndarray [shape=(rows, cols), dtype=float32]
+            Time since each was measured [s]; inf: never.
+        period_s : float
+            Time since the last image [s].
+
+        Returns
+        -------
+        np.ndarray [shape=(rows, cols), dtype=float32]
+            How far each taxel may be off, with what it may have changed since it was measured, a standard deviation
+            [counts]; overwritten by the next image.
+
+        Raises
+        ------
+        ArrayError
+            When there is a NaN, an infinite count or deviation, or a negative deviation or age. Everything is left as
+            it was.
+        """
+        flat = image.ravel(), sigma.ravel(), age_s.ravel()
+        if not kernels.possible(*flat):
+            raise ArrayError(
+                "image with NaN, infinite counts or sigma, or negative sigma or age_s: needed are the fields of one "
+                "estimate (acts_recon.fusion.fusion)"
+            )
+        self.rate_counts_per_s = kernels.follow(
+            *flat,
+            period_s,
+            self._touch_counts,
+            _NOISE_COUNTS,
+            _SHORTEST_S,
+            _LONGEST_S,
+            _KEPT,
+            self.rate_counts_per_s,
+            self._values,
+            self._ages_s,
+            self._doubt.ravel(),
+        )
+        return self._doubt

@@ -1,0 +1,58 @@
+"""Sparse recovery: an image out of the samples of one frame alone, as a sum of few atoms of a dictionary.
+
+In come samples and a dictionary of patches; out comes the image. FastOMP (paper, section "Reconstruction") is here as a
+plain reference and as kernels.
+"""
+
+from acts_recon.sparse import fastomp_kernels
+from acts_recon.sparse.dictionary import Dictionary, load_dictionary, save_dictionary
+from acts_recon.sparse.fastomp_kernels import pursue, solve
+from acts_recon.sparse.fastomp_model import (
+    ALLOWED,
+    CHOSEN,
+    MEASURED,
+    N_CHOSEN,
+    ORDER,
+    PRESSED,
+    RESIDUAL_ROWS,
+    Y_ROWS,
+    PatchModel,
+    Problems,
+    Workspace,
+    in_blocks,
+)
+from acts_recon.sparse.fastomp_reference import REGULARISATION, SPARSITY_RATIO, fast_omp, sparsity
+from acts_recon.sparse.patches import PatchLayout, patch_layout, patch_starts
+from acts_recon.sparse.reconstructor import Reconstructor, ReconstructorConfig
+from acts_recon.sparse.shipped import shipped_dictionary_path
+
+__all__ = [
+    "ALLOWED",
+    "CHOSEN",
+    "MEASURED",
+    "N_CHOSEN",
+    "ORDER",
+    "PRESSED",
+    "REGULARISATION",
+    "RESIDUAL_ROWS",
+    "SPARSITY_RATIO",
+    "Y_ROWS",
+    "Dictionary",
+    "PatchLayout",
+    "PatchModel",
+    "Problems",
+    "Reconstructor",
+    "ReconstructorConfig",
+    "Workspace",
+    "fast_omp",
+    "fastomp_kernels",
+    "in_blocks",
+    "load_dictionary",
+    "patch_layout",
+    "patch_starts",
+    "pursue",
+    "save_dictionary",
+    "shipped_dictionary_path",
+    "solve",
+    "sparsity",
+]

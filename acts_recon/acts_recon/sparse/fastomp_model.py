@@ -1,0 +1,159 @@
+"""What the kernels of FastOMP work on: the dictionary as they read it, and their buffers, allocated once."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_recon.sparse.fastomp_reference import SPARSITY_RATIO, sparsity
+from acts_recon.sparse.patches import PatchLayout
+
+_CACHE_LINE_BYTES = 64
+
+MEASURED, PRESSED, ALLOWED, N_CHOSEN, ORDER, BEST, CHOSEN = range(7)
+"""Rows of `Problems.table`, see there; from `CHOSEN` on a row for each atom."""
+
+Y_ROWS, RESIDUAL_ROWS, Q_ROWS = range(3)
+"""First index of `Problems.rows`, see there; from `Q_ROWS` on one for each atom."""
+
+BLOCK = 512
+"""Atoms whose correlations are computed together. (Of 128 to 1024 all are about as fast.)"""
+
+
+def in_blocks(atoms: NDArray[np.floating]) -> NDArray[np.float32]:
+    """Lay a dictionary out for `acts_recon.sparse.fastomp_kernels.choose`.
+
+    Parameters
+    ----------
+    atoms : np.ndarray [shape=(n_pixels, n_atoms), dtype=float]
+
+    Returns
+    -------
+    np.ndarray [shape=(n_blocks, n_pixels, BLOCK), dtype=float32]
+        Filled up with atoms of zeros, which are never chosen.
+    """
+    n_pixels, n_atoms = atoms.shape
+    n_blocks = -(-n_atoms // BLOCK)
+    filled = np.zeros((n_pixels, n_blocks * BLOCK), dtype=np.float32)
+    filled[:, :n_atoms] = atoms
+    return _aligned(filled.reshape(n_pixels, n_blocks, BLOCK).transpose(1, 0, 2))
+
+
+class PatchModel:
+    """A dictionary and a layout as `acts_recon.sparse.fastomp_kernels.recover_image` takes them.
+
+    Pixels of a patch are numbered row by row here, as taxels are: whole rows of a patch go to the image at once.
+
+    Parameters
+    ----------
+    layout : PatchLayout
+    atoms : np.ndarray [shape=(size * size, n_atoms), dtype=float]
+        Dictionary, pixels numbered as by `PatchLayout`.
+    """
+
+    def __init__(self, layout: PatchLayout, atoms: NDArray[np.floating]) -> None:
+        # This numbering is its own inverse.
+        column_first = np.arange(layout.size**2).reshape(layout.size, layout.size).T.ravel()
+        by_rows = atoms[column_first]
+        self._arguments: tuple[NDArray | int, ...] = (
+            in_blocks(by_rows),
+            _aligned(by_rows.T),
+            layout.taxels[:, 0].astype(np.uint32),
+            _holders(layout, column_first),
+            (1 / layout.overlap).astype(np.float32),
+            layout.size,
+            layout.cols,
+        )
+
+    def arguments(self) -> tuple[NDArray | int, ...]:
+        """In the order in which `recover_image` takes them."""
+        return self._arguments
+
+
+class Problems:
+    """The buffers of `acts_recon.sparse.fastomp_kernels.pursue`: few and large, since each costs every call time.
+
+    Parameters
+    ----------
+    n : int
+        Problems at most.
+    n_pixels : int
+        Measured pixels of each at most.
+    n_atoms : int
+        Atoms that each is allowed at most.
+
+    Attributes
+    ----------
+    pixels : np.ndarray [shape=(n, n_pixels), dtype=uint32]
+        Given: which pixels of each problem were measured, those that do not read 0 first.
+    table : np.ndarray [shape=(CHOSEN + n_atoms, n), dtype=int32]
+        Given: how many pixels were measured (`MEASURED`), how many of them do not read 0 (`PRESSED`), how many atoms
+        are `ALLOWED`, and which problems there are (`ORDER`; overwritten). Found: how many atoms were chosen
+        (`N_CHOSEN`), and which (from `CHOSEN` on). The others are for work.
+    rows : np.ndarray [shape=(Q_ROWS + n_atoms, n, n_pixels), dtype=float32]
+        Given: what was measured (`Y_ROWS`). For work: what is left to explain (`RESIDUAL_ROWS`), and the orthogonalised
+        atoms (from `Q_ROWS` on).
+    systems : np.ndarray [shape=(n, n_atoms, n_atoms + 1), dtype=float32]
+        Found: the triangular system of equations, the right side in the last column.
+    sums : np.ndarray [shape=(BLOCK,), dtype=float32]
+    largest : np.ndarray [shape=(n,), dtype=float32]
+        For work: correlations with the atoms of a block, and the largest of each problem.
+    """
+
+    def __init__(self, n: int, n_pixels: int, n_atoms: int) -> None:
+        self.pixels = np.zeros((n, n_pixels), dtype=np.uint32)
+        self.table = np.zeros((CHOSEN + n_atoms, n), dtype=np.int32)
+        self.rows = _aligned(np.zeros((Q_ROWS + n_atoms, n, n_pixels)))
+        self.systems = np.zeros((n, n_atoms, n_atoms + 1), dtype=np.float32)
+        self.sums = _aligned(np.zeros(BLOCK))
+        self.largest = np.zeros(n, dtype=np.float32)
+
+    def arrays(self) -> tuple[NDArray, ...]:
+        """In the order in which `pursue` takes them."""
+        return (self.pixels, self.table, self.rows, self.systems, self.sums, self.largest)
+
+
+class Workspace:
+    """The buffers that `recover_image` works in, allocated once.
+
+    Parameters
+    ----------
+    layout : PatchLayout
+    ratio : float
+        Atoms per measured pixel.
+    """
+
+    def __init__(self, layout: PatchLayout, ratio: float = SPARSITY_RATIO) -> None:
+        n_pixels = layout.size**2
+        self._arrays = (
+            np.zeros(layout.rows * layout.cols, dtype=np.bool_),
+            *Problems(layout.n_patches, n_pixels, sparsity(n_pixels, ratio)).arrays(),
+        )
+
+    def arrays(self) -> tuple[NDArray, ...]:
+        """In the order in which `recover_image` takes them."""
+        return self._arrays
+
+
+def _holders(layout: PatchLayout, pixel_of: NDArray[np.integer]) -> NDArray[np.uint32]:
+    """For every taxel how many patches hold it, then for each of them which patch, and which pixel of it."""
+    counts = np.diff(layout.entry_start)
+    holders = np.zeros((counts.size, 1 + 2 * int(counts.max())), dtype=np.uint32)
+    holders[:, 0] = counts
+    taxel = np.repeat(np.arange(counts.size), counts)
+    place = np.arange(taxel.size) - layout.entry_start[taxel]
+    holders[taxel, 1 + 2 * place] = layout.entry_patch
+    holders[taxel, 2 + 2 * place] = pixel_of[layout.entry_pixel]
+    return holders
+
+
+def _aligned(values: NDArray) -> NDArray[np.float32]:
+    """A copy that begins where a line of the cache does: vectors that straddle two lines take half as long again."""
+    size = 4 * math.prod(values.shape)
+    buffer = np.zeros(size + _CACHE_LINE_BYTES, dtype=np.uint8)
+    skip = -buffer.ctypes.data % _CACHE_LINE_BYTES
+    array = buffer[skip : skip + size].view(np.float32).reshape(values.shape)
+    array[:] = values
+    return array

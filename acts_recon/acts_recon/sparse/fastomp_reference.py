@@ -1,0 +1,115 @@
+"""FastOMP, plain: recovery of a tactile image from few taxels, patch by patch.
+
+The readable twin of `fastomp_kernels`, in double precision. The method is the paper's ("Sparse Recovery and
+Tactile Reconstruction"; its reference 49) with the details of the published analysis: greedy pursuit with Gram-Schmidt
+on the chosen columns, S = a quarter of the measured pixels of a patch, columns not re-normalised after the measured
+rows are picked, overlapping patches averaged.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_recon.sparse.patches import PatchLayout
+
+REGULARISATION = 1e-4
+"""Added to the squared norm of every orthogonalised column, so that one that adds nothing does not divide by 0."""
+
+SPARSITY_RATIO = 0.25
+"""Atoms allowed per measured pixel of a patch."""
+
+
+def sparsity(measured: int, ratio: float = SPARSITY_RATIO) -> int:
+    """Number of atoms for a patch with `measured` pixels: ``round(ratio * measured)``, halves up, at least 1."""
+    return max(1, math.floor(ratio * measured + 0.5))
+
+
+def fast_omp(
+    A: NDArray[np.floating], y: NDArray[np.floating], n_atoms: int
+) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """Approximate ``y = A[:, chosen] @ coefficients`` with at most `n_atoms` columns.
+
+    Parameters
+    ----------
+    A : np.ndarray [shape=(m, n_columns), dtype=float]
+        The rows of the dictionary that were measured.
+    y : np.ndarray [shape=(m,), dtype=float]
+        What was measured.
+    n_atoms : int
+        Columns to choose, at least 1. Fewer are chosen when nothing is left to explain.
+
+    Returns
+    -------
+    chosen : np.ndarray [shape=(s,), dtype=int64]
+        Columns, in the order of choice.
+    coefficients : np.ndarray [shape=(s,), dtype=float64]
+    """
+    A = np.asarray(A, dtype=np.float64)
+    y = np.asarray(y, dtype=np.float64)
+    residual = y.copy()
+    R = np.zeros((n_atoms, n_atoms))
+    Q = np.zeros((n_atoms, y.size))
+    chosen: list[int] = []
+    for i in range(n_atoms):
+        correlation = np.abs(residual @ A)
+        atom = int(np.argmax(correlation))
+        if correlation[atom] == 0:
+            break
+        w = A[:, atom].copy()
+        for j in range(i):
+            R[j, i] = Q[j] @ w
+            w -= R[j, i] * Q[j] / R[j, j]
+        R[i, i] = w @ w + REGULARISATION
+        Q[i] = w
+        residual -= (w @ residual) * w / R[i, i]
+        chosen.append(atom)
+    s = len(chosen)
+    v = Q[:s] @ y
+    coefficients = np.zeros(s)
+    for i in range(s - 1, -1, -1):
+        coefficients[i] = (v[i] - R[i, i + 1 : s] @ coefficients[i + 1 :]) / R[i, i]
+    return np.array(chosen, dtype=np.int64), coefficients
+
+
+def recover_image(
+    layout: PatchLayout,
+    atoms: NDArray[np.floating],
+    indices: NDArray[np.integer],
+    values: NDArray[np.floating],
+    *,
+    ratio: float = SPARSITY_RATIO,
+) -> NDArray[np.float64]:
+    """Recover an image from samples, without clipping and without putting the samples back in.
+
+    Parameters
+    ----------
+    layout : PatchLayout
+    atoms : np.ndarray [shape=(size * size, n_atoms), dtype=float]
+        Dictionary.
+    indices : np.ndarray [shape=(m,), dtype=int]
+        Row-major taxel indices, none twice.
+    values : np.ndarray [shape=(m,), dtype=float]
+        What was measured there; 0 where not pressed.
+    ratio : float
+        See `sparsity`.
+
+    Returns
+    -------
+    np.ndarray [shape=(rows, cols), dtype=float64]
+    """
+    value = np.zeros(layout.rows * layout.cols)
+    measured = np.zeros(value.size, dtype=bool)
+    value[indices] = values
+    measured[indices] = True
+    total = np.zeros(value.size)
+    for taxels in layout.taxels:
+        rows = np.flatnonzero(measured[taxels])
+        y = value[taxels[rows]]
+        if not y.any():
+            continue
+        chosen, coefficients = fast_omp(atoms[rows], y, sparsity(rows.size, ratio))
+        total[taxels] += np.asarray(atoms[:, chosen], dtype=np.float64) @ coefficients
+    return (total / layout.overlap).reshape(layout.rows, layout.cols)

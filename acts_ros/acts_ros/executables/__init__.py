@@ -1,0 +1,1 @@
+"""What every executable begins with: signals, then imports, then nodes."""

@@ -1,0 +1,70 @@
+"""The executables of the packages: signals first, then the imports, then the nodes."""
+
+from __future__ import annotations
+
+import gc
+import sys
+from collections.abc import Sequence
+from importlib import import_module
+from pathlib import Path
+
+from acts_core.errors import REFUSED_EXIT_CODE, ActsError, exit_code
+from acts_core.stop_signals import StopSignals
+from acts_ros.executables.refused import stay, take_stay_word
+
+
+class Program:
+    """An executable, as an entry point of ``setup.py``; imports its module when it is called.
+
+    Parameters
+    ----------
+    module : str
+        Name of the module; it has a function ``main(signals: StopSignals) -> int``. Where it has ``SETTINGS``, the
+        settings class of each of its nodes by the node's name, ``--help`` prints what it does and its parameters; else
+        ``main`` answers that itself.
+    """
+
+    def __init__(self, module: str) -> None:
+        self._module = module
+
+    def __call__(self) -> int:
+        """Run it; the exit code."""
+        stays = take_stay_word(sys.argv)
+        code = self._run()
+        if code == REFUSED_EXIT_CODE and stays:
+            stay()
+        return code
+
+    def _run(self) -> int:
+        signals = StopSignals()
+        try:
+            with signals.interrupting():
+                # What is imported stays: to look for garbage in it again and again takes a tenth of the start.
+                gc.disable()
+                module = import_module(self._module)
+                gc.freeze()
+                gc.enable()
+                if hasattr(module, "SETTINGS") and _asks_for_help(sys.argv[1:]):
+                    help_page = import_module("acts_ros.executables.program_help")
+                    print(help_page.program_help(Path(sys.argv[0]).name, module.__doc__ or "", module.SETTINGS))
+                    return 0
+            return int(module.main(signals))
+        except ActsError as error:
+            print(f"error: {error}", file=sys.stderr, flush=True)
+            return exit_code(error)
+        except KeyboardInterrupt:
+            # Asked to end before anything had begun.
+            return 0
+        finally:
+            signals.ended()
+
+
+def _asks_for_help(words: Sequence[str]) -> bool:
+    """Whether the words of a command line ask for help; what is ROS's is not looked at."""
+    own = words[: words.index("--ros-args")] if "--ros-args" in words else words
+    return "-h" in own or "--help" in own
+
+
+if __name__ == "__main__":
+    # python3 -m acts_ros.executables.program acts_driver.nodes.driver_node --ros-args ...
+    sys.exit(Program(sys.argv.pop(1))())

@@ -1,0 +1,22 @@
+"""Messages as bytes and as our own types.
+
+In come frames, contacts and regions; out come the bytes in which they travel, and back.
+"""
+
+from acts_ros.messages.cdr import ContactFields, header_of, read_contact, write_contact
+from acts_ros.messages.regions_cdr import read_regions, write_regions
+from acts_ros.messages.sample_messages import SamplesMessage, frame_of, stamp_ns_of
+from acts_ros.messages.skin_frame import skin_frame
+
+__all__ = [
+    "ContactFields",
+    "SamplesMessage",
+    "frame_of",
+    "header_of",
+    "read_contact",
+    "read_regions",
+    "skin_frame",
+    "stamp_ns_of",
+    "write_contact",
+    "write_regions",
+]

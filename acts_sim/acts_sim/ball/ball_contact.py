@@ -1,0 +1,115 @@
+"""What a ball lying on the skin presses: a sphere in foam over the array, in counts of every taxel.
+
+The foam is an elastic foundation: its pressure is its stiffness times how deep the sphere sits in it, so that inside
+the contact circle ``p(r) = k (depth - r^2 / (2 R))``. The force of all of it, ``pi k R depth^2``, balances the load,
+which gives the depth. On its way through the foam the pressure spreads as a Gaussian; each taxel carries the mean over
+its square and turns it into counts through the force response.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.array import ArrayGeometry
+from acts_core.settings import setting, validate
+from acts_core.skin import ForceResponse
+from acts_sim.ball.ball_kernels import SPREAD_OFFSETS, SPREAD_WEIGHTS, SUBPOINTS, press
+
+
+@dataclass(frozen=True)
+class ContactConfig:
+    """The foam over the array.
+
+    The default stiffness is that of 8 mm of soft neoprene sponge: its grade 2A1 of ASTM D1056 takes 14 to 34 kPa at
+    25 % compression, so 0.7e7 to 1.7e7 N/m^3. A steel ball of 50 mm then sits 2.8 mm deep on a circle of 24 mm, 5
+    taxels of the paper's array. The paper names neoprene foam (S11) but neither its thickness nor its stiffness: an
+    assumption.
+    """
+
+    foam_stiffness_n_per_m3: float = setting(
+        8.0e6, "pressure of the foam over the depth pressed into it [N/m^3]", minimum=1e5, maximum=1e10
+    )
+    foam_spread_m: float = setting(
+        0.0020, "standard deviation of how the foam spreads pressure sideways [m]", minimum=0.0, maximum=0.02
+    )
+
+    def __post_init__(self) -> None:
+        validate(self)
+
+
+def depth_m(config: ContactConfig, radius_m: float, load_n: float) -> float:
+    """How deep a sphere sits in the foam under a load [m]; 0 without load."""
+    return math.sqrt(max(load_n, 0.0) / (math.pi * config.foam_stiffness_n_per_m3 * radius_m))
+
+
+def forces_n(
+    config: ContactConfig, geometry: ArrayGeometry, radius_m: float, x_m: float, y_m: float, load_n: float
+) -> NDArray[np.float64]:
+    """Force on every taxel, written plainly; `BallContact` computes the same much faster.
+
+    Parameters
+    ----------
+    config : ContactConfig
+    geometry : ArrayGeometry
+    radius_m : float
+        Of the ball.
+    x_m, y_m : float
+        Where the ball is, in the skin's frame.
+    load_n : float
+        Normal force between ball and skin.
+
+    Returns
+    -------
+    np.ndarray [shape=(rows, cols), dtype=float64]
+        [N]
+    """
+    depth = depth_m(config, radius_m, load_n)
+    total = np.zeros((geometry.rows, geometry.cols))
+    sub = ((np.arange(SUBPOINTS) + 0.5) / SUBPOINTS - 0.5) * geometry.pitch_m
+    col_x, row_y = geometry.x_m(np.arange(geometry.cols)), geometry.y_m(np.arange(geometry.rows))
+    for offset_x, weight_x in zip(SPREAD_OFFSETS, SPREAD_WEIGHTS, strict=True):
+        for offset_y, weight_y in zip(SPREAD_OFFSETS, SPREAD_WEIGHTS, strict=True):
+            x = (col_x[:, None] + sub + offset_x * config.foam_spread_m) - x_m
+            y = (row_y[:, None] + sub + offset_y * config.foam_spread_m) - y_m
+            rise = depth - (x[None, :, None, :] ** 2 + y[:, None, :, None] ** 2) / (2 * radius_m)
+            total += weight_x * weight_y * np.maximum(rise, 0.0).mean(axis=(2, 3))
+    return config.foam_stiffness_n_per_m3 * geometry.taxel_area_m2 * total
+
+
+class BallContact:
+    """The field of counts under a ball, computed in place a thousand times a second.
+
+    Attributes
+    ----------
+    counts : np.ndarray [shape=(rows, cols), dtype=float64]
+        What the last `press` left: ADC counts before noise and rounding.
+    """
+
+    def __init__(
+        self, config: ContactConfig, geometry: ArrayGeometry, radius_m: float, response: ForceResponse | None = None
+    ) -> None:
+        self._config = config
+        self._geometry = geometry
+        self._radius_m = radius_m
+        self._response = response or ForceResponse()
+        self.counts = np.zeros((geometry.rows, geometry.cols))
+
+    def press(self, x_m: float, y_m: float, load_n: float) -> None:
+        """Press a ball at a place of the skin [m] with a normal force [N]; 0 N leaves the skin untouched."""
+        press(
+            self.counts,
+            self._geometry.pitch_m,
+            x_m,
+            y_m,
+            self._radius_m,
+            depth_m(self._config, self._radius_m, load_n),
+            self._config.foam_stiffness_n_per_m3,
+            self._config.foam_spread_m,
+            self._response.full_scale_counts,
+            self._response.dead_n,
+            self._response.half_n,
+        )

@@ -1,0 +1,124 @@
+"""The plate under the ball: how the skin moves when the arm that carries it moves its joints."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.settings import setting, validate
+from acts_core.ur5e import DH_A_M, DH_ALPHA_RAD, DH_D_M
+from acts_sim.ball.ball_kernels import plate_motion, plate_pose
+
+_DH = np.column_stack([DH_A_M, DH_D_M, DH_ALPHA_RAD])
+
+# Short against anything the arm does, long against rounding: 1e-16 m over (1 ms)^2 is 1e-10 m/s^2.
+_DIFFERENCE_S = 0.001
+
+# A UR5e turns its joints by 2 pi to either side at up to pi rad/s; far beyond that is a mistake, not a motion.
+_LARGEST_ANGLE_RAD = 100.0
+_LARGEST_VELOCITY_RAD_S = 100.0
+_LARGEST_ACCELERATION_RAD_S2 = 1e5
+
+
+@dataclass(frozen=True)
+class PlateConfig:
+    """How the plate is mounted on the UR5e's flange."""
+
+    mount_yaw_rad: float = setting(
+        0.0, "turn of the skin against the flange about its z axis [rad]", minimum=-7.0, maximum=7.0
+    )
+    surface_height_m: float = setting(
+        0.020, "distance of the skin's surface from the flange [m]", minimum=0.0, maximum=0.5
+    )
+
+    def __post_init__(self) -> None:
+        validate(self)
+
+
+@dataclass(frozen=True)
+class JointMotion:
+    """What the arm's joints do at an instant.
+
+    Attributes
+    ----------
+    q_rad, qd_rad_s, qdd_rad_s2 : np.ndarray [shape=(6,), dtype=float64]
+        Angles, velocities and accelerations, base to wrist 3.
+    """
+
+    q_rad: NDArray[np.float64]
+    qd_rad_s: NDArray[np.float64]
+    qdd_rad_s2: NDArray[np.float64]
+
+    @classmethod
+    def still(cls, q_rad: NDArray[np.float64]) -> JointMotion:
+        """An arm at rest."""
+        return cls(np.asarray(q_rad, dtype=np.float64), np.zeros(6), np.zeros(6))
+
+    def is_plausible(self) -> bool:
+        """Whether every number is finite and within what any arm could do."""
+        # A comparison with NaN is false.
+        return bool(
+            np.abs(self.q_rad).max() <= _LARGEST_ANGLE_RAD
+            and np.abs(self.qd_rad_s).max() <= _LARGEST_VELOCITY_RAD_S
+            and np.abs(self.qdd_rad_s2).max() <= _LARGEST_ACCELERATION_RAD_S2
+        )
+
+
+@dataclass(frozen=True)
+class PlateMotion:
+    """What the ball feels of the plate, in the skin's frame.
+
+    Attributes
+    ----------
+    rows : np.ndarray [shape=(4, 3), dtype=float64]
+        Gravity minus the acceleration of the surface's origin [m/s^2]; angular velocity [rad/s]; angular acceleration
+        [rad/s^2]; upward vertical (unit vector).
+    """
+
+    rows: NDArray[np.float64]
+
+    @property
+    def slope(self) -> float:
+        """Sine of the angle between the plate and the level; 2 where it is upside down."""
+        x, y, z = self.rows[3].tolist()
+        return float((x * x + y * y) ** 0.5) if z > 0 else 2.0
+
+    @property
+    def turn_rate_rad_s(self) -> float:
+        """How fast the plate turns."""
+        x, y, z = self.rows[1].tolist()
+        return float((x * x + y * y + z * z) ** 0.5)
+
+
+def pose(config: PlateConfig, q_rad: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Pose of the skin in the robot's base frame.
+
+    Parameters
+    ----------
+    config : PlateConfig
+    q_rad : np.ndarray [shape=(6,), dtype=float64]
+
+    Returns
+    -------
+    rotation : np.ndarray [shape=(3, 3), dtype=float64]
+        Columns are the skin's axes.
+    origin_m : np.ndarray [shape=(3,), dtype=float64]
+    """
+    rotation, origin_m = plate_pose(q_rad, _DH, config.mount_yaw_rad, config.surface_height_m)
+    return rotation, origin_m
+
+
+def motion(config: PlateConfig, joints: JointMotion) -> PlateMotion:
+    """How the plate moves when the joints do so."""
+    rows = plate_motion(
+        joints.q_rad,
+        joints.qd_rad_s,
+        joints.qdd_rad_s2,
+        _DH,
+        config.mount_yaw_rad,
+        config.surface_height_m,
+        _DIFFERENCE_S,
+    )
+    return PlateMotion(rows)

@@ -1,0 +1,162 @@
+"""The node `ball_world`: the simulated plate with its ball, between the robot's joints and the board's taxels.
+
+Publishes the ball's true position on ``ball/truth``, so that what controls it can be scored. Nothing that controls it
+subscribes to that.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from geometry_msgs.msg import PointStamped
+from rclpy.node import Node
+
+from acts_core.errors import ActsError, SettingsError
+from acts_core.runtime import RealtimeConfig, enter_realtime
+from acts_core.settings import setting
+from acts_core.stop_signals import StopSignals
+from acts_ros import qos
+from acts_ros.clocks import keep_system_clock
+from acts_ros.composition import parameters_from
+from acts_ros.diagnostics import ERROR, OK, WARN, DiagnosticsReporter, Report
+from acts_ros.executor import run
+from acts_ros.log import log_of
+from acts_ros.messages import skin_frame
+from acts_ros.parameters import declare, node_options
+from acts_sim.ball.joint_follower import JointFollower, JointSource
+from acts_sim.ball.world import Phase, World, WorldConfig, WorldState
+from acts_sim.ball.world_loop import STEP_NS, LoopStatistics, WorldLoop
+from acts_sim.shared import Claim, TimedRingWriter, default_run_dir
+
+_NS_PER_MS = 1_000_000
+_NS_PER_S = 1_000_000_000
+
+
+@dataclass(frozen=True)
+class BallWorldSettings(RealtimeConfig, WorldConfig):
+    """Parameters of the node: the world's, and what it is connected to."""
+
+    field_ring: str = setting(
+        "", "shared file the pressure field is written to; empty: field.ring in the folder /dev/shm/acts-USER"
+    )
+    joint_ring: str = setting(
+        "",
+        "shared file the simulated robot writes its joints to; none: no robot, the plate lies still; empty: "
+        "joints.ring in the folder /dev/shm/acts-USER",
+    )
+    frame_id: str = setting("", "frame of the skin; empty or none: the name of the namespace, with _ for /")
+    truth_every: int = setting(
+        8, "the ball's true position is published every so many milliseconds, even ones", minimum=2, maximum=1000
+    )
+
+    def __post_init__(self) -> None:
+        RealtimeConfig.__post_init__(self)
+        if self.truth_every % 2:
+            raise SettingsError(f"truth_every = {self.truth_every}: allowed is an even number, a step takes 2 ms")
+
+
+class BallWorld(Node):
+    """Translates between ROS and the world; the world itself runs in a thread of its own."""
+
+    def __init__(self, **node_arguments: Any) -> None:
+        super().__init__("ball_world", **node_options(), **node_arguments)
+        settings = declare(self, BallWorldSettings)
+        keep_system_clock(self, "robot, ball and board are simulated as fast as real ones, and share the steady clock")
+        self._settings = settings
+        self._frame_id = skin_frame(self, settings.frame_id)
+        self._truth = self.create_publisher(PointStamped, "ball/truth", qos.STATE)
+        self._message = PointStamped()
+        self._message.header.frame_id = self._frame_id
+        self._steps = 0
+        self._refused_reported = 0
+        self._reported = (time.monotonic(), LoopStatistics())
+        field_ring = Path(settings.field_ring or default_run_dir() / "field.ring")
+        joint_ring = settings.joint_ring or str(default_run_dir() / "joints.ring")
+        self._claim = Claim(field_ring)
+        self._world = World(settings)
+        self._joints = JointFollower(None if joint_ring == "none" else Path(joint_ring))
+        self._ring = TimedRingWriter(field_ring, settings.rows * settings.cols)
+        self._loop = WorldLoop(self._world, self._joints, self._ring, self._publish, on_running=self._enter_realtime)
+        self._diagnostics = DiagnosticsReporter(self, str(field_ring), self._report)
+        self.get_logger().info(
+            f"ball of {settings.diameter_m * 1000:g} mm, {settings.mass_kg:.3f} kg; field in {field_ring}, "
+            f"joints from {joint_ring}"
+        )
+
+    def begin(self) -> None:
+        """Let the world go."""
+        self._loop.start()
+
+    def close(self) -> None:
+        """Stop the world and remove its ring."""
+        self._loop.stop()
+        self._ring.close()
+        self._claim.close()
+
+    def _enter_realtime(self) -> None:
+        enter_realtime(self._settings, "ball_world", log_of(self))
+
+    def _publish(self, time_ns: int, state: WorldState) -> None:
+        self._steps += 1
+        every_steps = self._settings.truth_every * _NS_PER_MS // STEP_NS
+        if state.phase is not Phase.ROLLING or self._steps % every_steps:
+            return
+        if not self._truth.get_subscription_count():
+            return
+        stamp_ns = self.get_clock().now().nanoseconds + time_ns - time.monotonic_ns()
+        message = self._message
+        message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp_ns, _NS_PER_S)
+        message.point.x = state.ball.x_m
+        message.point.y = state.ball.y_m
+        self._truth.publish(message)
+
+    def _report(self) -> Report:
+        if self._loop.failure is not None:
+            raise ActsError(f"the world has stopped: {self._loop.failure!r}")
+        state, loop, source = self._world.state, self._loop.statistics, self._joints.source
+        now_s = time.monotonic()
+        before_s, before = self._reported
+        self._reported = (now_s, loop)
+        refused = state.joints_refused - self._refused_reported
+        self._refused_reported = state.joints_refused
+        values = {
+            "ball": state.phase.value,
+            "ball_x_m": state.ball.x_m,
+            "ball_y_m": state.ball.y_m,
+            "load_n": state.ball.load_n,
+            "rate_hz": (loop.steps - before.steps) / max(now_s - before_s, 1e-9),
+            "late": loop.late,
+            "latest_s": loop.latest_s,
+            "skipped": loop.skipped,
+            "joints": source.value,
+            "joints_refused": state.joints_refused,
+            "pushes": state.pushes,
+            "falls": state.falls,
+        }
+        if refused:
+            return ERROR, f"{refused} joint states were NaN or beyond reason; the plate keeps its last pose", values
+        if source not in (JointSource.NONE, JointSource.FOLLOWED):
+            why = f" ({self._joints.problem})" if self._joints.problem else ""
+            return WARN, f"{source.value}{why}; the plate rests", values
+        if loop.skipped > before.skipped:
+            stood_ms = (loop.skipped - before.skipped) * STEP_NS // _NS_PER_MS
+            return WARN, f"the world stood still for {stood_ms} ms", values
+        if state.phase is Phase.FALLEN:
+            return WARN, "the ball has fallen off the plate", values
+        return OK, f"the ball is {state.phase.value}", values
+
+
+SETTINGS: dict[str, type] = {"ball_world": BallWorldSettings}
+"""The settings class of the node, by name."""
+
+
+def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
+    """Run the node; the exit code."""
+    words = list(sys.argv if args is None else args)
+    given = parameters_from(words, SETTINGS)
+    return run([lambda: BallWorld(parameter_overrides=given["ball_world"])], words, signals)

@@ -1,0 +1,193 @@
+"""The simulated world of the ball-balancing task: arm, plate, ball, and what the ball presses on the skin.
+
+One step: the joints move the plate, the plate moves the ball, the ball presses the taxels. No clock and no process
+inside; the same seed and the same joints give the same world.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from enum import Enum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.array import ArrayGeometry
+from acts_core.settings import setting, validate
+from acts_core.ur5e import LEVEL_Q_RAD
+from acts_sim.ball import ball, ball_plate
+from acts_sim.ball.ball import BallConfig, BallState
+from acts_sim.ball.ball_contact import BallContact, ContactConfig
+from acts_sim.ball.ball_plate import JointMotion, PlateConfig
+
+
+class Phase(Enum):
+    """Where the ball is."""
+
+    AWAITED = "not yet on the plate"
+    ROLLING = "on the plate"
+    FALLEN = "fallen off the plate"
+
+
+@dataclass(frozen=True)
+class WorldConfig(BallConfig, ContactConfig, PlateConfig):
+    """Everything that can be set about the world."""
+
+    rows: int = setting(32, "rows of the array", minimum=1, maximum=64)
+    cols: int = setting(32, "columns of the array", minimum=1, maximum=64)
+    pitch_m: float = setting(0.140 / 32, "distance between neighbouring taxels [m]", minimum=1e-4, maximum=0.1)
+    start_x_m: float = setting(0.020, "where the ball is put, x in the skin's frame [m]", minimum=-3.0, maximum=3.0)
+    start_y_m: float = setting(-0.015, "where the ball is put, y in the skin's frame [m]", minimum=-3.0, maximum=3.0)
+    start_after_s: float = setting(
+        3.0, "the ball is put on the plate this long after the start [s]", minimum=0.0, maximum=1e6
+    )
+    start_slope: float = setting(
+        0.03, "and then as soon as the plate is flatter than this (sine of its tilt)", minimum=0.0, maximum=2.0
+    )
+    start_turn_rate_rad_s: float = setting(0.05, "and turns more slowly than this [rad/s]", minimum=0.0, maximum=100.0)
+    replace_after_s: float = setting(
+        0.0, "a ball that has fallen off is put back after this long [s]; 0: never", minimum=0.0, maximum=1e6
+    )
+    push_speed_m_s: float = setting(
+        0.0, "every push changes the ball's velocity by this much [m/s]; 0: no pushes", minimum=0.0, maximum=5.0
+    )
+    push_period_s: float = setting(
+        5.0, "time between pushes, each in a random direction [s]", minimum=0.001, maximum=1e6
+    )
+    seed: int = setting(1, "seed of the pushes' directions", minimum=0, maximum=2**31 - 1)
+
+    def __post_init__(self) -> None:
+        validate(self)
+
+    @property
+    def geometry(self) -> ArrayGeometry:
+        """The array on the plate."""
+        return ArrayGeometry(self.rows, self.cols, self.pitch_m)
+
+
+@dataclass(frozen=True)
+class WorldState:
+    """The world at an instant.
+
+    Attributes
+    ----------
+    time_s : float
+        Since the start.
+    phase : Phase
+    phase_time_s : float
+        Since `phase` began.
+    ball : BallState
+        Only means something in phase ROLLING.
+    joints : JointMotion
+        Of the arm.
+    pushes, falls : int
+        How often the ball was pushed, and fell off.
+    joints_refused : int
+        Steps whose joints were NaN or beyond reason; the plate kept its last pose.
+    """
+
+    time_s: float
+    phase: Phase
+    phase_time_s: float
+    ball: BallState
+    joints: JointMotion
+    pushes: int = 0
+    falls: int = 0
+    joints_refused: int = 0
+
+
+class World:
+    """Steps the world.
+
+    Attributes
+    ----------
+    state : WorldState
+    """
+
+    def __init__(self, config: WorldConfig) -> None:
+        self.config = config
+        self.state = WorldState(0.0, Phase.AWAITED, 0.0, BallState(), JointMotion.still(np.array(LEVEL_Q_RAD)))
+        self._contact = BallContact(config, config.geometry, config.radius_m)
+        self._rng = np.random.default_rng(config.seed)
+        self._half_x_m = config.cols * config.pitch_m / 2
+        self._half_y_m = config.rows * config.pitch_m / 2
+        # Compiles now what would otherwise hold up the step that puts the ball on.
+        ball.step(config, BallState(), ball_plate.motion(config, self.state.joints), 0.0)
+        self._contact.press(0.0, 0.0, 0.0)
+
+    @property
+    def counts(self) -> NDArray[np.float64]:
+        """What the skin reads, before noise and rounding; shape (rows * cols,), overwritten by the next step."""
+        return self._contact.counts.reshape(-1)
+
+    def step(self, joints: JointMotion | None, dt_s: float) -> WorldState:
+        """Let time pass.
+
+        Parameters
+        ----------
+        joints : JointMotion or None
+            What the arm does meanwhile; None where nobody knows: it then rests in the last pose, which at the start is
+            the level one.
+        dt_s : float
+            A millisecond or so [s].
+
+        Returns
+        -------
+        WorldState
+            At the end of the step, to which also `counts` belongs.
+        """
+        state = self.state
+        refused = joints is not None and not joints.is_plausible()
+        if joints is None or refused:
+            joints = JointMotion.still(state.joints.q_rad)
+        plate = ball_plate.motion(self.config, joints)
+        rolling = state.ball
+        if state.phase is Phase.ROLLING:
+            rolling = ball.step(self.config, self._pushed(state, dt_s), plate, dt_s)
+        state = replace(
+            state,
+            time_s=state.time_s + dt_s,
+            phase_time_s=state.phase_time_s + dt_s,
+            ball=rolling,
+            joints=joints,
+            pushes=state.pushes + self._push_due(state, dt_s),
+            joints_refused=state.joints_refused + refused,
+        )
+        if state.phase is Phase.ROLLING:
+            if not (abs(rolling.x_m) <= self._half_x_m and abs(rolling.y_m) <= self._half_y_m):
+                state = replace(state, phase=Phase.FALLEN, phase_time_s=0.0, ball=BallState(), falls=state.falls + 1)
+        elif self._is_put_on(state, plate):
+            start = BallState(self.config.start_x_m, self.config.start_y_m)
+            # A step of no time: the load is known at once.
+            state = replace(
+                state, phase=Phase.ROLLING, phase_time_s=0.0, ball=ball.step(self.config, start, plate, 0.0)
+            )
+        self.state = state
+        self._contact.press(state.ball.x_m, state.ball.y_m, state.ball.load_n)
+        return state
+
+    def _push_due(self, state: WorldState, dt_s: float) -> int:
+        if state.phase is not Phase.ROLLING or self.config.push_speed_m_s == 0.0:
+            return 0
+        period_s = self.config.push_period_s
+        return int((state.phase_time_s + dt_s) // period_s > state.phase_time_s // period_s)
+
+    def _pushed(self, state: WorldState, dt_s: float) -> BallState:
+        if not self._push_due(state, dt_s):
+            return state.ball
+        direction_rad = self._rng.uniform(0.0, 2 * math.pi)
+        speed_m_s = self.config.push_speed_m_s
+        return replace(
+            state.ball,
+            vx_m_s=state.ball.vx_m_s + speed_m_s * math.cos(direction_rad),
+            vy_m_s=state.ball.vy_m_s + speed_m_s * math.sin(direction_rad),
+        )
+
+    def _is_put_on(self, state: WorldState, plate: ball_plate.PlateMotion) -> bool:
+        config = self.config
+        if state.phase is Phase.AWAITED:
+            due = state.phase_time_s >= config.start_after_s
+        else:
+            due = config.replace_after_s > 0.0 and state.phase_time_s >= config.replace_after_s
+        return due and plate.slope <= config.start_slope and plate.turn_rate_rad_s <= config.start_turn_rate_rad_s

@@ -1,0 +1,124 @@
+"""``hand_world``: the command line of the simulated LEAP hand with its skin, its motors and what it holds."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import json
+import sys
+from collections.abc import Sequence
+from dataclasses import asdict
+from pathlib import Path
+
+from acts_core.errors import SettingsError
+from acts_core.runtime import RealtimeConfig, enter_realtime
+from acts_core.settings import default_of, describe, from_text
+from acts_core.stop_signals import StopSignals
+from acts_sim.dynamixel import BusPort, ControlSocket, state
+from acts_sim.hand import STEP_S, HandWorld, HandWorldConfig, carry_out, row_width
+from acts_sim.hand.process.loop import HandLoop
+from acts_sim.shared import Claim, TimedRingWriter, default_run_dir
+
+TRUTH_SLOTS = 8192
+"""How many steps of truth are kept: 16 s."""
+
+_OWN = ("link", "field_ring", "truth_ring", "control", "baud", "lead_ms", "realtime_priority", "cpu_affinity")
+
+
+def parse(arguments: Sequence[str]) -> tuple[argparse.Namespace, HandWorldConfig]:
+    """The command line; what stands from ``--ros-args`` on is ROS's and is left out."""
+    parser = argparse.ArgumentParser(
+        prog="hand_world", description="A simulated LEAP hand: 16 Dynamixel motors on a port, 1024 taxels in a ring."
+    )
+    folder = "in the folder /dev/shm/acts-USER unless told otherwise"
+    parser.add_argument("--link", type=Path, help=f"symbolic link to the motors' port; hand {folder}")
+    parser.add_argument("--field-ring", type=Path, help=f"shared file with what the skin reads; field.ring {folder}")
+    parser.add_argument("--truth-ring", type=Path, help=f"shared file with what is true; truth.ring {folder}")
+    parser.add_argument("--control", type=Path, help=f"Unix socket that takes commands; hand.control {folder}")
+    parser.add_argument("--baud", type=int, default=4_000_000, help="for the time that packets take; 0: none")
+    parser.add_argument("--lead-ms", type=float, default=4.0, help="how far the world is ahead of the clock (2 to 20)")
+    parser.add_argument("--realtime-priority", type=int, default=0, help="under SCHED_FIFO; 0: the ordinary scheduler")
+    parser.add_argument("--cpu-affinity", default="", help="cores to run on, as in 0,2-3")
+    world = parser.add_argument_group("the world")
+    for name, info in describe(HandWorldConfig).items():
+        allowed = f" ({info.allowed})" if info.allowed else ""
+        default = default_of(HandWorldConfig, name)
+        world.add_argument(
+            f"--{name.replace('_', '-')}", dest=name, metavar="VALUE", help=f"{info.description}{allowed}; {default}"
+        )
+    own = list(arguments)
+    if "--ros-args" in own:
+        del own[own.index("--ros-args") :]
+    options = parser.parse_args(own)
+    for name, low, high in (("baud", 0, 10_000_000), ("lead_ms", 2.0, 20.0)):
+        value = getattr(options, name)
+        if not low <= value <= high:
+            parser.error(f"--{name.replace('_', '-')} {value}: allowed is {low} to {high}")
+    run_dir = default_run_dir()
+    options.link = options.link or run_dir / "hand"
+    options.field_ring = options.field_ring or run_dir / "field.ring"
+    options.truth_ring = options.truth_ring or run_dir / "truth.ring"
+    options.control = options.control or run_dir / "hand.control"
+    given = {
+        name: from_text(HandWorldConfig, name, text)
+        for name, text in vars(options).items()
+        if name not in _OWN and text is not None
+    }
+    return options, HandWorldConfig(**given)  # type: ignore[arg-type]
+
+
+def run(options: argparse.Namespace, config: HandWorldConfig, signals: StopSignals) -> None:
+    """Let the world go on until a signal asks to stop.
+
+    Raises
+    ------
+    ActsError
+        When a ring, the port or the control socket cannot be made, or another process has it.
+    """
+    scheduling = RealtimeConfig(realtime_priority=options.realtime_priority, cpu_affinity=options.cpu_affinity)
+    with contextlib.ExitStack() as stack:
+        stack.enter_context(contextlib.closing(Claim(options.field_ring)))
+        world = HandWorld(config)
+        patches = world.layout.patches
+        field = stack.enter_context(TimedRingWriter(options.field_ring, len(world.forces_n)))
+        truth = stack.enter_context(TimedRingWriter(options.truth_ring, row_width(len(patches)), TRUTH_SLOTS))
+        loop = HandLoop(world, field, truth, round(options.lead_ms * 1e6))
+        port = stack.enter_context(
+            contextlib.closing(BusPort(world.bus, loop.step, STEP_S, options.link, baud=options.baud))
+        )
+        signals.on_stop(port.stop)
+        control = ControlSocket(options.control, lambda line: answer(world, loop, port, line))
+        stack.enter_context(contextlib.closing(control))
+        enter_realtime(scheduling, "all of it", lambda _level, sentence: print(sentence, file=sys.stderr, flush=True))
+        print(json.dumps({"port": port.path, "link": str(options.link)}), flush=True)
+        port.run(control)
+
+
+def answer(world: HandWorld, loop: HandLoop, port: BusPort, line: str) -> str:
+    """Carry out a line of the control socket; ``ok``, a JSON object for ``state``, or ``error: ...``."""
+    if line == "unplug":
+        port.unplug()
+    elif line == "plug_in":
+        port.plug_in()
+    elif line == "state":
+        return json.dumps(
+            {
+                "connected": port.connected,
+                "loop": asdict(loop.statistics),
+                "motors": [state(motor) for motor in world.motors],
+                "truth": world.truth.as_dict(),
+            }
+        )
+    else:
+        try:
+            carry_out(world, line)
+        except SettingsError as error:
+            return f"error: {error}"
+    return "ok"
+
+
+def main(signals: StopSignals) -> int:
+    """Run the simulated hand; 0 after a signal."""
+    options, config = parse(sys.argv[1:])
+    run(options, config, signals)
+    return 0

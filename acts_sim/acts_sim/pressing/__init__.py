@@ -1,0 +1,26 @@
+"""Objects pressed into the skin: foam, force response, noise, and things that happen fast.
+
+In come objects and motions; out come full frames as a board would read them.
+"""
+
+from acts_sim.pressing.contact_model import ContactModel, FoamConfig
+from acts_sim.pressing.events import EVENT_RATE_HZ, EVENTS, event_recordings
+from acts_sim.pressing.objects import OBJECTS, ContactObject, object_named
+from acts_sim.pressing.presses import PRESS_RATE_HZ, press_over_time
+from acts_sim.pressing.pressing_arm import RATE_HZ, PressingArm, PressingConfig
+
+__all__ = [
+    "EVENTS",
+    "EVENT_RATE_HZ",
+    "OBJECTS",
+    "PRESS_RATE_HZ",
+    "RATE_HZ",
+    "ContactModel",
+    "ContactObject",
+    "FoamConfig",
+    "PressingArm",
+    "PressingConfig",
+    "event_recordings",
+    "object_named",
+    "press_over_time",
+]

@@ -1,0 +1,216 @@
+"""Turns recordings of real arrays into the plain frames file that the virtual board replays.
+
+Two kinds of npz files are read. Evaluation files hold ``frames`` (n, rows, cols) uint16 of 0 to 1023, ``rate_hz``, and
+optionally ``start`` and ``length`` (and ``label``) of the recordings that follow one another in them, and ``live``
+(rows, cols). Figure files hold single ``frames`` (n, rows, cols) of 0 to 1023, not all of them whole numbers, with
+``names``, ``kind`` and which taxels were ``measured``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.array import COUNT_MAX, MAX_SIDE
+from acts_core.errors import RecordingError
+from acts_core.files import half_of_memory_bytes, read_npz
+
+
+@dataclass(frozen=True)
+class ExportedRecording:
+    """What an export has written.
+
+    Attributes
+    ----------
+    path : Path
+        The npy file.
+    frames, rows, cols : int
+        Its shape.
+    rate_hz : float
+        Frames per second at which it was recorded; `DEFAULT_RATE_HZ` for single frames.
+    labels : tuple of str
+        Name of every exported frame (single frames) or recording; empty where the file names none.
+    """
+
+    path: Path
+    frames: int
+    rows: int
+    cols: int
+    rate_hz: float
+    labels: tuple[str, ...]
+
+
+DEFAULT_RATE_HZ = 1.0
+"""Rate of single frames, which have none of their own: long enough to look at each."""
+
+
+def export_recording(
+    npz_path: Path,
+    out_npy: Path,
+    *,
+    recordings: Sequence[int] | None = None,
+    label: str | None = None,
+    kind: str | None = None,
+    max_frames: int | None = None,
+    repeat: int = 1,
+) -> ExportedRecording:
+    """Write frames as a C-order uint16 npy file (n, rows, cols).
+
+    Parameters
+    ----------
+    npz_path : Path
+        An evaluation file or a figure file.
+    out_npy : Path
+        Replaced when it exists; never left half written.
+    recordings : sequence of int or None
+        Which recordings of an evaluation file, or which frames of a figure file, in this order; None for all.
+    label : str or None
+        Only recordings with this label, or frames with this name.
+    kind : str or None
+        Only frames of this kind of a figure file, for example "full_raster".
+    max_frames : int or None
+        At most so many frames, from the first on, before repeating.
+    repeat : int
+        How often every frame is written one after the other.
+
+    Returns
+    -------
+    ExportedRecording
+
+    Raises
+    ------
+    RecordingError
+        When the file cannot be read, lacks what is needed, holds anything that is not a count of a measured taxel, or
+        nothing in it is selected.
+    """
+    if repeat < 1 or (max_frames is not None and max_frames < 1):
+        raise RecordingError(f"repeat = {repeat}, max_frames = {max_frames}: allowed is 1 or more")
+    content = _load(npz_path)
+    frames = _need(content, "frames", npz_path)
+    if frames.ndim != 3 or not 1 <= frames.shape[1] <= MAX_SIDE or not 1 <= frames.shape[2] <= MAX_SIDE:
+        raise RecordingError(f"{npz_path}: frames of shape {frames.shape}; needed is (n, rows, cols), up to {MAX_SIDE}")
+    if "kind" in content:
+        chosen, labels = _choose_frames(content, len(frames), recordings, label, kind, npz_path)
+        rate_hz = DEFAULT_RATE_HZ
+        measured = _need(content, "measured", npz_path)
+        if measured.shape != frames.shape:
+            raise RecordingError(f"{npz_path}: measured of shape {measured.shape} for frames of {frames.shape}")
+        if not measured[chosen[:max_frames]].all():
+            raise RecordingError(
+                f"{npz_path}: some of the frames are subsampled; choose others, e.g. kind='full_raster'"
+            )
+    else:
+        if kind is not None:
+            raise RecordingError(f"{npz_path}: has no kind of frames to choose {kind!r} from")
+        chosen, labels = _choose_recordings(content, len(frames), recordings, label, npz_path)
+        rate_hz = _rate_hz(content, npz_path)
+    chosen = chosen[:max_frames]
+    if not len(chosen):
+        raise RecordingError(f"{npz_path}: no frames are selected")
+    counts = np.repeat(_counts(frames[chosen], npz_path), repeat, axis=0)
+    _save(out_npy, counts)
+    return ExportedRecording(out_npy, len(counts), counts.shape[1], counts.shape[2], rate_hz, labels)
+
+
+def _load(path: Path) -> dict[str, NDArray]:
+    needed = "needed is an npz file with frames and rate_hz"
+    return read_npz(path, error=RecordingError, hint=needed, limit_bytes=half_of_memory_bytes())
+
+
+def _need(content: dict[str, NDArray], name: str, path: Path) -> NDArray:
+    if name not in content:
+        raise RecordingError(f"{path}: has no array {name!r}, only {', '.join(sorted(content)) or 'nothing'}")
+    return content[name]
+
+
+def _rate_hz(content: dict[str, NDArray], path: Path) -> float:
+    rate = _need(content, "rate_hz", path)
+    if rate.size != 1 or rate.dtype.kind not in "iuf" or not np.isfinite(rate).all() or rate.item() <= 0:
+        raise RecordingError(f"{path}: rate_hz = {rate}; needed is one positive number")
+    return float(rate.item())
+
+
+def _choose_recordings(
+    content: dict[str, NDArray], count: int, recordings: Sequence[int] | None, label: str | None, path: Path
+) -> tuple[NDArray[np.intp], tuple[str, ...]]:
+    start = content.get("start", np.array([0]))
+    length = content.get("length", np.array([count]))
+    if start.ndim != 1 or start.shape != length.shape or start.dtype.kind not in "iu" or length.dtype.kind not in "iu":
+        raise RecordingError(f"{path}: start and length must be lists of whole numbers, one for every recording")
+    if len(start) and (start.min() < 0 or length.min() < 0 or (start + length).max() > count):
+        raise RecordingError(f"{path}: start and length reach beyond the {count} frames")
+    names = _names(content, "label", len(start), path)
+    which = _which(len(start), names, recordings, label, "recordings", path)
+    parts = [np.arange(start[i], start[i] + length[i]) for i in which]
+    chosen = np.concatenate(parts) if parts else np.empty(0, dtype=np.intp)
+    return chosen, tuple(names[i] for i in which) if names else ()
+
+
+def _choose_frames(
+    content: dict[str, NDArray],
+    count: int,
+    recordings: Sequence[int] | None,
+    label: str | None,
+    kind: str | None,
+    path: Path,
+) -> tuple[NDArray[np.intp], tuple[str, ...]]:
+    names, kinds = _names(content, "names", count, path), _names(content, "kind", count, path)
+    which = _which(count, names, recordings, label, "frames", path)
+    if kind is not None:
+        if kind not in kinds:
+            raise RecordingError(f"{path}: no frame of kind {kind!r}; there are {', '.join(sorted(set(kinds)))}")
+        which = [i for i in which if kinds[i] == kind]
+    return np.array(which, dtype=np.intp), tuple(names[i] for i in which) if names else ()
+
+
+def _names(content: dict[str, NDArray], name: str, count: int, path: Path) -> list[str]:
+    if name not in content:
+        return []
+    values = content[name]
+    if values.shape != (count,):
+        raise RecordingError(f"{path}: {name} of shape {values.shape}; needed is one for each, ({count},)")
+    return [str(value) for value in values]
+
+
+def _which(
+    count: int, names: list[str], wanted: Sequence[int] | None, label: str | None, what: str, path: Path
+) -> list[int]:
+    which = list(range(count)) if wanted is None else list(wanted)
+    for index in which:
+        if not 0 <= index < count:
+            raise RecordingError(f"{path}: no number {index} among {count} {what}")
+    if label is None:
+        return which
+    if label not in names:
+        raise RecordingError(
+            f"{path}: nothing is called {label!r}; there are {', '.join(sorted(set(names))) or 'no names'}"
+        )
+    return [index for index in which if names[index] == label]
+
+
+def _counts(frames: NDArray, path: Path) -> NDArray[np.uint16]:
+    if frames.dtype.kind not in "iuf":
+        raise RecordingError(f"{path}: frames of type {frames.dtype}; needed are counts")
+    if not np.isfinite(frames).all():
+        raise RecordingError(f"{path}: frames with NaN or infinity; needed are counts from 0 to {COUNT_MAX}")
+    rounded = np.rint(frames)
+    if rounded.min() < 0 or rounded.max() > COUNT_MAX:
+        raise RecordingError(
+            f"{path}: counts from {rounded.min():g} to {rounded.max():g}; allowed are 0 to {COUNT_MAX}"
+        )
+    return np.ascontiguousarray(rounded, dtype=np.uint16)
+
+
+def _save(path: Path, counts: NDArray[np.uint16]) -> None:
+    temporary = path.with_name(path.name + ".new")
+    try:
+        with temporary.open("wb") as file:
+            np.save(file, counts)
+        temporary.replace(path)
+    except OSError as error:
+        temporary.unlink(missing_ok=True)
+        raise RecordingError(f"{path}: cannot be written ({error.strerror}); its folder must exist") from error

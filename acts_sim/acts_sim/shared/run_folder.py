@@ -1,0 +1,114 @@
+"""The folder in which simulated processes meet: of one user alone, and each thing in it of one process alone.
+
+The virtual board does the same in C++ (acts_firmware/virtual_board/claim.cpp).
+"""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import pwd
+import stat
+from contextlib import suppress
+from pathlib import Path
+
+from acts_core.errors import ActsError, SettingsError
+from acts_core.runtime import process_name
+
+_OTHER = "give another folder: run_dir:=/dev/shm/NAME, or run_dir:=/tmp/NAME where that is full or read-only"
+
+
+def default_run_dir() -> Path:
+    """The folder that launch files take unless told otherwise: one for each user."""
+    return Path(f"/dev/shm/acts-{os.environ.get('USER', 'user')}")
+
+
+def make_private(folder: Path) -> None:
+    """Make a folder that nobody else may look into, with those above it, or see whether one that exists will do.
+
+    Raises
+    ------
+    SettingsError
+        It cannot be made, is a symbolic link, belongs to somebody else, or anybody may write to it. A folder like
+        ``/tmp``, in which everybody's files are safe from others, is allowed.
+    """
+    try:
+        for path in (*reversed(folder.parents), folder):
+            with suppress(FileExistsError):
+                path.mkdir(mode=0o700)
+        status = folder.lstat()
+    except OSError as error:
+        raise SettingsError(f"the folder {folder} cannot be made ({error.strerror}); {_OTHER}") from error
+    if stat.S_ISLNK(status.st_mode):
+        raise SettingsError(f"the folder {folder} is a symbolic link; name what it leads to, or {_OTHER}")
+    if not stat.S_ISDIR(status.st_mode):
+        raise SettingsError(f"{folder} is no folder; {_OTHER}")
+    if status.st_mode & stat.S_ISVTX:
+        return
+    if status.st_uid != os.geteuid():
+        raise SettingsError(f"the folder {folder} belongs to {_user(status.st_uid)}; {_OTHER}")
+    if status.st_mode & stat.S_IWOTH:
+        raise SettingsError(f"anybody may write to the folder {folder}; `chmod o-w {folder}`, or {_OTHER}")
+
+
+class Claim:
+    """A file in such a folder as this process's own, from now until `close` or the process's end, however it ends.
+
+    Parameters
+    ----------
+    path : Path
+        The file; the claim itself is a lock on a file beside it, with ``.lock`` at the end, that holds our number.
+
+    Raises
+    ------
+    ActsError
+        Another process has it, which is named, or the folder will not do (`make_private`).
+    """
+
+    def __init__(self, path: Path) -> None:
+        make_private(path.parent)
+        self._path = path.with_name(f"{path.name}.lock")
+        try:
+            self._fd = self._lock()
+        except BlockingIOError as error:
+            raise ActsError(f"{path} is in use by {self._holder()}; end that program, or {_OTHER}") from error
+        except OSError as error:
+            raise ActsError(f"{self._path} cannot be locked ({error.strerror}); {_OTHER}") from error
+        os.ftruncate(self._fd, 0)
+        os.pwrite(self._fd, f"{os.getpid()}\n".encode(), 0)
+
+    def close(self) -> None:
+        """Give it up. May be called again."""
+        if self._fd >= 0:
+            # While it is still locked: afterwards it may be another's.
+            self._path.unlink(missing_ok=True)
+            os.close(self._fd)
+            self._fd = -1
+
+    def _lock(self) -> int:
+        while True:
+            fd = os.open(self._path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW, 0o600)
+            try:
+                fcntl.flock(fd, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                if os.path.samestat(os.fstat(fd), self._path.lstat()):
+                    return fd
+            except FileNotFoundError:
+                pass
+            except BaseException:
+                os.close(fd)
+                raise
+            # The one before us has just given it up, and the file with it.
+            os.close(fd)
+
+    def _holder(self) -> str:
+        try:
+            return process_name(int(self._path.read_text()))
+        except (OSError, ValueError):
+            return process_name(0)
+
+
+def _user(uid: int) -> str:
+    try:
+        return pwd.getpwuid(uid).pw_name
+    except KeyError:
+        return f"user {uid}"
