@@ -1,4 +1,4 @@
-// The board's sampler behind C functions, measuring in recorded frames; acts_tools/evaluate/board_sampler.py calls it.
+// The board's sampler behind C functions, measuring in recorded frames; for acts_tools/evaluate/images.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 from acts_core.frames import SampleFrame, Scheme
 from acts_core.wire import StreamDecoder, encode_frame
-from acts_tools.bench.decode import same_frames
-from acts_tools.bench.naive_decoder import NaiveDecoder
+from acts_tools.bench.cases.decode import same_frames
+from acts_tools.bench.references.naive_decoder import NaiveDecoder
 
 
 @st.composite

@@ -8,7 +8,7 @@ import pytest
 from std_msgs.msg import UInt32
 
 from acts_tools.bags.stopping import StopFlag
-from acts_tools.bench.graph import Graph
+from acts_tools.bench.rigs.graph import Graph
 from acts_tools.bench.workbench import Workbench
 
 

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from acts_tools.bags.stopping import StopFlag
-from acts_tools.bench import driver_cpu, frame_rate, latency
+from acts_tools.bench.cases import driver_cpu, frame_rate, latency
 from acts_tools.bench.result import Result
 from acts_tools.bench.workbench import Workbench
 

@@ -11,7 +11,8 @@ import pytest
 from acts_recon.learning import KsvdConfig
 from acts_recon.sparse import fast_omp, patch_layout
 from acts_tools.bags.stopping import StopFlag
-from acts_tools.bench import multiply_adds, peers, recovery, train
+from acts_tools.bench.cases import recovery, train
+from acts_tools.bench.references import multiply_adds, peers
 from acts_tools.bench.workbench import Workbench
 
 

@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 
 from acts_core.errors import PacketError
 from acts_core.frames import SampleFrame, Scheme
+from acts_tools.bench.rigs.trial import Status, Trial, observe
+from acts_tools.bench.rigs.true_time import TrueTime
 from acts_tools.bench.search import Search
-from acts_tools.bench.trial import Status, Trial, observe
-from acts_tools.bench.true_time import TrueTime
 
 NOTHING = np.zeros(0, dtype=np.uint16)
 

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from acts_tools.bags.stopping import StopFlag
+from acts_tools.bench.cases.soak import JUDGED_S, Memory, measure, problems
 from acts_tools.bench.registry import MEASUREMENTS
-from acts_tools.bench.soak import JUDGED_S, Memory, measure, problems
 from acts_tools.bench.workbench import Workbench
 
 FINE = dict.fromkeys(("frames", "lost", "overruns", "crc_errors", "malformed", "repeated", "restarts", "reconnects"), 0)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from acts_core.errors import ArrayError, SettingsError
 from acts_core.sampling import NEIGHBOURS, SCHEMES, Sampler, SamplingConfig
 from acts_core.sampling.schemes import Measure
-from acts_tools.evaluate.board_sampler import BoardSampler
+from acts_tools.evaluate.images.board_sampler import BoardSampler
 
 
 def measure_while_it_moves(frames: NDArray[np.uint16], position: float, step: float) -> Measure:
@@ -94,7 +94,7 @@ def test_what_does_not_fit_is_refused() -> None:
 
 
 def test_an_unbuilt_library_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
-    from acts_tools.evaluate import board_sampler
+    from acts_tools.evaluate.images import board_sampler
 
     monkeypatch.setenv("AMENT_PREFIX_PATH", "/nowhere")
     board_sampler._library.cache_clear()

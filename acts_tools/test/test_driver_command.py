@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from acts_core.errors import SettingsError
-from acts_tools.bench.processes import virtual_board
+from acts_tools.bench.rigs.processes import virtual_board
 from acts_tools.cli import main
 from acts_tools.driver_command import parameters_of
 

@@ -6,7 +6,7 @@ import pytest
 from acts_core.sampling import SamplingConfig
 from acts_recon.sparse import load_dictionary, shipped_dictionary_path
 from acts_sim.pressing import EVENT_RATE_HZ, event_recordings
-from acts_tools.evaluate.recovery import FOLLOW_COUNTS, Recording, Task, evaluate
+from acts_tools.evaluate.images.recovery import FOLLOW_COUNTS, Recording, Task, evaluate
 
 
 # Measured: ratios of touched taxels 1.0 to 1.2, of the centre 0.6 to 1.1, of force, area and spread 0.3 to 0.7.

@@ -13,7 +13,7 @@ from acts_recon.objects import load_object_library
 from acts_sim.pressing import PressingArm, object_named
 from acts_tools import library
 from acts_tools.evaluate import command
-from acts_tools.evaluate.classification import Trials, accuracy, run_trials
+from acts_tools.evaluate.objects.classification import Trials, accuracy, run_trials
 
 SIX = ("circle", "square", "bolt_and_nut", "glass_mug", "rubber_ball", "tennis_ball")
 

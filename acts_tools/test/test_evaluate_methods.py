@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from acts_core.array import ArrayGeometry
 from acts_core.errors import DictionaryError, SettingsError
 from acts_recon.sparse import Dictionary, ReconstructorConfig, load_dictionary, shipped_dictionary_path
-from acts_tools.evaluate.dictionaries import cosine_dictionary, dictionary_named, haar_dictionary
-from acts_tools.evaluate.methods import METHODS, Method, method_named
+from acts_tools.evaluate.estimators.dictionaries import cosine_dictionary, dictionary_named, haar_dictionary
+from acts_tools.evaluate.estimators.methods import METHODS, Method, method_named
 
 GEOMETRY = ArrayGeometry()
 CONFIG = ReconstructorConfig(touch_counts=50)

@@ -12,9 +12,9 @@ import pytest
 
 from acts_core.sampling import SamplingConfig
 from acts_tools.cli import main
-from acts_tools.evaluate import progress
-from acts_tools.evaluate.dictionaries import cosine_dictionary
-from acts_tools.evaluate.recovery import Recording, Task, evaluate, images
+from acts_tools.evaluate.estimators.dictionaries import cosine_dictionary
+from acts_tools.evaluate.images import progress
+from acts_tools.evaluate.images.recovery import Recording, Task, evaluate, images
 from acts_tools.evaluate.report import Results
 
 

@@ -12,10 +12,10 @@ from acts_core.array import ArrayGeometry
 from acts_core.sampling import SamplingConfig
 from acts_recon.sparse import Dictionary, load_dictionary, shipped_dictionary_path
 from acts_tools.cli import main
-from acts_tools.evaluate import calibration
-from acts_tools.evaluate.recovery import Recording, Task, evaluate
-from acts_tools.evaluate.scores import FRAME_SCORES, score_image
-from acts_tools.evaluate.truth import contact_starts
+from acts_tools.evaluate.images import calibration
+from acts_tools.evaluate.images.recovery import Recording, Task, evaluate
+from acts_tools.evaluate.images.scores import FRAME_SCORES, score_image
+from acts_tools.evaluate.images.truth import contact_starts
 
 PRESSED = [(r, c) for r in (10, 11, 12) for c in (20, 21)]
 LIVE = np.ones((32, 32), dtype=bool)

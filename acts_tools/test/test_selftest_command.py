@@ -12,7 +12,7 @@ from pathlib import Path
 import matplotlib.image
 import pytest
 
-from acts_tools.bench.processes import virtual_board
+from acts_tools.bench.rigs.processes import virtual_board
 from acts_tools.cli import main
 from acts_tools.selftest.session import BoardReader
 

@@ -48,13 +48,17 @@ class Entry:
 
 
 MEASUREMENTS = {
-    "decode": Entry("acts_tools.bench.decode", "decoding a recorded stream, M = 55", 5.0),
-    "driver_cpu": Entry("acts_tools.bench.driver_cpu", "CPU at 1 kHz, M = 55", 15.0),
-    "latency": Entry("acts_tools.bench.latency", "latency and stamps at 1 kHz, M = 55", 45.0),
-    "frame_parts": Entry("acts_tools.bench.frame_parts", "where the time of a frame goes, M = 55, at 1 kHz", 10.0),
-    "frame_rate": Entry("acts_tools.bench.frame_rate", "highest frame rate without loss, M = 55", 3.0),
-    "recovery": Entry("acts_tools.bench.recovery", "FastOMP, one frame, M = 55, 1000 atoms", 10.0),
-    "train": Entry("acts_tools.bench.train", "learning a dictionary from 15,000 patches", 60.0, only_by_name=True),
-    "link": Entry("acts_tools.bench.link", "a skin across a cable between two machines", 3.0, only_by_name=True),
-    "soak": Entry("acts_tools.bench.soak", "a long run at 1 kHz, M = 55", 600.0, only_by_name=True),
+    "decode": Entry("acts_tools.bench.cases.decode", "decoding a recorded stream, M = 55", 5.0),
+    "driver_cpu": Entry("acts_tools.bench.cases.driver_cpu", "CPU at 1 kHz, M = 55", 15.0),
+    "latency": Entry("acts_tools.bench.cases.latency", "latency and stamps at 1 kHz, M = 55", 45.0),
+    "frame_parts": Entry(
+        "acts_tools.bench.cases.frame_parts", "where the time of a frame goes, M = 55, at 1 kHz", 10.0
+    ),
+    "frame_rate": Entry("acts_tools.bench.cases.frame_rate", "highest frame rate without loss, M = 55", 3.0),
+    "recovery": Entry("acts_tools.bench.cases.recovery", "FastOMP, one frame, M = 55, 1000 atoms", 10.0),
+    "train": Entry(
+        "acts_tools.bench.cases.train", "learning a dictionary from 15,000 patches", 60.0, only_by_name=True
+    ),
+    "link": Entry("acts_tools.bench.cases.link", "a skin across a cable between two machines", 3.0, only_by_name=True),
+    "soak": Entry("acts_tools.bench.cases.soak", "a long run at 1 kHz, M = 55", 600.0, only_by_name=True),
 }

@@ -5,16 +5,11 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from acts_tools.evaluate import (
-    classification_command,
-    convert_command,
-    events_command,
-    hand_command,
-    objects_command,
-    recovery_command,
-    slip_command,
-    slip_sampled_command,
-)
+from acts_tools.evaluate.hand import hand_command
+from acts_tools.evaluate.images import events_command, objects_command, recovery_command
+from acts_tools.evaluate.objects import classification_command
+from acts_tools.evaluate.public import convert_command
+from acts_tools.evaluate.slip import slip_command, slip_sampled_command
 
 
 def add_parser(subparsers: Any) -> None:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_sim.shared import TimedRingWriter
-from acts_tools.bench.processes import virtual_board
+from acts_tools.bench.rigs.processes import virtual_board
 
 _STEP_S = 0.01
 _LEAD_S = 0.2

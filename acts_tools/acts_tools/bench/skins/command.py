@@ -12,7 +12,7 @@ from typing import Any
 
 from acts_tools.bags.stopping import StopFlag
 from acts_tools.bench import runner
-from acts_tools.bench.processes import M
+from acts_tools.bench.rigs.processes import M
 from acts_tools.bench.skins import judgement, realtime
 from acts_tools.bench.skins.measurement import SETTLE_S, measure
 from acts_tools.bench.skins.options import NAME, SECONDS, SUMMARY, options_from

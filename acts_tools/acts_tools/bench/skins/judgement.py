@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from acts_tools.bench.cases.soak import GROWTH_MAX_MB_PER_H
 from acts_tools.bench.runner import OTHERS_WARNING_PERCENT
 from acts_tools.bench.skins.processes import BENCH, RATE_HZ
-from acts_tools.bench.soak import GROWTH_MAX_MB_PER_H
 
 Report = Mapping[str, Any]
 

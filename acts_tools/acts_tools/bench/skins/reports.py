@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 from diagnostic_msgs.msg import DiagnosticArray
 
-from acts_tools.bench.graph import Graph
+from acts_tools.bench.rigs.graph import Graph
 
 COUNTERS = {
     "driver": (

@@ -10,9 +10,9 @@ from rclpy.node import Node
 
 from acts_msgs.msg import TactileSamples
 from acts_ros.qos import STREAM
-from acts_tools.bench.graph import Graph
-from acts_tools.bench.processes import NAMESPACE, START_TIMEOUT_S, check_alive, driver, virtual_board
-from acts_tools.bench.trial import Status, Trial, observe
+from acts_tools.bench.rigs.graph import Graph
+from acts_tools.bench.rigs.processes import NAMESPACE, START_TIMEOUT_S, check_alive, driver, virtual_board
+from acts_tools.bench.rigs.trial import Status, Trial, observe
 from acts_tools.bench.workbench import Workbench
 from acts_tools.driver_status import driver_values
 

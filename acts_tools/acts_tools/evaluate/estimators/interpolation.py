@@ -34,7 +34,7 @@ class Linear:
     def step(
         self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float
     ) -> NDArray[np.float32]:
-        """See `acts_tools.evaluate.methods.Method.step`."""
+        """See `acts_tools.evaluate.estimators.methods.Method.step`."""
         if not counts.any():
             self._flat.fill(0)
         elif len(indices) == len(self._flat):
@@ -134,7 +134,7 @@ class GaussianProcess:
     def step(
         self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float
     ) -> NDArray[np.float32]:
-        """See `acts_tools.evaluate.methods.Method.step`."""
+        """See `acts_tools.evaluate.estimators.methods.Method.step`."""
         if not counts.any():
             self._flat.fill(0)
             return self._image

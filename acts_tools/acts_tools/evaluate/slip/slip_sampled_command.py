@@ -21,7 +21,7 @@ from acts_core.skin import ForceResponse, Layout, SkinPatch, layout
 from acts_recon.fusion import FusionConfig, FusionEstimator
 from acts_recon.regions import Regions
 from acts_tools.evaluate import report
-from acts_tools.evaluate.board_sampler import BoardSampler
+from acts_tools.evaluate.images.board_sampler import BoardSampler
 
 _NOTICED_M = 0.0002
 _NOISE_COUNTS = 2.0

@@ -1,6 +1,6 @@
 """A subscriber in a process of its own that takes samples and contacts as a controller does, and drops them.
 
-python3 -m acts_tools.bench.silent_listener NAMESPACE
+python3 -m acts_tools.bench.rigs.silent_listener NAMESPACE
 """
 
 from __future__ import annotations

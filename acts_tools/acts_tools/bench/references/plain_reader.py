@@ -1,6 +1,6 @@
 """A reader of the board without ROS, in a process of its own: the peer of the driver at high frame rates.
 
-    python3 -m acts_tools.bench.plain_reader PORT stream|naive
+    python3 -m acts_tools.bench.references.plain_reader PORT stream|naive
 
 It opens the port, decodes, counts and stamps as the driver does, and prints a line of JSON four times a second.
 """
@@ -17,10 +17,10 @@ from acts_core.errors import ActsError, LaunchError
 from acts_core.wire import StreamDecoder
 from acts_driver.port import SerialSource
 from acts_driver.stream import FrameStream
-from acts_tools.bench.naive_decoder import NaiveDecoder
-from acts_tools.bench.processes import START_TIMEOUT_S, check_alive, python_module, virtual_board
-from acts_tools.bench.stream_recording import Decoder
-from acts_tools.bench.trial import Status, Trial, observe
+from acts_tools.bench.references.naive_decoder import NaiveDecoder
+from acts_tools.bench.rigs.processes import START_TIMEOUT_S, check_alive, python_module, virtual_board
+from acts_tools.bench.rigs.stream_recording import Decoder
+from acts_tools.bench.rigs.trial import Status, Trial, observe
 from acts_tools.bench.workbench import Workbench
 
 DECODERS = {"stream": StreamDecoder, "naive": NaiveDecoder}

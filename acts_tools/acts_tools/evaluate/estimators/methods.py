@@ -12,8 +12,8 @@ from acts_core.array import ArrayGeometry
 from acts_core.errors import SettingsError
 from acts_recon.fusion import FusionEstimator
 from acts_recon.sparse import Dictionary, Reconstructor, ReconstructorConfig
-from acts_tools.evaluate.dictionaries import cosine_dictionary, haar_dictionary
-from acts_tools.evaluate.interpolation import GaussianProcess, Linear
+from acts_tools.evaluate.estimators.dictionaries import cosine_dictionary, haar_dictionary
+from acts_tools.evaluate.estimators.interpolation import GaussianProcess, Linear
 
 
 class Method(Protocol):

@@ -8,9 +8,9 @@ from pathlib import Path
 from acts_core.sampling import SCHEMES, SamplingConfig
 from acts_core.settings import default_of, describe
 from acts_recon.sparse import Dictionary, shipped_dictionary_path
-from acts_tools.evaluate.dictionaries import dictionary_named
-from acts_tools.evaluate.methods import METHODS
-from acts_tools.evaluate.recovery import FOLLOW_COUNTS, Task
+from acts_tools.evaluate.estimators.dictionaries import dictionary_named
+from acts_tools.evaluate.estimators.methods import METHODS
+from acts_tools.evaluate.images.recovery import FOLLOW_COUNTS, Task
 
 METHOD = "acts"
 """Recovers unless another method is asked for."""

@@ -13,11 +13,11 @@ import numpy as np
 
 from acts_core.frames import SampleFrame
 from acts_core.wire import RasterDecoder, StreamDecoder
-from acts_tools.bench.naive_decoder import NaiveDecoder
-from acts_tools.bench.processes import virtual_board
+from acts_tools.bench.references.naive_decoder import NaiveDecoder
 from acts_tools.bench.result import Figure, Result
-from acts_tools.bench.skin import pressed
-from acts_tools.bench.stream_recording import Decoder, record
+from acts_tools.bench.rigs.processes import virtual_board
+from acts_tools.bench.rigs.skin import pressed
+from acts_tools.bench.rigs.stream_recording import Decoder, record
 from acts_tools.bench.workbench import Workbench
 
 _FRAMES = 1000

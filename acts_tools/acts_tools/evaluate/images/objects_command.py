@@ -10,10 +10,11 @@ import numpy as np
 
 from acts_core.errors import RecordingError
 from acts_sim.pressing import OBJECTS, PRESS_RATE_HZ, ContactModel, FoamConfig, object_named, press_over_time
-from acts_tools.evaluate import options, report
-from acts_tools.evaluate.methods import METHODS
-from acts_tools.evaluate.progress import evaluate_all
-from acts_tools.evaluate.recovery import Recording
+from acts_tools.evaluate import report
+from acts_tools.evaluate.estimators.methods import METHODS
+from acts_tools.evaluate.images import options
+from acts_tools.evaluate.images.progress import evaluate_all
+from acts_tools.evaluate.images.recovery import Recording
 from acts_tools.output_file import require_writable
 
 _M = (42, 56, 64, 88, 128, 176, 256, 352, 512)

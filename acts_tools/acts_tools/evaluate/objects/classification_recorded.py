@@ -10,7 +10,7 @@ import numpy as np
 from acts_core.errors import RecordingError
 from acts_core.files import FramesFile, without_contact
 from acts_recon.objects import ImageClassifierConfig, build_object_library
-from acts_tools.evaluate.classification import (
+from acts_tools.evaluate.objects.classification import (
     ACTS,
     PAPER,
     TOUCH_COUNTS,

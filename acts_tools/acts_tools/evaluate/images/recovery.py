@@ -17,11 +17,11 @@ from acts_core.array import COUNT_MAX, ArrayGeometry
 from acts_core.sampling import SamplingConfig
 from acts_core.settings import setting, validate
 from acts_recon.sparse import Dictionary, ReconstructorConfig
-from acts_tools.evaluate import calibration
-from acts_tools.evaluate.board_sampler import BoardSampler
-from acts_tools.evaluate.methods import Method, method_named
-from acts_tools.evaluate.scores import FRAME_SCORES, INVENTED, FrameScores, score_image
-from acts_tools.evaluate.truth import ContactStart, contact_starts, interpolate
+from acts_tools.evaluate.estimators.methods import Method, method_named
+from acts_tools.evaluate.images import calibration
+from acts_tools.evaluate.images.board_sampler import BoardSampler
+from acts_tools.evaluate.images.scores import FRAME_SCORES, INVENTED, FrameScores, score_image
+from acts_tools.evaluate.images.truth import ContactStart, contact_starts, interpolate
 
 SAMPLE_US = 17.877
 """Published time of one measurement: 55,936 a second."""
@@ -60,7 +60,7 @@ class Task:
     sampling : SamplingConfig
         Its `threshold_counts` is the search's.
     method : str
-        See `acts_tools.evaluate.methods.METHODS`.
+        See `acts_tools.evaluate.estimators.methods.METHODS`.
     rate_hz, touch_counts, sample_us, noise_counts, onset_s, patch_step : see below
     """
 

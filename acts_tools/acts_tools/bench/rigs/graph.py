@@ -14,7 +14,7 @@ from rclpy.signals import SignalHandlerOptions
 from acts_core.errors import LaunchError
 from acts_ros import middleware
 from acts_ros.executor import make_executor, spin_for
-from acts_tools.bench.processes import NAMESPACE
+from acts_tools.bench.rigs.processes import NAMESPACE
 from acts_tools.bench.workbench import Workbench
 
 _SLICE_S = 0.05

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from acts_tools.bench.driver_trial import driver_trial
 from acts_tools.bench.result import Figure, Result
-from acts_tools.bench.skin import pressed
+from acts_tools.bench.rigs.driver_trial import driver_trial
+from acts_tools.bench.rigs.skin import pressed
 from acts_tools.bench.workbench import Workbench
 
 _RATE_HZ = 1000.0

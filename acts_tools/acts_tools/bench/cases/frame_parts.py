@@ -25,15 +25,15 @@ from acts_recon.nodes.reconstruction_node import ReconstructionNode
 from acts_ros.messages import SamplesMessage, frame_of, stamp_ns_of
 from acts_ros.polled import PollingNode
 from acts_ros.qos import STREAM
-from acts_tools.bench.graph import Graph
-from acts_tools.bench.processes import NAMESPACE, START_TIMEOUT_S, check_alive, python_module, virtual_board
 from acts_tools.bench.result import Figure, Result
-from acts_tools.bench.skin import pressed
+from acts_tools.bench.rigs.graph import Graph
+from acts_tools.bench.rigs.processes import NAMESPACE, START_TIMEOUT_S, check_alive, python_module, virtual_board
+from acts_tools.bench.rigs.skin import pressed
 from acts_tools.bench.workbench import Workbench
 
 T = TypeVar("T")
 
-_LISTENER = "acts_tools.bench.silent_listener"
+_LISTENER = "acts_tools.bench.rigs.silent_listener"
 
 _IN_MEMORY = {
     "read": "bytes read from the port",

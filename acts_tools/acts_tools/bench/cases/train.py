@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from acts_recon.learning import KsvdConfig, code_patches, learn_dictionary
 from acts_sim.pressing import OBJECTS
-from acts_tools.bench.peers import SCIKIT_LEARN, missing, peer
+from acts_tools.bench.references.peers import SCIKIT_LEARN, missing, peer
 from acts_tools.bench.result import Figure, Result
 from acts_tools.bench.workbench import Workbench
 from acts_tools.train import choose_patches, model_frames

@@ -9,12 +9,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from acts_tools.bench.driver_trial import driver_trial
-from acts_tools.bench.plain_reader import reader_trial
+from acts_tools.bench.references.plain_reader import reader_trial
 from acts_tools.bench.result import Figure, Result
+from acts_tools.bench.rigs.driver_trial import driver_trial
+from acts_tools.bench.rigs.skin import pressed
+from acts_tools.bench.rigs.trial import Trial
 from acts_tools.bench.search import Search
-from acts_tools.bench.skin import pressed
-from acts_tools.bench.trial import Trial
 from acts_tools.bench.workbench import Workbench
 
 START_HZ = 1000.0

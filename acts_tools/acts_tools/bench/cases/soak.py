@@ -18,10 +18,10 @@ from diagnostic_msgs.msg import DiagnosticArray
 from acts_core.runtime import StreamCounter
 from acts_msgs.msg import TactileSamples
 from acts_ros.qos import STREAM
-from acts_tools.bench.graph import Graph
-from acts_tools.bench.processes import NAMESPACE, START_TIMEOUT_S, check_alive, driver, virtual_board
 from acts_tools.bench.result import Figure, Result
-from acts_tools.bench.skin import pressed
+from acts_tools.bench.rigs.graph import Graph
+from acts_tools.bench.rigs.processes import NAMESPACE, START_TIMEOUT_S, check_alive, driver, virtual_board
+from acts_tools.bench.rigs.skin import pressed
 from acts_tools.bench.workbench import Workbench
 from acts_tools.driver_status import driver_values
 from acts_tools.percentiles import percentiles

@@ -10,7 +10,7 @@ from typing import Any, TextIO
 
 from acts_recon.sparse import Dictionary
 from acts_tools.evaluate import report
-from acts_tools.evaluate.recovery import Recording, Task, evaluate, images, method_of
+from acts_tools.evaluate.images.recovery import Recording, Task, evaluate, images, method_of
 
 
 class Progress:

@@ -38,8 +38,8 @@ from acts_recon.sparse import (
 )
 from acts_recon.sparse import fastomp_kernels as kernels
 from acts_sim.pressing import OBJECTS
-from acts_tools.bench.multiply_adds import peak_per_s
-from acts_tools.bench.peers import SCIKIT_LEARN, SPAMS, missing, peer
+from acts_tools.bench.references.multiply_adds import peak_per_s
+from acts_tools.bench.references.peers import SCIKIT_LEARN, SPAMS, missing, peer
 from acts_tools.bench.result import Figure, Result
 from acts_tools.bench.workbench import Workbench
 from acts_tools.train import model_frames

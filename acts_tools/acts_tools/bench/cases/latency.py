@@ -22,11 +22,11 @@ from acts_core.wire import StreamDecoder
 from acts_driver.port import SerialSource
 from acts_msgs.msg import TactileSamples
 from acts_ros.qos import STREAM
-from acts_tools.bench.graph import Graph
-from acts_tools.bench.processes import START_TIMEOUT_S, Board, check_alive, driver, virtual_board
 from acts_tools.bench.result import Figure, Result
-from acts_tools.bench.skin import pressed
-from acts_tools.bench.true_time import TrueTime
+from acts_tools.bench.rigs.graph import Graph
+from acts_tools.bench.rigs.processes import START_TIMEOUT_S, Board, check_alive, driver, virtual_board
+from acts_tools.bench.rigs.skin import pressed
+from acts_tools.bench.rigs.true_time import TrueTime
 from acts_tools.bench.workbench import Workbench
 from acts_tools.percentiles import percentiles
 

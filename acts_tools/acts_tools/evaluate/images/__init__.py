@@ -1,0 +1,1 @@
+"""How well images are recovered: recordings sampled as a board would, recovered by a method, scored frame by frame."""
