@@ -3,16 +3,15 @@
 ROS_DOMAIN_IDs 231, 220.
 """
 
-import json
 import os
 import signal
-import socket
 from pathlib import Path
 
 from launch_support import PACKAGE, START_S, pid_of, shipped_parameters_and
 from std_srvs.srv import Trigger
 
 from acts_msgs.msg import HandStatus
+from acts_sim.dynamixel import ControlClient
 from acts_tools.testing.launch_runner import Launched, LaunchFile, launch_fixture, launch_test
 
 STATUS = "/hand/hand/status"
@@ -81,12 +80,8 @@ def simulated(tmp_path: Path) -> LaunchFile:
 def test_the_simulated_hand_tells_where_its_joints_are(simulated: Launched, tmp_path: Path) -> None:
     control = tmp_path / "run" / "hand.control"
     simulated.wait_for(control.is_socket, START_S, "the control socket")
-    with socket.socket(socket.AF_UNIX) as link, link.makefile("rw") as lines:
-        link.settimeout(START_S)
-        link.connect(str(control))
-        lines.write("state\n")
-        lines.flush()
-        state = json.loads(lines.readline())
+    with ControlClient(control) as client:
+        state = client.state()
     assert len(state["motors"]) == 16
     assert (tmp_path / "run" / "hand").is_symlink()
     assert simulated.stop() == 0

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import math
 import signal
-import socket
 import subprocess
 import sys
 import time
@@ -18,6 +17,7 @@ import pytest
 from acts_control.hand.description import LEAP_RIGHT, HandDescription, Joint
 from acts_control.hand.motors import DynamixelConfig, DynamixelHand, HandError, HandLostError, HandReading
 from acts_core.errors import SettingsError
+from acts_sim.dynamixel import ask_once
 
 DEADLINE_S = 30.0
 # Half of how long an answer is waited for: a loaded machine is slow.
@@ -31,14 +31,8 @@ class Bus:
         self.link, self.control = folder / "hand", folder / "control"
         self.process = subprocess.Popen(
             [
-                *(
-                    sys.executable,
-                    "-m",
-                    "acts_ros.executables.program",
-                    "acts_sim.dynamixel.main",
-                    "--link",
-                    str(self.link),
-                ),
+                *(sys.executable, "-m", "acts_ros.executables.program", "acts_sim.dynamixel.main"),
+                *("--link", str(self.link)),
                 *("--control", str(self.control), "--return-delay", "0", *options),
             ],
             stdout=subprocess.PIPE,
@@ -48,11 +42,7 @@ class Bus:
         self.process.stdout.readline()
 
     def command(self, line: str) -> str:
-        with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as client:
-            client.settimeout(DEADLINE_S)
-            client.connect(str(self.control))
-            client.sendall(line.encode() + b"\n")
-            return client.makefile().readline().strip()
+        return ask_once(self.control, line)
 
     def motors(self) -> list[dict[str, Any]]:
         return list(json.loads(self.command("state"))["motors"])

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import signal
-import socket
 import subprocess
 import sys
 import termios
@@ -22,6 +21,8 @@ from dynamixel_sdk import (
     port_handler,
 )
 
+from acts_sim.dynamixel import ask_once
+
 IDS = list(range(16))
 # The library waits for an answer for twice this and 2 ms [ms]; as it comes, it is too short for a loaded machine.
 port_handler.LATENCY_TIMER = 200
@@ -35,14 +36,8 @@ class Rig:
         self.link, self.control = folder / "hand", folder / "control"
         self.process = subprocess.Popen(
             [
-                *(
-                    sys.executable,
-                    "-m",
-                    "acts_ros.executables.program",
-                    "acts_sim.dynamixel.main",
-                    "--link",
-                    str(self.link),
-                ),
+                *(sys.executable, "-m", "acts_ros.executables.program", "acts_sim.dynamixel.main"),
+                *("--link", str(self.link)),
                 *("--control", str(self.control), "--return-delay", "0", *options),
             ],
             stdout=subprocess.PIPE,
@@ -60,11 +55,7 @@ class Rig:
         return port
 
     def command(self, line: str) -> str:
-        with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as client:
-            client.settimeout(10.0)
-            client.connect(str(self.control))
-            client.sendall(line.encode() + b"\n")
-            return client.makefile().readline().strip()
+        return ask_once(self.control, line)
 
     def write(self, motor_id: int, address: int, size: int, value: int) -> tuple[int, int]:
         call = {1: self.packets.write1ByteTxRx, 2: self.packets.write2ByteTxRx, 4: self.packets.write4ByteTxRx}[size]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import signal
-import socket
 import subprocess
 import sys
 import time
@@ -18,6 +17,7 @@ from dynamixel_sdk import COMM_SUCCESS, GroupSyncRead, GroupSyncWrite, PacketHan
 from hand_motors import AROUND_SPHERE
 
 from acts_core.skin import layout
+from acts_sim.dynamixel import ask_once
 from acts_sim.hand import HandTruth, TruthFollower
 from acts_sim.shared import TimedRingReader
 
@@ -52,11 +52,7 @@ class Rig:
         self.truth = TruthFollower(folder / "truth.ring")
 
     def command(self, line: str) -> str:
-        with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as client:
-            client.settimeout(10.0)
-            client.connect(str(self.control))
-            client.sendall(line.encode() + b"\n")
-            return client.makefile().readline().strip()
+        return ask_once(self.control, line)
 
     def state(self) -> dict[str, Any]:
         return dict(json.loads(self.command("state")))

@@ -5,6 +5,7 @@ In come packets on a pseudo-terminal; out come replies. A drive moves each motor
 
 from acts_sim.dynamixel.bus import Bus
 from acts_sim.dynamixel.control import ControlSocket
+from acts_sim.dynamixel.control_client import ControlClient, ask_once
 from acts_sim.dynamixel.control_table import MODELS
 from acts_sim.dynamixel.drive import RAD_PER_TICK
 from acts_sim.dynamixel.faults import MOTOR_FAULTS, do_to_motor, state
@@ -17,9 +18,11 @@ __all__ = [
     "RAD_PER_TICK",
     "Bus",
     "BusPort",
+    "ControlClient",
     "ControlSocket",
     "Motor",
     "OverloadLaw",
+    "ask_once",
     "do_to_motor",
     "state",
 ]

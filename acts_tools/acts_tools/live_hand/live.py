@@ -13,11 +13,11 @@ from rclpy.signals import SignalHandlerOptions
 from acts_core.errors import ActsError, LaunchError
 from acts_msgs.msg import HandStatus
 from acts_ros import middleware
+from acts_sim.dynamixel import ControlClient
 from acts_tools.bags.stopping import StopFlag
 from acts_tools.demo.launched import launched
 from acts_tools.demo.watcher import Watcher
 from acts_tools.live_hand.collector import HandCollector
-from acts_tools.live_hand.control import WorldControl
 from acts_tools.live_hand.recording import HandRecording
 from acts_tools.process_load import LoadMeter
 
@@ -42,7 +42,7 @@ class LiveHand:
     Parameters
     ----------
     collector : HandCollector
-    control : WorldControl
+    control : ControlClient
     watcher : Watcher
         Takes in what comes while something is waited for.
 
@@ -51,7 +51,7 @@ class LiveHand:
     recording : HandRecording
     """
 
-    def __init__(self, collector: HandCollector, control: WorldControl, watcher: Watcher) -> None:
+    def __init__(self, collector: HandCollector, control: ControlClient, watcher: Watcher) -> None:
         self.recording: HandRecording = collector.recording
         self._collector = collector
         self._control = control
@@ -158,8 +158,8 @@ def live_hand(
             rclpy.try_shutdown()
 
 
-def _control(path: Path) -> WorldControl:
+def _control(path: Path) -> ControlClient:
     try:
-        return WorldControl(path)
+        return ControlClient(path)
     except ActsError as error:
         raise LaunchError(str(error)) from error
