@@ -241,5 +241,5 @@ class RollingBall:
 def node_command(module: str, *arguments: str, **parameters: object) -> list[str]:
     """Command line of a node of this package in the namespace /plate; `parameters` are for every node in it."""
     words = [word for name, value in parameters.items() for word in ("-p", f"{name}:={value}")]
-    program = [sys.executable, "-m", "acts_ros.executables.program", f"acts_control.{module}"]
+    program = [sys.executable, "-m", "acts_ros.executables.program", f"acts_control.ball.nodes.{module}"]
     return [*program, *arguments, "--ros-args", "-r", "__ns:=/plate", *words]
