@@ -61,3 +61,7 @@ _REFUSALS = (SettingsError, ArrayError, DictionaryError, ObjectLibraryError)
 def exit_code(error: ActsError) -> int:
     """Exit code of a process that ends with an error: `REFUSED_EXIT_CODE` where starting it again is of no use."""
     return REFUSED_EXIT_CODE if isinstance(error, _REFUSALS) else 1
+
+
+class ViewRequestError(ActsError):
+    """A page asked for something that is not understood or not allowed."""

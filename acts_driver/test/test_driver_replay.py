@@ -171,7 +171,7 @@ def test_files_that_are_no_recordings(tmp_path: Path) -> None:
     refused(tmp_path / "empty", "no bag that can be read")
     one = [(frame(0), START_NS)]
     two = write_bag(tmp_path / "two", {"/left/samples": one, "/right/samples": one})
-    refused(two, "has /left/samples, /right/samples .*set the parameter replay_topic")
+    refused(two, "has /left/samples, /right/samples .*say which .*parameter replay_topic")
     refused(two, "has no topic /middle", topic="/middle")
     assert len(list(open_recording(ReplayOptions(two, "/right/samples")).frames())) == 1
     other = DEFINITION.replace("uint16[] indices", "uint32[] indices")

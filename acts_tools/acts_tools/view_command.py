@@ -3,11 +3,17 @@
 from __future__ import annotations
 
 import argparse
+from pathlib import Path
+
+from acts_core.skin.layouts import LAYOUTS
 
 _EPILOG = """\
 examples:
   acts view                          every skin that is found, at http://127.0.0.1:8080/
   acts view plate --port 9000        this one
+  acts view --bag touch              a bag with samples, with pause and seek; needs nothing that runs
+  acts view --npz FILE.npz           likewise of frames in an npz file
+  acts view --board auto             the board that is plugged in, without a driver
   acts view --host 0.0.0.0           also for other machines: the address that is printed has a token that lets them in
 
 docs/view.md explains the page.
@@ -19,12 +25,25 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser = subparsers.add_parser(
         "view",
         help="show touch on a page in the browser",
-        description="Serve a page that shows what the skins feel: image, contacts, plots, diagnostics. It only "
-        "listens. Ctrl-C ends it.",
+        description="Serve a page that shows what the skins feel: image, contacts, plots, diagnostics; or what a "
+        "recording holds, or a board sends. It only listens. Ctrl-C ends it.",
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("skins", nargs="*", metavar="NAMESPACE", help="skins to show, such as plate; none: all found")
+    source = parser.add_mutually_exclusive_group()
+    source.add_argument("--bag", type=Path, metavar="BAG", help="show the samples of a bag (folder or .mcap)")
+    source.add_argument("--npz", type=Path, metavar="FILE", help="show samples or full frames of an npz file")
+    source.add_argument("--board", metavar="PORT", help="show the board at a port: a path, auto, or serial:NUMBER")
+    parser.add_argument(
+        "--layout", default="square", help=f"of a recording or board: {', '.join(LAYOUTS)}, or a file (square)"
+    )
+    parser.add_argument(
+        "--size", type=int, nargs=2, default=(32, 32), metavar=("ROWS", "COLS"), help="of a board (32 32)"
+    )
+    parser.add_argument(
+        "--protocol", default="binary", choices=("binary", "raster_ascii"), help="of a board, as the driver's (binary)"
+    )
     parser.add_argument("--host", default="127.0.0.1", help="address to listen on (127.0.0.1: this machine only)")
     parser.add_argument("--port", type=int, default=8080, help="port to listen on; 0: any that is free (8080)")
 
@@ -33,8 +52,30 @@ def run(arguments: argparse.Namespace) -> int:
     """Show until told to stop; the exit code."""
     # Late: they take time that the other commands need not spend.
     from acts_core.stop_signals import StopSignals
+
+    if arguments.bag or arguments.npz or arguments.board:
+        return _show_local(arguments, StopSignals())
     from acts_view.main import main
 
     given = {"skins": ",".join(arguments.skins), "host": arguments.host, "port": arguments.port}
     words = [word for name, value in given.items() for word in ("--set", f"view.{name}={value}")]
     return main(StopSignals(), ["acts view", *words])
+
+
+def _show_local(arguments: argparse.Namespace, signals: object) -> int:
+    """Show a recording or a board; the exit code."""
+    from acts_core.stop_signals import StopSignals
+    from acts_driver.settings import DriverSettings
+    from acts_view.local.show import log, show
+    from acts_view.local.sources import BoardSource, LocalSource, open_recorded
+
+    assert isinstance(signals, StopSignals)
+    source: LocalSource
+    if arguments.board:
+        rows, cols = arguments.size
+        driver = DriverSettings(port=arguments.board, protocol=arguments.protocol, rows=rows, cols=cols)
+        name = f"/{arguments.skins[0].strip('/')}" if arguments.skins else "/board"
+        source = BoardSource(driver, arguments.layout, log)
+    else:
+        source, name = open_recorded(arguments.bag or arguments.npz, arguments.skins, arguments.layout)
+    return show(source, name, host=arguments.host, port=arguments.port, signals=signals)

@@ -8,8 +8,12 @@ import re
 import signal
 import subprocess
 import sys
+from pathlib import Path
+
+from websockets.sync.client import connect
 
 from acts_core.errors import REFUSED_EXIT_CODE
+from acts_tools.bench.rigs.processes import virtual_board
 
 DEADLINE_S = 60.0
 
@@ -44,6 +48,25 @@ def test_it_prints_where_the_page_is_and_ends_in_order() -> None:
             )
             assert second.returncode == REFUSED_EXIT_CODE
             assert f"error: cannot listen on 127.0.0.1 port {found[1]}" in second.stderr
+            process.send_signal(signal.SIGINT)
+            assert process.wait(DEADLINE_S) == 0
+        finally:
+            process.kill()
+
+
+def test_a_board_is_shown_without_any_graph(tmp_path: Path) -> None:
+    with virtual_board(tmp_path) as board, start("--board", str(board.link), "--port", "0") as process:
+        try:
+            assert process.stdout is not None
+            found = next(
+                found for line in process.stdout if (found := re.search(r"open (http://127\.0\.0\.1:\d+)", line))
+            )
+            with connect(f"ws{found[1][4:]}/stream", origin=found[1], compression=None) as page:  # type: ignore[arg-type]
+                page.send('{"id":1,"do":"tare"}')
+                # Frame after frame, with an image; the answer to what was asked for among them.
+                told = b"".join(bytes(page.recv(DEADLINE_S)) for _ in range(30))  # type: ignore[arg-type]
+            assert told.count(b'["image","uint16",[32,32]]') > 10
+            assert b'"type":"answer","id":1,"done":' in told
             process.send_signal(signal.SIGINT)
             assert process.wait(DEADLINE_S) == 0
         finally:

@@ -2,31 +2,23 @@
 
 from __future__ import annotations
 
-import os
-import shutil
 import threading
 import time
 from collections.abc import Callable, Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
+from view_browser import expect, needs_browser
 
 from acts_view.skin.snapshot import Frame, RegionState, Sample, SkinShape
 from acts_view.web.server import ViewServer
 
-BROWSER = shutil.which("chromium") or shutil.which("chromium-headless-shell")
-try:
-    from playwright.sync_api import Browser, Page, expect, sync_playwright
-except ImportError:
-    BROWSER = None
-INSTALL = (
-    "playwright or chromium is missing: sudo apt-get install chromium fonts-dejavu-core; "
-    "./acts run python3 -m pip install 'playwright==1.65.*'"
-)
-pytestmark = pytest.mark.skipif(BROWSER is None and "ACTS_REQUIRE_BROWSER" not in os.environ, reason=INSTALL)
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
 
-DEADLINE_MS = 30_000
+pytestmark = needs_browser
+
 ROW, COL = 8, 20
 PERIOD_S = 1 / 30
 
@@ -83,16 +75,6 @@ class Player:
             self.server.close()
 
 
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    assert BROWSER is not None, INSTALL
-    expect.set_options(timeout=DEADLINE_MS)
-    with sync_playwright() as playwright:
-        launched = playwright.chromium.launch(executable_path=BROWSER)
-        yield launched
-        launched.close()
-
-
 @pytest.fixture
 def play() -> Iterator[Callable[..., Player]]:
     players: list[Player] = []
@@ -104,28 +86,6 @@ def play() -> Iterator[Callable[..., Player]]:
     yield begin
     for player in players:
         player.close()
-
-
-@pytest.fixture
-def open_page(browser: Browser) -> Iterator[Callable[..., Page]]:
-    pages: list[Page] = []
-    complaints: list[str] = []
-
-    def begin(player: Player, width: int = 1280, height: int = 900, **options: Any) -> Page:
-        page = browser.new_page(viewport={"width": width, "height": height}, **options)
-        pages.append(page)
-        page.set_default_timeout(DEADLINE_MS)
-        page.on("pageerror", lambda error: complaints.append(str(error)))
-        # A server that is gone is told so by the browser itself.
-        page.on("console", lambda line: "ERR_CONNECTION_REFUSED" in line.text or complaints.append(line.text))
-        page.goto(player.url)
-        page.wait_for_selector(".skin .pill[data-state=live]")
-        return page
-
-    yield begin
-    for page in pages:
-        page.context.close()
-    assert complaints == []
 
 
 def taxel_colours(page: Page) -> np.ndarray:

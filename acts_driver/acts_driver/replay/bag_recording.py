@@ -43,13 +43,25 @@ class BagRecording:
             self.note = bag.note
             self._topic = _choose(path, topic, bag.topics())
             bag.check_definition(self._topic)
+            self._begin_ns, self._end_ns = bag.span_ns(self._topic)
         if next(self.frames(), None) is None:
             raise RecordingError(f"the bag '{path}' has no messages on {self._topic}")
 
-    def frames(self) -> Iterator[SampleFrame]:
-        """One pass; see `acts_driver.replay.recordings.Recording.frames`."""
+    @property
+    def topic(self) -> str:
+        """Its full name."""
+        return self._topic
+
+    @property
+    def length_us(self) -> int:
+        """See `acts_driver.replay.recordings.SeekableRecording.length_us`; by the recorder's clock."""
+        return (self._end_ns - self._begin_ns) // 1000
+
+    def frames(self, from_us: int = 0) -> Iterator[SampleFrame]:
+        """One pass; see `acts_driver.replay.recordings.SeekableRecording.frames`."""
+        from_ns = self._begin_ns + 1000 * from_us if from_us else None
         with self._open(self._path) as bag:
-            for number, (_, _, data) in enumerate(bag.messages([self._topic])):
+            for number, (_, _, data) in enumerate(bag.messages([self._topic], from_ns)):
                 try:
                     yield frame_of(deserialize_message(data, TactileSamples))
                 # rclpy has no exception of its own for bytes that are no such message.
@@ -66,7 +78,8 @@ def _choose(path: Path, topic: str, types: dict[str, str]) -> str:
         raise RecordingError(f"the bag '{path}' has no topic {topic} of {_TYPE}; it has {_listed(fitting)}")
     if not fitting or (len(fitting) > 1 and not topic):
         raise RecordingError(
-            f"the bag '{path}' has {_listed(fitting)} of {_TYPE}; needed is one: set the parameter replay_topic"
+            f"the bag '{path}' has {_listed(fitting)} of {_TYPE}; needed is one: say which (the driver's "
+            "parameter replay_topic, or the namespace after `acts view`)"
             if fitting
             else f"the bag '{path}' has no topic of {_TYPE}, only {_listed(sorted(types))}"
         )

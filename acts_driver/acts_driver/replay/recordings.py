@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import zipfile
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -34,6 +35,23 @@ class Recording(Protocol):
         """
 
 
+class SeekableRecording(Protocol):
+    """A recording that need not be gone through from its beginning."""
+
+    @property
+    def length_us(self) -> int:
+        """From the first frame to the last, as far as can be known without reading all [us]."""
+
+    def frames(self, from_us: int = 0) -> Iterator[SampleFrame]:
+        """One pass; see `Recording.frames`.
+
+        Parameters
+        ----------
+        from_us : int
+            Leave out what is earlier, counted from the first frame [us].
+        """
+
+
 @dataclass(frozen=True)
 class ReplayOptions:
     """What is to be replayed.
@@ -62,7 +80,7 @@ class ReplayOptions:
     skin_map: Callable[[int, int], SkinMap | None] = lambda rows, cols: None
 
 
-def open_recording(options: ReplayOptions) -> Recording:
+def open_recording(options: ReplayOptions) -> SeekableRecording:
     """Open a recording, and read enough of it to know that it can be replayed.
 
     Raises
@@ -135,13 +153,18 @@ class SampledFrames:
         m = sampling.rows * sampling.cols if sampling.scheme == "raster" else sampling.m
         self._duration_us = m * MEASUREMENT_US
         self._period_us = max(1e6 / (rate_cap_hz or BOARD_RATE_HZ), self._duration_us)
+        self._count = max(1, int(len(self._frames) / self._frames_hz * 1e6 / self._period_us))
 
-    def frames(self) -> Iterator[SampleFrame]:
-        """One pass; see `Recording.frames`."""
+    @property
+    def length_us(self) -> int:
+        """See `SeekableRecording.length_us`."""
+        return round((self._count - 1) * self._period_us)
+
+    def frames(self, from_us: int = 0) -> Iterator[SampleFrame]:
+        """One pass; see `SeekableRecording.frames`."""
         sampler = Sampler(self._sampling, self._map)
         scheme = SCHEMES[self._sampling.scheme]
-        length_us = len(self._frames) / self._frames_hz * 1e6
-        for sequence in range(max(1, int(length_us / self._period_us))):
+        for sequence in range(math.ceil(from_us / self._period_us), self._count):
             end_us = sequence * self._period_us + self._duration_us
             indices, counts = sampler.frame(measure_in(self._at(end_us)))
             yield SampleFrame(
@@ -228,9 +251,14 @@ class RecordedSamples:
             _whole(path, content, "duration_us", round(indices.shape[1] * MEASUREMENT_US), 0, 2**32 - 1),
         )
 
-    def frames(self) -> Iterator[SampleFrame]:
-        """One pass; see `Recording.frames`."""
-        for row in range(len(self._indices)):
+    @property
+    def length_us(self) -> int:
+        """See `SeekableRecording.length_us`."""
+        return int(self._board_us[-1] - self._board_us[0])
+
+    def frames(self, from_us: int = 0) -> Iterator[SampleFrame]:
+        """One pass; see `SeekableRecording.frames`."""
+        for row in range(int(np.searchsorted(self._board_us, self._board_us[0] + from_us)), len(self._indices)):
             yield SampleFrame(
                 sequence=int(self._sequence[row]),
                 board_us=int(self._board_us[row]),

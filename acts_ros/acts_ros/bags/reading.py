@@ -64,8 +64,29 @@ class Bag:
             for profile in cast(ConnectionExtRosbag2, connection.ext).offered_qos_profiles
         ]
 
-    def messages(self, topics: Sequence[str]) -> Iterator[tuple[str, int, bytes]]:
+    def span_ns(self, topic: str) -> tuple[int, int]:
+        """Stamps of the first and the last message [ns]: of the bag where it tells, else of the topic.
+
+        Raises
+        ------
+        RecordingError
+            The bag is damaged.
+        """
+        if isinstance(self._reader, Reader):
+            return self._reader.start_time, self._reader.end_time
+        begin_ns = end_ns = 0
+        for _, stamp_ns, _ in self.messages([topic]):
+            begin_ns, end_ns = begin_ns or stamp_ns, stamp_ns
+        return begin_ns, end_ns
+
+    def messages(self, topics: Sequence[str], from_ns: int | None = None) -> Iterator[tuple[str, int, bytes]]:
         """Topic, stamp [ns] and serialised message, in the order of their stamps.
+
+        Parameters
+        ----------
+        topics : sequence of str
+        from_ns : int, optional
+            Leave out what is earlier [ns].
 
         Raises
         ------
@@ -78,14 +99,15 @@ class Bag:
         count = 0
         reader = self._reader
         try:
-            messages = reader.messages_scan(wanted) if isinstance(reader, McapReader) else reader.messages(wanted)
+            read = reader.messages_scan if isinstance(reader, McapReader) else reader.messages
+            messages = read(wanted, start=from_ns)
             for connection, stamp_ns, data in messages:
                 yield connection.topic, stamp_ns, bytes(data)
                 count += 1
         except Exception as error:  # damage shows in whatever way the reader stumbles over it
             raise RecordingError(f"the bag '{self._path}' is damaged after {count} messages: {error}") from error
         expected = sum(connection.msgcount for connection in wanted)
-        if count < expected:
+        if count < expected and from_ns is None:
             raise RecordingError(
                 f"the bag '{self._path}' is damaged: {expected - count} of {expected} messages are lost"
             )

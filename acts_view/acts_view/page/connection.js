@@ -5,9 +5,13 @@ import { decode } from "./codec.js";
 const SILENT_MS = 4000; // the server says something every second
 const AGAIN_MS = [300, 600, 1200, 2400];
 
-/** Calls onMessage(message) and onState("connecting" | "live" | "gone"); every "live" begins anew. */
+/**
+ * Calls onMessage(message) and onState("connecting" | "live" | "gone"); every "live" begins anew. Returns send(object),
+ * which tells whether there was somebody to send to.
+ */
 export function connect(onMessage, onState) {
   let tries = 0;
+  let present = null;
   let watchdog = 0;
 
   function open() {
@@ -20,6 +24,7 @@ export function connect(onMessage, onState) {
     const over = () => {
       if (isOver) return;
       isOver = true;
+      present = null;
       clearTimeout(watchdog);
       socket.close();
       onState("gone");
@@ -33,6 +38,7 @@ export function connect(onMessage, onState) {
     heard();
     socket.onopen = () => {
       tries = 0;
+      present = socket;
       onState("live");
       heard();
     };
@@ -46,4 +52,8 @@ export function connect(onMessage, onState) {
 
   onState("connecting");
   open();
+  return (content) => {
+    present?.send(JSON.stringify(content));
+    return present !== null;
+  };
 }

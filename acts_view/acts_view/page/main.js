@@ -3,6 +3,8 @@
 import { connect } from "./connection.js";
 import { Diagnostics } from "./diagnostics.js";
 import { Panel } from "./skin/panel.js";
+import { Replay } from "./replay.js";
+import { answered, forgetAll, useConnection } from "./requests.js";
 import { next, onChange, set, settings } from "./settings.js";
 
 const TICK_MS = 50;
@@ -11,6 +13,7 @@ const KEYS = { s: "scale", m: "colours", i: "smooth", c: "contacts", u: "unsure"
 
 const panels = new Map();
 const diagnostics = new Diagnostics(document.getElementById("diagnostics"));
+const replay = new Replay(document.getElementById("replay"));
 let isHeld = false;
 
 const byId = (id) => document.getElementById(id);
@@ -31,7 +34,11 @@ function panel(name) {
 function onMessage(message) {
   if (message.type === "skin") panel(message.skin).describe(message);
   else if (message.type === "frame") panel(message.skin).take(message);
-  else if (message.type === "status") diagnostics.show(message.diagnostics);
+  else if (message.type === "answer") answered(message);
+  else if (message.type === "status") {
+    diagnostics.show(message.diagnostics);
+    replay.show(message.replay);
+  }
 }
 
 function onState(state) {
@@ -39,6 +46,7 @@ function onState(state) {
   pill.dataset.state = state;
   pill.textContent = STATES[state];
   document.body.dataset.connection = state;
+  if (state === "gone") forgetAll();
   if (state === "live") for (const one of panels.values()) one.forget();
 }
 
@@ -61,7 +69,7 @@ for (const name of ["scale", "colours", "window"]) byId(name).onchange = (event)
 for (const name of ["smooth", "contacts", "unsure", "theme"]) byId(name).onclick = () => next(name);
 byId("pause").onclick = () => hold(!isHeld);
 document.addEventListener("keydown", (event) => {
-  if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest("select, button, summary")) return;
+  if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest("select, button, summary, input")) return;
   if (event.key in KEYS) next(KEYS[event.key]);
   else if (event.key === " ") hold(!isHeld);
   else return;
@@ -71,6 +79,6 @@ matchMedia("(prefers-color-scheme: dark)").addEventListener("change", show);
 onChange(show);
 show();
 setInterval(() => {
-  for (const one of panels.values()) one.tick();
+  for (const one of panels.values()) one.tick(replay.isHeld);
 }, TICK_MS);
-connect(onMessage, onState);
+useConnection(connect(onMessage, onState));

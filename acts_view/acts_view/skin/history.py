@@ -55,9 +55,7 @@ class History:
         """
         number = math.floor(stamp_s / self._interval_s)
         if self._number is not None and (number - self._number) * self._interval_s < -_CLOCK_WENT_BACK_S:
-            self._life += 1
-            self._done = 0
-            self._number = None
+            self.forget()
         if self._number is None or number > self._number:
             self._close()
             self._number = number
@@ -75,6 +73,12 @@ class History:
             row[5] = latency_ms
         if latency_ms > row[6] or row[6] != row[6]:
             row[6] = latency_ms
+
+    def forget(self) -> None:
+        """Begin anew."""
+        self._life += 1
+        self._done = 0
+        self._number = None
 
     def since(self, place: Place) -> tuple[NDArray[np.float64], Place]:
         """What is complete and new to somebody.

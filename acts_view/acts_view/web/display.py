@@ -63,6 +63,10 @@ class Display:
         skin.frame = frame
         skin.frames += 1
 
+    def forget(self, name: str) -> None:
+        """What comes of a skin does not follow on what has come."""
+        self._skin(name).history.forget()
+
     def show_shape(self, name: str, shape: SkinShape) -> None:
         """Take what a skin is like."""
         self._skin(name).describe(shape)

@@ -13,16 +13,21 @@ from typing import Any
 
 from websockets.asyncio.server import Server, ServerConnection, broadcast, serve
 from websockets.datastructures import Headers
+from websockets.exceptions import ConnectionClosed
 from websockets.http11 import Request, Response
 
-from acts_core.errors import SettingsError
+from acts_core.errors import ActsError, SettingsError, ViewRequestError
 from acts_core.runtime import LogCallback
 from acts_view.skin.snapshot import Frame, Sample, SkinShape
 from acts_view.web.access import is_local_host, new_token, refusal
+from acts_view.web.codec import encode
 from acts_view.web.display import Display, Reader
 from acts_view.web.page_files import read_page
+from acts_view.web.requests import RequestHandler, read_request
 
 STREAM_PATH = "/stream"
+MAX_UNANSWERED = 4
+READ_ONLY = "this page only shows; started with `acts view --control` it can also do that"
 MAX_CLIENTS = 32
 # Enough for two pictures of 64 x 64: what waits in the system's buffers is old when it arrives.
 _SEND_BUFFER_BYTES = 65536
@@ -63,11 +68,15 @@ class Address:
 
 @dataclass(eq=False)
 class _Client:
-    """A page; `stalled_s`: since when it has not taken what it was sent."""
+    """A page.
+
+    `stalled_s`: since when it has not taken what it was sent; `unanswered`: requests that are.
+    """
 
     connection: ServerConnection
     reader: Reader
     stalled_s: float | None = None
+    unanswered: int = 0
 
 
 class ViewServer:
@@ -82,6 +91,8 @@ class ViewServer:
     on_clients : callable
         Called with the number of clients whenever it changes, on the server's thread.
     log : LogCallback
+    on_request : RequestHandler, optional
+        Acts on what pages ask for; None: they are refused.
     display : Display, optional
 
     Raises
@@ -98,12 +109,14 @@ class ViewServer:
         send_limit_s: float = 5.0,
         on_clients: Callable[[int], None],
         log: LogCallback,
+        on_request: RequestHandler | None = None,
         display: Display | None = None,
     ) -> None:
         self._display = Display() if display is None else display
         self._send_limit_s = send_limit_s
         self._on_clients = on_clients
         self._log = log
+        self._on_request = on_request
         self._files = read_page()
         self._clients: set[_Client] = set()
         self._token = "" if is_local_host(host) else new_token()
@@ -123,6 +136,10 @@ class ViewServer:
     def show_frame(self, name: str, frame: Frame, samples: Sequence[Sample]) -> None:
         """As `Display.show_frame`, from any thread."""
         self._show(self._display.show_frame, name, frame, samples)
+
+    def forget(self, name: str) -> None:
+        """As `Display.forget`, from any thread."""
+        self._show(self._display.forget, name)
 
     def show_shape(self, name: str, shape: SkinShape) -> None:
         """As `Display.show_shape`, from any thread."""
@@ -186,10 +203,43 @@ class ViewServer:
         self._on_clients(len(self._clients))
         self._send_to(client)
         try:
-            await connection.wait_closed()
+            async for data in connection:
+                self._ask(client, data)
+        except ConnectionClosed:
+            pass  # the page was closed without a word, or dropped
         finally:
             self._clients.discard(client)
             self._on_clients(len(self._clients))
+
+    def _ask(self, client: _Client, data: str | bytes) -> None:
+        """Hand on what a page asks for."""
+        try:
+            request = read_request(data)
+        except ViewRequestError as error:
+            self._answer_to(client, None, False, str(error))
+            return
+        if self._on_request is None:
+            self._answer_to(client, request.number, False, READ_ONLY)
+            return
+        if client.unanswered >= MAX_UNANSWERED:
+            self._answer_to(client, request.number, False, f"{MAX_UNANSWERED} requests wait for their answers already")
+            return
+        client.unanswered += 1
+
+        def answer(is_done: bool, sentence: str) -> None:
+            self._loop.call_soon_threadsafe(answer_here, is_done, sentence)
+
+        def answer_here(is_done: bool, sentence: str) -> None:
+            client.unanswered -= 1
+            self._answer_to(client, request.number, is_done, sentence)
+
+        try:
+            self._on_request(request, answer)
+        except ActsError as error:
+            answer_here(False, str(error))
+
+    def _answer_to(self, client: _Client, number: int | None, is_done: bool, sentence: str) -> None:
+        broadcast([client.connection], encode({"type": "answer", "id": number, "done": is_done, "text": sentence}))
 
     def _show(self, show: Callable[..., None], *what: Any) -> None:
         """Put something on the display, and send it to all; from any thread."""

@@ -107,13 +107,13 @@ export class Panel {
     this.history.clear();
   }
 
-  /** Now and then: numbers, plots, and whether the skin is silent. */
-  tick() {
+  /** Now and then: numbers, plots, and whether the skin is silent; of a recording that is held it is meant to be. */
+  tick(isStill = false) {
     const now_ms = performance.now();
     const silent_ms = now_ms - this.heard_ms;
     const pill = this.find(".pill");
     const isSilent = silent_ms > SILENT_MS;
-    const state = this.isHeld ? "held" : !this.message ? "waiting" : isSilent ? "silent" : "live";
+    const state = this.isHeld || (isStill && this.message) ? "held" : !this.message ? "waiting" : isSilent ? "silent" : "live";
     const words = { held: "paused", waiting: "waiting", silent: `silent for ${Math.round(silent_ms / 1000)} s`, live: "live" }[state];
     if (pill.textContent !== words) pill.textContent = words;
     pill.dataset.state = state;

@@ -1,0 +1,180 @@
+"""A recording gone through at its own pace, with pause and seek, on a thread of its own. Knows no ROS."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+from acts_core.errors import RecordingError
+from acts_core.frames import SampleFrame
+from acts_driver.replay.recordings import SeekableRecording
+
+# Frames are handed on so often: what is drawn 30 times a second need not come one by one [s].
+_TURN_S = 0.01
+# Where the machine is later than this, the recording waits: nothing is left out [s].
+_LATE_MAX_S = 0.25
+# One frame alone shows little: those before the time that is sought are shown with it [us].
+_RUN_UP_US = 100_000
+
+
+@dataclass(frozen=True)
+class PlaybackState:
+    """Where a playback is.
+
+    Attributes
+    ----------
+    position_s, length_s : float
+        From the recording's first frame [s].
+    is_playing : bool
+    problem : str
+        Why it cannot go on; empty where it can.
+    """
+
+    position_s: float
+    length_s: float
+    is_playing: bool
+    problem: str = ""
+
+
+class Playback:
+    """Plays from the beginning as soon as it is started; at the end it stops, and begins anew when told to play.
+
+    Parameters
+    ----------
+    recording : SeekableRecording
+    on_frames : callable
+        Takes frames in their order, on the playback's thread.
+    on_jump : callable
+        Called there before frames that do not follow on those before.
+    """
+
+    def __init__(
+        self, recording: SeekableRecording, on_frames: Callable[[list[SampleFrame]], None], on_jump: Callable[[], None]
+    ) -> None:
+        self._recording = recording
+        self._on_frames = on_frames
+        self._on_jump = on_jump
+        self._length_us = recording.length_us
+        self._changed = threading.Condition()
+        self._is_playing = True
+        self._is_stopped = False
+        self._seek_us: int | None = 0
+        self._position_us = 0
+        self._problem = ""
+        self._zero_us: int | None = None
+        self._thread = threading.Thread(target=self._run, name="acts_playback", daemon=True)
+
+    @property
+    def state(self) -> PlaybackState:
+        """Where it is; from any thread."""
+        with self._changed:
+            seek_us = self._seek_us
+            position_us = self._position_us if seek_us is None else seek_us
+            return PlaybackState(position_us * 1e-6, self._length_us * 1e-6, self._is_playing, self._problem)
+
+    def start(self) -> None:
+        """Begin."""
+        self._thread.start()
+
+    def stop(self) -> None:
+        """End for good."""
+        with self._changed:
+            self._is_stopped = True
+            self._changed.notify()
+        self._thread.join()
+
+    def play(self) -> None:
+        """Go on; at the end begin anew."""
+        with self._changed:
+            if not self._is_playing and self._seek_us is None and self._position_us >= self._length_us:
+                self._seek_us = 0
+            self._is_playing = True
+            self._changed.notify()
+
+    def pause(self) -> None:
+        """Hold."""
+        with self._changed:
+            self._is_playing = False
+
+    def seek(self, time_s: float) -> None:
+        """Go to a time, of which a frame is shown even while it is held.
+
+        Parameters
+        ----------
+        time_s : float
+            From the first frame; beyond either end it is that end.
+        """
+        with self._changed:
+            self._seek_us = round(min(max(time_s * 1e6, 0.0), float(self._length_us)))
+            self._changed.notify()
+
+    def _run(self) -> None:
+        frames: Iterator[SampleFrame] = iter(())
+        coming: SampleFrame | None = None
+        anchor_us = 0.0
+        while True:
+            with self._changed:
+                while not (self._is_stopped or self._is_playing or self._seek_us is not None):
+                    self._changed.wait()
+                    anchor_us = _now_us() - self._position_us
+                if self._is_stopped:
+                    return
+                seek_us, self._seek_us = self._seek_us, None
+            try:
+                if seek_us is not None:
+                    frames = self._recording.frames(max(seek_us - _RUN_UP_US, 0))
+                    coming = next(frames, None)
+                    if coming is not None and self._zero_us is None:
+                        self._zero_us = coming.board_us
+                    self._on_jump()
+                    shown: list[SampleFrame] = []
+                    while coming is not None and (not shown or self._place_us(coming) <= seek_us):
+                        shown.append(coming)
+                        coming = next(frames, None)
+                    if shown:
+                        self._on_frames(shown)
+                    self._set_position(seek_us)
+                    anchor_us = _now_us() - seek_us
+                    continue
+                due: list[SampleFrame] = []
+                late_us = 0.0 if coming is None else _now_us() - anchor_us - self._place_us(coming)
+                if late_us > _LATE_MAX_S * 1e6:
+                    anchor_us += late_us
+                while coming is not None and self._place_us(coming) <= _now_us() - anchor_us:
+                    due.append(coming)
+                    coming = next(frames, None)
+            except RecordingError as error:
+                self._end(str(error))
+                continue
+            if due:
+                self._hand_on(due)
+            if coming is None:
+                self._end("")
+            else:
+                with self._changed:
+                    if self._seek_us is None and not self._is_stopped:
+                        self._changed.wait(_TURN_S)
+
+    def _place_us(self, frame: SampleFrame) -> int:
+        return frame.board_us - (self._zero_us or 0)
+
+    def _hand_on(self, frames: list[SampleFrame]) -> None:
+        self._on_frames(frames)
+        self._set_position(self._place_us(frames[-1]))
+
+    def _set_position(self, position_us: int) -> None:
+        with self._changed:
+            self._position_us = position_us
+
+    def _end(self, problem: str) -> None:
+        with self._changed:
+            if self._seek_us is None:
+                self._is_playing = False
+                self._position_us = max(self._position_us, self._length_us)
+                self._problem = problem
+
+
+def _now_us() -> float:
+    return time.monotonic() * 1e6

@@ -1,0 +1,75 @@
+"""The page of one skin without a graph."""
+
+from __future__ import annotations
+
+import sys
+import threading
+import time
+from collections.abc import Callable
+
+from acts_core.stop_signals import StopSignals
+from acts_view.local.sources import LocalSource
+from acts_view.web.requests import Answer, Request
+from acts_view.web.server import ViewServer
+
+_STATUS_PERIOD_S = 0.25
+
+
+def show(
+    source: LocalSource,
+    name: str,
+    *,
+    host: str,
+    port: int,
+    signals: StopSignals,
+    rate_hz: float = 30.0,
+    on_address: Callable[[str], None] | None = None,
+) -> int:
+    """Serve the page until told to stop; the exit code.
+
+    Parameters
+    ----------
+    source : LocalSource
+    name : str
+        Of the skin, with a slash before.
+    host, port : str, int
+        As `ViewServer` takes them.
+    signals : StopSignals
+        Ends it.
+    rate_hz : float
+        How often the page is sent what is new [Hz].
+    on_address : callable, optional
+        Takes the page's address; without, it is printed.
+    """
+    stopped = threading.Event()
+    signals.on_stop(stopped.set)
+
+    def on_request(request: Request, answer: Answer) -> None:
+        answer(True, source.do(request))
+
+    server = ViewServer(host, port, on_clients=lambda _: None, log=log, on_request=on_request)
+    try:
+        (on_address or _print_address)(server.address.url)
+        server.show_shape(name, source.skin.shape)
+        source.start(lambda: server.forget(name))
+        told_s = -_STATUS_PERIOD_S
+        while not stopped.wait(1.0 / rate_hz):
+            newest = source.skin.newest()
+            if newest is not None:
+                server.show_frame(name, *newest)
+            if time.monotonic() - told_s >= _STATUS_PERIOD_S:
+                told_s = time.monotonic()
+                server.show_status({"skins": [name], **source.status()})
+    finally:
+        source.stop()
+        server.close()
+    return 0
+
+
+def log(level: str, sentence: str) -> None:
+    """Tell the person at the terminal."""
+    print(f"[view] {level}: {sentence}", file=sys.stderr, flush=True)
+
+
+def _print_address(url: str) -> None:
+    print(f"[view] open {url}   (Ctrl-C ends it)", flush=True)

@@ -1,0 +1,66 @@
+// A recording that is shown: play, pause, and where in it one is.
+
+import { ask } from "./requests.js";
+
+const SETTLE_MS = 600; // until the server tells where it is after a seek
+
+export class Replay {
+  constructor(element) {
+    this.element = element;
+    this.button = element.querySelector("button");
+    this.slider = element.querySelector("input");
+    this.time = element.querySelector("output");
+    this.moved_ms = -SETTLE_MS;
+    this.isPlaying = false;
+    this.button.onclick = () => this.toggle();
+    this.slider.oninput = () => {
+      this.moved_ms = performance.now();
+      this.#tell(Number(this.slider.value));
+      this.#seek();
+    };
+  }
+
+  /** Whether there is one that is held. */
+  get isHeld() {
+    return !this.element.hidden && !this.isPlaying;
+  }
+
+  /** The newest of the server; without a replay it is hidden. */
+  show(replay) {
+    this.element.hidden = !replay;
+    if (!replay) return;
+    this.isPlaying = replay.playing;
+    this.element.querySelector(".name").textContent = replay.name;
+    this.button.textContent = replay.playing ? "Hold" : "Play";
+    this.slider.max = replay.length_s;
+    this.length_s = replay.length_s;
+    if (performance.now() - this.moved_ms < SETTLE_MS) return;
+    this.slider.value = replay.position_s;
+    this.#tell(replay.position_s);
+  }
+
+  /** Play or hold. */
+  toggle() {
+    ask(this.isPlaying ? "pause" : "play");
+  }
+
+  /** One seek at a time; the last one counts. */
+  async #seek() {
+    if (this.isSeeking) {
+      this.isDue = true;
+      return;
+    }
+    this.isSeeking = true;
+    do {
+      this.isDue = false;
+      await ask("seek", { value: Number(this.slider.value) });
+    } while (this.isDue);
+    this.isSeeking = false;
+  }
+
+  #tell(position_s) {
+    const words = `${position_s.toFixed(1)} of ${this.length_s.toFixed(1)} s`;
+    this.time.textContent = words;
+    this.slider.setAttribute("aria-valuetext", words);
+  }
+}

@@ -1,0 +1,89 @@
+"""What a page may ask for: small messages of JSON, checked before anybody acts on them. Knows no ROS."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from acts_core.errors import ViewRequestError
+
+Answer = Callable[[bool, str], None]
+"""Takes whether it was done and a sentence for a person; to be called once, from any thread, however late."""
+
+Number = float | int
+
+_KEYS = {"id", "do", "skin", "name", "value"}
+_LONGEST = 200
+_LARGEST = 1e15
+
+
+@dataclass(frozen=True)
+class Request:
+    """One wish.
+
+    Attributes
+    ----------
+    number : int
+        By which the page knows the answer.
+    do : str
+        What is to be done.
+    skin : str
+        Of which skin or hand; empty: of none.
+    name : str
+        Of a parameter; empty: of none.
+    value : float, int, str or None
+        For it; numbers are finite.
+    """
+
+    number: int
+    do: str
+    skin: str = ""
+    name: str = ""
+    value: Number | str | None = None
+
+
+RequestHandler = Callable[[Request, Answer], None]
+"""Takes a request, on the server's thread, which it must not hold up."""
+
+
+def read_request(data: str | bytes) -> Request:
+    """Read a message of a page.
+
+    Raises
+    ------
+    ViewRequestError
+        For anything but an object with the keys of `Request`, ``id`` in place of ``number``.
+    """
+    try:
+        content = json.loads(data, parse_constant=_refuse)
+    except (ValueError, RecursionError) as error:
+        raise ViewRequestError(f"a request that is no JSON: {error}") from error
+    if not isinstance(content, dict) or not content.keys() <= _KEYS:
+        raise ViewRequestError(f"a request has the keys {', '.join(sorted(_KEYS))} and no others")
+    number = content.get("id")
+    if not isinstance(number, int) or isinstance(number, bool) or not 0 <= number < 1 << 53:
+        raise ViewRequestError("a request has an id, a whole number from 0 on")
+    return Request(
+        number, _text(content, "do"), _text(content, "skin"), _text(content, "name"), _value(content.get("value"))
+    )
+
+
+def _text(content: dict[str, object], key: str) -> str:
+    text = content.get(key, "")
+    if not isinstance(text, str) or len(text) > _LONGEST:
+        raise ViewRequestError(f"{key} of a request is text of at most {_LONGEST} letters")
+    return text
+
+
+def _value(value: object) -> Number | str | None:
+    if value is None or (isinstance(value, str) and len(value) <= _LONGEST):
+        return value
+    # Written so that an infinite one fails, too.
+    if isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= _LARGEST:
+        return value
+    raise ViewRequestError(f"the value of a request is a number up to {_LARGEST:g}, or a short text")
+
+
+def _refuse(name: str) -> None:
+    raise ValueError(f"{name} is no number")

@@ -1,0 +1,52 @@
+"""A real browser, and pages in it that must not complain."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, Any, Protocol
+
+import pytest
+from view_browser import BROWSER, DEADLINE_MS, INSTALL
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser, Page
+
+
+class HasAddress(Protocol):
+    """Serves a page."""
+
+    url: str
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Browser]:
+    assert BROWSER is not None, INSTALL
+    from playwright.sync_api import expect, sync_playwright
+
+    expect.set_options(timeout=DEADLINE_MS)
+    with sync_playwright() as playwright:
+        launched = playwright.chromium.launch(executable_path=BROWSER)
+        yield launched
+        launched.close()
+
+
+@pytest.fixture
+def open_page(browser: Browser) -> Iterator[Callable[..., Page]]:
+    pages: list[Page] = []
+    complaints: list[str] = []
+
+    def begin(player: HasAddress, width: int = 1280, height: int = 900, **options: Any) -> Page:
+        page = browser.new_page(viewport={"width": width, "height": height}, **options)
+        pages.append(page)
+        page.set_default_timeout(DEADLINE_MS)
+        page.on("pageerror", lambda error: complaints.append(str(error)))
+        # A server that is gone is told so by the browser itself.
+        page.on("console", lambda line: "ERR_CONNECTION_REFUSED" in line.text or complaints.append(line.text))
+        page.goto(player.url)
+        page.wait_for_selector(".skin .pill[data-state=live]")
+        return page
+
+    yield begin
+    for page in pages:
+        page.context.close()
+    assert complaints == []

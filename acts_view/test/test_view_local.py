@@ -1,0 +1,241 @@
+"""A recording or a board shown without a graph: what is played when, and what the page is told of it."""
+
+from __future__ import annotations
+
+import itertools
+import json
+import threading
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from test_view_codec import decode
+from websockets.sync.client import ClientConnection, connect
+
+from acts_core.errors import ViewRequestError
+from acts_core.frames import SampleFrame, Scheme
+from acts_core.stop_signals import StopSignals
+from acts_driver.replay.recordings import ReplayOptions, open_recording
+from acts_recon.settings import ReconstructionSettings
+from acts_view.local.local_skin import LocalSkin
+from acts_view.local.playback import Playback
+from acts_view.local.show import show
+from acts_view.local.sources import LocalSource, open_recorded
+from acts_view.web.requests import Request, read_request
+
+DEADLINE_S = 30.0
+ROW, COL = 10, 20
+
+
+def until(condition: Callable[[], bool]) -> None:
+    deadline_s = time.monotonic() + DEADLINE_S
+    while not condition():
+        assert time.monotonic() < deadline_s
+        time.sleep(0.002)
+
+
+def write_frames(path: Path, count: int = 4, rate_hz: float = 2.0) -> Path:
+    """Full frames with a press at one taxel and its neighbours, harder in each."""
+    frames = np.zeros((count, 32, 32), np.uint16)
+    for number in range(count):
+        frames[number, ROW - 1 : ROW + 2, COL - 1 : COL + 2] = min(300 + 100 * number, 900)
+    np.savez(path, frames=frames, rate_hz=rate_hz)
+    return path
+
+
+class Counted:
+    """A second of frames at 1 kHz whose numbers tell their time, with a gap of half a second in it."""
+
+    length_us = 1_499_000
+
+    def frames(self, from_us: int = 0) -> Iterator[SampleFrame]:
+        empty = np.zeros(1, np.uint16)
+        for number in range(1000):
+            time_us = 1000 * number + (500_000 if number >= 100 else 0)
+            if time_us >= from_us:
+                yield SampleFrame(number, 7_000_000 + time_us, 0, Scheme.RASTER, 32, 32, 0, empty, empty)
+
+
+class Played:
+    def __init__(self) -> None:
+        self.numbers: list[int] = []
+        self.jumps: list[int] = []
+        self.playback = Playback(Counted(), self._take, lambda: self.jumps.append(len(self.numbers)))
+
+    def _take(self, frames: list[SampleFrame]) -> None:
+        self.numbers += [one.sequence for one in frames]
+
+
+@pytest.fixture
+def played() -> Iterator[Played]:
+    made = Played()
+    made.playback.start()
+    yield made
+    made.playback.stop()
+
+
+def test_a_recording_is_played_whole_at_its_pace_over_its_gaps_and_then_again(played: Played) -> None:
+    began_s = time.monotonic()
+    until(lambda: not played.playback.state.is_playing)
+    assert time.monotonic() - began_s > 1.2
+    assert played.numbers == list(range(1000))
+    assert played.playback.state.position_s == pytest.approx(1.499)
+    played.playback.play()
+    until(lambda: len(played.numbers) > 1003)
+    assert played.numbers[1000:1003] == [0, 1, 2]
+    assert played.jumps == [0, 1000]
+
+
+def test_a_held_recording_shows_where_one_goes_and_goes_on_from_there(played: Played) -> None:
+    playback = played.playback
+    until(lambda: bool(played.numbers))
+    playback.pause()
+    until(lambda: not playback.state.is_playing)
+    playback.seek(1.2)
+    until(lambda: played.numbers[-1] == 700)
+    assert playback.state.position_s == pytest.approx(1.2)
+    seen = len(played.numbers)
+    playback.play()
+    until(lambda: len(played.numbers) > seen)
+    assert played.numbers[seen] == 701
+    playback.seek(1e9)
+    until(lambda: not playback.state.is_playing)
+    playback.seek(-5.0)
+    until(lambda: played.numbers[-1] == 0)
+
+
+@pytest.mark.parametrize("kind", ["full frames", "samples"])
+def test_a_recording_is_gone_through_from_any_time(tmp_path: Path, kind: str) -> None:
+    path = tmp_path / "one.npz"
+    if kind == "full frames":
+        write_frames(path)
+    else:
+        shape = (2000, 3)
+        np.savez(path, indices=np.tile(np.arange(3), (2000, 1)), counts=np.ones(shape, int), rate_hz=1000.0)
+    recording = open_recording(ReplayOptions(path))
+    whole = [one.board_us for one in recording.frames()]
+    assert recording.length_us == whole[-1] - whole[0]
+    part = next(recording.frames(1_500_000)).board_us - whole[0]
+    assert 0 <= part - 1_500_000 <= 1000
+    assert next(recording.frames(recording.length_us + 5000), None) is None
+
+
+def test_touch_is_recovered_as_by_the_node(tmp_path: Path) -> None:
+    source, name = open_recorded(write_frames(tmp_path / "press.npz"), [], "square")
+    assert name == "/press"
+    skin = source.skin
+    skin.take([(one, 1000 * one.board_us) for one in itertools.islice(source.recording.frames(), 60)], None)
+    taken = skin.newest()
+    assert taken is not None
+    frame, samples = taken
+    assert len(samples) == 60
+    assert frame.image is not None
+    assert np.unravel_index(frame.image.argmax(), frame.image.shape) in itertools.product(
+        range(ROW - 1, ROW + 2), range(COL - 1, COL + 2)
+    )
+    assert len(frame.contacts) == 1
+    np.testing.assert_allclose(frame.contacts[0, :2], [(COL - 15.5) * 0.004375, (15.5 - ROW) * 0.004375], atol=0.003)
+    assert skin.newest() is None
+
+
+def test_what_does_not_fit_is_counted_and_a_baseline_subtracted() -> None:
+    skin = LocalSkin(ReconstructionSettings(rows=8, cols=8))
+    small = np.zeros(1, np.uint16)
+    skin.take([(SampleFrame(0, 0, 0, Scheme.RASTER, 4, 4, 0, small, small), 0)], None)
+    assert (skin.rejected, skin.newest()) == (1, None)
+    assert "4 x 4" in skin.problem
+
+
+@given(st.text() | st.binary() | st.builds(json.dumps, st.dictionaries(st.text(), st.integers() | st.text())))
+def test_anything_is_a_request_or_refused(data: str | bytes) -> None:
+    try:
+        request = read_request(data)
+    except ViewRequestError:
+        return
+    assert request.number >= 0
+
+
+def test_a_request_is_read_as_it_is_and_an_odd_one_refused() -> None:
+    assert read_request('{"id":3,"do":"seek","value":1.5}') == Request(3, "seek", value=1.5)
+    for text in (
+        '{"id":1,"do":"seek","value":NaN}',
+        '{"id":1,"do":"seek","value":1e999}',
+        '{"id":1,"do":"seek","value":[1]}',
+        '{"id":1,"do":"seek","more":1}',
+        '{"id":true,"do":"seek"}',
+        '{"do":"seek"}',
+        "[" * 900,
+        json.dumps({"id": 1, "do": "x" * 201}),
+    ):
+        with pytest.raises(ViewRequestError):
+            read_request(text)
+
+
+class Shown:
+    """A local page and what it was told."""
+
+    def __init__(self, source: LocalSource, name: str) -> None:
+        self.addresses: list[str] = []
+        self._signals = _Signals()
+        self._thread = threading.Thread(
+            target=show,
+            args=(source, name),
+            kwargs={"host": "127.0.0.1", "port": 0, "signals": self._signals, "on_address": self.addresses.append},
+        )
+        self._thread.start()
+        until(lambda: bool(self.addresses))
+
+    @property
+    def url(self) -> str:
+        """Where the page is."""
+        return self.addresses[0]
+
+    def connect(self) -> ClientConnection:
+        origin = self.addresses[0].rstrip("/")
+        return connect(origin.replace("http", "ws") + "/stream", origin=origin, compression=None)  # type: ignore[arg-type]
+
+    def close(self) -> None:
+        self._signals.stop()
+        self._thread.join()
+
+
+class _Signals(StopSignals):
+    """None of a process: the test is not one."""
+
+    def __init__(self) -> None:
+        self._callbacks: list[Callable[[], None]] = []
+
+    def on_stop(self, callback: Callable[[], None]) -> None:
+        self._callbacks.append(callback)
+
+    def stop(self) -> None:
+        for callback in self._callbacks:
+            callback()
+
+
+def test_a_page_holds_a_recording_and_others_see_it(tmp_path: Path) -> None:
+    source, name = open_recorded(write_frames(tmp_path / "press.npz", 40), ["plate"], "square")
+    shown = Shown(source, name)
+    try:
+        with shown.connect() as client:
+            client.send('{"id":5,"do":"pause"}')
+            client.send('{"id":6,"do":"grasp"}')
+            seen: dict[str, object] = {}
+            answers: dict[int, tuple[bool, str]] = {}
+            deadline_s = time.monotonic() + DEADLINE_S
+            while not (seen.get("replay", {}).get("playing") is False and len(answers) == 2):  # type: ignore[attr-defined]
+                assert time.monotonic() < deadline_s, (seen, answers)
+                header, _ = decode(client.recv(DEADLINE_S))  # type: ignore[arg-type]
+                if header["type"] == "answer":
+                    answers[header["id"]] = (header["done"], header["text"])
+                elif header["type"] == "status":
+                    seen = header
+            assert answers[5] == (True, "")
+            assert answers[6][0] is False
+            assert seen["skins"] == ["/press"]
+    finally:
+        shown.close()

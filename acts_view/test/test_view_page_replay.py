@@ -1,0 +1,42 @@
+"""A recording on the page in a real browser: pause, seek, play."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from test_view_local import Shown, write_frames
+from view_browser import expect, needs_browser
+
+from acts_view.local.sources import open_recorded
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+pytestmark = needs_browser
+
+
+def test_a_recording_is_held_and_one_can_go_anywhere_in_it(tmp_path: Path, open_page: Callable[..., Page]) -> None:
+    source, name = open_recorded(write_frames(tmp_path / "press.npz", 40), [], "square")
+    shown = Shown(source, name)
+    try:
+        page = open_page(shown)
+        peak = page.locator("[data-number=peak]")
+        bar = page.locator("#replay")
+        button, slider, where = bar.locator("button"), bar.locator("input"), bar.locator("output")
+        expect(bar.locator(".name")).to_have_text("press.npz")
+        button.click()
+        expect(button).to_have_text("Play")
+        page.wait_for_selector(".skin .pill[data-state=held]")
+        # 900 counts from the seventh frame on, at 2 Hz.
+        slider.fill("10")
+        expect(where).to_have_text("10.0 of 20.0 s")
+        expect(peak).to_have_text(re.compile("^[89]..$"))
+        slider.fill("0")
+        expect(peak).to_have_text(re.compile("^[23]..$"))
+        button.click()
+        page.wait_for_selector(".skin .pill[data-state=live]")
+    finally:
+        shown.close()
