@@ -10,6 +10,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 from dataclasses import dataclass
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -116,6 +117,18 @@ def test_a_room_is_entered_by_what_it_exports() -> None:
         if not by_init or (edge.name not in exported(room) and edge.source not in ROOMS):
             wrong.add(f"{edge.importer} imports {edge.name} from {edge.source}")
     assert not wrong
+
+
+def test_modules_do_not_import_one_another_in_circles() -> None:
+    graph: dict[str, set[str]] = {}
+    for edge in EDGES:
+        # A name out of the own room's __init__ would be one; what is outside of the room enters by it.
+        if edge.source != edge.importer:
+            graph.setdefault(edge.importer, set()).add(edge.source)
+    try:
+        TopologicalSorter(graph).prepare()
+    except CycleError as error:
+        pytest.fail(" -> ".join(error.args[1]))
 
 
 @pytest.mark.parametrize("room", sorted(room for room in ROOMS if room.split(".")[0] in LIBRARIES and "." in room))

@@ -10,12 +10,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from acts_core.ur5e import LEVEL_Q_RAD, forward_kinematics
-from acts_sim.ur import dashboard, hooks
+from acts_sim.ur.commands import COMMANDS
 from acts_sim.ur.config import ControllerConfig
 from acts_sim.ur.controller import Controller, RobotMode, RuntimeState, SafetyMode
+from acts_sim.ur.ports import dashboard, hooks
+from acts_sim.ur.ports.script import ScriptSession
 from acts_sim.ur.pose import transform_from_pose
 from acts_sim.ur.program import ControlProgram
-from acts_sim.ur.script import ScriptSession
 
 READY, DONE = 1, 2
 
@@ -31,7 +32,7 @@ class Robot:
 
     def start(self) -> None:
         self.write(0)
-        self.controller.load_program(ControlProgram("rtde_control", self.offset))
+        self.controller.load_program(ControlProgram(COMMANDS, "rtde_control", self.offset))
         self.cycles(10)
         assert self.controller.runtime == RuntimeState.PLAYING
 
@@ -247,7 +248,7 @@ def test_emergency_stop_switches_off_and_is_cleared() -> None:
     assert controller.output.get("robot_status_bits") == (0,)
     assert controller.runtime == RuntimeState.STOPPED
     assert dashboard.answer(controller, "robotmode") == "Robotmode: POWER_OFF"
-    controller.load_program(ControlProgram())
+    controller.load_program(ControlProgram(COMMANDS))
     robot.cycles(100)
     assert controller.runtime == RuntimeState.STOPPED, "no program starts during an emergency stop"
     assert hooks.answer(controller, "clear") == "ok"

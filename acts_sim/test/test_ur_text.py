@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 from acts_sim.shared import LineSession
 from acts_sim.ur.config import ControllerConfig
 from acts_sim.ur.controller import Controller, RuntimeState
+from acts_sim.ur.ports.script import ScriptReader, ScriptSession
 from acts_sim.ur.pose import pose_from_transform, transform_from_pose
-from acts_sim.ur.script import ScriptReader, ScriptSession
 
 
 @settings(deadline=None)

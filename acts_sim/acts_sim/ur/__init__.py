@@ -1,4 +1,23 @@
-"""A simulated UR5e as programs meet it: dashboard, RTDE and script, for the unmodified ur_rtde.
+"""A simulated UR5e behind its controller; `ports` has what programs such as the unmodified ur_rtde reach it by.
 
-In come commands over TCP; out come the robot's state, and its joints in a ring.
+In come commands and programs; out come the robot's state, cycle by cycle, and its joints in a ring.
 """
+
+from acts_sim.ur.commands import COMMANDS, MOTION_COMMANDS
+from acts_sim.ur.config import CYCLE_HZ, VERSION, ControllerConfig
+from acts_sim.ur.controller import COMMAND_REGISTERS, Controller, RobotMode, RuntimeState, SafetyMode
+from acts_sim.ur.program import ControlProgram
+
+__all__ = [
+    "COMMANDS",
+    "COMMAND_REGISTERS",
+    "CYCLE_HZ",
+    "MOTION_COMMANDS",
+    "VERSION",
+    "ControlProgram",
+    "Controller",
+    "ControllerConfig",
+    "RobotMode",
+    "RuntimeState",
+    "SafetyMode",
+]

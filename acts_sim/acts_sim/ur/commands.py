@@ -7,30 +7,18 @@ output double registers 0 to 5.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 from acts_sim.ur.config import CYCLE_S, POSITION_LIMIT_RAD
+from acts_sim.ur.controller import Controller
 from acts_sim.ur.joints import Move, Servo, Speed
 from acts_sim.ur.pose import pose_from_transform, transform_from_pose
-
-if TYPE_CHECKING:
-    from acts_sim.ur.controller import Controller
-    from acts_sim.ur.program import ControlProgram
-
-Handler = Callable[["ControlProgram", "Controller"], None]
+from acts_sim.ur.program import Command, ControlProgram
 
 MOVE_J, SPEED_J, SERVO_J = 1, 9, 11
 
 MOTION_COMMANDS = frozenset({MOVE_J, SPEED_J, SERVO_J})
 """Commands whose arguments must be whole: a missing value would move a joint to the wrong place."""
-
-_GET_STEPTIME, _GET_HISTORY, _GET_FLANGE_POSE = 26, 27, 58
-
-REALTIME = frozenset(
-    {6, SPEED_J, 10, SERVO_J, 24, 25, _GET_STEPTIME, _GET_HISTORY, 38, _GET_FLANGE_POSE, *range(66, 72)}
-)
-"""Commands that are carried out every cycle and never answered with done."""
 
 # servoj accepts this range.
 _LOOKAHEAD_RANGE_S = (0.03, 0.2)
@@ -181,28 +169,28 @@ def _is_steady(program: ControlProgram, controller: Controller) -> None:
     _answer_integer(program, controller, int(controller.joints.at_rest))
 
 
-COMMANDS: dict[int, Handler] = {
-    MOVE_J: _move_j,
-    8: _accept,  # zeroFtSensor
-    SPEED_J: _speed_j,
-    SERVO_J: _servo_j,
-    15: _speed_stop,
-    16: _servo_stop,
-    17: _set_payload,
-    _GET_STEPTIME: _get_steptime,
-    _GET_HISTORY: _get_history,
-    29: _set_tcp,
-    31: _protective_stop,
-    33: _stop,  # stopL
-    34: _stop,  # stopJ
-    35: _set_watchdog,
-    37: _joints_within_limits,
-    39: _pose_trans,
-    40: _get_tcp_offset,
-    43: _forward_kinematics,
-    44: _forward_kinematics_of,
-    47: _is_steady,
-    _GET_FLANGE_POSE: _get_flange_pose,
-    59: _accept,  # setGravity
+COMMANDS: dict[int, Command] = {
+    MOVE_J: Command(_move_j),
+    8: Command(_accept),  # zeroFtSensor
+    SPEED_J: Command(_speed_j, is_streamed=True),
+    SERVO_J: Command(_servo_j, is_streamed=True),
+    15: Command(_speed_stop),
+    16: Command(_servo_stop),
+    17: Command(_set_payload),
+    26: Command(_get_steptime, is_streamed=True),
+    27: Command(_get_history, is_streamed=True),
+    29: Command(_set_tcp),
+    31: Command(_protective_stop),
+    33: Command(_stop),  # stopL
+    34: Command(_stop),  # stopJ
+    35: Command(_set_watchdog),
+    37: Command(_joints_within_limits),
+    39: Command(_pose_trans),
+    40: Command(_get_tcp_offset),
+    43: Command(_forward_kinematics),
+    44: Command(_forward_kinematics_of),
+    47: Command(_is_steady),
+    58: Command(_get_flange_pose, is_streamed=True),
+    59: Command(_accept),  # setGravity
 }
 """What is simulated, by code."""

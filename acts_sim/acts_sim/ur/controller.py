@@ -6,7 +6,7 @@ import math
 from collections import deque
 from collections.abc import Callable, Sequence
 from enum import IntEnum
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,9 +15,7 @@ from acts_core.ur5e import JOINTS, forward_kinematics
 from acts_sim.ur.config import CYCLE_S, POSITION_LIMIT_RAD, ControllerConfig
 from acts_sim.ur.joints import Brake, JointState, Motion, Rest
 from acts_sim.ur.pose import Rows, pose_from_rows, speed_between, transform_from_pose
-from acts_sim.ur.program import ControlProgram, ProgramEnded
-from acts_sim.ur.rtde import Value
-from acts_sim.ur.variables import INPUT_TYPES, OutputImage
+from acts_sim.ur.rtde import INPUT_TYPES, OutputImage, Value
 
 COMMAND_REGISTERS = ("input_int_register_0", "input_int_register_24")
 """The registers in which a client may write its commands, depending on the offset of its script."""
@@ -85,6 +83,30 @@ _SAFETY_BITS = {
 _JOINT_MODES = {RobotMode.POWER_OFF: 239, RobotMode.IDLE: 255, RobotMode.RUNNING: 253}
 
 
+class ProgramEnded(Exception):  # noqa: N818 - an end, not always an error
+    """The program comes to its end; the text says why where that is not the client's wish."""
+
+
+class Program(Protocol):
+    """What the controller runs once a cycle while it plays."""
+
+    @property
+    def name(self) -> str:
+        """What the program is called, for messages."""
+
+    def cycle(self, controller: Controller) -> None:
+        """Do what the program does in one cycle.
+
+        Raises
+        ------
+        ProgramEnded
+            When it ends.
+        """
+
+    def resume(self, controller: Controller) -> None:
+        """Take up the motion again after a pause."""
+
+
 class Controller:
     """State of the robot.
 
@@ -112,7 +134,7 @@ class Controller:
         self.safety = SafetyMode.NORMAL
         self.robot_mode = RobotMode.RUNNING
         self.runtime = RuntimeState.STOPPED
-        self.program: ControlProgram | None = None
+        self.program: Program | None = None
         self.tcp_offset = np.eye(4)
         self.tcp_wanted = False
         self.orders: deque[Order] = deque(maxlen=RECORD)
@@ -189,7 +211,7 @@ class Controller:
 
     # --- program
 
-    def load_program(self, program: ControlProgram) -> None:
+    def load_program(self, program: Program) -> None:
         """Start an uploaded program in place of the one that runs."""
         if self.safety != SafetyMode.NORMAL or self.robot_mode != RobotMode.RUNNING:
             self.log(f"program {program.name!r} not started: {self.safety.name}, {self.robot_mode.name}")

@@ -18,12 +18,8 @@ from acts_core.runtime import RealtimeConfig, enter_realtime
 from acts_core.settings import default_of, describe, from_mapping
 from acts_core.stop_signals import StopSignals
 from acts_sim.shared import Claim, LineSession, TimedRingWriter
-from acts_sim.ur import dashboard, hooks
-from acts_sim.ur.config import ControllerConfig
-from acts_sim.ur.controller import Controller
-from acts_sim.ur.script import ScriptSession
-from acts_sim.ur.server import Port, Server
-from acts_sim.ur.session import RtdePort
+from acts_sim.ur import Controller, ControllerConfig
+from acts_sim.ur.ports import Port, RtdePort, ScriptSession, Server, dashboard, hooks
 
 RTDE_PORT, DASHBOARD_PORT, SCRIPT_PORT = 30004, 29999, 30003
 

@@ -1,7 +1,7 @@
 """The control script that ``ur_rtde`` uploads, emulated: the handshake over registers, once a cycle.
 
 The client writes a command to input integer register 0 and reads the answer from output integer register 0: 1 is ready,
-2 is done. A done answer stays until the client clears the command to 0. Commands meant for streaming (`REALTIME`) are
+2 is done. A done answer stays until the client clears the command to 0. Commands meant for streaming are
 carried out again every cycle for as long as their code stands in the register, and are always answered with ready; any
 other is carried out once, and answered when it has come to its end. Register numbers count from an offset, 0 or 24.
 """
@@ -9,13 +9,11 @@ other is carried out once, and answered when it has come to its end. Register nu
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, cast
+from collections.abc import Callable, Mapping
+from typing import NamedTuple, cast
 
-from acts_sim.ur.commands import COMMANDS, REALTIME
+from acts_sim.ur.controller import Controller, ProgramEnded
 from acts_sim.ur.joints import Brake, Motion, Move, Servo, Speed
-
-if TYPE_CHECKING:
-    from acts_sim.ur.controller import Controller
 
 READY = 1
 DONE = 2
@@ -24,8 +22,19 @@ CLEAR_COMMAND = 0
 STOP_SCRIPT_COMMAND = 255
 
 
-class ProgramEnded(Exception):  # noqa: N818 - an end, not always an error
-    """The program comes to its end; the text says why where that is not the client's wish."""
+class Command(NamedTuple):
+    """What the script does for a code in the command register.
+
+    Attributes
+    ----------
+    carry_out : callable
+        Takes the program and the controller; reads the arguments from the input registers.
+    is_streamed : bool
+        Whether it is carried out every cycle and never answered with done.
+    """
+
+    carry_out: Callable[[ControlProgram, Controller], None]
+    is_streamed: bool = False
 
 
 class ControlProgram:
@@ -33,13 +42,16 @@ class ControlProgram:
 
     Parameters
     ----------
+    commands : mapping of int to Command
+        The commands that it knows, by code.
     name : str
         Its name.
     register_offset : int
         Added to every register number.
     """
 
-    def __init__(self, name: str = "rtde_control", register_offset: int = 0) -> None:
+    def __init__(self, commands: Mapping[int, Command], name: str = "rtde_control", register_offset: int = 0) -> None:
+        self._commands = commands
         self.name = name
         self.register_offset = register_offset
         self.watchdog_s = math.inf
@@ -75,7 +87,8 @@ class ControlProgram:
         if self._motion_ended(controller):
             return
         command = self.command(controller)
-        if command in REALTIME:
+        known = self._commands.get(command)
+        if known is not None and known.is_streamed:
             if self._execute(command, controller):
                 self._answer(controller, READY)
         elif command == CLEAR_COMMAND:
@@ -90,10 +103,10 @@ class ControlProgram:
         """Carry out a command; False when it has led to a safety stop: a paused script answers no more."""
         if command == STOP_SCRIPT_COMMAND:
             raise ProgramEnded
-        handler = COMMANDS.get(command)
-        if handler is None:
+        known = self._commands.get(command)
+        if known is None:
             raise ProgramEnded(f"command {command} is not simulated; see docs/simulated_ur5e.md for those that are")
-        handler(self, controller)
+        known.carry_out(self, controller)
         return not controller.stopped_for_safety
 
     def _motion_ended(self, controller: Controller) -> bool:

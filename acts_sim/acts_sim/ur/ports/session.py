@@ -6,11 +6,18 @@ import math
 import struct
 
 from acts_core.errors import PacketError
-from acts_sim.ur.commands import MOTION_COMMANDS
-from acts_sim.ur.config import CYCLE_HZ, VERSION
-from acts_sim.ur.controller import COMMAND_REGISTERS, Controller
-from acts_sim.ur.rtde import PROTOCOL_VERSION, InputRecipe, PacketReader, PacketType, encode, split_names
-from acts_sim.ur.variables import INPUT_TYPES, OUTPUT_TYPES, OutputRecipe
+from acts_sim.ur import COMMAND_REGISTERS, CYCLE_HZ, MOTION_COMMANDS, VERSION, Controller
+from acts_sim.ur.rtde import (
+    INPUT_TYPES,
+    OUTPUT_TYPES,
+    PROTOCOL_VERSION,
+    InputRecipe,
+    OutputRecipe,
+    PacketReader,
+    PacketType,
+    encode,
+    split_names,
+)
 
 MAX_INPUT_RECIPES = 255
 

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from acts_sim.ur.config import VERSION
-from acts_sim.ur.controller import Controller, RobotMode, RuntimeState, SafetyMode
+from acts_sim.ur import VERSION, Controller, RobotMode, RuntimeState, SafetyMode
 
 GREETING = "Connected: Universal Robots Dashboard Server"
 

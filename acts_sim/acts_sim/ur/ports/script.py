@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import re
 
-from acts_sim.ur.controller import Controller
-from acts_sim.ur.program import ControlProgram
+from acts_sim.ur import COMMANDS, Controller, ControlProgram
 
 MAX_PROGRAM_BYTES = 1_000_000
 """The control script has about 42 kB."""
@@ -58,7 +57,7 @@ class ScriptSession:
                 found = _OFFSET.search(text)
                 offset = int(found.group(1)) if found else 0
                 if offset in (0, 24):
-                    self._controller.load_program(ControlProgram(name, offset))
+                    self._controller.load_program(ControlProgram(COMMANDS, name, offset))
                 else:
                     self._controller.log(
                         f"control script with register offset {offset} not started; allowed are 0 and 24"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 
-from acts_sim.ur.controller import Controller
+from acts_sim.ur import Controller
 
 _KNOWN = "protective_stop [reason], emergency_stop, clear, state, orders"
 

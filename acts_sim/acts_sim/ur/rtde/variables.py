@@ -10,7 +10,7 @@ import struct
 from collections.abc import Sequence
 
 from acts_core.errors import PacketError
-from acts_sim.ur.rtde import HEADER, MAX_PACKET_BYTES, TYPE_FORMATS, Number, PacketType
+from acts_sim.ur.rtde.packets import HEADER, MAX_PACKET_BYTES, TYPE_FORMATS, Number, PacketType
 
 REGISTERS = 48
 """Number of general purpose registers of each type; 0 to 23 is the lower range, 24 to 47 the upper."""

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from acts_core.errors import PacketError, RobotError
-from acts_sim.ur.config import CYCLE_HZ
+from acts_sim.ur import CYCLE_HZ
 
 MAX_CONNECTIONS = 200
 """Per port. `select` itself cannot watch descriptors from 1024 on."""

@@ -1,0 +1,11 @@
+"""The TCP ports of the simulated UR controller: RTDE, script, dashboard and test hooks, and the server of all of them.
+
+In come bytes of clients; out come bytes for them, and calls of the controller.
+"""
+
+from acts_sim.ur.ports import dashboard, hooks
+from acts_sim.ur.ports.script import ScriptSession
+from acts_sim.ur.ports.server import Port, Server
+from acts_sim.ur.ports.session import RtdePort
+
+__all__ = ["Port", "RtdePort", "ScriptSession", "Server", "dashboard", "hooks"]
