@@ -103,23 +103,23 @@ def test_an_estimate_is_carried_on_with_the_tilts_the_plate_had() -> None:
     for k in range(101):
         history.add(NOW_NS + k * MS, 0.0, 0.05 if k >= 50 else 0.0)
     ax, _ = acceleration_of(0.0, 0.05)
-    x, y, vx, vy = history.carry_on(Ball(0.01, 0.02, 0.1, -0.1), NOW_NS)
+    x, y, vx, vy = history.predict(Ball(0.01, 0.02, 0.1, -0.1), NOW_NS)
     assert (x, y) == pytest.approx((0.01 + 0.1 * 0.1 + ax * 0.05**2 / 2, 0.02 - 0.1 * 0.1))
     assert (vx, vy) == pytest.approx((0.1 + ax * 0.05, -0.1))
     # From between two tilts, from before the first, and from now.
-    assert history.carry_on(Ball(0.0, 0.0, 0.1, 0.0), NOW_NS + 500_000).x_m == pytest.approx(
+    assert history.predict(Ball(0.0, 0.0, 0.1, 0.0), NOW_NS + 500_000).x_m == pytest.approx(
         0.1 * 0.0995 + ax * 0.05**2 / 2
     )
-    assert history.carry_on(Ball(0.0, 0.0, 0.1, 0.0), NOW_NS - 20 * MS).x_m == pytest.approx(0.012 + ax * 0.05**2 / 2)
-    assert history.carry_on(Ball(0.3, 0.0, 0.1, 0.0), NOW_NS + 100 * MS) == pytest.approx((0.3, 0.0, 0.1, 0.0))
+    assert history.predict(Ball(0.0, 0.0, 0.1, 0.0), NOW_NS - 20 * MS).x_m == pytest.approx(0.012 + ax * 0.05**2 / 2)
+    assert history.predict(Ball(0.3, 0.0, 0.1, 0.0), NOW_NS + 100 * MS) == pytest.approx((0.3, 0.0, 0.1, 0.0))
 
 
 def test_what_the_plate_turned_meanwhile_moves_the_ball_against_it() -> None:
     history = TiltHistory(0.14, 1.0)
-    assert history.carry_on(Ball(0.3, 0.0, 0.0, 0.0), NOW_NS) == Ball(0.3, 0.0, 0.0, 0.0)
+    assert history.predict(Ball(0.3, 0.0, 0.0, 0.0), NOW_NS) == Ball(0.3, 0.0, 0.0, 0.0)
     history.add(NOW_NS, 0.02, 0.0)
     history.add(NOW_NS + 1, 0.0, 0.05)
-    ball = history.carry_on(Ball(0.0, 0.0, 0.0, 0.0), NOW_NS)
+    ball = history.predict(Ball(0.0, 0.0, 0.0, 0.0), NOW_NS)
     assert (ball.x_m, ball.y_m) == pytest.approx((-0.1 * 0.05, -0.1 * 0.02), abs=1e-9)
 
 
@@ -127,7 +127,7 @@ def test_a_clock_that_is_set_back_does_no_harm() -> None:
     history = TiltHistory(0.0, 0.2)
     history.add(NOW_NS, 0.0, 0.0)
     history.add(NOW_NS - 10**9, 0.0, 0.1)
-    assert history.carry_on(Ball(0.0, 0.0, 1.0, 0.0), NOW_NS - 10**9) == Ball(0.0, 0.0, 1.0, 0.0)
+    assert history.predict(Ball(0.0, 0.0, 1.0, 0.0), NOW_NS - 10**9) == Ball(0.0, 0.0, 1.0, 0.0)
 
 
 # --- the controller

@@ -25,6 +25,7 @@ from acts_core.wire import (
     Reply,
     ReplyStatus,
     StreamDecoder,
+    cobs_reference,
     encode_configure,
     encode_frame,
     encode_query,
@@ -34,7 +35,6 @@ from acts_core.wire import (
     object_library,
     patch_dictionary,
 )
-from acts_core.wire import cobs_reference as cobs
 from acts_core.wire.board_messages import encode_image, encode_object
 from acts_core.wire.board_models import MODEL_CAPACITY, ModelKind
 from acts_core.wire.commands import BoardSettings, HeldModel, SettingField, encode_reply
@@ -105,7 +105,7 @@ def same(one: BoardMessage, other: BoardMessage) -> bool:
 def unstuffed(wire: bytes) -> bytes:
     assert wire.endswith(b"\0")
     assert wire.count(b"\0") == 1
-    return cobs.decode(wire[:-1])
+    return cobs_reference.decode(wire[:-1])
 
 
 def command(kind: int, request: int, body: bytes) -> bytes:

@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 
 from acts_core.errors import ArrayError, CalibrationError, SettingsError
 from acts_core.frames import SampleFrame, Scheme
-from acts_driver.baseline import Baseline, BaselineTracker, baseline_kernels
-from acts_driver.baseline import baseline_reference as baseline_twin
+from acts_driver.baseline import Baseline, BaselineTracker, baseline_kernels, baseline_reference
 from acts_driver.baseline.baseline import BaselineSource
 from acts_driver.baseline.baseline_tracker import BaselineConfig
 
@@ -184,7 +183,7 @@ def test_a_baseline_may_be_told_to_stay() -> None:
 
 @settings(max_examples=60, deadline=None)
 @given(st.integers(0, 2**32 - 1), st.booleans(), st.integers(1, 8), st.integers(1, 8))
-def test_kernel_equals_twin(seed: int, is_tracking: bool, rows: int, cols: int) -> None:
+def test_kernel_equals_reference(seed: int, is_tracking: bool, rows: int, cols: int) -> None:
     rng = np.random.default_rng(seed)
     size = rows * cols
 
@@ -207,9 +206,9 @@ def test_kernel_equals_twin(seed: int, is_tracking: bool, rows: int, cols: int) 
         counts = rng.integers(0, 90, len(indices)).astype(np.uint16)
         rest = (is_tracking, 2e9, 150_000_000, 0.05)
         baseline_kernels.observe(indices, counts, frame * 10**8, rows, cols, *one, *rest)
-        baseline_twin.observe(indices, counts, frame * 10**8, rows, cols, *other, *rest)
-    for mine, twin in zip(one, other, strict=True):
-        assert np.allclose(mine, twin, rtol=1e-5, atol=1e-5)
+        baseline_reference.observe(indices, counts, frame * 10**8, rows, cols, *other, *rest)
+    for mine, reference in zip(one, other, strict=True):
+        assert np.allclose(mine, reference, rtol=1e-5, atol=1e-5)
 
 
 def some_baseline() -> Baseline:

@@ -42,7 +42,7 @@ class Host:
     def __init__(self, path: Path, reply_timeout_s: float = PATIENT_S, write_limit_s: float = 10.0) -> None:
         self.source = SerialSource(str(path))
         self.link = BoardLink(self.source.write, reply_timeout_s=reply_timeout_s)
-        self.decoder = StreamDecoder(self.link.take)
+        self.decoder = StreamDecoder(self.link.receive)
         self.sizes: list[int] = []
         self.published = 0
         self.log: list[str] = []
@@ -162,7 +162,7 @@ class LossyWay:
         if not lost_out:
             for reply in self._board.receive(data):
                 if not lost_in:
-                    self.link.take(reply)
+                    self.link.receive(reply)
 
 
 class SimpleBoard:
@@ -173,13 +173,12 @@ class SimpleBoard:
         self.held = b""
 
     def receive(self, data: bytes) -> list[BoardMessage]:
-        from acts_core.wire import BoardState, ReplyStatus
-        from acts_core.wire import cobs_reference as cobs
+        from acts_core.wire import BoardState, ReplyStatus, cobs_reference
         from acts_core.wire.board_messages import decode_message
         from acts_core.wire.commands import NO_MODEL, encode_reply
         from acts_core.wire.packets import PacketType, unseal
 
-        kind, content = unseal(cobs.decode(data[:-1]))
+        kind, content = unseal(cobs_reference.decode(data[:-1]))
         request = int.from_bytes(content[:4], "little")
         status, detail = ReplyStatus.OK, 0
         if kind == PacketType.UPLOAD_BEGIN:
@@ -194,7 +193,7 @@ class SimpleBoard:
             self.held = bytes(self.uploaded)
         state = BoardState((0, 1, 0), 1, 0, BoardSettings(), False, True, NO_MODEL, 262_144, 0, 0)
         packet = encode_reply(Reply(request, kind, status, detail, state))
-        return [decode_message(cobs.decode(packet[:-1]))]
+        return [decode_message(cobs_reference.decode(packet[:-1]))]
 
 
 @given(st.lists(st.sampled_from([(True, False), (False, True), (False, False)]), max_size=12))

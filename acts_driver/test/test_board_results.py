@@ -16,7 +16,7 @@ def image(of: SampleFrame) -> BoardImage:
 def test_a_result_that_follows_its_frame() -> None:
     results = BoardResults()
     assert results.stamped([(frame(7), 1000)]) == []
-    results.take(image(frame(7)))
+    results.receive(image(frame(7)))
     ((result, stamp_ns),) = results.stamped([])
     assert (result.sequence, stamp_ns) == (7, 1000)
     assert results.stamped([]) == []
@@ -25,7 +25,7 @@ def test_a_result_that_follows_its_frame() -> None:
 def test_a_result_that_is_read_together_with_its_frame_and_the_next() -> None:
     results = BoardResults()
     for number in (1, 2):
-        results.take(image(frame(number)))
+        results.receive(image(frame(number)))
     found = results.stamped([(frame(1), 10), (frame(2), 20), (frame(3), 30)])
     assert [(result.sequence, stamp_ns) for result, stamp_ns in found] == [(1, 10), (2, 20)]
     assert (results.results, results.dropped) == (2, 0)
@@ -35,7 +35,7 @@ def test_a_result_without_its_frame_is_dropped_and_counted() -> None:
     results = BoardResults()
     results.stamped([(frame(number), number) for number in range(1000)])
     for number in (999, 1000, 3):  # the last one accepted, one not yet seen, one of long ago
-        results.take(image(frame(number)))
+        results.receive(image(frame(number)))
     assert [stamp_ns for _, stamp_ns in results.stamped([])] == [999]
     assert (results.results, results.dropped) == (1, 2)
 
@@ -44,7 +44,7 @@ def test_a_number_used_again_after_a_restart_is_another_frame() -> None:
     results = BoardResults()
     results.stamped([(frame(0), 5)])
     before = frame(0)
-    results.take(BoardImage(0, before.board_us + 1, 491, np.zeros((3, 4), dtype=np.uint16)))
+    results.receive(BoardImage(0, before.board_us + 1, 491, np.zeros((3, 4), dtype=np.uint16)))
     assert results.stamped([]) == []
     assert results.dropped == 1
 

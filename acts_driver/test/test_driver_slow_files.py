@@ -14,7 +14,7 @@ from lifecycle_msgs.msg import Transition
 from virtual_board import VirtualBoard
 
 from acts_driver import settings as driver_settings
-from acts_driver.board import model_file as board_model_file
+from acts_driver.board import model_file
 
 # Where somebody waits for the file after all, the test goes on after this, and fails.
 AT_MOST_S = 10.0
@@ -55,7 +55,7 @@ def rig() -> Iterator[Rig]:
 
 def test_a_model_is_uploaded_when_its_file_has_been_read_at_last(rig: Rig, slow_file: SlowFile, tmp_path: Path) -> None:
     np.savez(tmp_path / "model.npz", atoms=np.eye(64))
-    slow_file.before(board_model_file, "load_model")
+    slow_file.before(model_file, "load_model")
     with VirtualBoard(tmp_path / "board") as board:
         rig.start_driver(port=board.link)
         rig.wait_until_active()

@@ -60,7 +60,7 @@ def library() -> ctypes.CDLL:
 
 
 class CoreSampler:
-    """The C++ twin of `acts_core.sampling.schemes.Sampler`, measuring through the model of the board's wiring."""
+    """`acts_core.sampling.schemes.Sampler` in C++, measuring through the model of the board's wiring."""
 
     def __init__(self, config: SamplingConfig, skin_map: SkinMap | None = None) -> None:
         self._size = config.rows * config.cols

@@ -27,12 +27,12 @@ from acts_core.wire import (
     Reply,
     ReplyStatus,
     StreamDecoder,
+    cobs_reference,
     encode_configure,
     encode_map_data,
     encode_map_end,
     encode_query,
 )
-from acts_core.wire import cobs_reference as cobs
 from acts_core.wire.board_settings import SETTINGS_SIZE
 from acts_core.wire.commands import NO_MODEL, SettingField
 from acts_core.wire.packets import PacketType, seal
@@ -116,8 +116,8 @@ def test_core_and_reference_take_the_same_settings(raw: bytes) -> None:
 def test_a_refused_setting_is_named_and_changes_nothing(field: SettingField, position: int, value: int) -> None:
     values = list(LAYOUT.unpack(dataclasses.replace(OTHERS, output="image", m=77, frame_period_us=5).to_bytes()))
     values[position] = value
-    with CoreFirmware() as firmware, CoreFirmware() as twin:
-        for one in (firmware, twin):
+    with CoreFirmware() as firmware, CoreFirmware() as other:
+        for one in (firmware, other):
             assert one.ask(encode_configure(1, OTHERS)).ok
             one.measure(500)
         reply = firmware.ask(configure(LAYOUT.pack(*values)))
@@ -125,10 +125,10 @@ def test_a_refused_setting_is_named_and_changes_nothing(field: SettingField, pos
         assert field.name.lower() in reply.problem
         assert reply.state.settings == OTHERS
         # Tracking remembers what was pressed: it has not been disturbed either.
-        for one in (firmware, twin):
+        for one in (firmware, other):
             one.read()
             one.measure(500)
-        assert firmware.read()[0].indices.tolist() == twin.read()[0].indices.tolist()
+        assert firmware.read()[0].indices.tolist() == other.read()[0].indices.tolist()
 
 
 def test_a_quota_is_refused_by_its_scheme() -> None:
@@ -146,15 +146,15 @@ def test_an_array_larger_than_the_board_is_refused() -> None:
 
 
 def test_other_settings_leave_sampling_undisturbed() -> None:
-    with CoreFirmware() as firmware, CoreFirmware() as twin:
-        for one in (firmware, twin):
+    with CoreFirmware() as firmware, CoreFirmware() as other:
+        for one in (firmware, other):
             one.ask(encode_configure(1, BoardSettings(scheme="random")))
             one.measure()
         firmware.ask(encode_configure(2, BoardSettings(scheme="random", led="on", frame_period_us=7)))
-        twin.read()
-        for one in (firmware, twin):
+        other.read()
+        for one in (firmware, other):
             one.measure()
-        assert firmware.read()[0].indices.tolist() == twin.read()[0].indices.tolist()
+        assert firmware.read()[0].indices.tolist() == other.read()[0].indices.tolist()
 
 
 def test_a_reply_tells_the_whole_state() -> None:
@@ -210,7 +210,7 @@ def test_commands_count_though_nobody_reads() -> None:
 def test_commands_that_cannot_be(kind: int, version: int, body: bytes, told: int, status: ReplyStatus) -> None:
     packet = struct.pack("<BBHI", kind, version, 12 + len(body) + told, 77) + body
     with CoreFirmware() as firmware:
-        reply = firmware.ask(cobs.encode(packet + struct.pack("<I", zlib.crc32(packet))) + b"\0")
+        reply = firmware.ask(cobs_reference.encode(packet + struct.pack("<I", zlib.crc32(packet))) + b"\0")
         assert (reply.request, reply.command, reply.status, reply.detail) == (77, kind, status, 0)
         assert reply.state.settings == BoardSettings()
         assert reply.state.bad_commands == 0
@@ -330,7 +330,7 @@ def test_images(sequence: int, board_us: int, duration_us: int, rows: int, cols:
     )
     packet = core_firmware.encode_image(sequence, board_us, duration_us, counts)
     messages: list[object] = []
-    StreamDecoder(on_message=messages.append).feed(cobs.encode(packet) + b"\0")
+    StreamDecoder(on_message=messages.append).feed(cobs_reference.encode(packet) + b"\0")
     (image,) = messages
     assert isinstance(image, BoardImage)
     assert (image.sequence, image.board_us, image.duration_us) == (sequence, board_us, duration_us)
@@ -345,7 +345,7 @@ def test_objects(sequence: int, board_us: int, duration_us: int, values: list[fl
     number = data.draw(st.none() | st.integers(0, len(values) - 1))
     packet = core_firmware.encode_object(sequence, board_us, duration_us, number, residuals)
     messages: list[object] = []
-    StreamDecoder(on_message=messages.append).feed(cobs.encode(packet) + b"\0")
+    StreamDecoder(on_message=messages.append).feed(cobs_reference.encode(packet) + b"\0")
     (found,) = messages
     assert isinstance(found, BoardObject)
     assert (found.sequence, found.board_us, found.duration_us) == (sequence, board_us, duration_us)
@@ -395,8 +395,8 @@ def test_the_largest_layout_of_sixteen_patches_fits() -> None:
 
 def test_a_layout_said_twice_disturbs_no_sampling() -> None:
     skin_map, said = SkinMap.of(layout("insole")), BoardSettings(scheme="random", seed=3)
-    with CoreFirmware() as firmware, CoreFirmware() as twin:
-        for one in (firmware, twin):
+    with CoreFirmware() as firmware, CoreFirmware() as other:
+        for one in (firmware, other):
             assert one.ask(encode_configure(1, said)).ok
             assert arrange(one, skin_map).ok
             one.measure()
@@ -404,8 +404,8 @@ def test_a_layout_said_twice_disturbs_no_sampling() -> None:
         assert firmware.ask(encode_map_end(9, skin_map)).ok
         assert firmware.ask(encode_configure(9, said)).ok
         firmware.measure()
-        twin.measure()
-        assert np.array_equal(firmware.read()[0].indices, twin.read()[0].indices)
+        other.measure()
+        assert np.array_equal(firmware.read()[0].indices, other.read()[0].indices)
 
 
 def test_layouts_that_are_none_are_refused_and_leave_the_matrix() -> None:

@@ -1,4 +1,4 @@
-"""Contacts of one image: kernel and plain twin, and whether their uncertainty is what it says."""
+"""Contacts of one image: kernel and reference implementation, and whether their uncertainty is what it says."""
 
 import math
 from typing import Any
@@ -21,7 +21,7 @@ from acts_recon.images import Borders, borders_of, root_deviation, slope_table
 GEOMETRY = ArrayGeometry(rows=12, cols=9, pitch_m=0.005, row_pitch_m=0.004)
 RESPONSE = ForceResponse()
 TABLE = force_table(RESPONSE)
-# What the kernel looks up, as the twin reads it: exactly the same response between two counts, too.
+# What the kernel looks up, as the reference implementation reads it: exactly the same response between two counts, too.
 BY_TABLE = MeasuredForceResponse(TABLE[:-1], np.arange(1024.0))
 FIELDS = ("x_m", "y_m", "force_n", "peak_counts", "x_var", "y_var", "force_var", "taxels_var", "spread_square_var")
 
@@ -72,7 +72,7 @@ def by_kernel(
     st.integers(0, 60),
     st.booleans(),
 )
-def test_kernel_equals_twin(
+def test_kernel_equals_reference(
     arranged: Layout | None,
     image: NDArray[np.float32],
     sigma: NDArray[np.float32],
@@ -92,14 +92,14 @@ def test_kernel_equals_twin(
     found.sort(key=lambda one: int(one[0][0]))
     assert len(found) == len(expected)
     assert dropped == 0 or len(found) == blob_kernels.MAX_BLOBS
-    for (taxels, blob), twin in zip(found, expected, strict=True):
-        assert np.array_equal(taxels, twin.taxels)
-        assert np.unique(borders.rectangle_of[taxels]).tolist() == [twin.patch]
-        assert blob["taxels"] == twin.active_taxels
+    for (taxels, blob), reference in zip(found, expected, strict=True):
+        assert np.array_equal(taxels, reference.taxels)
+        assert np.unique(borders.rectangle_of[taxels]).tolist() == [reference.patch]
+        assert blob["taxels"] == reference.active_taxels
         for field in FIELDS:
-            assert blob[field] == pytest.approx(getattr(twin, field), rel=1e-5, abs=1e-9), field
+            assert blob[field] == pytest.approx(getattr(reference, field), rel=1e-5, abs=1e-9), field
         moments = (blob["xx_m2"], blob["xy_m2"], blob["yy_m2"])
-        assert moments == pytest.approx(twin.moments_m2, rel=1e-6, abs=1e-12)
+        assert moments == pytest.approx(reference.moments_m2, rel=1e-6, abs=1e-12)
         assert sigma_known or blob["x_var"] == blob["y_var"] == blob["force_var"] == blob["taxels_var"] == 0
 
 

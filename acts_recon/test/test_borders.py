@@ -16,7 +16,7 @@ from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError
 from acts_core.skin import NO_PATCH, ForceResponse, Layout, MeasuredForceResponse, force_table, layout
 from acts_recon.contacts import BlobConfig, BlobTracker, ContactFinder
-from acts_recon.contacts.blob_track_reference import PlainTracker
+from acts_recon.contacts.blob_track_reference import BlobTrackerReference
 from acts_recon.contacts.contact import find_contact
 from acts_recon.fusion import FusionEstimator
 from acts_recon.images import borders_of
@@ -78,7 +78,7 @@ def test_the_contact_in_the_image_is_as_unsure_as_its_twin(
 def test_contacts_are_followed_as_by_the_twin(arranged: Layout | None, seed: int) -> None:
     borders, config, rng = borders_of(12, 9, arranged), BlobConfig(), np.random.default_rng(seed)
     tracker = BlobTracker(GEOMETRY, BY_TABLE, config, borders)
-    plain = PlainTracker(GEOMETRY, BY_TABLE, config, borders)
+    reference = BlobTrackerReference(GEOMETRY, BY_TABLE, config, borders)
     row, col = np.indices((12, 9))
     place = rng.uniform((0, 0), (12, 9), (2, 2))
     for frame in range(12):
@@ -88,7 +88,7 @@ def test_contacts_are_followed_as_by_the_twin(arranged: Layout | None, seed: int
         if arranged is not None:
             image[arranged.patch_of == NO_PATCH] = 0
         found = tracker.step(image, 0.002 * frame)
-        expected = plain.step(image, 0.002 * frame, 0.002 if frame else 0.0)
+        expected = reference.step(image, 0.002 * frame, 0.002 if frame else 0.0)
         assert [(blob.number, blob.active_taxels) for blob in found] == [
             (blob.number, blob.active_taxels) for blob in expected
         ]

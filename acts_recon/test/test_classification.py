@@ -1,4 +1,4 @@
-"""SRC: the plain version on frames whose object is known, the kernel against the plain version."""
+"""SRC: the reference implementation on frames whose object is known, the kernel against it."""
 
 import numpy as np
 import pytest
@@ -65,7 +65,7 @@ def assert_alike(result: Classification, expected: Classification) -> None:
 
 
 @pytest.mark.parametrize("max_columns", [0, 2])
-def test_kernel_equals_twin_on_random_data(max_columns: int) -> None:
+def test_kernel_equals_reference_on_random_data(max_columns: int) -> None:
     rng = np.random.default_rng(max_columns)
     frames = rng.integers(61, 1024, (150, 12, 11))
     library = build_object_library(frames, [f"object {i % 9}" for i in range(150)])
@@ -77,7 +77,7 @@ def test_kernel_equals_twin_on_random_data(max_columns: int) -> None:
         assert_alike(classifier.step(indices, counts), classify(library, indices, counts, config))
 
 
-def test_kernel_equals_twin_on_real_grasps(grasp_frames: Frame) -> None:
+def test_kernel_equals_reference_on_real_grasps(grasp_frames: Frame) -> None:
     library = build_object_library(grasp_frames, [f"object {i % 10}" for i in range(len(grasp_frames))])
     config = ClassifierConfig(max_columns=8)
     classifier = Classifier(library, config)

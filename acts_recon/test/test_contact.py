@@ -18,7 +18,7 @@ from acts_recon.images import borders_of, root_deviation, slope_table
 GEOMETRY = ArrayGeometry(rows=12, cols=9, pitch_m=0.005)
 RESPONSE = ForceResponse()
 TABLE = force_table(RESPONSE)
-# What the kernel looks up, as the twin reads it: exactly the same response between two counts, too.
+# What the kernel looks up, as the reference implementation reads it: exactly the same response between two counts, too.
 BY_TABLE = MeasuredForceResponse(TABLE[:-1], np.arange(1024.0))
 
 
@@ -108,7 +108,7 @@ def test_the_centre_is_weighted_by_force() -> None:
     assert contact.spread_m == pytest.approx(0.005 * math.sqrt(0.1 * 3.6**2 + 0.9 * 0.4**2))
 
 
-def test_kernel_equals_twin_on_a_bump() -> None:
+def test_kernel_equals_reference_on_a_bump() -> None:
     assert_kernel_equals_twin(bump(GEOMETRY, 5.3, 4.1).astype(np.float32), 60)
 
 
@@ -118,7 +118,7 @@ def test_kernel_equals_twin_on_a_bump() -> None:
     st.none() | st_numpy.arrays(np.float32, (12, 9), elements=st.floats(0, 300, width=32)),
     st.integers(0, 1023),
 )
-def test_kernel_equals_twin_and_all_is_finite(
+def test_kernel_equals_reference_and_all_is_finite(
     image: NDArray[np.float32], sigma: NDArray[np.float32] | None, touch_counts: int
 ) -> None:
     assert np.isfinite(by_kernel(image, GEOMETRY, touch_counts, sigma)).all()
@@ -129,7 +129,7 @@ def test_kernel_equals_twin_and_all_is_finite(
 
 
 @pytest.mark.parametrize("touch_counts", [0, 37])
-def test_kernel_equals_twin_where_a_taxel_may_be_missed(touch_counts: int) -> None:
+def test_kernel_equals_reference_where_a_taxel_may_be_missed(touch_counts: int) -> None:
     image = np.full((12, 9), touch_counts + 1, dtype=np.float32)
     image[0, 0] = 0
     for deviation in (0.5, 6, 6.1667, 7, 30):

@@ -1,4 +1,4 @@
-"""FastOMP: the plain version against linear algebra, the kernel against the plain version."""
+"""FastOMP: the reference implementation against linear algebra, the kernel against the reference implementation."""
 
 import numpy as np
 import pytest
@@ -83,7 +83,7 @@ def assert_kernel_equals_twin(layout: PatchLayout, atoms: NDArray[np.float32], i
 
 
 @pytest.mark.parametrize(("rows", "cols", "step"), [(32, 32, 4), (32, 32, 1), (33, 15, 4), (8, 8, 4)])
-def test_kernel_equals_twin_on_random_data(rows: int, cols: int, step: int) -> None:
+def test_kernel_equals_reference_on_random_data(rows: int, cols: int, step: int) -> None:
     rng = np.random.default_rng(rows + step)
     # Atoms in general position: no two are nearly as good a choice, where rounding would decide.
     atoms = rng.standard_normal((64, 130)).astype(np.float32)
@@ -108,7 +108,7 @@ def test_as_many_atoms_as_are_asked_for(ratio: float) -> None:
 
 
 @pytest.mark.parametrize("m", [55, 256])
-def test_kernel_equals_twin_on_real_grasps(dictionary: Dictionary, grasp_frames: Frame, m: int) -> None:
+def test_kernel_equals_reference_on_real_grasps(dictionary: Dictionary, grasp_frames: Frame, m: int) -> None:
     layout = patch_layout(32, 32)
     for frame in grasp_frames:
         assert_kernel_equals_twin(layout, dictionary.atoms, *sample(frame, m))

@@ -1,4 +1,4 @@
-"""Fusion over time: what it promises, whatever comes; that the kernels do what the plain twin says."""
+"""Fusion over time: what it promises, whatever comes; that the kernels do what the reference implementation says."""
 
 import math
 from collections.abc import Callable
@@ -15,7 +15,7 @@ from acts_core.errors import ArrayError, SettingsError
 from acts_core.sampling import Sampler, SamplingConfig, measure_in
 from acts_core.skin import NO_PATCH, Layout, layout
 from acts_recon.fusion import FusionConfig, FusionEstimator
-from acts_recon.fusion.fusion_reference import PlainFusion, PlainFusions
+from acts_recon.fusion.fusion_reference import FusionReference, PatchesReference
 from acts_recon.fusion.fusion_state import UNKNOWN_COUNTS
 from acts_recon.images import borders_of
 
@@ -193,18 +193,18 @@ def test_times_of_days_are_as_good_as_those_of_seconds() -> None:
 
 def compare(estimator: FusionEstimator, frames: list[tuple[Frame, float, float]]) -> None:
     geometry, config = estimator.geometry, estimator.config
-    twin = PlainFusion(geometry.rows, geometry.cols, config.tuning)
+    reference = FusionReference(geometry.rows, geometry.cols, config.tuning)
     last_s = None
     for (indices, counts), end_s, duration_s in frames:
         image = estimator.step(indices, counts, end_s, duration_s)
         period_s = duration_s if last_s is None else end_s - last_s
         if not 0 <= period_s <= config.reset_after_s:
-            twin, period_s = PlainFusion(geometry.rows, geometry.cols, config.tuning), duration_s
+            reference, period_s = FusionReference(geometry.rows, geometry.cols, config.tuning), duration_s
         last_s = end_s
-        twin.step(indices, counts, period_s, duration_s)
-        assert image == pytest.approx(twin.image, abs=0.5)
-        assert estimator.sigma == pytest.approx(twin.sigma, rel=0.02, abs=0.05)
-        assert estimator.age_s == pytest.approx(twin.age, rel=1e-4, abs=1e-6)
+        reference.step(indices, counts, period_s, duration_s)
+        assert image == pytest.approx(reference.image, abs=0.5)
+        assert estimator.sigma == pytest.approx(reference.sigma, rel=0.02, abs=0.05)
+        assert estimator.age_s == pytest.approx(reference.age, rel=1e-4, abs=1e-6)
 
 
 # Measured: relative errors 0.019 and 0.039 (last values alone 0.024 and 0.152), centres off by 0.010 and 0.041 taxels.
@@ -333,10 +333,10 @@ def test_motion_that_is_long_past_leaves_no_subnormal_numbers() -> None:
     skin, estimator = Skin(sliding(200.0), noise=2.0), FusionEstimator(ArrayGeometry())
     for k in range(1, 60):
         estimator.step(*skin.frame(0.001 * k), 0.001 * k, DURATION_S)
-    assert estimator._state.evidence.any()
+    assert estimator._state.normal_sums.any()
     for k in range(60, 700):
         estimator.step(u16(0), u16(0), 0.001 * k, 0.0)
-    assert not estimator._state.evidence.any()
+    assert not estimator._state.normal_sums.any()
 
 
 def test_a_still_contact_is_exact_after_one_round() -> None:
@@ -399,20 +399,20 @@ def test_patches_are_skins_of_their_own(
 ) -> None:
     estimator = estimator_of(arranged)
     borders, tuning = borders_of(9, 13, arranged), estimator.config.tuning
-    twin, last_s = PlainFusions(9, 13, borders, tuning), None
+    reference, last_s = PatchesReference(9, 13, borders, tuning), None
     for (indices, counts), end_s, duration_s in frames:
         image = estimator.step(indices, counts, end_s, duration_s)
         period_s = duration_s if last_s is None else end_s - last_s
         if not 0 <= period_s <= estimator.config.reset_after_s:
-            twin, period_s = PlainFusions(9, 13, borders, tuning), duration_s
+            reference, period_s = PatchesReference(9, 13, borders, tuning), duration_s
         last_s = end_s
         if arranged is not None:
             counts = counts * (arranged.patch_of_taxel.ravel()[indices] != NO_PATCH)
             indices = arranged.places[indices]
-        twin.step(indices, counts, period_s, duration_s)
-        assert image == pytest.approx(twin.field("image"), abs=0.5)
-        assert estimator.sigma == pytest.approx(twin.field("sigma"), rel=0.02, abs=0.05)
-        assert estimator.age_s == pytest.approx(twin.field("age"), rel=1e-4, abs=1e-6)
+        reference.step(indices, counts, period_s, duration_s)
+        assert image == pytest.approx(reference.field("image"), abs=0.5)
+        assert estimator.sigma == pytest.approx(reference.field("sigma"), rel=0.02, abs=0.05)
+        assert estimator.age_s == pytest.approx(reference.field("age"), rel=1e-4, abs=1e-6)
 
 
 @pytest.fixture(scope="module")

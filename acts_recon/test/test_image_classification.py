@@ -1,4 +1,4 @@
-"""Classification of images: the plain version on images whose object is known, the kernel against the plain version."""
+"""Classification of images: the reference implementation on known images, the kernel against it."""
 
 import math
 import tracemalloc
@@ -17,8 +17,8 @@ from acts_core.skin import ForceResponse
 from acts_core.wire import confidence_of
 from acts_recon.objects import ImageClassifier, ImageClassifierConfig, ObjectLibrary, build_object_library
 from acts_recon.objects.classification_kernels import decide
-from acts_recon.objects.image_classification import LEVELS, classify_image, less_deep
-from acts_recon.objects.image_src import explain_among, proposed_columns
+from acts_recon.objects.image_classification import LEVELS, classify_image, shallower_patterns
+from acts_recon.objects.image_src import proposed_columns, src_residuals
 
 Image = NDArray[np.float32]
 GEOMETRY = ArrayGeometry()
@@ -53,7 +53,7 @@ def test_a_press_between_the_known_ones_is_told(objects: ObjectLibrary, name: st
 
 
 def test_a_library_knows_its_objects_less_deep(objects: ObjectLibrary) -> None:
-    patterns, norms_counts, classes = less_deep(objects)
+    patterns, norms_counts, classes = shallower_patterns(objects)
     response = ForceResponse()
     forces_n = response.force_n(objects.columns[:, 0] * objects.norms_counts[0])
     expected = response.counts(np.maximum(forces_n - 0.4 * forces_n.max(), 0))
@@ -76,7 +76,7 @@ def test_what_is_uncertain_does_not_count(objects: ObjectLibrary) -> None:
 
 @pytest.mark.parametrize("unknown", [0.0, 0.3])
 @pytest.mark.parametrize("n_classes", [1, 3, 9, 20])
-def test_kernel_equals_twin_on_random_images(n_classes: int, unknown: float) -> None:
+def test_kernel_equals_reference_on_random_images(n_classes: int, unknown: float) -> None:
     rng = np.random.default_rng(n_classes)
     frames = rng.integers(0, 1024, (60, 12, 11)) * (rng.random((60, 12, 11)) < 0.4)
     library = build_object_library(frames, [f"object {i % n_classes}" for i in range(60)], touch_counts=15)
@@ -109,7 +109,7 @@ def test_the_response_of_the_skin_tells_how_objects_look_less_deep(objects: Obje
 def test_faint_frames_of_which_nothing_is_left_less_deep_do_no_harm() -> None:
     faint = [bump(GEOMETRY, 15, 10, width=2.0, peak=70), bump(GEOMETRY, 15, 20, width=2.0, peak=70)]
     library = build_object_library(faint, ["left", "right"], touch_counts=15)
-    patterns, norms_counts, _ = less_deep(library)
+    patterns, norms_counts, _ = shallower_patterns(library)
     assert np.isfinite(patterns).all()
     assert (norms_counts > 0).all()
     assert not patterns[len(LEVELS) - 1].any()
@@ -212,6 +212,6 @@ def test_src_has_its_say_once_the_skin_rests(objects: ObjectLibrary) -> None:
         alone = plain.step(image, CERTAIN, old, 0.001).residuals
     flat = image.ravel()
     proposed = proposed_columns(objects, alone, np.ones(objects.n_columns))
-    src = explain_among(objects, proposed, np.where(flat > config.touch_counts, flat, 0), CERTAIN.ravel())
+    src = src_residuals(objects, proposed, np.where(flat > config.touch_counts, flat, 0), CERTAIN.ravel())
     assert src is not None
     np.testing.assert_allclose(resting, (alone * src**2) ** (1 / 3), rtol=1e-3)

@@ -47,10 +47,10 @@ def test_a_frame_that_is_only_taken_tells_that_the_skin_moves(library: ObjectLib
         image, sigma, age_s = fields()
         objects = FusedObjects(ImageClassifier(library), image, sigma, age_s)
         age_s[:] = 0
-        objects.take(ONE, ONE, 1.0, 0.001)
+        objects.update(ONE, ONE, 1.0, 0.001)
         image[:] = bump(GEOMETRY, 15, 16, width=2.5, peak=400)
         if moves:
-            objects.take(ONE, ONE, 1.001, 0.001)
+            objects.update(ONE, ONE, 1.001, 0.001)
         age_s[:] = 0.002
         results.append(objects.step(ONE, ONE, 1.002, 0.001).residuals.copy())
     # SRC, which only has its say on a resting skin, sharpens the contrast.

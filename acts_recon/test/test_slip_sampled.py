@@ -97,7 +97,7 @@ def test_a_contact_that_the_border_cuts_grows_without_slipping_and_slips_where_i
 
 
 def by_numpy(time_s: float, memory: kernels.Memory, pressed: float, max_lag_s: float) -> tuple[NDArray, float]:
-    """The plain twin: an image of the moment when the last of the pressed taxels was measured, and that moment."""
+    """The reference implementation: the image at the last measurement of a pressed taxel, and that moment."""
     moment_s = max(memory.last_s[memory.last > pressed].min(initial=time_s), time_s - max_lag_s)
     with np.errstate(invalid="ignore"):
         share = (moment_s - memory.before_s) / (memory.last_s - memory.before_s)

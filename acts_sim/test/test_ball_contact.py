@@ -1,4 +1,4 @@
-"""The pressed field: kernel against its plain twin, centre of pressure, force, size."""
+"""The pressed field: kernel against its reference implementation, centre of pressure, force, size."""
 
 import numpy as np
 import pytest

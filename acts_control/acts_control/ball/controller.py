@@ -202,7 +202,7 @@ class BallController:
         self._stale_s = 0.0 if fresh else self._stale_s + dt
         self._tilts.add(inputs.now_ns, *inputs.tilt_rad)
         if ball is not None and report is not None:
-            ball = self._tilts.carry_on(ball, report.stamp_ns)
+            ball = self._tilts.predict(ball, report.stamp_ns)
         state.error_m = (0.0, 0.0)
         target = (0.0, 0.0)
         if state.ending or state.phase is Phase.STOPPED:

@@ -34,7 +34,7 @@ class TiltHistory:
         while past[0][0] < now_ns - self._horizon_ns:
             past.popleft()
 
-    def carry_on(self, ball: Ball, stamp_ns: int) -> Ball:
+    def predict(self, ball: Ball, stamp_ns: int) -> Ball:
         """Where the ball is at the time of the newest tilt.
 
         Parameters

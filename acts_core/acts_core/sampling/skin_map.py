@@ -1,7 +1,7 @@
 """What a board is told of a layout: which taxels are neighbours on the skin, and where its patches end.
 
 The schemes that look for neighbours (adaptive, tracking, and hybrid in part) walk the picture of the skin place by
-place; frames name taxels of the matrix as ever. C++ twin: ``acts::SkinMap``; `docs/wire_protocol.md` has the bytes.
+place; frames name taxels of the matrix as ever. In C++ it is ``acts::SkinMap``; `docs/wire_protocol.md` has the bytes.
 """
 
 from __future__ import annotations

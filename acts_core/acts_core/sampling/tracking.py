@@ -19,7 +19,7 @@ from acts_core.sampling.skin_map import SkinMap
 
 
 class Tracking:
-    """Chooses the taxels of tracking sampling, frame after frame (C++ twin: ``acts::Tracking``).
+    """Chooses the taxels of tracking sampling, frame after frame (in C++: ``acts::Tracking``).
 
     A taxel is flagged as pressed when it was above the threshold the last time it was measured. Candidates are the
     flagged taxels and their eight neighbours on the same patch of skin, as they stand when the frame begins. Of the `m`

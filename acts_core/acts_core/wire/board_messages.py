@@ -13,7 +13,7 @@ from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import PacketError
 from acts_core.wire.board_models import OBJECTS_MAX
 from acts_core.wire.commands import Reply, decode_reply
-from acts_core.wire.packets import PacketType, seal, unseal, wrong_release
+from acts_core.wire.packets import PacketType, seal, unseal, version_mismatch
 
 # sequence, board_us, duration_us, rows, cols, reserved
 _IMAGE = struct.Struct("<IQIBBH")
@@ -87,7 +87,7 @@ def decode_message(packet: bytes) -> BoardMessage:
         return _decode_image(content)
     if kind == PacketType.OBJECT:
         return _decode_object(content)
-    raise wrong_release(f"packet type {kind}, which no board of this release sends")
+    raise version_mismatch(f"packet type {kind}, which no board of this release sends")
 
 
 def encode_image(image: BoardImage) -> bytes:

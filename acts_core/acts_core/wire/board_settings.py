@@ -10,7 +10,7 @@ from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import SettingsError
 from acts_core.sampling import NEIGHBOURS, SCHEMES, SamplingConfig, uniform_spacing
 from acts_core.settings import setting, validate
-from acts_core.wire.packets import wrong_release
+from acts_core.wire.packets import version_mismatch
 
 OUTPUTS = ("samples", "image", "object")
 """What the board sends; numbered from 0 on the wire."""
@@ -157,12 +157,14 @@ class BoardSettings:
             When the bytes are no settings that this release knows.
         """
         if len(data) != SETTINGS_SIZE:
-            raise wrong_release(f"settings of {len(data)} bytes; this release knows {SETTINGS_SIZE}")
+            raise version_mismatch(f"settings of {len(data)} bytes; this release knows {SETTINGS_SIZE}")
         rows, cols, scheme, order, m, threshold, search, adaptive, touch, output, led, period, seed = _LAYOUT.unpack(
             data
         )
         if scheme not in _SCHEME_NAMES or order >= len(_NEIGHBOUR_ORDERS) or output >= len(OUTPUTS) or led >= len(LEDS):
-            raise wrong_release(f"settings with scheme {scheme}, neighbour order {order}, output {output}, LED {led}")
+            raise version_mismatch(
+                f"settings with scheme {scheme}, neighbour order {order}, output {output}, LED {led}"
+            )
         try:
             return cls(
                 rows=rows,
@@ -180,4 +182,4 @@ class BoardSettings:
                 seed=seed,
             )
         except SettingsError as error:
-            raise wrong_release(f"settings that cannot be ({error})") from error
+            raise version_mismatch(f"settings that cannot be ({error})") from error

@@ -1,4 +1,4 @@
-"""Compiled Consistent Overhead Byte Stuffing; `cobs_reference` is the readable twin that the tests compare it with."""
+"""Consistent Overhead Byte Stuffing in numba; the tests compare it with `cobs_reference`."""
 
 from __future__ import annotations
 

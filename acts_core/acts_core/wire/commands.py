@@ -17,7 +17,7 @@ from acts_core.errors import PacketError
 from acts_core.sampling import SkinMap
 from acts_core.wire.board_models import BoardModel, ModelKind
 from acts_core.wire.board_settings import SETTINGS_SIZE, BoardSettings, SettingField
-from acts_core.wire.packets import PacketType, seal, wrong_release
+from acts_core.wire.packets import PacketType, seal, version_mismatch
 
 __all__ = [
     "MAP_PIECE_MAX",
@@ -307,20 +307,20 @@ def decode_reply(content: bytes) -> Reply:
         When it is not a reply that this release knows.
     """
     if len(content) not in (_REPLY_SIZE, _REPLY_SIZE + _REPLY_MAP.size):
-        raise wrong_release(
+        raise version_mismatch(
             f"reply of {len(content)} bytes; this release knows {_REPLY_SIZE} and {_REPLY_SIZE + _REPLY_MAP.size}"
         )
     request, command, status, reserved, detail, major, minor, patch, flags, board_id, uptime_us = (
         _REPLY_HEAD.unpack_from(content)
     )
     if status not in list(ReplyStatus) or reserved != 0 or flags & ~_FLAGS:
-        raise wrong_release(f"reply with status {status}, flags {flags}, reserved {reserved}")
+        raise version_mismatch(f"reply with status {status}, flags {flags}, reserved {reserved}")
     tail = _REPLY_HEAD.size + SETTINGS_SIZE
     kind, side, step, n_objects, rows, columns, crc32, capacity, overruns, bad_commands = _REPLY_TAIL.unpack_from(
         content, tail
     )
     if kind not in list(ModelKind):
-        raise wrong_release(f"reply with a model of kind {kind}")
+        raise version_mismatch(f"reply with a model of kind {kind}")
     state = BoardState(
         firmware_version=(major, minor, patch),
         board_id=board_id,

@@ -79,10 +79,10 @@ def unseal(packet: bytes) -> tuple[int, bytes]:
     if zlib.crc32(packet[:end]) != CRC.unpack_from(packet, end)[0]:
         raise ChecksumError(f"CRC-32 of a packet of {len(packet)} bytes does not match")
     if version != VERSION:
-        raise wrong_release(f"packet type {kind}, version {version}; this release reads version {VERSION}")
+        raise version_mismatch(f"packet type {kind}, version {version}; this release reads version {VERSION}")
     return kind, packet[HEAD.size : end]
 
 
-def wrong_release(what: str) -> PacketError:
+def version_mismatch(what: str) -> PacketError:
     """The error for a whole packet that this release does not know."""
     return PacketError(f"{what}: install firmware and driver of the same release")

@@ -1,4 +1,4 @@
-"""Compiled check of a frame's samples; `acts_core.wire.samples` holds the plain twin that the tests compare it with."""
+"""Check of a frame's samples in numba; the tests compare it with `acts_core.wire.samples.sample_fault`."""
 
 from __future__ import annotations
 

@@ -20,11 +20,11 @@ from numpy.typing import NDArray
 from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import PacketError
 from acts_core.frames import SampleFrame, Scheme
-from acts_core.wire import cobs_reference as cobs
+from acts_core.wire import cobs_reference
 from acts_core.wire.board_messages import BoardMessage, decode_message
 from acts_core.wire.cobs_kernels import decode_into, encode_into
 from acts_core.wire.delimited import DelimitedDecoder
-from acts_core.wire.packets import CRC, VERSION, ChecksumError, PacketType, wrong_release
+from acts_core.wire.packets import CRC, VERSION, ChecksumError, PacketType, version_mismatch
 from acts_core.wire.sample_kernels import COUNT_RANGE, INDEX_RANGE, INDEX_REPEATED, first_fault
 
 # type, version, length, sequence, board_us, duration_us, overruns, scheme, rows, cols, flags, m, reserved
@@ -83,12 +83,14 @@ def encode_frame(frame: SampleFrame) -> bytes:
     )
     packet += indices.astype(_U2).tobytes() + counts.astype(_U2).tobytes()
     packet += CRC.pack(zlib.crc32(packet))
-    encoded = np.empty(cobs.encoded_size_max(len(packet)), dtype=np.uint8)
-    return encoded[: encode_into(packet, encoded)].tobytes() + cobs.DELIMITER
+    encoded = np.empty(cobs_reference.encoded_size_max(len(packet)), dtype=np.uint8)
+    return encoded[: encode_into(packet, encoded)].tobytes() + cobs_reference.DELIMITER
 
 
 def sample_fault(indices: NDArray[np.integer], counts: NDArray[np.integer], size: int) -> str:
-    """What is wrong with the samples of a frame, in words; empty for nothing. The plain twin of `first_fault`.
+    """What is wrong with the samples of a frame, in words; empty for nothing.
+
+    The reference implementation of `first_fault`.
 
     Parameters
     ----------
@@ -130,7 +132,7 @@ class StreamDecoder(DelimitedDecoder):
     """
 
     def __init__(self, on_message: Callable[[BoardMessage], None] | None = None) -> None:
-        super().__init__(cobs.DELIMITER, cobs.encoded_size_max(PACKET_SIZE_MAX))
+        super().__init__(cobs_reference.DELIMITER, cobs_reference.encoded_size_max(PACKET_SIZE_MAX))
         self.messages = 0
         self._on_message = on_message
         self._seen = np.zeros(MAX_SIDE**2, dtype=np.uint32)
@@ -161,7 +163,7 @@ class StreamDecoder(DelimitedDecoder):
         if zlib.crc32(view[:body_end]) != CRC.unpack_from(view, body_end)[0]:
             raise ChecksumError(f"CRC-32 of a packet of {size} bytes does not match")
         if version != VERSION:
-            raise wrong_release(f"packet type {kind}, version {version}; this release reads version {VERSION}")
+            raise version_mismatch(f"packet type {kind}, version {version}; this release reads version {VERSION}")
         if scheme not in _SCHEMES or flags != 0 or reserved != 0:
             raise PacketError(
                 f"scheme {scheme}, flags {flags}, reserved {reserved}; version {VERSION} has schemes 0 to "

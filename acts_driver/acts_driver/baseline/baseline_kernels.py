@@ -1,4 +1,7 @@
-"""One frame into the statistics and the baseline, in numba, without allocation; `baseline_twin` is the readable one."""
+"""One frame into the statistics and the baseline, in numba, without allocation.
+
+`baseline_reference` is the reference implementation.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The plain twin of `acts_driver.baseline.baseline_kernels`: the same in NumPy, for reading and for tests."""
+"""Reference implementation of `acts_driver.baseline.baseline_kernels` in NumPy, for reading and for tests."""
 
 from __future__ import annotations
 

@@ -128,7 +128,7 @@ class BaselineTracker:
         self._now_ns = 0
         self._history: deque[tuple[int, NDArray[np.float32]]] = deque(maxlen=_HISTORY_STEPS + 1)
         # Compiled, or loaded, before the first frame.
-        self._take(np.zeros(1, dtype=np.uint16), np.zeros(1, dtype=np.uint16), 0)
+        self._update(np.zeros(1, dtype=np.uint16), np.zeros(1, dtype=np.uint16), 0)
         self._blocks[self._growing].clear()
 
     def observe(self, frames: Sequence[tuple[SampleFrame, int]]) -> None:
@@ -136,7 +136,7 @@ class BaselineTracker:
         with self._lock:
             for frame, time_ns in frames:
                 self._advance(time_ns)
-                self._take(frame.indices, frame.counts, time_ns)
+                self._update(frame.indices, frame.counts, time_ns)
 
     def set(self, baseline: Baseline) -> None:
         """Take over a baseline, for example from a file."""
@@ -271,7 +271,7 @@ class BaselineTracker:
         self._growing_since_ns = time_ns
         self._blocks[self._growing].clear()
 
-    def _take(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], time_ns: int) -> None:
+    def _update(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], time_ns: int) -> None:
         config, block = self.config, self._blocks[self._growing]
         baseline_kernels.observe(
             indices,

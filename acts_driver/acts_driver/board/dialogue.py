@@ -51,7 +51,7 @@ class RefusedError(BoardError):
 class BoardLink:
     """Commands and replies, one at a time, over a source that somebody else reads.
 
-    Give `take` to the decoder as `on_message`. Whoever calls a command waits; the thread that reads never does.
+    Give `receive` to the decoder as `on_message`. Whoever calls a command waits; the thread that reads never does.
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ class BoardLink:
         self._request = time.monotonic_ns() & 0xFFFFFFFF
         self._reply: Reply | None = None
 
-    def take(self, message: BoardMessage) -> None:
+    def receive(self, message: BoardMessage) -> None:
         """Take what the board said; on the reader's thread. What is no reply to the last command is left alone."""
         if isinstance(message, Reply):
             with self._arrived:

@@ -35,7 +35,7 @@ class BoardResults:
         self.results = 0
         self.dropped = 0
 
-    def take(self, message: BoardMessage) -> None:
+    def receive(self, message: BoardMessage) -> None:
         """Keep a message of the board until `stamped` if it is a result."""
         if isinstance(message, BoardImage | BoardObject):
             self._waiting.append(message)

@@ -9,7 +9,7 @@ from acts_core.frames import SampleFrame
 from acts_core.wire import BoardMessage
 from acts_driver.board import BoardLink, BoardResult, BoardResults, BoardSession, BoardStatus
 from acts_driver.nodes.report import DriverReport
-from acts_driver.port import LeftOver, LogCallback, Reader, Source
+from acts_driver.port import LogCallback, Reader, Source, StaleFrames
 from acts_driver.settings import DriverSettings
 from acts_driver.stream import FrameStream
 from acts_ros.diagnostics import Report
@@ -60,8 +60,8 @@ class Intake:
         self._log = log
         self._results = BoardResults()
         self._link = BoardLink(source.write)
-        decoder = settings.make_decoder(self._take)
-        self._left_over = LeftOver(decoder)
+        decoder = settings.make_decoder(self._receive)
+        self._stale_frames = StaleFrames(decoder)
         self.stream = FrameStream(*size, has_board_clock=decoder.has_board_clock)
         self.session = (
             BoardSession(self._link, settings, size=size, log=log, on_change=on_board)
@@ -113,15 +113,15 @@ class Intake:
         results = {"board_results": self._results.results, "board_results_dropped": self._results.dropped}
         return level, message, {**values, **results}
 
-    def _take(self, message: BoardMessage) -> None:
-        self._left_over.take(message)
-        self._link.take(message)
-        self._results.take(message)
+    def _receive(self, message: BoardMessage) -> None:
+        self._stale_frames.receive(message)
+        self._link.receive(message)
+        self._results.receive(message)
 
     def _on_frames(self, frames: list[SampleFrame], arrival_ns: int) -> None:
         """Frames that were read together; on the reader's thread."""
         session = self.session
-        frames = self._left_over.new(frames, is_known=session is None or session.wait_for_verdict(0.0))
+        frames = self._stale_frames.new(frames, is_known=session is None or session.wait_for_verdict(0.0))
         accepted = self.stream.accept(frames, arrival_ns)
         results = self._results.stamped(accepted)
         if self.stream.wrong_size_last != self._wrong_size_told:

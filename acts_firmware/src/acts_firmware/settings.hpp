@@ -1,4 +1,4 @@
-// Everything that a host can tell the board; `BoardSettings` of acts_core is its twin.
+// Everything that a host can tell the board; `BoardSettings` of acts_core is the same in Python.
 #pragma once
 
 #include <cstdint>

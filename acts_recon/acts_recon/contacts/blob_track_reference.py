@@ -1,4 +1,4 @@
-"""Contacts with numbers, plain: the readable twin of `blob_track_kernels` and those that it uses."""
+"""Contacts with numbers, plain: the reference implementation of `blob_track_kernels` and those that it uses."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ class Track:
     share: float = 0.0
 
 
-class PlainTracker:
+class BlobTrackerReference:
     """Finds the contacts in image after image and keeps their numbers, as `blob_tracker.BlobTracker`.
 
     Parameters

@@ -149,7 +149,7 @@ def find_blobs(
     pressed_before: NDArray[np.bool_] | None = None,
     borders: Borders | None = None,
 ) -> list[Blob]:
-    """Find the contacts in an image; the plain twin of `acts_recon.contacts.blob_kernels.find_blobs`.
+    """Find the contacts in an image; the reference implementation of `acts_recon.contacts.blob_kernels.find_blobs`.
 
     A contact is a group of pressed taxels that touch along a side or at a corner. The strongest `MAX_BLOBS` are kept.
     Taxels that only the hysteresis holds join a contact together, but do not count in its numbers, so that these

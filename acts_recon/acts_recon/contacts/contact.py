@@ -76,8 +76,9 @@ def find_contact(
     err_together: float = ERR_TOGETHER,
     borders: Borders | None = None,
 ) -> Contact:
-    """Describe the contact in an image; the plain twin of `acts_recon.contacts.contact_kernels.find_contact`.
+    """Describe the contact in an image.
 
+    The reference implementation of `acts_recon.contacts.contact_kernels.find_contact`.
     A taxel is pressed when its value is above `touch_counts`. Positions are weighted by force, not by counts as in the
     published analysis: counts saturate, which pulls their mean towards the lightly pressed side of an object that is
     not pressed evenly (docs/reconstruction.md has figures).

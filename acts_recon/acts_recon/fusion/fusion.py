@@ -1,20 +1,26 @@
 """Fusion of samples over time: an image at every frame out of all samples so far, and how sure it is.
 
-A frame of 55 samples shows little, but at 1 kHz the skin hardly changes from one to the next. The estimator keeps for
-every taxel the last measurement, its age and how fast it changed, and carries the image from frame to frame:
+A frame of 55 samples shows little, but at 1 kHz the skin hardly changes from one frame to the next. The estimator
+predicts the image and corrects it by each frame's samples, as a Kalman filter does, but with a variance for every taxel
+instead of a covariance matrix. One frame takes five steps:
 
-- **Motion.** Where changes of samples fit a shift of the image, what is pressed is moved on. Velocities are found for
-  tiles of 4 x 4 taxels out of the 20 x 20 around them by least squares over the last milliseconds, so that two contacts
-  may move differently; where they explain less than a share of the changes they are not used.
-- **Slopes.** What motion does not explain goes on changing as it did, for a while.
-- **Innovations.** What a sample shows beyond what was predicted, holds in part for the taxels around it.
-- **No invented pressure.** A taxel that was measured untouched, with none beside it pressed, is 0: noise of a thousand
-  taxels, small as it is, would draw the centre of pressure to the middle. (In the frame that measures it, it is
-  what was measured.)
-- **Doubt.** Sigma grows with age, as fast as predictions of the taxel and those around it have failed so far; one
-  factor for all follows how well the sigmas themselves have held, another the surprise of the last frame.
+1. **Motion: Lucas-Kanade per tile.** The velocity v of each tile of 4 x 4 taxels minimises ``sum (g . v + dc/dt)^2``
+   over the samples of the 20 x 20 taxels around it. g is the image's gradient at a sample, dc/dt the change of the
+   taxel since its last measurement; older samples fade. A velocity that explains less than `motion_share` of the
+   changes is not used.
+2. **Prediction.** The image is shifted by v. What v does not explain follows each taxel's slope, which fades.
+   Value and slope of a taxel are an alpha-beta filter: ``value = count`` (alpha = 1) and ``slope += b (dc/dt - slope)``
+   with ``b = t / (t + slope_memory_s)``, where t is the time between two measurements.
+3. **Update.** The innovation of a sample is its count less the prediction for its time. The taxel takes the count. The
+   taxels around it are corrected by inverse-distance interpolation: the mean of the innovations within two taxels,
+   weighted by ``1 / distance^4``, times `spread_gain`.
+4. **Untouched taxels.** A taxel measured untouched, with no pressed taxel beside it, is set to 0. Otherwise the noise
+   of a thousand taxels would pull the centre of pressure to the middle. A taxel of the current frame keeps its count.
+5. **Uncertainty.** ``sigma^2 = noise^2 + s q t^2 + ...``, where t is the taxel's age and q its process noise: the
+   exponential average of ``(innovation^2 - 2 noise^2) / t^2``. The factor s is innovation-based adaptive noise. It
+   follows the normalised innovation squared, slowly over frames and at once within a frame.
 
-`acts_recon.fusion.fusion_kernels` does the work, `acts_recon.fusion.fusion_reference` is its readable twin.
+`fusion_kernels` does the work; `fusion_reference` is the reference implementation, in double precision.
 """
 
 from __future__ import annotations
@@ -42,24 +48,24 @@ class FusionConfig:
         2.0, "standard deviation of a reading about the truth [counts]", minimum=0.0, maximum=100.0
     )
     quiet_counts: float = setting(
-        9.0, "a taxel at or below is untouched, a surprise at or below is noise [counts]", minimum=0.0, maximum=500.0
+        9.0, "a taxel at or below is untouched, an innovation at or below is noise [counts]", minimum=0.0, maximum=500.0
     )
     quiet_s: float = setting(0.010, "how long a taxel measured untouched is taken for untouched [s]", minimum=0.0)
-    horizon_s: float = setting(0.020, "measurements older than this foretell no change [s]", minimum=1e-4, maximum=10.0)
-    damping_s: float = setting(0.050, "time in which a taxel's slope fades to 37 % [s]", minimum=1e-4, maximum=10.0)
+    horizon_s: float = setting(0.020, "measurements older than this predict no change [s]", minimum=1e-4, maximum=10.0)
+    damping_s: float = setting(0.050, "time constant with which a taxel's slope fades [s]", minimum=1e-4, maximum=10.0)
     slope_memory_s: float = setting(
-        0.001, "two measurements so far apart renew half of a slope [s]", minimum=1e-5, maximum=10.0
+        0.001, "time between two measurements at which half of the slope is replaced [s]", minimum=1e-5, maximum=10.0
     )
     motion_memory_s: float = setting(
-        0.004, "time in which what is known of the motion fades to 37 % [s]", minimum=1e-4, maximum=10.0
+        0.004, "time constant of the sums that motion is found from [s]", minimum=1e-4, maximum=10.0
     )
     motion_share: float = setting(
         0.3, "a motion is used where it explains more than this share of the changes", minimum=0.0, maximum=1.0
     )
     spread_gain: float = setting(
-        0.6, "share of a sample's surprise that its neighbours take over", minimum=0.0, maximum=1.0
+        0.6, "share of a sample's innovation that its neighbours are corrected by", minimum=0.0, maximum=1.0
     )
-    reset_after_s: float = setting(0.5, "after a gap this long nothing is known any more [s]", minimum=1e-3)
+    reset_after_s: float = setting(0.5, "after a gap this long the estimate starts anew [s]", minimum=1e-3)
     confidence_counts: float = setting(
         30.0, "sigma at which the confidence is one half [counts]", minimum=0.1, maximum=float(COUNT_MAX)
     )
@@ -83,8 +89,7 @@ class FusionEstimator:
     config : FusionConfig
     layout : Layout, optional
         Where the taxels of the matrix lie in the picture. `step` takes matrix indices, all results are the picture's.
-        Its patches are skins of their own, taken together: none learns anything from another. Where there is no skin
-        the image is 0.
+        Each patch is estimated by itself: no sample affects another patch. Where there is no skin the image is 0.
 
     Raises
     ------
@@ -125,17 +130,17 @@ class FusionEstimator:
         self._warm_up()
 
     def reset(self) -> None:
-        """Forget everything."""
+        """Start anew, as if nothing had been measured."""
         forget(self._memory)
         self._end_s = None
 
     def step(
         self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float
     ) -> NDArray[np.float32]:
-        """Take one frame of samples.
+        """Predict to the end of a frame and update by its samples.
 
-        Frames may be lost and may be repeated; a clock that goes back, or stands still for more than `reset_after_s`
-        between two frames, begins anew.
+        Frames may be lost or repeated. The estimate starts anew when the clock goes back, or when more than
+        `reset_after_s` lie between two frames.
 
         Parameters
         ----------
@@ -178,7 +183,7 @@ class FusionEstimator:
         return self.image
 
     def confidence(self) -> NDArray[np.uint8]:
-        """How sure the image is: 255 sure, 128 where sigma is `confidence_counts`, near 0 unknown.
+        """Confidence of each taxel: ``255 / (1 + (sigma / confidence_counts)^2)``, rounded.
 
         Returns
         -------

@@ -1,9 +1,8 @@
 """Fusion of samples over time in numba: the same as `fusion_reference`, in float32 and without allocation.
 
-One frame goes through `fuse`: find how the contacts move, carry the image on to the end of the frame, take the samples,
-tell the taxels around them what they taught, and say how sure all of it is. `fusion` explains the method.
-(Indices are made signed before anything is taken away from them: numba keeps them unsigned.) The patches of a layout
-are skins of their own, taken together: none learns anything from another.
+`fuse` takes one frame through the steps that `fusion` explains: find the velocities, predict the image to the end of
+the frame, update it by the samples, interpolate the innovations between them, and compute every taxel's sigma.
+Each patch of a layout is treated by itself. Indices are made signed before a subtraction: numba keeps them unsigned.
 """
 
 from __future__ import annotations
@@ -19,24 +18,24 @@ from acts_recon.fusion.fusion_motion_kernels import FASTMATH, TINY, find_velocit
 from acts_recon.fusion.fusion_state import TILE, UNKNOWN_COUNTS, Memory, State, Tuning, state_of
 
 REACH = 2
-"""How far a sample teaches the taxels around it [taxels]."""
+"""Taxels so far from a sample, along rows and columns, are corrected by its innovation."""
 
-# What a taxel that nobody looks at may change by itself [counts/s].
+# Lower limit of the process noise: what an untouched taxel may drift [counts/s].
 IDLE_COUNTS_PER_S = 20.0
-# Share of a new error in what is remembered of the errors of a taxel.
-UNREST_SHARE = 0.3
-# Errors over less time than this say little about the error per time [s].
+# Gain of the exponential average of a taxel's squared prediction errors.
+PROCESS_NOISE_GAIN = 0.3
+# Added to the time between two measurements, so that errors over short times are not taken for fast changes [s].
 SHORTEST_S = 5e-4
-# What surprises on a taxel not measured within the horizon is a new contact, which came about so long ago [s].
-NOTICED_S = 3e-3
-# From 1 error at odds with sigma to the correction of all sigmas, as a logarithm; and its limit.
+# An innovation on a taxel that was not measured within the horizon is a new contact, assumed to be this old [s].
+NEW_CONTACT_AGE_S = 3e-3
+# Step of the logarithm of the scale of all variances per normalised innovation squared above 1, and its limit.
 SCALE_STEP = 0.01
 SCALE_LIMIT = 3.0
-# What the surprise of one frame says of that frame counts as if so many samples more had been as expected.
-CALM_SAMPLES = 4.0
-# Squared errors beyond this many variances count as this many: a new contact says little about known ones.
+# The scale of one frame is a mean over its samples and so many more whose normalised innovation squared is 1.
+NIS_PRIOR_SAMPLES = 4.0
+# Normalised innovations squared are limited to this: a new contact says little about known ones.
 OUTLIER = 25.0
-# What a sample says about the others is halved where their weights sum up to this.
+# The correction of a taxel is halved where the weights of the samples around it sum up to this.
 SPREAD_PRIOR = 0.5
 
 _F = np.float32
@@ -44,7 +43,7 @@ _TOP = np.float32(COUNT_MAX)
 
 
 def _weights_around() -> NDArray[np.float32]:
-    """What a sample's innovation counts for the taxels around it: 1 over the fourth power of their distance."""
+    """Weights of a sample's innovation for the taxels around it: ``1 / distance^4``."""
     away = np.arange(-REACH, REACH + 1, dtype=np.float32)
     square = away[:, None] ** 2 + away[None, :] ** 2
     square[REACH, REACH] = np.inf
@@ -58,10 +57,9 @@ _state_of = kernel(fastmath=FASTMATH)(state_of)
 
 @kernel(fastmath=FASTMATH)
 def _predict(state: State, period_s: float, cols: int, tuning: Tuning) -> None:
-    """Carry the image on to the end of the frame by motion and, for the share it does not explain, by slopes.
+    """Predict the image at the end of the frame: by motion, and by slopes for the share that motion does not explain.
 
-    First all taxels by their slopes, without a branch, so that the compiler takes several at once; then anew those that
-    move.
+    First all taxels by their slopes, without a branch, so that the compiler vectorises; then again those that move.
     """
     image, before, age, elapsed, rate = state.image, state.before, state.age, state.elapsed, state.rate
     period, horizon = _F(period_s), _F(tuning.horizon_s)
@@ -69,7 +67,7 @@ def _predict(state: State, period_s: float, cols: int, tuning: Tuning) -> None:
     for i in range(image.shape[0]):
         before[i] = image[i]
         age[i] += period
-        # A measured taxel stood at its own time, not at the end of the frame.
+        # The estimate of a measured taxel is of the time of its measurement, not of the end of the frame.
         elapsed[i] = min(age[i] if state.fresh[i] else period, horizon)
         state.fresh[i] = False
         faded = state.fade[i] * fading
@@ -99,16 +97,16 @@ def _predict(state: State, period_s: float, cols: int, tuning: Tuning) -> None:
 
 
 @kernel(fastmath=FASTMATH)
-def _take(
+def _update(
     state: State, indices: NDArray[np.uint16], counts: NDArray[np.uint16], lag_step_s: float, tuning: Tuning
 ) -> None:
-    """Compare every sample with what was predicted for its own time, and take it over."""
+    """Innovations of all samples; update of value, slope and process noise of their taxels, and of the scales."""
     m = indices.shape[0]
     horizon, noise_variance = _F(tuning.horizon_s), _F(tuning.noise_counts) ** 2
-    scale, surprise, compared = state.scale, state.surprise, state.compared
+    scale, nis_excess, compared = state.scale, state.nis_excess, state.compared
     for p in range(scale.shape[0]):
         scale[p] = _F(math.exp(state.log_scale[p]))
-        surprise[p], compared[p] = _F(0), _F(0)
+        nis_excess[p], compared[p] = _F(0), _F(0)
     for k in range(m):
         i = int(np.int64(indices[k]))
         p = int(np.int64(state.patch_of[i]))
@@ -118,42 +116,44 @@ def _take(
         innovation = count - (state.image[i] - state.rate[i] * lag)
         state.innovation[k] = innovation
         if _F(0) < since < horizon:
-            gathered = state.unrest[i] * since * since
+            gathered = state.process_noise[i] * since * since
             if gathered > noise_variance:
                 ratio = innovation * innovation / (_F(2) * noise_variance + scale[p] * gathered)
-                surprise[p] += min(ratio, _F(OUTLIER)) - _F(1)
+                nis_excess[p] += min(ratio, _F(OUTLIER)) - _F(1)
                 compared[p] += _F(1)
             share = since / (since + _F(tuning.slope_memory_s))
             state.slope[i] += share * ((count - state.value[i]) / since - state.slope[i])
         elif not since < horizon:
             state.slope[i] = _F(0)
         if since > _F(0):
-            error = _excess(innovation, since if since < horizon else _F(NOTICED_S), noise_variance)
-            begins = error > state.unrest[i] and not since < horizon
-            state.unrest[i] += (_F(1) if begins else _F(UNREST_SHARE)) * (error - state.unrest[i])
+            error = _excess(innovation, since if since < horizon else _F(NEW_CONTACT_AGE_S), noise_variance)
+            is_new_contact = error > state.process_noise[i] and not since < horizon
+            state.process_noise[i] += (_F(1) if is_new_contact else _F(PROCESS_NOISE_GAIN)) * (
+                error - state.process_noise[i]
+            )
         state.value[i] = count
         state.age[i] = lag
         state.fade[i] = _F(math.exp(-lag / _F(tuning.damping_s)))
         state.fresh[i] = True
     for p in range(scale.shape[0]):
-        log_scale = state.log_scale[p] + _F(SCALE_STEP) * surprise[p]
+        log_scale = state.log_scale[p] + _F(SCALE_STEP) * nis_excess[p]
         state.log_scale[p] = min(max(log_scale, -_F(SCALE_LIMIT)), _F(SCALE_LIMIT))
-        state.frame_scale[p] = max(_F(1) + surprise[p] / (compared[p] + _F(CALM_SAMPLES)), _F(1))
+        state.frame_scale[p] = max(_F(1) + nis_excess[p] / (compared[p] + _F(NIS_PRIOR_SAMPLES)), _F(1))
 
 
 @kernel(fastmath=FASTMATH)
 def _excess(innovation: np.float32, since: np.float32, noise_variance: np.float32) -> np.float32:
-    """Squared error per squared second of a prediction that noise does not account for."""
+    """Squared innovation beyond the measurement noise, per squared second since the last measurement."""
     time = since + _F(SHORTEST_S)
     return max(innovation * innovation - _F(2) * noise_variance, _F(0)) / (time * time)
 
 
 @kernel(fastmath=FASTMATH)
 def _spread(state: State, indices: NDArray[np.uint16], cols: int, tuning: Tuning) -> None:
-    """Correct the taxels around the samples by the samples' innovations, the near ones most."""
+    """Scatter the innovations to the taxels around the samples, then correct each taxel by their weighted mean."""
     m = indices.shape[0]
-    total, unrest_total, weight = state.total, state.unrest_total, state.weight
-    image, unrest, fresh = state.image, state.unrest, state.fresh
+    total, process_noise_total, weight = state.total, state.process_noise_total, state.weight
+    image, process_noise, fresh = state.image, state.process_noise, state.fresh
     patches, patch_of = state.patches, state.patch_of
     for k in range(m):
         i = int(np.int64(indices[k]))
@@ -169,23 +169,23 @@ def _spread(state: State, indices: NDArray[np.uint16], cols: int, tuning: Tuning
                 j = r * cols + c
                 near = _F(0) if fresh[j] else _NEAR[r - row + REACH, c - col + REACH]
                 total[j] += near * innovation
-                unrest_total[j] += near * unrest[i]
+                process_noise_total[j] += near * process_noise[i]
                 weight[j] += near
     gain = _F(tuning.spread_gain)
-    # All taxels without a branch, so that the compiler takes several at once; what nothing has reached stays as it is.
+    # All taxels without a branch, so that the compiler vectorises; where no weight arrived nothing changes.
     for j in range(image.shape[0]):
         shrunk = weight[j] + _F(SPREAD_PRIOR)
         image[j] = min(max(image[j] + gain * total[j] / shrunk, _F(0)), _TOP)
-        unrest[j] += _F(UNREST_SHARE) * (unrest_total[j] - weight[j] * unrest[j]) / shrunk
-        total[j], unrest_total[j], weight[j] = _F(0), _F(0), _F(0)
+        process_noise[j] += _F(PROCESS_NOISE_GAIN) * (process_noise_total[j] - weight[j] * process_noise[j]) / shrunk
+        total[j], process_noise_total[j], weight[j] = _F(0), _F(0), _F(0)
     for k in range(m):
         i = int(np.int64(indices[k]))
         image[i] = state.value[i]
 
 
 @kernel(fastmath=FASTMATH)
-def _look_around(state: State, values: NDArray[np.float32], cols: int) -> NDArray[np.float32]:
-    """The largest of every taxel and the eight around it in its patch; overwritten by the next call."""
+def _maximum_filter(state: State, values: NDArray[np.float32], cols: int) -> NDArray[np.float32]:
+    """Maximum filter of 3 x 3 taxels within each patch; overwritten by the next call."""
     in_row, around = state.in_row, state.around
     for p in range(state.patches.shape[0]):
         top, bottom, left, right = state.patches[p, 0], state.patches[p, 1], state.patches[p, 2], state.patches[p, 3]
@@ -197,7 +197,7 @@ def _look_around(state: State, values: NDArray[np.float32], cols: int) -> NDArra
                 in_row[i] = max(values[i], values[i - 1], values[i + 1])
             in_row[last] = max(values[last], values[max(last - 1, first)])
         for row in range(top, bottom):
-            # Slices, so that the compiler sees that no index is negative, and takes several taxels at once.
+            # Slices, so that the compiler sees that no index is negative, and vectorises.
             here = in_row[row * cols + left : row * cols + right]
             before, behind = max(row - 1, top) * cols, min(row + 1, bottom - 1) * cols
             above = in_row[before + left : before + right]
@@ -209,48 +209,48 @@ def _look_around(state: State, values: NDArray[np.float32], cols: int) -> NDArra
 
 
 @kernel(fastmath=FASTMATH)
-def _keep_quiet(state: State, cols: int, tuning: Tuning) -> None:
-    """A taxel measured untouched, with none beside it pressed, is 0: lately, or as long as nothing was added."""
+def _zero_untouched(state: State, cols: int, tuning: Tuning) -> None:
+    """Set to 0 what was measured untouched, with none beside it pressed: lately, or while the image is low."""
     image, age, fresh = state.image, state.age, state.fresh
     quiet, quiet_s = _F(tuning.quiet_counts), _F(tuning.quiet_s)
-    around = _look_around(state, state.value, cols)
+    around = _maximum_filter(state, state.value, cols)
     for i in range(image.shape[0]):
         is_settled = image[i] <= quiet or age[i] < quiet_s
         image[i] = _F(0) if around[i] <= quiet and is_settled and not fresh[i] else image[i]
 
 
 @kernel(fastmath=FASTMATH)
-def _doubt(state: State, cols: int, tuning: Tuning) -> None:
-    """Standard deviations from noise, age, what predictions of the taxel gathered, and how well all have held.
+def _update_sigma(state: State, cols: int, tuning: Tuning) -> None:
+    """Sigma of every taxel from measurement noise, drift, process noise over its age, and the scales.
 
-    Where a taxel was not measured, what moves beside it may have come to it: half of its doubt is that of the most
-    doubtful around it.
+    What moves beside a taxel may have come to it since it was measured. So half of the process noise of a taxel that
+    is not of this frame is the maximum of the 3 x 3 taxels around it.
     """
-    around = _look_around(state, state.unrest, cols)
+    around = _maximum_filter(state, state.process_noise, cols)
     for p in range(state.patches.shape[0]):
         top, bottom, left, right = state.patches[p, 0], state.patches[p, 1], state.patches[p, 2], state.patches[p, 3]
         scale = _F(math.exp(state.log_scale[p])) * state.frame_scale[p]
         if right - left == cols:
-            _doubt_of(state, around, top * cols, bottom * cols, scale, tuning)
+            _update_sigma_of(state, around, top * cols, bottom * cols, scale, tuning)
             continue
         for row in range(top, bottom):
-            _doubt_of(state, around, row * cols + left, row * cols + right, scale, tuning)
+            _update_sigma_of(state, around, row * cols + left, row * cols + right, scale, tuning)
 
 
 @kernel(fastmath=FASTMATH)
-def _doubt_of(
+def _update_sigma_of(
     state: State, around: NDArray[np.float32], first: int, end: int, scale: np.float32, tuning: Tuning
 ) -> None:
-    """`_doubt` of taxels that follow one another."""
+    """`_update_sigma` of consecutive taxels."""
     idle, horizon = _F(IDLE_COUNTS_PER_S), _F(tuning.horizon_s)
     noise_variance = _F(tuning.noise_counts) ** 2
     limit = _F(UNKNOWN_COUNTS)
-    unrest, rate, sigma = state.unrest[first:end], state.rate[first:end], state.sigma[first:end]
+    process_noise, rate, sigma = state.process_noise[first:end], state.rate[first:end], state.sigma[first:end]
     fresh_ones, ages, around = state.fresh[first:end], state.age[first:end], around[first:end]
     for i in range(sigma.shape[0]):
         # A fresh taxel's value is kept as measured, though it has been changing since.
         fresh, age = fresh_ones[i], ages[i]
-        gathers = unrest[i] if fresh else _F(0.5) * (unrest[i] + around[i])
+        gathers = process_noise[i] if fresh else _F(0.5) * (process_noise[i] + around[i])
         lag_error = rate[i] * age if fresh else _F(0)
         gathering = min(age, horizon)
         idled = idle * min(age, _F(1e3))
@@ -268,7 +268,7 @@ def fuse(
     cols: int,
     tuning: Tuning,
 ) -> None:
-    """Take one frame that `check` has found to fit.
+    """Predict to the end of one frame and update by its samples, which `check_frame` has accepted.
 
     Parameters
     ----------
@@ -288,15 +288,15 @@ def fuse(
     observe_motion(state, indices, counts, period_s, lag_step_s, cols, tuning)
     find_velocities(state, tuning)
     _predict(state, period_s, cols, tuning)
-    _take(state, indices, counts, lag_step_s, tuning)
+    _update(state, indices, counts, lag_step_s, tuning)
     _spread(state, indices, cols, tuning)
-    _keep_quiet(state, cols, tuning)
-    _doubt(state, cols, tuning)
+    _zero_untouched(state, cols, tuning)
+    _update_sigma(state, cols, tuning)
 
 
 @kernel(fastmath=FASTMATH)
 def confidence(sigma: NDArray[np.float32], half_counts: float, out: NDArray[np.uint8]) -> None:
-    """Write 255 where nothing is in doubt, half of it where sigma is `half_counts`, towards 0 beyond."""
+    """Write ``255 / (1 + (sigma / half_counts)^2)``, rounded."""
     for i in range(sigma.shape[0]):
         ratio = sigma[i] / _F(half_counts)
         out[i] = np.uint8(_F(255) / (_F(1) + ratio * ratio) + _F(0.5))

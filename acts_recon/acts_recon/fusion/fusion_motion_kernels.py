@@ -1,4 +1,4 @@
-"""How contacts move, for `fusion_kernels`: velocities of tiles by least squares, in each patch by itself."""
+"""Optical flow of the image for `fusion_kernels`: Lucas-Kanade per tile, in each patch by itself."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from acts_core.kernels import kernel
 from acts_recon.fusion.fusion_state import TILE, State, Tuning
 
 AROUND = 2
-"""A tile's velocity is found from so many tiles on every side of it."""
+"""The window of a tile reaches so many tiles beyond it on every side."""
 
-# Keeps the velocity of a contact without slopes at 0 [counts^2].
+# Ridge (Tikhonov) term of the least squares: the velocity is 0 where the image has no gradient [counts^2].
 RIDGE = 200.0
 
 FASTMATH = {"nsz", "contract", "reassoc", "arcp"}
 TINY = np.float32(1e-20)
-"""What fades for ever ends in numbers so small that they are slow; below it they are 0."""
+"""What fades exponentially is 0 below it: denormal numbers are slow."""
 
 _F = np.float32
 
@@ -33,15 +33,14 @@ def observe_motion(
     cols: int,
     tuning: Tuning,
 ) -> None:
-    """Add to every tile how its samples changed, and along which gradients of the image."""
+    """Add the samples to the sums of the normal equations of their tiles: products of gradients and changes."""
     m = indices.shape[0]
     fade = _F(math.exp(-period_s / tuning.motion_memory_s))
-    image, evidence = state.image, state.evidence
-    for a in range(evidence.shape[0]):
+    image, normal_sums = state.image, state.normal_sums
+    for a in range(normal_sums.shape[0]):
         for q in range(6):
-            faded = evidence[a, q] * fade
-            # What fades for ever ends in numbers so small that they are slow.
-            evidence[a, q] = faded if abs(faded) > TINY else _F(0)
+            faded = normal_sums[a, q] * fade
+            normal_sums[a, q] = faded if abs(faded) > TINY else _F(0)
     patches, patch_of = state.patches, state.patch_of
     horizon = _F(tuning.horizon_s)
     for k in range(m):
@@ -56,7 +55,7 @@ def observe_motion(
         top, bottom, left, right = patches[p, 0], patches[p, 1] - 1, patches[p, 2], patches[p, 3] - 1
         along_cols = (image[row * cols + min(col + 1, right)] - image[row * cols + max(col - 1, left)]) * _F(0.5)
         along_rows = (image[min(row + 1, bottom) * cols + col] - image[max(row - 1, top) * cols + col]) * _F(0.5)
-        tile = evidence[patches[p, 4] + (row - top) // TILE * patches[p, 6] + (col - left) // TILE]
+        tile = normal_sums[patches[p, 4] + (row - top) // TILE * patches[p, 6] + (col - left) // TILE]
         tile[0] += along_cols * along_cols
         tile[1] += along_cols * along_rows
         tile[2] += along_rows * along_rows
@@ -67,12 +66,12 @@ def observe_motion(
 
 @kernel(fastmath=FASTMATH)
 def find_velocities(state: State, tuning: Tuning) -> None:
-    """Solve for the velocity of every tile that explains most of the changes around it."""
+    """Solve the normal equations of every tile; keep the velocity where it explains enough of the changes."""
     for p in range(state.patches.shape[0]):
         first, tile_rows, tile_cols = state.patches[p, 4], state.patches[p, 5], state.patches[p, 6]
         last = first + tile_rows * tile_cols
         _find_velocities_of(
-            state.evidence[first:last].reshape((tile_rows, tile_cols, 6)),
+            state.normal_sums[first:last].reshape((tile_rows, tile_cols, 6)),
             state.row_sums[first:last].reshape((tile_rows, tile_cols, 6)),
             state.velocity[first:last].reshape((tile_rows, tile_cols, 3)),
             tuning,
@@ -81,17 +80,17 @@ def find_velocities(state: State, tuning: Tuning) -> None:
 
 @kernel(fastmath=FASTMATH)
 def _find_velocities_of(
-    evidence: NDArray[np.float32], row_sums: NDArray[np.float32], velocities: NDArray[np.float32], tuning: Tuning
+    normal_sums: NDArray[np.float32], row_sums: NDArray[np.float32], velocities: NDArray[np.float32], tuning: Tuning
 ) -> None:
     """`find_velocities` of one patch; arrays are (tile rows, tile columns, ...)."""
-    tile_rows, tile_cols = evidence.shape[0], evidence.shape[1]
+    tile_rows, tile_cols = normal_sums.shape[0], normal_sums.shape[1]
     for a in range(tile_rows):
         for b in range(tile_cols):
             for q in range(6):
                 row_sums[a, b, q] = _F(0)
             for beside in range(max(b - AROUND, 0), min(b + AROUND + 1, tile_cols)):
                 for q in range(6):
-                    row_sums[a, b, q] += evidence[a, beside, q]
+                    row_sums[a, b, q] += normal_sums[a, beside, q]
     for a in range(tile_rows):
         for b in range(tile_cols):
             cc, cr, rr, ct, rt, tt = _F(0), _F(0), _F(0), _F(0), _F(0), _F(0)
@@ -132,7 +131,7 @@ def moved(
     end_col: int,
     cols: int,
 ) -> np.float32:
-    """What stood `back_rows` and `back_cols` away, between four taxels; the edge of the patch goes on outside."""
+    """The image `back_rows` and `back_cols` away, bilinear; beyond the patch its edge is continued."""
     c = min(max(_F(col) - back_cols, _F(first_col)), _F(end_col - 1))
     r = min(max(_F(row) - back_rows, _F(first_row)), _F(end_row - 1))
     left, top = int(c), int(r)

@@ -1,4 +1,4 @@
-"""Fusion of samples over time, plain: the readable twin of `acts_recon.fusion.fusion_kernels`, in double precision."""
+"""Reference implementation of `acts_recon.fusion.fusion_kernels`: NumPy, in double precision."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ from scipy import ndimage
 
 from acts_core.array import COUNT_MAX
 from acts_recon.fusion.fusion_kernels import (
-    CALM_SAMPLES,
     IDLE_COUNTS_PER_S,
-    NOTICED_S,
+    NEW_CONTACT_AGE_S,
+    NIS_PRIOR_SAMPLES,
     OUTLIER,
+    PROCESS_NOISE_GAIN,
     REACH,
     SCALE_LIMIT,
     SCALE_STEP,
     SHORTEST_S,
     SPREAD_PRIOR,
-    UNREST_SHARE,
 )
 from acts_recon.fusion.fusion_motion_kernels import AROUND, RIDGE
 from acts_recon.fusion.fusion_state import TILE, UNKNOWN_COUNTS, Tuning
@@ -26,7 +26,7 @@ from acts_recon.images import Borders
 Floats = NDArray[np.float64]
 
 
-class PlainFusion:
+class FusionReference:
     """What is known of every taxel, as `acts_recon.fusion.fusion_state.State`; arrays are (rows, cols).
 
     Parameters
@@ -45,32 +45,32 @@ class PlainFusion:
         self.value = np.zeros(shape)
         self.slope = np.zeros(shape)
         self.age = np.full(shape, np.inf)
-        self.unrest = np.zeros(shape)
+        self.process_noise = np.zeros(shape)
         self.fresh = np.zeros(shape, dtype=bool)
-        self.evidence = np.zeros((6, *tiles))
+        self.normal_sums = np.zeros((6, *tiles))
         self.log_scale = 0.0
         self.frame_scale = 1.0
 
     def step(
         self, indices: NDArray[np.integer], counts: NDArray[np.integer], period_s: float, duration_s: float
     ) -> None:
-        """Take one frame that fits the array; parameters as of `acts_recon.fusion.fusion_kernels.fuse`."""
-        self.take(indices, counts, lags(indices.size, duration_s), period_s)
+        """One frame that fits the array; parameters as of `acts_recon.fusion.fusion_kernels.fuse`."""
+        self.update(indices, counts, lags(indices.size, duration_s), period_s)
 
-    def take(self, indices: NDArray[np.integer], counts: NDArray[np.integer], lag: Floats, period_s: float) -> None:
-        """Take samples that were measured so long before the end of a frame [s]; none where nothing was measured."""
+    def update(self, indices: NDArray[np.integer], counts: NDArray[np.integer], lag: Floats, period_s: float) -> None:
+        """One frame of samples, perhaps none, each measured `lag` seconds before the frame's end."""
         at = np.unravel_index(indices.astype(np.intp), self.image.shape)
         y = counts.astype(np.float64)
 
         self._observe_motion(at, y, self.age[at] + period_s - lag, period_s)
         rate = self._predict(period_s)
-        innovation = self._take(at, y, lag, rate)
+        innovation = self._update(at, y, lag, rate)
         self._spread(at, innovation)
-        self._keep_quiet()
-        self._doubt(rate)
+        self._zero_untouched()
+        self._update_sigma(rate)
 
     def _observe_motion(self, at: tuple[NDArray[np.intp], ...], y: Floats, since: Floats, period_s: float) -> None:
-        self.evidence *= np.exp(-period_s / self._tuning.motion_memory_s)
+        self.normal_sums *= np.exp(-period_s / self._tuning.motion_memory_s)
         used = (since > 0) & (since < self._tuning.horizon_s)
         row, col = at[0][used], at[1][used]
         change = (y[used] - self.value[row, col]) / since[used]
@@ -86,12 +86,12 @@ class PlainFusion:
             change * change,
         )
         for q, term in enumerate(terms):
-            np.add.at(self.evidence[q], (row // TILE, col // TILE), term)
+            np.add.at(self.normal_sums[q], (row // TILE, col // TILE), term)
 
     def _velocities(self) -> tuple[Floats, Floats, Floats]:
         """Columns and rows per second and the share explained, of every taxel."""
         side = np.ones((2 * AROUND + 1,) * 2)
-        cc, cr, rr, ct, rt, tt = (ndimage.convolve(term, side, mode="constant") for term in self.evidence)
+        cc, cr, rr, ct, rt, tt = (ndimage.convolve(term, side, mode="constant") for term in self.normal_sums)
         cc, rr = cc + RIDGE, rr + RIDGE
         determinant = cc * rr - cr * cr
         by_cols = (rr * ct - cr * rt) / determinant
@@ -116,30 +116,30 @@ class PlainFusion:
         np.divide(change, elapsed, out=rate, where=elapsed > 0)
         return rate
 
-    def _take(self, at: tuple[NDArray[np.intp], ...], y: Floats, lag: Floats, rate: Floats) -> Floats:
+    def _update(self, at: tuple[NDArray[np.intp], ...], y: Floats, lag: Floats, rate: Floats) -> Floats:
         tuning = self._tuning
         noise_variance = tuning.noise_counts**2
         since = self.age[at] - lag
         innovation = y - (self.image[at] - rate[at] * lag)
         known = (since > 0) & (since < tuning.horizon_s)
 
-        gathered = np.where(known, self.unrest[at] * np.where(known, since, 0) ** 2, 0)
+        gathered = np.where(known, self.process_noise[at] * np.where(known, since, 0) ** 2, 0)
         moving = gathered > noise_variance
         ratio = innovation[moving] ** 2 / (2 * noise_variance + np.exp(self.log_scale) * gathered[moving])
-        surprise = float((np.minimum(ratio, OUTLIER) - 1).sum())
-        self.frame_scale = max(1 + surprise / (np.count_nonzero(moving) + CALM_SAMPLES), 1.0)
-        self.log_scale = float(np.clip(self.log_scale + SCALE_STEP * surprise, -SCALE_LIMIT, SCALE_LIMIT))
+        nis_excess = float((np.minimum(ratio, OUTLIER) - 1).sum())
+        self.frame_scale = max(1 + nis_excess / (np.count_nonzero(moving) + NIS_PRIOR_SAMPLES), 1.0)
+        self.log_scale = float(np.clip(self.log_scale + SCALE_STEP * nis_excess, -SCALE_LIMIT, SCALE_LIMIT))
 
         time = np.where(known, since, 1.0)
         share = time / (time + tuning.slope_memory_s)
         slope = self.slope[at] + share * ((y - self.value[at]) / time - self.slope[at])
         self.slope[at] = np.where(known, slope, np.where(since < tuning.horizon_s, self.slope[at], 0))
         stale = since >= tuning.horizon_s
-        over = np.where(stale, NOTICED_S, np.maximum(since, 0)) + SHORTEST_S
+        over = np.where(stale, NEW_CONTACT_AGE_S, np.maximum(since, 0)) + SHORTEST_S
         excess = np.maximum(innovation**2 - 2 * noise_variance, 0) / over**2
-        begins = stale & (excess > self.unrest[at])
-        share = np.where(begins, 1, np.where(since > 0, UNREST_SHARE, 0))
-        self.unrest[at] += share * (excess - self.unrest[at])
+        is_new_contact = stale & (excess > self.process_noise[at])
+        share = np.where(is_new_contact, 1, np.where(since > 0, PROCESS_NOISE_GAIN, 0))
+        self.process_noise[at] += share * (excess - self.process_noise[at])
         self.value[at], self.age[at], self.fresh[at] = y, lag, True
         return innovation
 
@@ -156,14 +156,16 @@ class PlainFusion:
 
         weight = reached(1.0)
         total = reached(np.where(np.abs(innovation) > tuning.quiet_counts, innovation, 0))
-        unrest_total = reached(self.unrest[at])
+        process_noise_total = reached(self.process_noise[at])
         to = ~self.fresh & (weight > 1e-9)
         shrunk = weight[to] + SPREAD_PRIOR
         self.image[to] = np.clip(self.image[to] + tuning.spread_gain * total[to] / shrunk, 0, COUNT_MAX)
-        self.unrest[to] += UNREST_SHARE * weight[to] / shrunk * (unrest_total[to] / weight[to] - self.unrest[to])
+        self.process_noise[to] += (
+            PROCESS_NOISE_GAIN * weight[to] / shrunk * (process_noise_total[to] / weight[to] - self.process_noise[to])
+        )
         self.image[at] = self.value[at]
 
-    def _keep_quiet(self) -> None:
+    def _zero_untouched(self) -> None:
         tuning = self._tuning
         untouched = self.value <= tuning.quiet_counts
         beside = ndimage.binary_dilation(~untouched, structure=np.ones((3, 3)))
@@ -171,19 +173,19 @@ class PlainFusion:
         quiet = untouched & ~beside & ~self.fresh & (lately | (self.image <= tuning.quiet_counts))
         self.image[quiet] = 0
 
-    def _doubt(self, rate: Floats) -> None:
+    def _update_sigma(self, rate: Floats) -> None:
         tuning = self._tuning
         gathering = np.minimum(self.age, tuning.horizon_s)
-        around = ndimage.maximum_filter(self.unrest, size=3, mode="nearest")
-        unrest = np.where(self.fresh, self.unrest, (self.unrest + around) / 2)
-        variance = tuning.noise_counts**2 + self.frame_scale * np.exp(self.log_scale) * unrest * gathering**2
+        around = ndimage.maximum_filter(self.process_noise, size=3, mode="nearest")
+        process_noise = np.where(self.fresh, self.process_noise, (self.process_noise + around) / 2)
+        variance = tuning.noise_counts**2 + self.frame_scale * np.exp(self.log_scale) * process_noise * gathering**2
         variance += (IDLE_COUNTS_PER_S * np.minimum(self.age, 1e3)) ** 2
         variance += np.where(self.fresh, rate * np.where(self.fresh, self.age, 0), 0) ** 2
         self.sigma = np.minimum(np.sqrt(variance), UNKNOWN_COUNTS)
 
 
-class PlainFusions:
-    """What is known of a skin with borders: one `PlainFusion` for each of its rectangles.
+class PatchesReference:
+    """A skin with borders: one `FusionReference` for each of its rectangles.
 
     Parameters
     ----------
@@ -195,20 +197,20 @@ class PlainFusions:
     def __init__(self, rows: int, cols: int, borders: Borders, tuning: Tuning) -> None:
         self._shape = (rows, cols)
         self._rectangles = borders.rectangles.tolist()
-        self.parts = [PlainFusion(r1 - r0, c1 - c0, tuning) for r0, r1, c0, c1 in self._rectangles]
+        self.parts = [FusionReference(r1 - r0, c1 - c0, tuning) for r0, r1, c0, c1 in self._rectangles]
 
     def step(
         self, indices: NDArray[np.integer], counts: NDArray[np.integer], period_s: float, duration_s: float
     ) -> None:
-        """As `PlainFusion.step`, every sample for the rectangle that holds it."""
+        """As `FusionReference.step`, every sample for the rectangle that holds it."""
         lag = lags(indices.size, duration_s)
         row, col = np.unravel_index(indices.astype(np.intp), self._shape)
         for part, (r0, r1, c0, c1) in zip(self.parts, self._rectangles, strict=True):
             own = (row >= r0) & (row < r1) & (col >= c0) & (col < c1)
-            part.take((row[own] - r0) * (c1 - c0) + col[own] - c0, counts[own], lag[own], period_s)
+            part.update((row[own] - r0) * (c1 - c0) + col[own] - c0, counts[own], lag[own], period_s)
 
     def field(self, name: str) -> Floats:
-        """One of the arrays of `PlainFusion`, of the whole skin."""
+        """One of the arrays of `FusionReference`, of the whole skin."""
         whole = np.zeros(self._shape)
         for part, (r0, r1, c0, c1) in zip(self.parts, self._rectangles, strict=True):
             whole[r0:r1, c0:c1] = getattr(part, name)

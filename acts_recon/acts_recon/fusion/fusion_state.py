@@ -1,4 +1,4 @@
-"""What the fusion's kernels are given: settings, and what is known of every taxel."""
+"""Settings and state of the fusion's kernels."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 from acts_recon.images import Borders
 
 TILE = 4
-"""Side of the tiles in which the motion is summed up [taxels]."""
+"""Side of the tiles that have a velocity each [taxels]."""
 
 PATCH_COLUMNS = 7
 """Numbers that `State` has of every patch."""
 
 UNKNOWN_COUNTS = 300.0
-"""Sigma of a taxel of which nothing is known: that of any count being equally likely."""
+"""Sigma of a taxel that was never measured: about that of equally likely counts, ``1024 / sqrt(12)``."""
 
 
 class Tuning(NamedTuple):
@@ -34,7 +34,7 @@ class Tuning(NamedTuple):
 
 
 class State(NamedTuple):
-    """What is known of every taxel, and the buffers that `fuse` works in. Arrays of taxels are flat.
+    """State of every taxel, and the buffers that `fuse` works in. Arrays of taxels are flat.
 
     Attributes
     ----------
@@ -42,24 +42,26 @@ class State(NamedTuple):
         Estimate at the end of the last frame and its standard deviation [counts].
     value, slope, age : np.ndarray [shape=(taxels,), dtype=float32]
         Last measurement [counts], how fast it changed [counts/s], and how long it has been [s]; inf: never.
-    unrest : np.ndarray [shape=(taxels,), dtype=float32]
-        Mean square of the error that predictions gather per second [(counts/s)^2].
+    process_noise : np.ndarray [shape=(taxels,), dtype=float32]
+        Mean square of the prediction error per second [(counts/s)^2].
     fade : np.ndarray [shape=(taxels,), dtype=float32]
-        What is left of the slope since the measurement; 1 at its time.
+        Factor of the slope, from 1 at the time of the measurement towards 0.
     fresh : np.ndarray [shape=(taxels,), dtype=bool]
         Whether the taxel was measured in the last frame.
-    evidence, row_sums : np.ndarray [shape=(tiles, 6), dtype=float32]
-        Sums of gradients and changes over the last milliseconds, and over the tiles beside.
+    normal_sums, row_sums : np.ndarray [shape=(tiles, 6), dtype=float32]
+        Sums of the normal equations of Lucas-Kanade: of a tile, fading; and over the tiles beside it.
     velocity : np.ndarray [shape=(tiles, 3), dtype=float32]
-        Columns and rows per second, and the share of the changes that they explain; 0: not used.
+        Columns and rows per second, and R^2, the share of the changes they explain; 0: not used.
     log_scale : np.ndarray [shape=(patches,), dtype=float32]
-        Logarithm of what all error variances of a patch are multiplied by, from how well predictions have held.
+        Logarithm of the scale of a patch's process noise, which follows the normalised innovations squared.
     frame_scale : np.ndarray [shape=(patches,), dtype=float32]
-        What they are multiplied by besides, for the surprise of the last frame; at least 1.
+        Further scale, from the normalised innovations squared of the last frame alone; at least 1.
     patches : np.ndarray [shape=(patches, PATCH_COLUMNS), dtype=int64]
         First row, row behind the last, first column, column behind the last, first tile, rows and columns of tiles.
     patch_of : np.ndarray [shape=(taxels,), dtype=uint16]
-    scale, surprise, compared, before, elapsed, rate, innovation, total, unrest_total, weight, in_row, around, seen
+    nis_excess : np.ndarray [shape=(patches,), dtype=float32]
+        Sum of the normalised innovations squared of a frame, less their number.
+    scale, compared, before, elapsed, rate, innovation, total, process_noise_total, weight, in_row, around, seen
         Scratch.
     """
 
@@ -68,10 +70,10 @@ class State(NamedTuple):
     value: NDArray[np.float32]
     slope: NDArray[np.float32]
     age: NDArray[np.float32]
-    unrest: NDArray[np.float32]
+    process_noise: NDArray[np.float32]
     fade: NDArray[np.float32]
     fresh: NDArray[np.bool_]
-    evidence: NDArray[np.float32]
+    normal_sums: NDArray[np.float32]
     row_sums: NDArray[np.float32]
     velocity: NDArray[np.float32]
     log_scale: NDArray[np.float32]
@@ -79,14 +81,14 @@ class State(NamedTuple):
     patches: NDArray[np.int64]
     patch_of: NDArray[np.uint16]
     scale: NDArray[np.float32]
-    surprise: NDArray[np.float32]
+    nis_excess: NDArray[np.float32]
     compared: NDArray[np.float32]
     before: NDArray[np.float32]
     elapsed: NDArray[np.float32]
     rate: NDArray[np.float32]
     innovation: NDArray[np.float32]
     total: NDArray[np.float32]
-    unrest_total: NDArray[np.float32]
+    process_noise_total: NDArray[np.float32]
     weight: NDArray[np.float32]
     in_row: NDArray[np.float32]
     around: NDArray[np.float32]
@@ -94,7 +96,7 @@ class State(NamedTuple):
 
 
 class Memory(NamedTuple):
-    """What `State` is a view of: few arrays, since a kernel that is called from Python takes time for each.
+    """The arrays that `State` is a view of: few, since each argument of a kernel costs time.
 
     Attributes
     ----------
@@ -117,7 +119,7 @@ class Memory(NamedTuple):
 
 
 def new_memory(rows: int, cols: int, borders: Borders) -> Memory:
-    """Allocate everything for an array of which nothing is known yet."""
+    """Allocate the memory of an array that was never measured."""
     patches = _with_tiles(borders.rectangles)
     tiles = int((patches[:, 5] * patches[:, 6]).sum())
     memory = Memory(
@@ -150,10 +152,10 @@ def state_of(memory: Memory) -> State:
         value=taxels[2],
         slope=taxels[3],
         age=taxels[4],
-        unrest=taxels[5],
+        process_noise=taxels[5],
         fade=taxels[6],
         fresh=flags[0],
-        evidence=tiles[0],
+        normal_sums=tiles[0],
         row_sums=tiles[1],
         velocity=memory.velocity,
         log_scale=scales[0],
@@ -161,14 +163,14 @@ def state_of(memory: Memory) -> State:
         patches=memory.patches,
         patch_of=memory.patch_of,
         scale=scales[2],
-        surprise=scales[3],
+        nis_excess=scales[3],
         compared=scales[4],
         before=taxels[7],
         elapsed=taxels[8],
         rate=taxels[9],
         innovation=taxels[10],
         total=taxels[11],
-        unrest_total=taxels[12],
+        process_noise_total=taxels[12],
         weight=taxels[13],
         in_row=taxels[14],
         around=taxels[15],
@@ -177,7 +179,7 @@ def state_of(memory: Memory) -> State:
 
 
 def forget(memory: Memory) -> None:
-    """Make a memory as good as new."""
+    """Reset a memory to the state of an array that was never measured."""
     for array in (memory.taxels, memory.flags, memory.tiles, memory.velocity, memory.scales):
         array.fill(0)
     state = state_of(memory)

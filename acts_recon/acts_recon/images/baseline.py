@@ -25,7 +25,7 @@ def _subtract(
 def subtract_plain(
     indices: NDArray[np.uint16], counts: NDArray[np.uint16], baseline: NDArray[np.float32]
 ) -> NDArray[np.uint16]:
-    """The plain twin of `BaselineSubtraction.apply`, for frames that fit the array."""
+    """the reference implementation of `BaselineSubtraction.apply`, for frames that fit the array."""
     return np.floor(np.maximum(counts - baseline[indices] + np.float32(0.5), 0)).astype(np.uint16)
 
 

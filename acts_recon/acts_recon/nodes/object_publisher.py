@@ -59,7 +59,7 @@ class ObjectPublisher:
         if not self._send:
             return
         if not self._limit.due(time.monotonic()):
-            self._recogniser.take(indices, counts, end_s, duration_s)
+            self._recogniser.update(indices, counts, end_s, duration_s)
             return
         result = self._recogniser.step(indices, counts, end_s, duration_s)
         message = self._message

@@ -5,7 +5,7 @@ The samples are explained by few columns of a library of known objects, restrict
 ("Sparse Recovery and Tactile Reconstruction", Fig. 4F and 9), with the details of the published analysis: a quarter as
 many columns as samples (two on the board), columns not re-normalised after the measured rows are picked.
 
-`classify` is the plain version, in double precision; `Classifier` runs `classification_kernels`, the same in
+`classify` is the reference implementation, in double precision; `Classifier` runs `classification_kernels`, the same in
 single precision and without allocation.
 """
 

@@ -1,21 +1,22 @@
 """Which object presses: known objects against an image of which some taxels are surer than others.
 
-Beyond the paper's SRC (`classification`), which explains the samples of one frame. Here the whole skin is
-compared, as far as it is known: an image put together from the samples of several frames, each taxel weighted by its
-uncertainty. Six things make the difference (docs/recovery.md has the figures):
+The paper's SRC (`classification`) classifies the samples of one frame. Here the image of several frames is
+classified, each taxel weighted by its uncertainty (docs/recovery.md has the figures):
 
-- What was measured and not pressed speaks against an object as loudly as what is pressed speaks for it.
-- An object that has only begun to press shows its lowest parts. Each column of the library is therefore known at
-  several depths: a constant taken off its forces, cut at 0, is on an elastic foundation the same object less deep.
-- How hard is pressed goes with how deep: a small object pressed hard is no large one that has just touched.
-- A class explains the image by a mixture without negative parts of its own columns only: presses between the known.
-- What the last frames left unexplained counts on, fading.
-- Once the skin rests, nothing has to be guessed from few, old or shallow values: SRC on the whole image, among the
-  classes that the comparison ranks first (`image_src`), is then the better judge of objects that are alike,
-  and has its say.
+- **Weighted least squares.** Residuals are of ``w (image - pattern)``, where e in
+  ``w^2 = 1 / (noise^2 + (e image)^2 + sigma^2)`` is the `relative_error`. Untouched taxels have weight, too:
+  they count against an object that would press them.
+- **Several depths.** An object that has only begun to press shows its lowest parts. Each column of the library is
+  therefore known at several depths: on an elastic foundation, a smaller depth takes a constant off all forces.
+- **Force prior.** Force goes with depth: a small object pressed hard is not a large one that has just touched.
+  `force_penalty` is its negative log-likelihood, scaled; the force is log-normal about the library's.
+- **Non-negative least squares.** A class explains the image by non-negative multiples of its own columns.
+- **Memory.** Residuals are averaged over the last frames, exponentially.
+- **SRC at rest.** While the skin hardly changes, SRC on the whole image (`image_src`) tells similar objects apart
+  better. Its residuals are weighed in by `src_weight`, as a geometric mean.
 
-`classify_image` is the plain version, in double precision, of a single image; `ImageClassifier` runs
-`acts_recon.objects.image_classification_kernels`, in single precision, and remembers.
+`classify_image` is the reference implementation for a single image, in double precision; `ImageClassifier` runs
+`image_classification_kernels` on one image after another, in single precision.
 """
 
 from __future__ import annotations
@@ -39,11 +40,11 @@ from acts_recon.objects.image_src import (
     KNOWN_COUNTS,
     PROPOSED_CLASSES,
     PROPOSED_COLUMNS,
-    explain_among,
     proposed_columns,
+    src_residuals,
 )
 from acts_recon.objects.object_library import ObjectLibrary
-from acts_recon.objects.rate_of_change import Unrest
+from acts_recon.objects.rate_of_change import RateOfChange
 
 LEVELS = (0.0, 0.2, 0.4, 0.6, 0.75, 0.87, 0.94)
 """What is taken off a column's forces to know it less deep, as shares of the largest."""
@@ -70,19 +71,19 @@ class ImageClassifierConfig:
     force_error: float = setting(
         0.2, "standard deviation of how hard is pressed, from the library's at that depth, as a logarithm", minimum=0.01
     )
-    memory_s: float = setting(0.003, "time in which what a frame said fades to a third [s]", minimum=0, maximum=10)
+    memory_s: float = setting(0.003, "time constant of the average of residuals over frames [s]", minimum=0, maximum=10)
     src_weight: float = setting(
         2.0, "weight of SRC on a resting image against the comparison of images; 0: none", minimum=0, maximum=100
     )
     rest_counts_per_s: float = setting(
-        4000.0, "unrest of the skin at which SRC has half its weight [counts/s]", minimum=1, maximum=1e9
+        4000.0, "rate of change of the skin at which SRC has half its weight [counts/s]", minimum=1, maximum=1e9
     )
 
     def __post_init__(self) -> None:
         validate(self)
 
 
-def less_deep(
+def shallower_patterns(
     library: ObjectLibrary, response: ForceResponse | MeasuredForceResponse | None = None
 ) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.int64]]:
     """Every column of a library at all `LEVELS`.
@@ -119,8 +120,10 @@ def less_deep(
     )
 
 
-def against_force(force: float, config: ImageClassifierConfig) -> float:
-    """What a force speaks against a pattern, as a share of the image's square.
+def force_penalty(force: float, config: ImageClassifierConfig) -> float:
+    """Penalty of a force that differs from the library's, relative to the image's squared norm.
+
+    ``(relative_error / force_error * log(force))^2``
 
     Parameters
     ----------
@@ -132,7 +135,7 @@ def against_force(force: float, config: ImageClassifierConfig) -> float:
 
 
 def src_weight(rate_counts_per_s: float, config: ImageClassifierConfig) -> float:
-    """Weight of SRC's residuals against those of the comparison of images, by the unrest of the skin."""
+    """Weight of SRC's residuals against those of the comparison of images, by the skin's rate of change."""
     return config.src_weight / (1 + (rate_counts_per_s / config.rest_counts_per_s) ** 2)
 
 
@@ -143,12 +146,12 @@ def classify_image(
     config: ImageClassifierConfig | None = None,
     response: ForceResponse | MeasuredForceResponse | None = None,
 ) -> Classification:
-    """Classify one image of a resting skin, plainly, without memory; see `ImageClassifier.step`."""
+    """Classify one image of a skin at rest, without earlier images; see `ImageClassifier.step`."""
     # Here: half the time a node takes to start would go by importing it, and nodes use the kernels.
     from scipy.optimize import nnls
 
     config = config or ImageClassifierConfig()
-    patterns, norms_counts, classes = less_deep(library, response)
+    patterns, norms_counts, classes = shallower_patterns(library, response)
     x = np.asarray(image, dtype=np.float64).ravel()
     x = np.where(x > config.touch_counts, x, 0.0)
     residuals = np.ones(library.n_classes)
@@ -160,11 +163,11 @@ def classify_image(
     square = y @ y
     dots, norms = y @ A, np.einsum("ij,ij->j", A, A)
     left = np.full(library.n_classes, square)
-    # How much of the image each pattern alone explains, less what its force speaks against it.
+    # What each pattern alone explains of the image, less the penalty of its force.
     explained = np.zeros(classes.size)
     for p in np.flatnonzero((dots > 0) & (norms > 0)):
         force = dots[p] / norms[p] / norms_counts[p]
-        explained[p] = max(dots[p] ** 2 / norms[p] - square * against_force(force, config), 0.0)
+        explained[p] = max(dots[p] ** 2 / norms[p] - square * force_penalty(force, config), 0.0)
     best = np.array([explained[classes == number].max() for number in range(library.n_classes)])
     left -= best
     for number in np.argsort(-best, kind="stable")[:REFINED_CLASSES]:
@@ -173,9 +176,9 @@ def classify_image(
         shares, unexplained = nnls(A[:, mixed], y)
         force = float((shares / norms_counts[mixed]).sum())
         if force > 0:
-            left[number] = min(left[number], unexplained**2 + square * against_force(force, config))
+            left[number] = min(left[number], unexplained**2 + square * force_penalty(force, config))
     residuals = np.sqrt(np.maximum(left, 0) / square)
-    src = explain_among(library, proposed_columns(library, residuals, explained[:: len(LEVELS)]), x, spread)
+    src = src_residuals(library, proposed_columns(library, residuals, explained[:: len(LEVELS)]), x, spread)
     if src is not None:
         weight = src_weight(0.0, config)
         residuals = (residuals * src**weight) ** (1 / (1 + weight))
@@ -203,40 +206,40 @@ class ImageClassifier:
         self.library = library
         self.config = config or ImageClassifierConfig()
         taxels, n_classes = library.rows * library.cols, library.n_classes
-        model = kernels.Model(*less_deep(library, response), len(LEVELS), n_classes)
+        model = kernels.Model(*shallower_patterns(library, response), len(LEVELS), n_classes)
         self._state = kernels.State(taxels, len(model.classes), n_classes)
         self._model, self._buffers = model.arrays(), self._state.arrays()
-        self._unrest = Unrest(library.rows, library.cols, self.config.touch_counts)
+        self._rate_of_change = RateOfChange(library.rows, library.cols, self.config.touch_counts)
         workspace = image_src_kernels.Workspace(taxels, n_classes, PROPOSED_CLASSES * PROPOSED_COLUMNS)
         self._src_model, self._src_buffers = image_src_kernels.Model(library).arrays(), workspace.arrays()
         self._src_residuals = workspace.residuals
         self._explained = self._state.explained[:: len(LEVELS)]
-        self._unheard_s = 0.0
+        self._skipped_s = 0.0
         # Compile, or load from the cache, what the first image would otherwise wait seconds for.
         image = np.full((library.rows, library.cols), COUNT_MAX, dtype=np.float32)
-        # Nothing was measured, so the skin rests, and everything has its say.
+        # Nothing was measured, so the skin is at rest and SRC is compiled as well.
         self.step(image, np.zeros_like(image), np.full_like(image, np.inf), 0.001)
         self.reset()
 
     def reset(self) -> None:
-        """Forget all frames."""
-        self._unrest.reset()
-        self._unheard_s = 0.0
+        """Start anew."""
+        self._rate_of_change.reset()
+        self._skipped_s = 0.0
         self._state.left.fill(0)
         self._state.energy.fill(0)
 
-    def take(
+    def update(
         self,
         image: NDArray[np.float32],
         sigma: NDArray[np.float32],
         age_s: NDArray[np.float32],
         period_s: float,
     ) -> None:
-        """Take the next image without classifying it: only what it says of how fast the skin changes counts.
+        """Update the rate of change by the next image, without classifying it.
 
         Parameters and errors are those of `step`.
         """
-        self._doubt(image, sigma, age_s, period_s)
+        self._inflated_sigma(image, sigma, age_s, period_s)
 
     def step(
         self,
@@ -252,7 +255,7 @@ class ImageClassifier:
         image : np.ndarray [shape=(rows, cols), dtype=float32]
             Counts.
         sigma : np.ndarray [shape=(rows, cols), dtype=float32]
-            How far each may be off, a standard deviation [counts].
+            Standard deviation of each [counts].
         age_s : np.ndarray [shape=(rows, cols), dtype=float32]
             Time since each was measured [s]; inf: never.
         period_s : float
@@ -269,29 +272,29 @@ class ImageClassifier:
             When the image does not fit the library.
         """
         config, residuals = self.config, self._state.residuals
-        doubt = self._doubt(image, sigma, age_s, period_s)
-        # What earlier images said fades over the images that were only taken, too.
-        unheard_s, self._unheard_s = self._unheard_s, 0.0
+        inflated_sigma = self._inflated_sigma(image, sigma, age_s, period_s)
+        # The residuals of earlier images fade over the images that were not classified, too.
+        skipped_s, self._skipped_s = self._skipped_s, 0.0
         touched = kernels.class_residuals(
             *self._model,
             image.ravel(),
-            doubt,
+            inflated_sigma,
             config.touch_counts,
             config.noise_counts,
             config.relative_error,
             config.relative_error / config.force_error,
-            math.exp(-unheard_s / config.memory_s) if config.memory_s > 0 else 0.0,
+            math.exp(-skipped_s / config.memory_s) if config.memory_s > 0 else 0.0,
             REFINED_CLASSES,
             MIXED_COLUMNS,
             *self._buffers,
         )
         if not touched:
             return Classification(False, 0, residuals, 0.0)
-        weight = src_weight(self._unrest.rate_counts_per_s, config)
+        weight = src_weight(self._rate_of_change.rate_counts_per_s, config)
         if weight >= _LEAST_WEIGHT and image_src_kernels.class_residuals(
             *self._src_model,
             image.ravel(),
-            doubt,
+            inflated_sigma,
             residuals,
             self._explained,
             config.touch_counts,
@@ -304,10 +307,10 @@ class ImageClassifier:
         best, confidence = decide(residuals)
         return Classification(True, best, residuals, confidence)
 
-    def _doubt(
+    def _inflated_sigma(
         self, image: NDArray[np.float32], sigma: NDArray[np.float32], age_s: NDArray[np.float32], period_s: float
     ) -> NDArray[np.float32]:
-        """How far each taxel may be off by now [counts], flat; checks the image."""
+        """Sigma of each taxel, inflated by the rate of change [counts], flat; checks the image."""
         shape = (self.library.rows, self.library.cols)
         for name, array in (("image", image), ("sigma", sigma), ("age_s", age_s)):
             if array.shape != shape or array.dtype != np.float32 or not array.flags.c_contiguous:
@@ -317,6 +320,6 @@ class ImageClassifier:
                 )
         if not 0 <= period_s < math.inf:
             raise ArrayError(f"period_s = {period_s}: needed is a finite time, not negative")
-        doubt = self._unrest.step(image, sigma, age_s, period_s).ravel()
-        self._unheard_s += period_s
-        return doubt
+        inflated_sigma = self._rate_of_change.step(image, sigma, age_s, period_s).ravel()
+        self._skipped_s += period_s
+        return inflated_sigma

@@ -31,7 +31,7 @@ def _mixture_explains(
 ) -> float:
     """How much of the weighted image's square a mixture without negative parts of `n` patterns explains.
 
-    Less what its force speaks against it; see `acts_recon.objects.image_classification.against_force`.
+    Less the penalty of its force; see `acts_recon.objects.image_classification.force_penalty`.
     """
     taxels = weight.shape[0]
     for i in range(n):

@@ -1,15 +1,13 @@
-"""SRC on a whole image, among the few classes that the comparison of images proposes.
+"""Sparse-representation classification (SRC) of a whole image, among the classes that a comparison ranks first.
 
-The paper's SRC (`classification`) lets a pursuit choose, out of the whole library, the columns that explain
-some samples together. Here the comparison (`image_classification`) has chosen already: the columns of the
-classes that it ranks first, of each those that alone explain most. All of them together explain the image, by least
-squares, and a class is judged, as in SRC, by what its own share leaves of the image.
+The paper's SRC (`classification`) chooses columns out of the whole library by a pursuit. Here `image_classification`
+has ranked the classes already. Columns A of the best classes, from each those that alone explain most, are fitted to
+the image y by ridge regression: ``x = (A'A + r I)^-1 A'y``. The residual of class c uses its own columns only:
+``|y - A_c x_c| / |y|``.
 
-So few columns need no pursuit, and nothing of the size of the image but one product with each of them: the rest is done
-with the products of columns among each other, which are known beforehand. What taxels that are not known take part in
-is taken off them.
+Only taxels whose sigma is small take part. The kernels know A'A of the whole library, and subtract the other taxels.
 
-`explain_among` is the plain version, `acts_recon.objects.image_src_kernels` the one that runs.
+`src_residuals` is the reference implementation, `image_src_kernels` the one that runs.
 """
 
 from __future__ import annotations
@@ -39,9 +37,9 @@ def proposed_columns(
     ----------
     library : ObjectLibrary
     residuals : np.ndarray [shape=(n_classes,), dtype=float]
-        What each class leaves of the image, by the comparison.
+        Residual of each class, by the comparison.
     explained : np.ndarray [shape=(n_columns,), dtype=float]
-        What each column alone explains of it.
+        Energy of the image's projection on each column alone.
     """
     proposed = []
     for number in np.argsort(residuals, kind="stable")[:PROPOSED_CLASSES]:
@@ -50,29 +48,29 @@ def proposed_columns(
     return np.concatenate(proposed).astype(np.int64)
 
 
-def explain_among(
+def src_residuals(
     library: ObjectLibrary,
     proposed: NDArray[np.int64],
     image: NDArray[np.floating],
-    doubt: NDArray[np.floating],
+    sigma: NDArray[np.floating],
 ) -> NDArray[np.float64] | None:
-    """What each class leaves of an image when all `proposed` columns explain it together.
+    """Residual of each class, where all `proposed` columns are fitted to the image together.
 
     Parameters
     ----------
     library : ObjectLibrary
     proposed : np.ndarray [shape=(n,), dtype=int64]
         Columns, none twice.
-    image, doubt : np.ndarray [shape=(taxels,), dtype=float]
-        Counts, 0 where not pressed, and how far they may be off, a standard deviation [counts].
+    image, sigma : np.ndarray [shape=(taxels,), dtype=float]
+        Counts, 0 where not pressed, and their standard deviation [counts].
 
     Returns
     -------
     np.ndarray [shape=(n_classes,), dtype=float64] or None
-        Norms relative to that of the image's known part: 0 explained, 1 not at all, or not proposed. None where nothing
-        known is pressed.
+        Norms relative to that of the image: 0 explained, 1 not at all or not proposed. None where no taxel with a small
+        sigma is pressed.
     """
-    known = np.asarray(doubt) <= KNOWN_COUNTS
+    known = np.asarray(sigma) <= KNOWN_COUNTS
     y = np.asarray(image, dtype=np.float64)[known]
     if not y.any():
         return None

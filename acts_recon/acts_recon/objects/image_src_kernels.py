@@ -1,4 +1,4 @@
-"""SRC on a whole image in numba: the same as `acts_recon.objects.image_src.explain_among`, without allocation."""
+"""SRC on a whole image in numba: the same as `acts_recon.objects.image_src.src_residuals`, without allocation."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ def class_residuals(
     class_first: NDArray[np.int64],
     class_columns: NDArray[np.int64],
     image: NDArray[np.float32],
-    doubt: NDArray[np.float32],
+    sigma: NDArray[np.float32],
     compared: NDArray[np.float32],
     explained: NDArray[np.float32],
     touch_counts: float,
@@ -109,7 +109,7 @@ def class_residuals(
     n_pressed = 0
     square = 0.0
     for t in range(image.shape[0]):
-        if image[t] > touch_counts and doubt[t] <= known_counts:
+        if image[t] > touch_counts and sigma[t] <= known_counts:
             pressed[n_pressed] = t
             n_pressed += 1
             square += np.float64(image[t]) * np.float64(image[t])
@@ -126,7 +126,7 @@ def class_residuals(
         for j in range(i + 1):
             gram[i, j] = products[proposed[i], proposed[j]]
     for t in range(image.shape[0]):
-        if doubt[t] <= known_counts:
+        if sigma[t] <= known_counts:
             continue
         for i in range(n):
             there[i] = columns[proposed[i], t]

@@ -20,7 +20,7 @@ FORGET_AFTER_S = FusionConfig().reset_after_s
 class ObjectRecogniser(Protocol):
     """Tells which object presses, frame after frame.
 
-    Every frame is to be given, after its recovery, to either `take` or `step`: samples that fit the array, the end of
+    Every frame is to be given, after its recovery, to either `update` or `step`: samples that fit the array, the end of
     the last measurement on any clock, and how long all of them took [s].
     """
 
@@ -30,13 +30,13 @@ class ObjectRecogniser(Protocol):
     def reset(self) -> None:
         """Forget all frames."""
 
-    def take(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float) -> None:
-        """Take a frame of which no answer is needed: fast."""
+    def update(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float) -> None:
+        """Update by a frame without classifying it: fast."""
 
     def step(
         self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float
     ) -> Classification:
-        """Take a frame and classify it; the result's residuals are overwritten by the next."""
+        """Update by a frame and classify; the result's residuals are overwritten by the next."""
 
 
 class PerFrameObjects:
@@ -54,7 +54,7 @@ class PerFrameObjects:
     def reset(self) -> None:
         """Nothing is kept."""
 
-    def take(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float) -> None:
+    def update(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float) -> None:
         """Nothing is kept."""
 
     def step(
@@ -100,11 +100,11 @@ class FusedObjects:
         self._classifier.reset()
         self._end_s = None
 
-    def take(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float) -> None:
-        """See `ObjectRecogniser.take`."""
+    def update(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float) -> None:
+        """See `ObjectRecogniser.update`."""
         period_s = self._period_s(end_s, duration_s)
         image, sigma, age_s = self._of_the_matrix()
-        self._classifier.take(image, sigma, age_s, period_s)
+        self._classifier.update(image, sigma, age_s, period_s)
 
     def step(
         self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float

@@ -1,9 +1,11 @@
-"""How fast the skin changes at this moment, and so how little an old measurement is worth.
+"""Rate of change of the skin as a whole, by which the sigma of taxels that were not measured since is inflated.
 
-An object that comes down presses many taxels at once. Those not measured since still read untouched; their own past
-gives no reason to doubt them, only what the others do does.
+An object that comes down presses many taxels at once. A taxel that was not measured since still reads untouched, and
+its own past does not show the change. The rate r at which other pressed taxels changed does:
+``inflated sigma^2 = sigma^2 + (age r)^2``.
 
-`rate_of_change` is the plain version of what `Unrest` finds in `acts_recon.objects.rate_of_change_kernels`.
+`rate_of_change` is the reference implementation of one step; `RateOfChange` follows it over frames by
+`rate_of_change_kernels`.
 """
 
 from __future__ import annotations
@@ -15,14 +17,14 @@ from acts_core.errors import ArrayError
 from acts_recon.objects import rate_of_change_kernels as kernels
 
 _KEPT = 0.6
-"""Part of the rate of change that is kept from frame to frame."""
+"""Factor of the exponential average of the rate, per frame."""
 
 _SHORTEST_S = 0.0005
 _LONGEST_S = 1.0
-"""Changes within less are not taken for faster, older measurements not for worse."""
+"""Limits of the time between two measurements, and of the age of one [s]."""
 
 _NOISE_COUNTS = 10.0
-"""Changes up to it are none."""
+"""Smaller changes are noise."""
 
 
 def rate_of_change(
@@ -32,7 +34,7 @@ def rate_of_change(
     fresh: NDArray[np.bool_],
     touch_counts: float,
 ) -> float:
-    """How fast taxels changed that are or were pressed [counts/s], a root mean square; 0 where there are none.
+    """Root mean square of the rates of change of the taxels that are or were pressed [counts/s]; 0 without any.
 
     Parameters
     ----------
@@ -51,8 +53,8 @@ def rate_of_change(
     return float(np.sqrt(np.mean(np.square(rates, dtype=np.float64)))) if rates.size else 0.0
 
 
-class Unrest:
-    """Follows the rate at which pressed taxels change from one measurement to the next, without allocating.
+class RateOfChange:
+    """Exponential average of `rate_of_change` over frames, and the sigma it inflates; allocates nothing.
 
     Parameters
     ----------
@@ -70,11 +72,11 @@ class Unrest:
         self._touch_counts = float(touch_counts)
         self._values = np.zeros(rows * cols, dtype=np.float32)
         self._ages_s = np.zeros(rows * cols, dtype=np.float32)
-        self._doubt = np.zeros((rows, cols), dtype=np.float32)
+        self._inflated_sigma = np.zeros((rows, cols), dtype=np.float32)
         self.reset()
 
     def reset(self) -> None:
-        """Forget everything."""
+        """Start anew."""
         self._values.fill(0)
         self._ages_s.fill(_LONGEST_S)
         self.rate_counts_per_s = 0.0
@@ -82,14 +84,14 @@ class Unrest:
     def step(
         self, image: NDArray[np.float32], sigma: NDArray[np.float32], age_s: NDArray[np.float32], period_s: float
     ) -> NDArray[np.float32]:
-        """Take the next image.
+        """Update the rate by the next image, and inflate sigma.
 
         Parameters
         ----------
         image : np.ndarray [shape=(rows, cols), dtype=float32]
             Counts; measured taxels have their measured value.
         sigma : np.ndarray [shape=(rows, cols), dtype=float32]
-            How far each may be off by its own past, a standard deviation [counts].
+            Standard deviation of each, from its own past [counts].
         age_s : np.ndarray [shape=(rows, cols), dtype=float32]
             Time since each was measured [s]; inf: never.
         period_s : float
@@ -98,8 +100,8 @@ class Unrest:
         Returns
         -------
         np.ndarray [shape=(rows, cols), dtype=float32]
-            How far each taxel may be off, with what it may have changed since it was measured, a standard deviation
-            [counts]; overwritten by the next image.
+            Inflated sigma: standard deviation with what each taxel may have changed since it was measured [counts];
+            overwritten by the next image.
 
         Raises
         ------
@@ -124,6 +126,6 @@ class Unrest:
             self.rate_counts_per_s,
             self._values,
             self._ages_s,
-            self._doubt.ravel(),
+            self._inflated_sigma.ravel(),
         )
-        return self._doubt
+        return self._inflated_sigma

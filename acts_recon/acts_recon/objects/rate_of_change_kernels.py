@@ -33,9 +33,9 @@ def follow(
     rate_counts_per_s: float,
     values: NDArray[np.float32],
     ages_s: NDArray[np.float32],
-    doubt: NDArray[np.float32],
+    inflated_sigma: NDArray[np.float32],
 ) -> float:
-    """One step of `rate_of_change.Unrest`; returns the new rate. `values`, `ages_s` and `doubt` are overwritten."""
+    """One step of `RateOfChange`; returns the new rate. `values`, `ages_s` and `inflated_sigma` are overwritten."""
     total = 0.0
     n = 0
     period = np.float32(period_s)
@@ -56,5 +56,5 @@ def follow(
     rate_counts_per_s = kept * rate_counts_per_s + (1.0 - kept) * np.sqrt(total)
     for t in range(image.shape[0]):
         by_now = ages_s[t] * rate_counts_per_s
-        doubt[t] = np.sqrt(sigma[t] * sigma[t] + by_now * by_now)
+        inflated_sigma[t] = np.sqrt(sigma[t] * sigma[t] + by_now * by_now)
     return rate_counts_per_s

@@ -1,4 +1,4 @@
-"""The contact of every patch of an image in one pass, in numba; its twin in NumPy is in the tests."""
+"""The contact of every patch of an image in one pass, in numba; the reference implementation is in the tests."""
 
 from __future__ import annotations
 

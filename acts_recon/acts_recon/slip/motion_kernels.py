@@ -1,4 +1,4 @@
-"""The least squares of `acts_recon.slip.motion`, in numba; its twin in NumPy is in the tests."""
+"""The least squares of `acts_recon.slip.motion`, in numba; its reference implementation in NumPy is in the tests."""
 
 from __future__ import annotations
 

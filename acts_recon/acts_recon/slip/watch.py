@@ -169,7 +169,7 @@ class SlipWatch:
         if not time_s > self._time_s:
             self.reset()
         self._time_s = time_s
-        kernels.take(time_s, values, ages, self._memory)
+        kernels.update(time_s, values, ages, self._memory)
         kernels.watch(time_s, self._bounds, counts, self._memory, self._tuning, self._results)
         return [self._slip(p, numbers) for p, numbers in enumerate(self._results.tolist())]
 

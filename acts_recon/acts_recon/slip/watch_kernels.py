@@ -1,4 +1,4 @@
-"""What `acts_recon.slip.watch` does for every patch of an image, in numba; its twin in NumPy is in the tests."""
+"""`acts_recon.slip.watch` for every patch of an image, in numba; the reference implementation is in the tests."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ class Tuning(NamedTuple):
 
 
 @kernel
-def take(time_s: float, values: NDArray[np.float32], age_s: NDArray[np.float32], memory: Memory) -> None:
+def update(time_s: float, values: NDArray[np.float32], age_s: NDArray[np.float32], memory: Memory) -> None:
     """Take over what was measured since the last call."""
     last, before, last_s, before_s = memory.last, memory.before, memory.last_s, memory.before_s
     for row in range(values.shape[0]):

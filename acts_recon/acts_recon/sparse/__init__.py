@@ -1,7 +1,7 @@
 """Sparse recovery: an image out of the samples of one frame alone, as a sum of few atoms of a dictionary.
 
 In come samples and a dictionary of patches; out comes the image. FastOMP (paper, section "Reconstruction") is here as a
-plain reference and as kernels.
+reference implementation and as kernels.
 """
 
 from acts_recon.sparse import fastomp_kernels

@@ -1,6 +1,6 @@
-"""FastOMP, plain: recovery of a tactile image from few taxels, patch by patch.
+"""FastOMP, reference implementation: recovery of a tactile image from few taxels, patch by patch.
 
-The readable twin of `fastomp_kernels`, in double precision. The method is the paper's ("Sparse Recovery and
+The reference implementation of `fastomp_kernels`, in double precision. The method is the paper's ("Sparse Recovery and
 Tactile Reconstruction"; its reference 49) with the details of the published analysis: greedy pursuit with Gram-Schmidt
 on the chosen columns, S = a quarter of the measured pixels of a patch, columns not re-normalised after the measured
 rows are picked, overlapping patches averaged.

@@ -1,6 +1,6 @@
 """Hot loops of the ball's world, compiled: the plate's motion, a step of the rolling ball, and the field it presses.
 
-`ball_contact.forces_n` is the plain twin of `press`; the other two are checked against closed solutions.
+`ball_contact.forces_n` is the reference implementation of `press`; the other two are checked against closed solutions.
 """
 
 from __future__ import annotations

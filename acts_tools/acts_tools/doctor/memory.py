@@ -29,7 +29,7 @@ def shared_memory(machine: Machine) -> Finding:
     return Finding(name, Level.LACKS, f"{text}; {_NEEDED_BYTES // _MIB} are needed", mend)
 
 
-def left_over(machine: Machine) -> Finding:
+def abandoned(machine: Machine) -> Finding:
     """Segments of Fast DDS whose process has died without removing them."""
     name = "left-over files"
     locks = machine.text("proc/locks")

@@ -19,7 +19,7 @@ CHECKS: tuple[Callable[[Machine], Finding], ...] = (
     scheduling.locked_memory,
     scheduling.realtime_share,
     memory.shared_memory,
-    memory.left_over,
+    memory.abandoned,
     memory.swap,
     ports.port_rights,
     ports.latency_timers,

@@ -43,7 +43,7 @@ class BoardReader:
         # More patient than the driver: full frames come slowly, and nothing else waits.
         self._link = BoardLink(self._source.write, reply_timeout_s=_REPLY_S, tries=_TRIES)
         self._decoder: DelimitedDecoder = (
-            StreamDecoder(self._link.take) if self._is_binary else RasterDecoder(rows, cols)
+            StreamDecoder(self._link.receive) if self._is_binary else RasterDecoder(rows, cols)
         )
         self._batches: queue.SimpleQueue[tuple[list[SampleFrame], int]] = queue.SimpleQueue()
         self._reader = Reader(

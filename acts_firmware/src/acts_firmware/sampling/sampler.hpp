@@ -19,7 +19,7 @@ namespace acts {
 // follow).
 //
 // A new scheme is a number in `Scheme` (frame.hpp) and `known` (config.cpp), a class in a file of its own, a branch in
-// `sample`, and its twin in acts_core/sampling/schemes.py.
+// `sample`, and its Python implementation in acts_core/sampling/schemes.py.
 class Sampler {
  public:
   Sampler();

@@ -6,7 +6,7 @@ from acts_core.frames import SampleFrame
 from acts_core.wire import BoardMessage, DelimitedDecoder, Reply
 
 
-class LeftOver:
+class StaleFrames:
     """Drops the frames that came before a board's first answer: they may be as old as the last session.
 
     A Teensy's USB side keeps up to 8 KB that a host left unread, and sends them to the next one.
@@ -22,7 +22,7 @@ class LeftOver:
         self._before_answer: int | None = None
         self._is_over = False
 
-    def take(self, message: BoardMessage) -> None:
+    def receive(self, message: BoardMessage) -> None:
         """Take what the board said; called while its bytes are decoded."""
         if isinstance(message, Reply) and self._before_answer is None:
             self._before_answer = self._decoder.frames

@@ -1,4 +1,4 @@
-"""Contacts with numbers: that the kernels do what the plain twin says, whatever contacts do."""
+"""Contacts with numbers: that the kernels do what the reference implementation says, whatever contacts do."""
 
 import numpy as np
 import pytest
@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 from acts_core.array import ArrayGeometry
 from acts_core.skin import ForceResponse, MeasuredForceResponse, force_table
 from acts_recon.contacts import BlobConfig, BlobTracker
-from acts_recon.contacts.blob_track_reference import PlainTracker
+from acts_recon.contacts.blob_track_reference import BlobTrackerReference
 
 GEOMETRY = ArrayGeometry(rows=20, cols=24, pitch_m=0.005, row_pitch_m=0.004)
 RESPONSE = ForceResponse()
-# What the kernel looks up, as the twin reads it: exactly the same response between two counts, too.
+# What the kernel looks up, as the reference implementation reads it: exactly the same response between two counts, too.
 BY_TABLE = MeasuredForceResponse(force_table(RESPONSE)[:-1], np.arange(1024.0))
 CONFIG = BlobConfig(bridge_s=0.01, memory_s=0.05)
 
@@ -28,19 +28,19 @@ def tracker() -> BlobTracker:
 def compare(tracker: BlobTracker, frames: list[Frame]) -> int:
     """Follow the same contacts with both; how often some were part of others."""
     tracker.reset()
-    plain = PlainTracker(GEOMETRY, BY_TABLE, CONFIG)
+    reference = BlobTrackerReference(GEOMETRY, BY_TABLE, CONFIG)
     first = tracker._next_number[0] - 1
     time_s, merged = 0.0, 0
     for frame, (image, sigma, dt_s) in enumerate(frames):
         time_s += dt_s
         found = tracker.step(image, time_s, sigma)
         assert tracker.dropped == 0
-        expected = plain.step(image, time_s, dt_s if frame else 0.0, sigma)
+        expected = reference.step(image, time_s, dt_s if frame else 0.0, sigma)
         assert [(blob.number - first, blob.merged) for blob in found] == [
             (blob.number, blob.merged) for blob in expected
         ]
-        for blob, twin in zip(found, expected, strict=True):
-            assert np.array(blob[2:]) == pytest.approx(np.array(twin[2:]), rel=1e-5, abs=1e-7)
+        for blob, reference in zip(found, expected, strict=True):
+            assert np.array(blob[2:]) == pytest.approx(np.array(reference[2:]), rel=1e-5, abs=1e-7)
             merged += blob.merged > 0
     return merged
 
