@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
-PAGES = sorted([ROOT / "README.md", *(ROOT / "docs").glob("*.md")])
+PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md")])
+INDEX = ROOT / "docs" / "README.md"
 
 
 def test_the_reference_lists_every_parameter_and_launch_argument() -> None:
@@ -18,7 +19,7 @@ def test_the_reference_lists_every_parameter_and_launch_argument() -> None:
     assert finished.returncode == 0, finished.stdout + finished.stderr
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: f"{page.parent.name}-{page.name}")
 def test_links_lead_somewhere(page: Path) -> None:
     text = page.read_text()
     for target in re.findall(r"\]\((?!https?:)([^)#]+)", text):
@@ -30,3 +31,25 @@ def test_links_lead_somewhere(page: Path) -> None:
 @pytest.mark.parametrize("topic", ["samples", "contact", "cop", "image_raw", "image", "ball/state", "ball/status"])
 def test_the_readme_names_the_topics(topic: str) -> None:
     assert f"`{topic}`" in (ROOT / "README.md").read_text()
+
+
+@pytest.mark.parametrize("page", sorted((ROOT / "docs").glob("*.md")), ids=lambda page: page.name)
+def test_the_index_leads_to_every_page_and_each_begins_with_a_command(page: Path) -> None:
+    if page == INDEX:
+        return
+    assert f"]({page.name})" in INDEX.read_text(), f"{page.name} is missing in docs/README.md"
+    begin = page.read_text().splitlines()[:18]
+    assert any(re.match(r"```|    \S|.*`\S+ \S+", line) for line in begin), f"{page.name} begins without a command"
+
+
+def headings(page: Path) -> set[str]:
+    """Anchors of a page, as GitHub makes them."""
+    lines = re.findall(r"^#+ (.+)$", page.read_text(), flags=re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", line.lower()).replace(" ", "-") for line in lines}
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: f"{page.parent.name}-{page.name}")
+def test_links_into_pages_lead_to_a_heading(page: Path) -> None:
+    for target, anchor in re.findall(r"\]\((?!https?:)([^)#]*\.md)?#([^)]+)\)", page.read_text()):
+        other = page.parent / target if target else page
+        assert anchor in headings(other), f"{page.name} links to {target}#{anchor}"
