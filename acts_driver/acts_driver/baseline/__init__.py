@@ -1,6 +1,6 @@
-"""What each taxel reads untouched: determined, followed as it drifts, kept in a file.
+"""Baseline: what each taxel reads untouched. It is measured, follows drift, and is kept in a file.
 
-In come frames; out comes the `Baseline`, by which the reconstruction subtracts. Kernels do it a frame at a time.
+In come frames; out comes the `Baseline`, which the reconstruction subtracts. Kernels take one frame at a time.
 """
 
 from acts_driver.baseline.baseline import Baseline

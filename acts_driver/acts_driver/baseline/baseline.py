@@ -39,7 +39,7 @@ class Baseline:
     noise_counts : np.ndarray [shape=(rows, cols), dtype=float32]
         Standard deviation of one reading about it [counts].
     valid : np.ndarray [shape=(rows, cols), dtype=bool]
-        Whether it is known.
+        Whether the baseline of the taxel is known.
     source : BaselineSource
         How it was determined.
     time_ns : int

@@ -1,4 +1,4 @@
-"""One frame into the statistics and the baseline, in numba, without allocation.
+"""Update of statistics and baseline by one frame, in numba, without allocation.
 
 `baseline_reference` is the reference implementation.
 """
@@ -30,7 +30,7 @@ def observe(
     hold_ns: int,
     largest_step: float,
 ) -> None:
-    """Take one frame.
+    """Update by one frame.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ def observe(
     hold_ns : int
         How long a baseline stays frozen after what froze it [ns].
     largest_step : float
-        Largest share of a difference that one reading may take off.
+        Largest gain: share of a reading's difference from the baseline that the baseline follows at once.
     """
     for i in range(indices.shape[0]):
         taxel = indices[i]

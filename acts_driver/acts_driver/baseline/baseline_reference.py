@@ -24,10 +24,9 @@ def observe(
     hold_ns: int,
     largest_step: float,
 ) -> None:
-    """Take one frame; parameters as of the kernel.
+    """Update by one frame; parameters as of the kernel.
 
-    The kernel goes through the samples one by one, so a sample freezes what comes after it in the frame. Here the order
-    is the same.
+    The order of the samples matters, as in the kernel: a sample can freeze taxels that come after it in the frame.
     """
     values = counts.astype(np.int64)
     block_n[indices] += 1

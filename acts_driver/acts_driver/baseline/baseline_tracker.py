@@ -1,4 +1,4 @@
-"""Keeps the baseline of a skin: determines it from the last seconds of the stream, and follows its drift."""
+"""Measures the baseline of a skin from the last seconds of the stream, and follows its drift."""
 
 from __future__ import annotations
 
@@ -95,11 +95,11 @@ def _readings(blocks: Sequence[_Block]) -> _Readings:
 
 
 class BaselineTracker:
-    """Takes every frame of a stream on one thread; may be asked and told from another.
+    """Baseline of a stream. Frames come on one thread; calibration, tare and questions may come from another.
 
-    Calibration and tare look back: the statistics of the last seconds are always there, so both answer at once. The
-    baseline of a taxel then follows its readings slowly, but stays where they are farther from it than drift goes, at
-    the taxel and the eight around it and for a while after.
+    Calibration and tare use the statistics of the last seconds, which are always kept, so both answer at once. From
+    then on the baseline of a taxel is an exponential average of its readings. A reading farther from the baseline than
+    drift can explain is a touch: it freezes the baseline of the taxel and of the eight around it for a while.
 
     Parameters
     ----------
@@ -132,14 +132,14 @@ class BaselineTracker:
         self._blocks[self._growing].clear()
 
     def observe(self, frames: Sequence[tuple[SampleFrame, int]]) -> None:
-        """Take frames with the times of their measurement [ns], in order."""
+        """Update by frames with the times of their measurement [ns], in order."""
         with self._lock:
             for frame, time_ns in frames:
                 self._advance(time_ns)
                 self._update(frame.indices, frame.counts, time_ns)
 
     def set(self, baseline: Baseline) -> None:
-        """Take over a baseline, for example from a file."""
+        """Set the baseline, for example to one from a file."""
         with self._lock:
             self._set(
                 baseline.counts.ravel(),
@@ -151,7 +151,7 @@ class BaselineTracker:
     def calibrate(self) -> Baseline:
         """Determine baseline and noise from the last seconds, in which the skin must have been untouched.
 
-        Taxels that were hardly measured meanwhile keep what was known of them.
+        Taxels with too few readings in that time keep their baseline.
 
         Raises
         ------
@@ -190,9 +190,9 @@ class BaselineTracker:
             return self._present()
 
     def tare(self) -> Baseline:
-        """Take the present readings as the baseline, whatever lies on the skin; noise stays what it was.
+        """Tare: set the baseline to the present readings, whatever lies on the skin; noise stays as it is.
 
-        Taxels that were not measured in the last moment keep what was known of them.
+        Taxels without a recent reading keep their baseline.
 
         Raises
         ------
@@ -243,7 +243,7 @@ class BaselineTracker:
         return Drift(float(np.median(speed)), float(speed[np.argmax(np.abs(speed))]))
 
     def below(self) -> int:
-        """How many taxels read lower than drift explains, as after a tare with something on the skin that is gone."""
+        """Number of taxels that read lower than drift explains, as when what lay there at a tare was taken off."""
         with self._lock:
             if self._source is None or self._whole < 1:
                 return 0

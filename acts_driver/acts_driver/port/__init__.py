@@ -1,4 +1,4 @@
-"""Where the bytes come from: serial ports, found and opened, and the thread that reads them.
+"""Serial ports: finding and opening them, and the thread that reads them.
 
 In comes the name of a port or of a board; out come decoded frames and messages, handed on by `Reader`. A port that is
 lost is opened again.

@@ -27,7 +27,7 @@ _STOP_S = 5.0
 class Reader:
     """Reads a source on a thread of its own until it is stopped.
 
-    Bad bytes are the decoder's business and never a reason to open the port again. What the consumer raises is logged
+    The decoder handles bad bytes; they never cause the port to be opened again. Exceptions of the consumer are logged
     and counted, and reading goes on. A lost source is opened again after 0.02 s, then after waits that double up to
     `reconnect_s`; loss and recovery are logged once each.
 

@@ -1,4 +1,4 @@
-"""Where bytes come from. The reader knows only `Source`: a serial port, or a recording (`acts_driver.replay`)."""
+"""Sources of bytes: a serial port here, a recording in `acts_driver.replay`. The reader knows only `Source`."""
 
 from __future__ import annotations
 

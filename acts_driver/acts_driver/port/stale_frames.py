@@ -1,4 +1,4 @@
-"""What a board's USB side still held of the session before comes first when the port is opened again."""
+"""Stale frames: those of an earlier session that a board's USB buffer still holds when the port is opened again."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from acts_core.wire import BoardMessage, DelimitedDecoder, Reply
 
 
 class StaleFrames:
-    """Drops the frames that came before a board's first answer: they may be as old as the last session.
+    """Drops the frames that came before a board's first reply, which may be of an earlier session.
 
-    A Teensy's USB side keeps up to 8 KB that a host left unread, and sends them to the next one.
+    The USB buffer of a Teensy keeps up to 8 KB that a host did not read, and sends them to the next host.
 
     Parameters
     ----------
@@ -23,19 +23,19 @@ class StaleFrames:
         self._is_over = False
 
     def receive(self, message: BoardMessage) -> None:
-        """Take what the board said; called while its bytes are decoded."""
+        """Note the first reply; called with every message while bytes are decoded."""
         if isinstance(message, Reply) and self._before_answer is None:
             self._before_answer = self._decoder.frames
 
     def new(self, frames: list[SampleFrame], *, is_known: bool) -> list[SampleFrame]:
-        """Those frames that are of this session.
+        """The frames of this session.
 
         Parameters
         ----------
         frames : list of SampleFrame
             All that were just decoded.
         is_known : bool
-            Whether the board has answered or turned out not to.
+            Whether the board has replied, or is known not to.
         """
         if self._is_over:
             return frames

@@ -1,7 +1,7 @@
-"""Frames with the time of their measurement: which are new, which are missing, when they were taken.
+"""Frames with the time of their measurement: which are new, which are missing, when each was measured.
 
-In come decoded frames and the time of their arrival; out come frames with the host's time, and what the stream's
-statistics say of it. `ClockFilter` maps the board's clock onto the host's.
+In come decoded frames and the time of their arrival; out come frames with the host's time, and statistics
+of the stream. `ClockFilter` maps the board's clock onto the host's.
 """
 
 from acts_driver.stream.clock import ClockFilter

@@ -1,8 +1,8 @@
 """The board's clock mapped onto the host's: offset, drift, jumps.
 
-A frame measured at board time b arrives at host time a. The delay a - b is the offset of the two clocks plus the time
-on the way, which is never negative and mostly short. So the line under all delays of the last seconds (`LowerEnvelope`)
-is the offset, plus the shortest time on the way, which cannot be told from it; its slope is the drift.
+A frame measured at board time b arrives at host time a. Then ``a - b = offset + transport delay``. The transport delay
+is never negative and mostly short. So the offset is estimated by the line under all a - b of the last seconds
+(`LowerEnvelope`); its slope is the drift. The shortest transport delay remains in the offset.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ class ClockFilterConfig:
 
 @dataclass(frozen=True)
 class ClockFilterState:
-    """What the filter knows.
+    """State of the filter.
 
     Attributes
     ----------
@@ -41,7 +41,7 @@ class ClockFilterState:
     drift_ppm : float
         Growth of the offset [us per s]; positive where the board's clock is slow.
     delay_us : float
-        How much longer the newest frame was on the way than the fastest ones [us].
+        Transport delay of the newest frame, beyond the shortest one [us].
     resets : int
         Jumps of a clock, including restarts of the board.
     """
@@ -56,8 +56,9 @@ class ClockFilter:
     """Stamps frames with the host time of their measurement.
 
     Stamps increase strictly and never lie after the arrival. Only where the host's own clock is set back do they follow
-    it. A jump of either clock starts the estimate anew: forwards of the board's, backwards of the host's, and any that
-    `host_was_set` tells of, at once; others, which look like a stall on the way, after `jump_confirm_s`.
+    it. A jump of either clock starts the estimate anew. This is at once where the board's clock jumps forwards,
+    where the host's jumps backwards, and where `host_was_set` tells of it. Other jumps look like a stall in transport:
+    these count after `jump_confirm_s`.
     """
 
     def __init__(self, config: ClockFilterConfig | None = None) -> None:
@@ -97,17 +98,17 @@ class ClockFilter:
         self._last_stamp_ns = None
 
     def step(self, board_us: int, arrival_ns: int) -> int:
-        """Take one frame; see `step_batch`."""
+        """Update by one frame; see `step_batch`."""
         return self.step_batch((board_us,), arrival_ns)[0]
 
     def step_batch(self, board_us: Sequence[int], arrival_ns: int, *, restarted: bool = False) -> list[int]:
-        """Take frames that arrived together, and return their stamps.
+        """Update by frames that arrived together, and return their stamps.
 
         Parameters
         ----------
         board_us : sequence of int
-            Board times, in order of arrival [us]. The last frame was the shortest on the way, so it is the one whose
-            delay counts.
+            Board times, in order of arrival [us]. The last frame has the shortest transport delay, so the estimate is
+            updated by it alone.
         arrival_ns : int
             When they were read, on the host's clock [ns].
         restarted : bool
@@ -143,7 +144,7 @@ class ClockFilter:
             stamp = board_ns + self._origin_delay_ns + envelope.at(board_ns - self._origin_board_ns)
             if last is not None and stamp <= last:
                 stamp = last + 1
-            # One nanosecond of room for each frame that is still to come before the arrival.
+            # Stamps of a batch are at least 1 ns apart, and none lies after the arrival.
             room -= 1
             last = min(stamp, arrival_ns - room)
             stamps.append(last)

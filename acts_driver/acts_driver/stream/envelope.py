@@ -1,4 +1,4 @@
-"""The line that lies under all points of the last seconds, as close as possible.
+"""Lower envelope: the closest line under all points of a window.
 
 The closest line under a set of points holds the edge of their lower convex hull at their mean (Moon, Skelly and
 Towsley, INFOCOM 1999, doi:10.1109/INFCOM.1999.749287).
@@ -18,8 +18,8 @@ _BINS = 20
 class LowerEnvelope:
     """Follows the lower envelope of points whose x ascends, in constant time and memory.
 
-    Of each twentieth of the window only the lowest point is kept, and the line is laid anew when one is full; in
-    between, a point below the line lowers it.
+    Only the lowest point of each twentieth of the window is kept. The line is computed anew when a twentieth is full;
+    in between, a point below the line lowers it.
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ class LowerEnvelope:
         return self._y + int(self.slope * (x - self._x))
 
     def observe(self, x: int, y: int) -> int:
-        """Take a point and return its height above the line before, negative where it is below."""
+        """Update by a point; return its height above the line before, negative where it is below."""
         height = y - self.at(x)
         if height < 0:
             self._y += height

@@ -1,4 +1,4 @@
-"""Whether somebody has set the system's clock, which the steady clock tells."""
+"""Detects that the system's clock was set, by comparing it with the steady clock."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class HostClock:
         self._difference_ns: int | None = None
 
     def was_set(self) -> bool:
-        """Whether the system's clock was set since the last call, by more than 40 ms; to be asked again and again."""
+        """Whether the system's clock was set by more than 40 ms since the last call. Call it regularly."""
         before_ns = self._steady_ns()
         system_ns = self._system_ns()
         if self._steady_ns() - before_ns > _AT_ONCE_NS:

@@ -1,4 +1,4 @@
-"""What the stream of frames looks like: rate, gaps, repetitions, restarts of the board."""
+"""Statistics of the stream of frames: rate, gaps, repetitions, restarts of the board."""
 
 from __future__ import annotations
 
@@ -88,14 +88,14 @@ class StreamStatistics:
     def stamped(self, stamp_ns: int) -> None:
         """Tell when the last frame was measured [ns], on the clock of the arrivals.
 
-        It may have waited on the way for long, so that its arrival says little about the clocks.
+        It may have waited in a buffer for long, so its arrival says little about the clocks.
         """
         self._measured_ns = stamp_ns
 
     def rate_hz(self, now_ns: int) -> float:
         """New frames per second of arrival, over the last second."""
         now = now_ns // _BIN_NS
-        # The bin that is filling is left out, or the rate would depend on when one asks.
+        # The bin that is being filled is left out: with it the rate would depend on the time of the call.
         done = [*self._bins, (self._bin, self._in_bin)]
         return sum(count for number, count in done if now - _BINS <= number < now) / (_BINS * _BIN_NS * 1e-9)
 

@@ -47,7 +47,7 @@ class FrameStream:
         self._cols = cols
 
     def accept(self, frames: Sequence[SampleFrame], arrival_ns: int) -> list[tuple[SampleFrame, int]]:
-        """Take frames that were read together, and return those to publish with their stamps.
+        """Check and stamp frames that were read together; return those to publish.
 
         Parameters
         ----------

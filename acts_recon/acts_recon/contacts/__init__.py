@@ -1,4 +1,4 @@
-"""Contacts in an image: the whole of them as one, and one by one with numbers that stay.
+"""Contacts in an image: all of them as one, and each as a track with a number that stays.
 
 In comes an image with the uncertainty of its taxels; out come places, forces and areas, each with its uncertainty, and
 the tracks of the contacts from frame to frame.

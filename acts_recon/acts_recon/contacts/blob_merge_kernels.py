@@ -1,7 +1,8 @@
-"""Contacts with numbers that become one contact, and part again, in numba, without allocation.
+"""Track merge and split: contacts that become one, and part again; in numba, without allocation.
 
-A merged track stands at an offset from its host's own part. The host's position is that of the whole contact: its own
-part, and the parts of its guests by their shares in the force.
+The strongest of merged tracks is the host: it has the contact, at the contact's centre of pressure c. Track i of the
+contact is expected at p_i. With the offset d_i = p_i - p_host and the share w_i of the force,
+``p_host = c - sum(w_i d_i)`` over the other merged tracks.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from acts_recon.contacts.blob_tracks import ACTIVE, MAX_TRACKS, MERGED, NONE
 
 @kernel
 def own_part(t: int, tracks: NDArray[Any]) -> tuple[float, float]:
-    """Where a track itself is, without those merged with it."""
+    """Expected position of a track: that of its contact less ``sum(share * offset)`` of the tracks merged into it."""
     x, y = tracks[t].x, tracks[t].y
     for other in range(MAX_TRACKS):
         if tracks[other].state == MERGED and tracks[other].host == t:
@@ -29,7 +30,7 @@ def own_part(t: int, tracks: NDArray[Any]) -> tuple[float, float]:
 
 @kernel
 def count_merged(t: int, tracks: NDArray[Any]) -> int:
-    """How many tracks are merged with this one."""
+    """Number of tracks merged into this one."""
     count = 0
     for other in range(MAX_TRACKS):
         if tracks[other].state == MERGED and tracks[other].host == t:
@@ -39,7 +40,7 @@ def count_merged(t: int, tracks: NDArray[Any]) -> int:
 
 @kernel
 def leave(t: int, tracks: NDArray[Any]) -> None:
-    """Share the force anew among those that stay with the host of `t`."""
+    """Scale the force shares of the tracks that stay merged when `t` leaves, so that they and the host add up to 1."""
     rest = max(1.0 - tracks[t].share, 1e-3)
     for other in range(MAX_TRACKS):
         if other != t and tracks[other].state == MERGED and tracks[other].host == tracks[t].host:
@@ -48,7 +49,7 @@ def leave(t: int, tracks: NDArray[Any]) -> None:
 
 @kernel
 def part(tracks: NDArray[Any]) -> None:
-    """Make active what was merged and has a contact of its own again."""
+    """Split: make every merged track active that has a contact of its own again."""
     for t in range(MAX_TRACKS):
         track = tracks[t]
         if track.state != MERGED or track.blob == NONE:
@@ -60,7 +61,7 @@ def part(tracks: NDArray[Any]) -> None:
         track.vy = host_vy + track.dvy
         # The position follows from the contact, see `_update`.
         track.x = track.y = math.inf
-        # Where the host is, without this one.
+        # Expected position of the host when this one has left.
         host_x, host_y = host.x - track.share * track.dx, host.y - track.share * track.dy
         leave(t, tracks)
         host.vx, host.vy = host_vx, host_vy
@@ -71,7 +72,7 @@ def part(tracks: NDArray[Any]) -> None:
 
 @kernel
 def covering(n: int, t: int, overlap: NDArray[np.int32], track_of: NDArray[np.int64]) -> int:
-    """The track whose contact covers most of what was `t`'s."""
+    """The track whose contact covers most of the taxels that were those of `t`; NONE without one."""
     host = NONE
     most = 0
     for b in range(n):
@@ -83,10 +84,10 @@ def covering(n: int, t: int, overlap: NDArray[np.int32], track_of: NDArray[np.in
 
 @kernel
 def merge(time_s: float, t: int, h: int, blobs: NDArray[Any], tracks: NDArray[Any]) -> None:
-    """Make track `t` part of `h`, whose contact covers what was its own."""
+    """Merge track `t` into `h`, whose contact covers the taxels of `t`."""
     track, host = tracks[t], tracks[h]
     if host.x == math.inf:
-        # It has just parted from this very track, which is now gone into it.
+        # The host has just split from this track, which now merges into it: its position is its contact's.
         host.x, host.y = blobs[host.blob].x_m, blobs[host.blob].y_m
     x, y = own_part(t, tracks)
     host_x, host_y = own_part(h, tracks)
@@ -115,6 +116,6 @@ def merge(time_s: float, t: int, h: int, blobs: NDArray[Any], tracks: NDArray[An
     host.vx += share * track.dvx
     host.vy += share * track.dvy
     if count_merged(h, tracks) > 1:
-        # Of more than two nobody says where they are in the contact: they stay as they were when they joined.
+        # The second moments of one contact cannot locate more than two tracks: their offsets stay as they are.
         track.dvx = track.dvy = 0.0
     host.x = host.y = math.inf

@@ -1,4 +1,8 @@
-"""Where contacts with numbers are and where they go, in numba, without allocation; for `blob_track_kernels`."""
+"""Prediction and update of tracks, in numba, without allocation; for `blob_track_kernels`.
+
+A track is a Kalman filter of constant velocity for each axis, with white acceleration as process noise. The offset
+between two merged tracks is an alpha-beta filter.
+"""
 
 from __future__ import annotations
 
@@ -11,16 +15,16 @@ from acts_core.kernels import kernel
 from acts_recon.contacts.blob_merge_kernels import count_merged, leave
 from acts_recon.contacts.blob_tracks import ACTIVE, AWAY, FREE, MAX_TRACKS, MERGED, NONE
 
-# Contacts change their velocity by this much in a second (1-sigma), and begin with this one.
+# Process noise: standard deviation of the acceleration; and of the velocity of a new track.
 ACCELERATION_M_S2 = 20.0
 FIRST_SPEED_M_S = 0.7
-# After a pause of the frames this long a contact is looked for where it was, not where it was going.
+# After a pause of the frames this long a track is not predicted: it is expected where it was.
 PAUSE_S = 0.1
 # Error of the centre of pressure by sampling the skin in taxels: a taxel's side over sqrt(12) for one taxel, less for
 # more; and what is assumed where the uncertainty of the image is not known.
 SAMPLING_TAXELS = 0.29
 UNKNOWN_TAXELS = 0.2
-# Filter of the offset between two merged contacts.
+# Alpha-beta filter of the offset between two merged tracks, and the time constant with which its rate fades.
 OFFSET_GAIN = 0.3
 OFFSET_RATE_GAIN = 0.03
 OFFSET_RATE_DECAY_S = 0.3
@@ -28,7 +32,7 @@ OFFSET_RATE_DECAY_S = 0.3
 
 @kernel
 def predict(time_s: float, dt_s: float, bridge_s: float, memory_s: float, tracks: NDArray[Any]) -> None:
-    """Move every track on to the time of the frame, and forget those away or merged for too long."""
+    """Predict every track to the time of the frame, and drop those that were away or merged for too long."""
     variance = (ACCELERATION_M_S2 * dt_s) ** 2
     decay = math.exp(-dt_s / OFFSET_RATE_DECAY_S)
     for t in range(MAX_TRACKS):
@@ -71,7 +75,7 @@ def update(
     t: int,
     tracks: NDArray[Any],
 ) -> None:
-    """Take the contact that was found into the track that it belongs to."""
+    """Update a track by its contact."""
     track = tracks[t]
     floor = SAMPLING_TAXELS / blob.taxels
     square = floor * floor + (0.0 if sigma_known else UNKNOWN_TAXELS**2)
@@ -83,7 +87,7 @@ def update(
         jump = abs(dx) > 0.5 * pitch_m + 3.0 * math.sqrt(track.x_pp + x_var)
         jump = jump or abs(dy) > 0.5 * pitch_y_m + 3.0 * math.sqrt(track.y_pp + y_var)
     if jump:
-        # New, joined or parted: no motion explains it, so that it says nothing about the velocity.
+        # New, merged or split: the innovation is no motion, so the position is set and the velocity stays.
         track.x, track.y = blob.x_m, blob.y_m
         track.x_pp, track.y_pp = x_var, y_var
         track.x_pv = track.y_pv = 0.0
@@ -115,10 +119,10 @@ def update(
 
 @kernel
 def _follow_offset(dt_s: float, blob: Any, pitch_m: float, t: int, tracks: NDArray[Any]) -> None:
-    """Where in a contact of two the two are.
+    """Update the offset between the two tracks of one contact, by the contact's second moments.
 
-    What the contact's second moments exceed those of the two alone is, along one axis, ``w (1 - w)`` times their
-    distance squared, with ``w`` the part of one in the force. Which way along the axis is known from the frame before;
+    Along an axis, the contact's second moment is ``(1 - w) m_host + w m_guest + w (1 - w) d^2``, with d the distance of
+    the two and w the guest's share of the force. That gives d but not its sign, which is taken from the frame before;
     where they pass through one another, from their velocities.
     """
     for g in range(MAX_TRACKS):

@@ -1,14 +1,16 @@
-"""Which contact of a frame is which of the frames before, in numba, without allocation.
+"""Tracking of contacts from frame to frame, in numba, without allocation.
 
-Every contact that has a number is a track: active (seen in the last frame), away (not seen for a short while) or merged
-(part of another track's contact, its host). `docs/reconstruction.md` says what becomes of the numbers; here is how:
+A track is a contact with a number. It is active (seen in the last frame), away (not seen for a short while) or merged
+(part of another track's contact, its host). `docs/reconstruction.md` says what becomes of the numbers. The steps:
 
-1. Tracks are predicted to the frame's time: by constant velocity, merged ones as an offset from their host's own part.
-2. Pairs of track and contact are made in the order of their distances, where they overlap (the contact covers taxels
-   that were the track's) or lie within a gate. Merged tracks take part where their host's taxels are now two contacts
-   or more.
-3. An active track without a contact, whose taxels another's contact covers, is merged. The stronger is host.
-4. Contacts left over are new.
+1. Prediction of all tracks to the frame's time (`blob_motion_kernels`).
+2. Data association: pairs of track and contact are chosen greedily, the nearest first. A pair is possible where the
+   contact covers taxels of the track, or lies within a gate. Merged tracks take part where their host's taxels are now
+   two contacts or more: a split.
+3. An active track without a contact, whose taxels another track's contact covers, is merged into that
+   (`blob_merge_kernels`). The stronger is the host.
+4. Contacts without a track begin one.
+5. Update of all tracks by their contacts.
 """
 
 from __future__ import annotations
@@ -81,7 +83,7 @@ def follow(
     next_number: NDArray[np.int64],
     found: NDArray[Any],
 ) -> int:
-    """Give the contacts of a frame their numbers.
+    """Associate the contacts of a frame with tracks, and update these.
 
     Parameters
     ----------
@@ -139,7 +141,7 @@ def follow(
             track_of[b] = _begin(time_s, b, blobs, tracks, next_number)
     for b in range(n):
         update(time_s, dt_s, blobs[b], pitch_m, pitch_y_m, sigma_known, track_of[b], tracks)
-    # Taxels of a contact that is away stay its own until another takes them.
+    # The taxels of a track that is away stay its own until another contact covers them.
     for i in range(owner.shape[0]):
         if owner[i] >= 0 and tracks[owner[i]].state != AWAY:
             owner[i] = NONE
@@ -161,7 +163,7 @@ def _weigh(
     overlap: NDArray[np.int32],
     cost: NDArray[np.float64],
 ) -> None:
-    """Cost of every pair that is possible: the distance; infinite for the others."""
+    """Cost of every pair of contact and track: their distance, infinite where they cannot belong together."""
     for b in range(n):
         for t in range(MAX_TRACKS):
             cost[b, t] = math.inf
@@ -284,7 +286,7 @@ def _begin(time_s: float, b: int, blobs: NDArray[Any], tracks: NDArray[Any], nex
 
 @kernel
 def direction(xx_m2: float, xy_m2: float, yy_m2: float, taxel_area_m2: float) -> float:
-    """Direction of the longest extent, above -pi/2 to pi/2 [rad]; 0 where what differs is the arithmetic's rounding."""
+    """Direction of the longest extent, above -pi/2 to pi/2 [rad]; 0 where it is round within rounding."""
     rounding = _ROUNDING * (xx_m2 + yy_m2 + taxel_area_m2)
     if math.hypot(2.0 * xy_m2, xx_m2 - yy_m2) <= rounding:
         return 0.0

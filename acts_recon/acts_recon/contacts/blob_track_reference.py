@@ -1,4 +1,4 @@
-"""Contacts with numbers, plain: the reference implementation of `blob_track_kernels` and those that it uses."""
+"""Reference implementation of `blob_track_kernels` and of the kernels that it uses."""
 
 from __future__ import annotations
 
@@ -123,7 +123,7 @@ class BlobTrackerReference:
         named = [track_of[b] or self._begin(time_s, b, blob.patch) for b, blob in enumerate(blobs)]
         for track, blob in zip(named, blobs, strict=True):
             self._update(time_s, dt_s, track, blob, sigma is not None)
-        # Taxels of a contact that is away stay its own until another takes them.
+        # The taxels of a track that is away stay its own until another contact covers them.
         self._owner = {taxel: track for taxel, track in self._owner.items() if track.state == AWAY}
         for track, blob in zip(named, blobs, strict=True):
             self._owner.update(dict.fromkeys(blob.taxels.tolist(), track))
@@ -145,12 +145,12 @@ class BlobTrackerReference:
         self._owner = {taxel: track for taxel, track in self._owner.items() if track not in tracks}
 
     def _own_part(self, track: Track) -> Vector:
-        """Where a track itself is, without those merged with it."""
+        """Expected position of a track itself, without the tracks merged into it."""
         assert track.position is not None
         return track.position - sum((guest.share * guest.offset for guest in self._guests(track)), np.zeros(2))
 
     def _leave(self, track: Track) -> None:
-        """Share the force anew among those that stay with its host."""
+        """Scale the force shares of the tracks that stay merged when this one leaves."""
         assert track.host is not None
         for other in self._guests(track.host):
             if other is not track:
@@ -229,7 +229,7 @@ class BlobTrackerReference:
     ) -> None:
         for track in self._in_state(ACTIVE):
             if track.blob is None:
-                # Two became one: its number is that of the stronger.
+                # Merge: the contact has the number of the stronger.
                 for b in range(len(blobs)):
                     holder = track_of[b]
                     if track not in overlap[b] or holder is None or holder.state == MERGED:
@@ -240,14 +240,14 @@ class BlobTrackerReference:
                         track.blob, track_of[b] = b, track
                         break
             elif not self._guests(track):
-                # One became two: the stronger keeps its number.
+                # Split: the stronger contact keeps the number.
                 for b, blob in enumerate(blobs):
                     if track_of[b] is None and track in overlap[b] and blob.force_n > blobs[track.blob].force_n:
                         track_of[track.blob] = None
                         track.blob, track_of[b] = b, track
 
     def _part(self, track: Track) -> None:
-        """Make active what was merged and has a contact of its own again."""
+        """Split: make every merged track active that has a contact of its own again."""
         host = track.host
         assert host is not None
         host.velocity = host.velocity - track.share * track.offset_rate
@@ -268,7 +268,7 @@ class BlobTrackerReference:
 
     def _merge(self, time_s: float, track: Track, host: Track, blobs: list[Blob]) -> None:
         if host.position is None:
-            # It has just parted from this very track, which is now gone into it.
+            # The host has just split from this track, which now merges into it: its position is its contact's.
             assert host.blob is not None
             host.position = np.array([blobs[host.blob].x_m, blobs[host.blob].y_m])
         apart = self._own_part(track) - self._own_part(host)
@@ -288,7 +288,7 @@ class BlobTrackerReference:
         track.offset, track.offset_rate = apart, track.velocity - host.velocity
         host.velocity = host.velocity + share * track.offset_rate
         if len(self._guests(host)) > 1:
-            # Of more than two nobody says where they are in the contact: they stay as they were when they joined.
+            # The second moments of one contact cannot locate more than two tracks: their offsets stay as they are.
             track.offset_rate = np.zeros(2)
         host.position = None
 
@@ -308,7 +308,7 @@ class BlobTrackerReference:
         return track
 
     def _update(self, time_s: float, dt_s: float, track: Track, blob: Blob, sigma_known: bool) -> None:
-        """Take the contact that was found into the track that it belongs to."""
+        """Update a track by its contact."""
         found = np.array([blob.x_m, blob.y_m])
         sampling = (SAMPLING_TAXELS / blob.active_taxels) ** 2 + (0.0 if sigma_known else UNKNOWN_TAXELS**2)
         found_var = np.array([blob.x_var, blob.y_var]) + sampling * self._pitch**2
@@ -316,7 +316,7 @@ class BlobTrackerReference:
             (np.abs(found - track.position) > self._pitch / 2 + 3 * np.sqrt(track.position_var + found_var)).any()
         )
         if track.position is None or jump:
-            # New, joined or parted: no motion explains it, so that it says nothing about the velocity.
+            # New, merged or split: the innovation is no motion, so the position is set and the velocity stays.
             track.position, track.position_var = found, found_var
             track.covariance, track.velocity_var = np.zeros(2), np.full(2, FIRST_SPEED_M_S**2)
         else:
@@ -336,7 +336,7 @@ class BlobTrackerReference:
             self._follow_offset(dt_s, track, guests[0], blob)
 
     def _follow_offset(self, dt_s: float, host: Track, guest: Track, blob: Blob) -> None:
-        """Where in a contact of two the two are; see `acts_recon.contacts.blob_motion_kernels`."""
+        """Update the offset between the two tracks of one contact; see `acts_recon.contacts.blob_motion_kernels`."""
         w = guest.share
         xx, xy, yy = np.array(blob.moments_m2) - (1 - w) * host.moments_m2 - w * guest.moments_m2
         values, directions = np.linalg.eigh([[xx, xy], [xy, yy]])

@@ -1,4 +1,4 @@
-"""What is remembered of a contact with a number, for the kernels that follow it."""
+"""State of a track, for the kernels that follow it."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import numpy as np
 from acts_recon.contacts.blob_kernels import MAX_BLOBS
 
 MAX_TRACKS = 2 * MAX_BLOBS
-"""Contacts remembered at most: active, away and merged."""
+"""Tracks at most: active, away and merged."""
 
 FREE, ACTIVE, AWAY, MERGED = 0, 1, 2, 3
 NONE = -1
@@ -20,7 +20,7 @@ TRACK = np.dtype(
         ("blob", "i8"),
         # Of its contacts, see `acts_recon.contacts.blob_kernels.BLOB`.
         ("patch", "i8"),
-        # Filter of position and velocity, and its covariances, axis by axis [m, s].
+        # Kalman filter of position and velocity, and its covariances, axis by axis [m, s].
         ("x", "f8"),
         ("y", "f8"),
         ("vx", "f8"),
@@ -31,14 +31,14 @@ TRACK = np.dtype(
         ("y_pp", "f8"),
         ("y_pv", "f8"),
         ("y_vv", "f8"),
-        # Force of its contact, and the contact's second moments when it had not taken in others.
+        # Force of its contact, and the contact's second moments when no other track was merged into it.
         ("force_n", "f8"),
         ("xx_m2", "f8"),
         ("xy_m2", "f8"),
         ("yy_m2", "f8"),
         ("began_s", "f8"),
         ("seen_s", "f8"),
-        # Merged: since when; place and velocity relative to the host's own part; part of the whole contact's force.
+        # Merged: since when; offset from the host and its rate; share of the whole contact's force.
         ("merged_s", "f8"),
         ("dx", "f8"),
         ("dy", "f8"),
@@ -47,4 +47,4 @@ TRACK = np.dtype(
         ("share", "f8"),
     ]
 )
-"""What is remembered of each contact."""
+"""State of a track."""

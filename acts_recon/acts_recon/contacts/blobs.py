@@ -1,4 +1,4 @@
-"""The contacts in an image one by one, each with what the image's uncertainty leaves of its numbers."""
+"""The contacts in an image one by one, each with its standard deviations."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ class TrackedBlob(NamedTuple):
     number : int
         Which contact this is; from 1.
     merged : int
-        How many other numbered contacts it has taken in.
+        Number of other tracks merged into it.
     age_s : float
         Since it began [s].
     x_m, y_m : float

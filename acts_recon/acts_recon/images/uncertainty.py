@@ -1,15 +1,20 @@
-"""What the uncertainty of an image's taxels leaves of the numbers of a contact, plain.
+"""First-order propagation of the taxels' variances to force, centre, spread and area of a contact.
 
-To first order: the error of a pressed taxel of `c` counts and standard deviation `s` changes the force by ``f'(c) s``.
-With probability ``q = Phi(-abs(c - threshold) / s)`` it is on the wrong side of its threshold, and its whole force
-should not be there; likewise an untouched neighbour should be there with the threshold's force. With
-``e**2 = (f' s)**2 + q f**2`` of every taxel, the variance of the force is the sum of ``e**2``, that of the centre of
-pressure the sum of ``e**2 (x_taxel - x)**2 / F**2``, that of the square of the spread the sum of
-``e**2 (r_taxel**2 - spread**2)**2 / F**2``, that of the number of taxels the sum of ``q``.
+This is the reference implementation; `uncertainty_kernels` is the same in numba.
 
-The noise of readings is independent indeed; guesses err with their neighbours (a contact moved further than was
-thought). So what a taxel adds is multiplied by a factor that goes from 1 for ``s <= noise_counts`` towards
-`err_together`: ``together - (together - 1) noise**2 / s**2``.
+A taxel of `c` counts, standard deviation `s` and force `f(c)` has two errors. A pressed one changes the force by
+``f'(c) s``. With probability ``q = Phi(-abs(c - threshold) / s)`` a taxel is on the wrong side of its threshold: then
+the force of a pressed one should be missing, and an untouched neighbour should be there with the threshold's force.
+The variance of a taxel's force is ``e**2 = (f' s)**2 + q f**2``. Sums over the taxels give the variances of:
+
+- force F: ``sum(e**2)``
+- centre of pressure: ``sum(e**2 (x_taxel - x)**2) / F**2``
+- square of the spread: ``sum(e**2 (r_taxel**2 - spread**2)**2) / F**2``
+- number of taxels: ``sum(q)``
+
+These formulae are for independent errors, as the noise of readings is. Errors of estimated taxels are correlated: a
+contact that moved further than predicted is wrong at many taxels. So each term is multiplied by a factor between 1, for
+``s <= noise_counts``, and `err_together`: ``together - (together - 1) noise**2 / s**2``.
 """
 
 from __future__ import annotations
@@ -30,7 +35,7 @@ ERR_TOGETHER = 5.0
 """Guesses that err together: as many as this are one independent error."""
 
 FAR = 6.0
-"""A taxel so many standard deviations from the threshold is pressed, or untouched, without doubt."""
+"""Standard deviations from the threshold beyond which q is taken as 0."""
 
 _TINY_COUNTS = 1e-9
 

@@ -107,7 +107,7 @@ def _place(
     normals: NDArray[np.float64],
     found: NDArray[np.float64],
 ) -> None:
-    """Centre, normal and how the skin goes on, of a place between four taxels of a patch."""
+    """Position, normal and tangents of the skin at a place between four taxels of a patch, bilinear."""
     first_row, end_row, first_col, end_col = bounds
     top = min(max(int(row), first_row), max(end_row - 2, first_row))
     left = min(max(int(col), first_col), max(end_col - 2, first_col))

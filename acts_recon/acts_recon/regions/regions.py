@@ -1,4 +1,4 @@
-"""What every patch of a skin feels, image after image."""
+"""The contact on every patch of a skin, image after image."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _EARLY = 0.9
 class Regions:
     """Finds the contact on each patch of a layout, how it moves, and whether it slips.
 
-    Of patches of fewer than 3 x 3 taxels motion and slip are not known, they stay 0.
+    Motion and slip of patches of fewer than 3 x 3 taxels stay 0.
 
     Parameters
     ----------
@@ -78,7 +78,7 @@ class Regions:
         self.reset()
 
     def reset(self) -> None:
-        """Forget what was, for instance after a pause."""
+        """Start anew, for instance after a pause."""
         self._watch.reset()
         self._slips = [NO_SLIP] * len(self._slips)
         self._slip_s = -math.inf

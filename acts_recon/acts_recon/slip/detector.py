@@ -1,4 +1,4 @@
-"""Whether what touches one patch of skin slips, out of images all of whose taxels were measured at once."""
+"""Slip on one patch of skin, from images whose taxels were all measured at once."""
 
 from __future__ import annotations
 
@@ -40,11 +40,11 @@ class SlipDetector:
         self._counts = np.zeros(1)
 
     def reset(self) -> None:
-        """Forget what was, for instance after a pause."""
+        """Start anew, for instance after a pause."""
         self._watch.reset()
 
     def step(self, time_s: float, image: NDArray[np.float32]) -> Slip:
-        """Take the next image.
+        """Update by the next image.
 
         Parameters
         ----------

@@ -1,13 +1,12 @@
-"""Tangential motion of a contact between two images of the same patch.
+"""Tangential motion of a contact between two images of the same patch, by the method of Lucas and Kanade (1981).
 
-The pattern of pressure is taken to be that of the reference, shifted by d, its force scaled by g, its width by s about
-its centre c. To first order::
+The pattern of pressure is modelled as that of the reference, shifted by d, with its force scaled by g and its width by
+1 + s about its centre c. To first order::
 
     image - reference = (g - 1) reference - d . grad - s (r - c) . grad
 
-which is solved by least squares over all taxels, `grad` being the gradient of the two images' mean. Force and width are
-asked for besides, because a grip that tightens changes both, and neither is slip. The idea of registering images by
-their gradients is Lucas and Kanade's (1981).
+This is solved by least squares over all taxels; `grad` is the gradient of the two images' mean. Force and width are
+unknowns, too, because a grip that tightens changes both, and neither is slip.
 """
 
 from __future__ import annotations
@@ -21,7 +20,7 @@ from numpy.typing import NDArray
 from acts_core.errors import ArrayError
 from acts_recon.slip.motion_kernels import normal_equations, solve
 
-# Keeps a pattern that shows no motion, such as one of equal pressure all over, from dividing by nothing.
+# Ridge term: a pattern without gradient, such as equal pressure all over, has no motion.
 RIDGE = 1e-6
 
 SMALLEST_SIDE = 3
@@ -36,7 +35,7 @@ class Motion(NamedTuple):
     cols, rows : float
         Shift along the columns and along the rows, towards higher numbers [taxels].
     sd_taxels : float
-        Standard deviation of the shift, from what the model leaves unexplained and the noise [taxels].
+        Standard deviation of the shift, from the residual of the least squares and the noise [taxels].
     gain : float
         Force relative to the reference.
     growth : float

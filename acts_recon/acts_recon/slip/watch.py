@@ -1,9 +1,9 @@
 """Motion and slip on all patches of an image whose taxels were measured at different times.
 
-A board that measures a part of the taxels in each frame shows a scene as a rolling shutter does: while the force grows,
-what was measured last is pressed harder, which looks like motion. So the last two measurements of each taxel are
-interpolated to one moment for the whole patch, the one at which the last of its pressed taxels was measured; later than
-that nothing is known of it. Two such images, a window apart, are compared (`acts_recon.slip.motion`).
+A board that measures a part of the taxels in each frame has a rolling shutter. While the force grows, taxels measured
+later read more, which looks like motion. So every taxel is interpolated between its last two measurements, linearly, to
+one moment for the whole patch: that at which the last of its pressed taxels was measured. Two such images, a window
+apart, are compared (`acts_recon.slip.motion`).
 """
 
 from __future__ import annotations
@@ -122,7 +122,7 @@ class SlipWatch:
         self._warm_up()
 
     def reset(self) -> None:
-        """Forget what was, for instance after a pause."""
+        """Start anew, for instance after a pause."""
         memory = self._memory
         for times in (memory.last_s, memory.before_s, memory.past_s):
             times.fill(-np.inf)
@@ -137,7 +137,7 @@ class SlipWatch:
         counts: NDArray[np.float64],
         age_s: NDArray[np.float32] | None = None,
     ) -> list[Slip]:
-        """Take the next image.
+        """Update by the next image.
 
         Parameters
         ----------

@@ -64,7 +64,7 @@ class Tuning(NamedTuple):
 
 @kernel
 def update(time_s: float, values: NDArray[np.float32], age_s: NDArray[np.float32], memory: Memory) -> None:
-    """Take over what was measured since the last call."""
+    """Update the last two measurements by what was measured since the last call."""
     last, before, last_s, before_s = memory.last, memory.before, memory.last_s, memory.before_s
     for row in range(values.shape[0]):
         for col in range(values.shape[1]):
@@ -78,7 +78,7 @@ def update(time_s: float, values: NDArray[np.float32], age_s: NDArray[np.float32
 def _bring_to_one_moment(
     time_s: float, top: int, end: int, left: int, right: int, memory: Memory, tuning: Tuning
 ) -> float:
-    """Write the patch into `now` as it stood when the last of its pressed taxels was measured; returns that moment."""
+    """Interpolate the patch to the time of the last measurement of a pressed taxel, into `now`; return that time."""
     last, before, last_s, before_s, now = memory.last, memory.before, memory.last_s, memory.before_s, memory.now
     moment_s = time_s
     for row in range(top, end):
