@@ -1,4 +1,4 @@
-"""What one frame of the array is, from the board to the reconstruction."""
+"""One frame of the array: scheme, samples and times, from the board to the reconstruction."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Arrays out of npz files, whatever is in them."""
+"""Reading arrays of npz files that may be damaged, hostile or of another kind."""
 
 from __future__ import annotations
 

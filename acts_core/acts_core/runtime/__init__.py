@@ -1,4 +1,4 @@
-"""What a process needs that runs for days: real-time scheduling, work in the background, clocks that are set.
+"""What a long-running process needs: real-time scheduling, background work, changes of the clock.
 
 In come settings and stamps; out come decisions and warnings. Nothing here knows tactile skins.
 """

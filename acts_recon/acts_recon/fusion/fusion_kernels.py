@@ -116,9 +116,9 @@ def _update(
         innovation = count - (state.image[i] - state.rate[i] * lag)
         state.innovation[k] = innovation
         if _F(0) < since < horizon:
-            gathered = state.process_noise[i] * since * since
-            if gathered > noise_variance:
-                ratio = innovation * innovation / (_F(2) * noise_variance + scale[p] * gathered)
+            predicted_variance = state.process_noise[i] * since * since
+            if predicted_variance > noise_variance:
+                ratio = innovation * innovation / (_F(2) * noise_variance + scale[p] * predicted_variance)
                 nis_excess[p] += min(ratio, _F(OUTLIER)) - _F(1)
                 compared[p] += _F(1)
             share = since / (since + _F(tuning.slope_memory_s))
@@ -250,11 +250,11 @@ def _update_sigma_of(
     for i in range(sigma.shape[0]):
         # A fresh taxel's value is kept as measured, though it has been changing since.
         fresh, age = fresh_ones[i], ages[i]
-        gathers = process_noise[i] if fresh else _F(0.5) * (process_noise[i] + around[i])
+        q = process_noise[i] if fresh else _F(0.5) * (process_noise[i] + around[i])
         lag_error = rate[i] * age if fresh else _F(0)
-        gathering = min(age, horizon)
+        time = min(age, horizon)
         idled = idle * min(age, _F(1e3))
-        variance = noise_variance + idled * idled + scale * gathers * gathering * gathering + lag_error * lag_error
+        variance = noise_variance + idled * idled + scale * q * time * time + lag_error * lag_error
         sigma[i] = min(_F(math.sqrt(variance)), limit)
 
 

@@ -123,9 +123,9 @@ class FusionReference:
         innovation = y - (self.image[at] - rate[at] * lag)
         known = (since > 0) & (since < tuning.horizon_s)
 
-        gathered = np.where(known, self.process_noise[at] * np.where(known, since, 0) ** 2, 0)
-        moving = gathered > noise_variance
-        ratio = innovation[moving] ** 2 / (2 * noise_variance + np.exp(self.log_scale) * gathered[moving])
+        predicted_variance = np.where(known, self.process_noise[at] * np.where(known, since, 0) ** 2, 0)
+        moving = predicted_variance > noise_variance
+        ratio = innovation[moving] ** 2 / (2 * noise_variance + np.exp(self.log_scale) * predicted_variance[moving])
         nis_excess = float((np.minimum(ratio, OUTLIER) - 1).sum())
         self.frame_scale = max(1 + nis_excess / (np.count_nonzero(moving) + NIS_PRIOR_SAMPLES), 1.0)
         self.log_scale = float(np.clip(self.log_scale + SCALE_STEP * nis_excess, -SCALE_LIMIT, SCALE_LIMIT))
@@ -175,10 +175,10 @@ class FusionReference:
 
     def _update_sigma(self, rate: Floats) -> None:
         tuning = self._tuning
-        gathering = np.minimum(self.age, tuning.horizon_s)
+        time = np.minimum(self.age, tuning.horizon_s)
         around = ndimage.maximum_filter(self.process_noise, size=3, mode="nearest")
         process_noise = np.where(self.fresh, self.process_noise, (self.process_noise + around) / 2)
-        variance = tuning.noise_counts**2 + self.frame_scale * np.exp(self.log_scale) * process_noise * gathering**2
+        variance = tuning.noise_counts**2 + self.frame_scale * np.exp(self.log_scale) * process_noise * time**2
         variance += (IDLE_COUNTS_PER_S * np.minimum(self.age, 1e3)) ** 2
         variance += np.where(self.fresh, rate * np.where(self.fresh, self.age, 0), 0) ** 2
         self.sigma = np.minimum(np.sqrt(variance), UNKNOWN_COUNTS)

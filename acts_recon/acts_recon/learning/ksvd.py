@@ -35,14 +35,14 @@ class KsvdConfig:
 
 @dataclass(frozen=True)
 class KsvdProgress:
-    """Where the learning stands after an iteration.
+    """Progress of the learning after an iteration.
 
     Attributes
     ----------
     iteration, iterations : int
         1 to `iterations`.
     relative_error : float
-        Norm of what the atoms leave unexplained over the norm of the patches.
+        Norm of the residual over the norm of the patches.
     replaced : int
         Atoms replaced in this iteration.
     """
@@ -55,7 +55,7 @@ class KsvdProgress:
 
 @dataclass(frozen=True)
 class KsvdState:
-    """All that one iteration hands to the next: from here the learning goes on as if it had never stopped.
+    """State between two iterations, from which an interrupted learning continues.
 
     Attributes
     ----------
@@ -171,7 +171,7 @@ def _replace(
     coefficients: NDArray[np.float32],
     config: KsvdConfig,
 ) -> int:
-    """Put the patches that are explained worst in place of atoms that are hardly used or alike to another."""
+    """Replace atoms that are hardly used, or nearly equal to another, by the patches with the largest residuals."""
     used = chosen.ravel()[np.abs(coefficients.ravel()) > 1e-6]
     users = np.bincount(used, minlength=config.atoms)
     alike = np.tril(np.abs(D @ D.T), -1).max(axis=1) > config.coherence

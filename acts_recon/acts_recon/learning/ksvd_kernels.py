@@ -98,7 +98,7 @@ def update_atoms(
     start: NDArray[np.int64],
     coefficients: NDArray[np.float32],
 ) -> None:
-    """Fit every atom, one after the other, to what the others leave of the patches that use it.
+    """Update every atom, one after the other: fit it to the residual of the patches that use it, without its own part.
 
     Parameters
     ----------

@@ -22,7 +22,7 @@ def random_patches(
     min_active: int = 16,
     rng: np.random.Generator,
 ) -> NDArray[np.float32]:
-    """Cut patches at random places out of frames, and leave those with few pressed pixels out.
+    """Cut patches at random places out of frames, and drop those with few pressed pixels.
 
     Parameters
     ----------
@@ -66,7 +66,7 @@ def random_patches(
 
 
 def prune_coherent(patches: NDArray[np.float32], limit: float) -> NDArray[np.bool_]:
-    """Choose patches no two of which look alike.
+    """Choose patches of which no two are nearly equal.
 
     Parameters
     ----------

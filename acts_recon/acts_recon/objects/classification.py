@@ -1,9 +1,10 @@
 """Which object presses: sparse representation-based classification (SRC) on the samples of one frame.
 
-The samples are explained by few columns of a library of known objects, restricted to the measured taxels, with FastOMP
-(`acts_recon.sparse`). The object is the class whose own columns leave the least of the samples. The paper's method
-("Sparse Recovery and Tactile Reconstruction", Fig. 4F and 9), with the details of the published analysis: a quarter as
-many columns as samples (two on the board), columns not re-normalised after the measured rows are picked.
+FastOMP (`acts_recon.sparse`) chooses few columns A of a library of known objects, restricted to the measured taxels, so
+that ``y = A x`` for the samples y. The residual of class c uses its own columns only: ``|y - A_c x_c| / |y|``. The
+object is the class with the smallest residual. This is the paper's method ("Sparse Recovery and Tactile
+Reconstruction", Fig. 4F and 9) with the details of the published analysis: a quarter as many columns as samples (two on
+the board), columns not re-normalised after the measured rows are picked.
 
 `classify` is the reference implementation, in double precision; `Classifier` runs `classification_kernels`, the same in
 single precision and without allocation.
@@ -25,7 +26,7 @@ from acts_recon.objects.object_library import ObjectLibrary
 from acts_recon.sparse import SPARSITY_RATIO, Problems, fast_omp, in_blocks, sparsity
 
 BOARD_COLUMNS = 2
-"""Library columns that explain a frame on the board, as in the published sketch."""
+"""Library columns that FastOMP may choose on the board, as in the published sketch."""
 
 
 @dataclass(frozen=True)
@@ -57,8 +58,8 @@ class Classification:
     best : int
         Class of the smallest residual, the first of equal ones; 0 without touch.
     residuals : np.ndarray [shape=(n_classes,), dtype=float]
-        What the class's own columns leave of the samples, a norm relative to that of the samples: 0 explained, 1 not
-        at all; 1 for all without touch.
+        Norm of the residual of each class relative to that of the samples: 0 explained, 1 not at all; 1 for all
+        without touch.
     confidence : float
         ``1 - smallest / second smallest residual``: 0 undecided, 1 sure. 0 without touch, and where there is one class.
     """
@@ -72,7 +73,7 @@ class Classification:
 def classify(
     library: ObjectLibrary, indices: NDArray[np.integer], counts: NDArray[np.integer], config: ClassifierConfig
 ) -> Classification:
-    """Classify the samples of one frame, plainly; see `Classifier.step`."""
+    """Classify the samples of one frame; the reference implementation of `Classifier.step`."""
     y = np.where(counts > config.touch_counts, counts, 0).astype(np.float64)
     residuals = np.ones(library.n_classes)
     if not y.any():

@@ -1,6 +1,6 @@
 """SRC in numba: the same as `acts_recon.objects.classification.classify`, in single precision and without allocation.
 
-And what all classifiers share: sorting by class, and deciding.
+Also what all classifiers share: sorting by class, and the decision.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ def class_residuals(
     largest: NDArray[np.float32],
     residuals: NDArray[np.float32],
 ) -> bool:
-    """Compute what every class leaves of one frame into `residuals`; returns whether anything was pressed.
+    """Write the residual of every class for one frame into `residuals`; return whether anything was pressed.
 
     The library is given as the dictionary is to `fastomp_kernels.pursue`. Then come the classes of its
     columns, the frame, whose indices must be in range, the settings, and the buffers of

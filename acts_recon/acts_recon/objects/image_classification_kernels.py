@@ -1,4 +1,4 @@
-"""Classification of images in numba: as `image_classification.classify_image`, with memory, unallocated."""
+"""Classification of images in numba: `image_classification.classify_image` with memory and without allocation."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from acts_recon.objects.classification_kernels import by_class
 
 _FASTMATH = {"nnan", "ninf", "nsz", "contract", "reassoc", "arcp"}
 _ROUNDS = 40
-"""Rounds of coordinate descent for a mixture; it stops earlier once nothing changes."""
+"""Rounds of coordinate descent for the non-negative least squares; it stops earlier once nothing changes."""
 
 _SETTLED = np.float32(1e-4)
 _TINY = np.float32(1e-12)
@@ -29,7 +29,7 @@ def _mixture_explains(
     gram: NDArray[np.float32],
     share: NDArray[np.float32],
 ) -> float:
-    """How much of the weighted image's square a mixture without negative parts of `n` patterns explains.
+    """Squared norm of the weighted image that `n` patterns explain by non-negative least squares.
 
     Less the penalty of its force; see `acts_recon.objects.image_classification.force_penalty`.
     """
@@ -105,7 +105,7 @@ def class_residuals(
     energy: NDArray[np.float64],
     residuals: NDArray[np.float32],
 ) -> bool:
-    """Compute what every class leaves of the image, and of those before, into `residuals`; whether something presses.
+    """Write the residuals of every class, averaged over this image and those before; return whether something presses.
 
     First come the arrays of `Model`, then the image, the settings, and the arrays of `State`.
     """
@@ -178,9 +178,9 @@ def class_residuals(
 
 @kernel(fastmath=_FASTMATH)
 def weigh(residuals: NDArray[np.float32], others: NDArray[np.float32], weight: float) -> None:
-    """Put the geometric mean of two judges' residuals, the other one's weighted, into `residuals`.
+    """Write the geometric mean of two classifiers' residuals, the other's weighted, into `residuals`.
 
-    Of a geometric mean neither judge can outvote what the other excludes.
+    Of a geometric mean neither classifier can outvote what the other excludes.
     """
     for number in range(residuals.shape[0]):
         product = np.float64(residuals[number]) * np.float64(others[number]) ** weight
@@ -244,7 +244,7 @@ class Model:
 
 
 class State:
-    """What `class_residuals` works in and remembers.
+    """Buffers and memory of `class_residuals`.
 
     Parameters
     ----------

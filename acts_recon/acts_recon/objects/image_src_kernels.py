@@ -57,7 +57,7 @@ def _solve(
     factor: NDArray[np.float64],
     share: NDArray[np.float64],
 ) -> None:
-    """Solve ``(gram + REGULARISATION) share = pull`` by Cholesky's method; only the lower half of `gram` is read."""
+    """Solve ``(gram + REGULARISATION I) share = pull`` by Cholesky's method; only the lower half of `gram` is read."""
     for i in range(n):
         for j in range(i + 1):
             total = gram[i, j] + (REGULARISATION if i == j else 0.0)
@@ -101,10 +101,10 @@ def class_residuals(
     there: NDArray[np.float64],
     residuals: NDArray[np.float32],
 ) -> bool:
-    """Compute what every class leaves of the image into `residuals`; whether anything known is pressed.
+    """Write the residual of every class into `residuals`; return whether a taxel with a small sigma is pressed.
 
-    First come the arrays of `Model`, then the image and what a comparison says of it (what every class leaves, what
-    every column alone explains), the settings, and the arrays of `Workspace`.
+    First come the arrays of `Model`, then the image, the results of a comparison (residual of every class, energy
+    that every column alone explains), the settings, and the arrays of `Workspace`.
     """
     n_pressed = 0
     square = 0.0

@@ -1,4 +1,4 @@
-"""Object libraries: full frames of known objects, with which samples of an unknown one are explained."""
+"""Object libraries: full frames of known objects, with which an unknown one is compared."""
 
 from __future__ import annotations
 

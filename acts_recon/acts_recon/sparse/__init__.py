@@ -1,4 +1,4 @@
-"""Sparse recovery: an image out of the samples of one frame alone, as a sum of few atoms of a dictionary.
+"""Sparse recovery: the image from the samples of one frame alone, as a sum of few atoms of a dictionary.
 
 In come samples and a dictionary of patches; out comes the image. FastOMP (paper, section "Reconstruction") is here as a
 reference implementation and as kernels.

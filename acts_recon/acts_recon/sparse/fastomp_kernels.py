@@ -55,7 +55,7 @@ def pursue(
         counts = table[PRESSED if i == 0 else MEASURED]
         residuals = rows[Y_ROWS if i == 0 else RESIDUAL_ROWS]
         choose(blocks, pixels, residuals, counts, table[ORDER], active, sums, largest, table[BEST])
-        active = _explain(i, active, atoms, pixels, table, rows, systems)
+        active = _project(i, active, atoms, pixels, table, rows, systems)
         i += 1
 
 
@@ -149,7 +149,7 @@ def _dot(x: NDArray[np.float32], y: NDArray[np.float32], m: int) -> np.float32:
 
 
 @kernel(fastmath=_FASTMATH)
-def _explain(
+def _project(
     i: int,
     active: int,
     atoms: NDArray[np.float32],
@@ -158,7 +158,7 @@ def _explain(
     rows: NDArray[np.float32],
     systems: NDArray[np.float32],
 ) -> int:
-    """Take over the `i`-th atoms: make them orthogonal to those before, and take what they explain off the residuals.
+    """Make the `i`-th atoms orthogonal to those before, and take the projections on them off the residuals.
 
     Keeps and counts the problems that are allowed another atom.
     """
@@ -198,7 +198,7 @@ def _explain(
 
 @kernel(fastmath=_FASTMATH)
 def solve(problem: int, s: int, systems: NDArray[np.float32]) -> None:
-    """From projections onto `s` orthogonalised atoms to the coefficients of the atoms, both in the last column."""
+    """Back substitution: from projections on `s` orthogonalised atoms to coefficients, both in the last column."""
     last = systems.shape[1]
     for i in range(s - 1, -1, -1):
         value = systems[problem, i, last]
@@ -247,13 +247,13 @@ def recover_image(
     measured, pressed, order, y = table[MEASURED], table[PRESSED], table[ORDER], rows[Y_ROWS]
     for patch in range(n_patches):
         measured[patch] = 0
-    _hand_out(True, touch_counts, indices, counts, holders, measured, pixels, y)
+    _scatter(True, touch_counts, indices, counts, holders, measured, pixels, y)
     n_pressed = 0
     for patch in range(n_patches):
         pressed[patch] = measured[patch]
         order[n_pressed] = patch
         n_pressed += pressed[patch] > 0
-    _hand_out(False, touch_counts, indices, counts, holders, measured, pixels, y)
+    _scatter(False, touch_counts, indices, counts, holders, measured, pixels, y)
     for patch in range(n_patches):
         table[ALLOWED, patch] = max(1, int(ratio * measured[patch] + 0.5))
     pursue(blocks, atoms, n_pressed, pixels, table, rows, systems, sums, largest)
@@ -283,7 +283,7 @@ def recover_image(
 
 
 @kernel(fastmath=_FASTMATH)
-def _hand_out(
+def _scatter(
     pressed: bool,
     touch_counts: int,
     indices: NDArray[np.uint16],
@@ -293,7 +293,7 @@ def _hand_out(
     pixels: NDArray[np.uint32],
     y: NDArray[np.float32],
 ) -> None:
-    """Give the samples of the pressed taxels, or those of the others, to the patches that hold them."""
+    """Scatter the samples of the pressed taxels, or those of the others, to the patches that hold them."""
     for i in range(indices.shape[0]):
         if (counts[i] > touch_counts) != pressed:
             continue

@@ -1,4 +1,4 @@
-"""What the kernels of FastOMP work on: the dictionary as they read it, and their buffers, allocated once."""
+"""Dictionary and buffers of the kernels of FastOMP, allocated once."""
 
 from __future__ import annotations
 
@@ -93,7 +93,7 @@ class Problems:
         are `ALLOWED`, and which problems there are (`ORDER`; overwritten). Found: how many atoms were chosen
         (`N_CHOSEN`), and which (from `CHOSEN` on). The others are for work.
     rows : np.ndarray [shape=(Q_ROWS + n_atoms, n, n_pixels), dtype=float32]
-        Given: what was measured (`Y_ROWS`). For work: what is left to explain (`RESIDUAL_ROWS`), and the orthogonalised
+        Given: what was measured (`Y_ROWS`). For work: the residuals (`RESIDUAL_ROWS`), and the orthogonalised
         atoms (from `Q_ROWS` on).
     systems : np.ndarray [shape=(n, n_atoms, n_atoms + 1), dtype=float32]
         Found: the triangular system of equations, the right side in the last column.

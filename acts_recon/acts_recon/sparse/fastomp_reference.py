@@ -1,9 +1,16 @@
-"""FastOMP, reference implementation: recovery of a tactile image from few taxels, patch by patch.
+"""FastOMP: recovery of a tactile image from few taxels, patch by patch. Reference implementation of `fastomp_kernels`.
 
-The reference implementation of `fastomp_kernels`, in double precision. The method is the paper's ("Sparse Recovery and
-Tactile Reconstruction"; its reference 49) with the details of the published analysis: greedy pursuit with Gram-Schmidt
-on the chosen columns, S = a quarter of the measured pixels of a patch, columns not re-normalised after the measured
-rows are picked, overlapping patches averaged.
+FastOMP is orthogonal matching pursuit (OMP) with a QR factorisation by modified Gram-Schmidt. For a patch with measured
+pixels y and the measured rows A of the dictionary, starting from the residual r = y, each step
+
+1. chooses the atom with the largest ``|a' r|``,
+2. makes it orthogonal to the atoms chosen before: w,
+3. takes the projection on it off the residual: ``r -= w (w' r) / (w' w + REGULARISATION)``.
+
+In the end the triangular system ``R x = Q' y`` gives the coefficients x of the atoms. The method is the paper's
+("Sparse Recovery and Tactile Reconstruction"; its reference 49) with the details of the published analysis: a quarter
+as many atoms as measured pixels, atoms not re-normalised after the measured rows are picked, overlapping patches
+averaged.
 """
 
 from __future__ import annotations
@@ -16,7 +23,7 @@ from numpy.typing import NDArray
 from acts_recon.sparse.patches import PatchLayout
 
 REGULARISATION = 1e-4
-"""Added to the squared norm of every orthogonalised column, so that one that adds nothing does not divide by 0."""
+"""Ridge: added to the squared norm of every orthogonalised column, which may be 0."""
 
 SPARSITY_RATIO = 0.25
 """Atoms allowed per measured pixel of a patch."""
