@@ -69,6 +69,7 @@ class FusedRecovery:
         self.borders = estimator.borders
         self.response = response
         self.image = estimator.image
+        self._flat = estimator.image.ravel(), estimator.sigma.ravel()
         self.sigma: NDArray[np.float32] | None = estimator.sigma
         self.age_s: NDArray[np.float32] | None = estimator.age_s
         self.measured: NDArray[np.float32] | None = estimator.measured
@@ -79,8 +80,8 @@ class FusedRecovery:
 
     def step(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float) -> Contact:
         """See `Recovery.step`."""
-        image = self._estimator.step(indices, counts, end_s, duration_s)
-        return self._finder.find(image.ravel(), self._estimator.sigma.ravel())
+        self._estimator.step(indices, counts, end_s, duration_s)
+        return self._finder.find(*self._flat)
 
     def confidence(self) -> NDArray[np.uint8] | None:
         """See `Recovery.confidence`."""

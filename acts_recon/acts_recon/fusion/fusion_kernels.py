@@ -176,7 +176,9 @@ def _spread(state: State, indices: NDArray[np.uint16], cols: int, tuning: Tuning
     for j in range(image.shape[0]):
         shrunk = weight[j] + _F(SPREAD_PRIOR)
         image[j] = min(max(image[j] + gain * total[j] / shrunk, _F(0)), _TOP)
-        process_noise[j] += _F(PROCESS_NOISE_GAIN) * (process_noise_total[j] - weight[j] * process_noise[j]) / shrunk
+        learnt = (process_noise_total[j] - weight[j] * process_noise[j]) / shrunk
+        updated = process_noise[j] + _F(PROCESS_NOISE_GAIN) * learnt
+        process_noise[j] = updated if updated > TINY else _F(0)
         total[j], process_noise_total[j], weight[j] = _F(0), _F(0), _F(0)
     for k in range(m):
         i = int(np.int64(indices[k]))
@@ -191,13 +193,15 @@ def _maximum_filter(state: State, values: NDArray[np.float32], cols: int) -> NDA
         top, bottom, left, right = state.patches[p, 0], state.patches[p, 1], state.patches[p, 2], state.patches[p, 3]
         width = right - left
         for row in range(top, bottom):
-            first, last = row * cols + left, row * cols + right - 1
-            in_row[first] = max(values[first], values[min(first + 1, last)])
-            for i in range(first + 1, last):
-                in_row[i] = max(values[i], values[i - 1], values[i + 1])
-            in_row[last] = max(values[last], values[max(last - 1, first)])
-        for row in range(top, bottom):
             # Slices, so that the compiler sees that no index is negative, and vectorises.
+            here = values[row * cols + left : row * cols + right]
+            largest = in_row[row * cols + left : row * cols + right]
+            largest[0] = max(here[0], here[min(1, width - 1)])
+            left_of, right_of = here[:-2], here[2:]
+            for c in range(left_of.shape[0]):
+                largest[c + 1] = max(left_of[c], here[c + 1], right_of[c])
+            largest[width - 1] = max(here[width - 1], here[max(width - 2, 0)])
+        for row in range(top, bottom):
             here = in_row[row * cols + left : row * cols + right]
             before, behind = max(row - 1, top) * cols, min(row + 1, bottom - 1) * cols
             above = in_row[before + left : before + right]
