@@ -39,6 +39,7 @@ def settle() -> None:
     # Imports and the compiler leave some 100,000 objects behind; a full collection of them stops the stream for 30 ms.
     gc.collect()
     gc.freeze()
+    gc.enable()
     sys.setswitchinterval(_SWITCH_INTERVAL_S)
 
 
@@ -76,6 +77,8 @@ def run(
     executor = make_executor()
     nodes: list[Node] = []
     try:
+        # Until all is settled: what nodes are made of stays.
+        gc.disable()
         with signals.interrupting():
             for factory in factories:
                 node = factory()
@@ -91,6 +94,7 @@ def run(
     except KeyboardInterrupt:
         return 0
     finally:
+        gc.enable()
         for node in reversed(nodes):
             _call(node, "close")
             node.destroy_node()

@@ -11,7 +11,7 @@ from acts_ros.processes.process import Process
 from acts_skins.skins_file import Skin, SkinsFile
 from acts_skins.tactile_parameters import TactileParameters, tactile_parameters
 
-_RESPAWN_DELAY_S = 0.1
+_RESPAWN_DELAY_S = 0.02
 _BOARD_RATE_HZ = 1000.0
 _FIRST_BOARD_ID = 0x4143_5453_0000_0001
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import os
 import sys
 from collections.abc import Sequence
 from importlib import import_module
@@ -39,6 +40,8 @@ class Program:
         signals = StopSignals()
         try:
             with signals.interrupting():
+                # Matrices of nodes are small. A second thread for them is of no use, and spins for a tenth of a second.
+                os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
                 # What is imported stays: to look for garbage in it again and again takes a tenth of the start.
                 gc.disable()
                 module = import_module(self._module)
