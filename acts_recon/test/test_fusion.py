@@ -441,11 +441,9 @@ def test_what_happens_on_one_patch_changes_nothing_on_the_others(name: str) -> N
 def test_a_press_at_rest_leaves_no_numbers_so_small_that_they_are_slow() -> None:
     """Arithmetic on subnormal numbers takes a processor a hundred times as long."""
     estimator = FusionEstimator(SMALL)
-    indices = np.arange(SMALL.size, dtype=np.uint16)
-    counts = np.full(SMALL.size, 300, dtype=np.uint16)
     for number in range(800):
-        first = number % 2
-        estimator.step(indices[first::2], counts[first::2], number * 1e-3, DURATION_S)
+        indices = np.arange(number % 2, SMALL.size, 2, dtype=np.uint16)
+        estimator.step(indices, np.full_like(indices, 300), number * 1e-3, DURATION_S)
     for name, values in estimator._state._asdict().items():
         if values.dtype == np.float32:
             sizes = np.abs(values[values != 0])
