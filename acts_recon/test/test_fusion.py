@@ -285,7 +285,7 @@ def test_errors_are_as_large_as_sigma_says(
 
 
 def test_what_comes_down_beside_is_in_doubt_before_it_is_measured() -> None:
-    """Taxels next to a new contact, last measured untouched, are known the less the more the contact surprised."""
+    """Taxels next to a new contact, last measured untouched, are the less certain the larger the innovations of the contact were."""
     estimator = FusionEstimator(ArrayGeometry())
     everything = np.arange(1024, dtype=np.uint16)
     estimator.step(everything, np.zeros(1024, dtype=np.uint16), 0.0, 0.0)

@@ -207,7 +207,7 @@ class BallEstimator:
         tilts.append((stamp_ns, tilt_y_rad, -tilt_x_rad))
 
     def step(self, measurement: ContactMeasurement) -> None:
-        """Take in one contact message."""
+        """Update by one contact message."""
         state = self.state
         state.received += 1
         stamp_ns, in_contact, x, y, force = measurement
@@ -281,7 +281,7 @@ class BallEstimator:
         self._pww += q * dt
 
     def _correct(self, zx: float, zy: float, variance: float, stamp_ns: int) -> bool:
-        """Take in a position; False when the estimate no longer has to do with what is touched."""
+        """Update by a position; False when the estimate no longer has to do with what is touched."""
         ex, ey = zx - self._zx, zy - self._zy
         s = self._pzz + variance
         if ex * ex + ey * ey > self.config.gate_sigmas**2 * s:

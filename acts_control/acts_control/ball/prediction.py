@@ -1,4 +1,4 @@
-"""From where the ball was when it was last felt to where it is now, with the tilts that the plate had meanwhile."""
+"""Prediction of the ball from the time of the last contact to now, by the tilts that the plate had meanwhile."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from acts_control.ball.plate import ROLLING, acceleration_of
 
 
 class TiltHistory:
-    """Tilts of the last moments, and what they have done to the ball.
+    """Tilts of the last moments, by which the ball's position and velocity are predicted.
 
     Parameters
     ----------
     lever_arm_m : float
-        As in `acts_control.ball.estimator`, whose coordinate z is carried on [m].
+        As in `acts_control.ball.estimator`, whose coordinate z is predicted [m].
     horizon_s : float
-        How far back tilts are kept: estimates older than this are not carried on [s].
+        How far back tilts are kept: estimates older than this are not predicted [s].
     """
 
     def __init__(self, lever_arm_m: float, horizon_s: float) -> None:
@@ -55,7 +55,7 @@ class TiltHistory:
         x, y = x + self._lever * then_x, y + self._lever * then_y
         for k in range(first, len(past) - 1):
             start_ns, _, _, ax, ay = past[k]
-            # What was before the first tilt known is taken to be like it.
+            # Before the first known tilt, the plate is assumed to have had that tilt.
             dt = (past[k + 1][0] - (stamp_ns if k == first else start_ns)) * 1e-9
             x, y = x + dt * (vx + 0.5 * dt * ax), y + dt * (vy + 0.5 * dt * ay)
             vx, vy = vx + dt * ax, vy + dt * ay

@@ -1,4 +1,4 @@
-"""Where the ball should be: what a reference is, and how those that arrive are followed."""
+"""References, where the ball should be, and how those that arrive are followed."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _HARDEST_M_S2 = 9.81
 # Two references farther apart than this do not belong together.
 _MAX_GAP_S = 0.1
 
-# A reference is carried on to now, but not for longer than this.
+# A reference is extrapolated to now, but not for longer than this.
 _MAX_ADVANCE_S = 0.05
 
 # One stamped farther in the future is of another clock: it would never grow old.
@@ -83,10 +83,10 @@ class ReferenceLimits(NamedTuple):
 class ReferenceFollower:
     """From the references that arrive to the one that holds now, with its jerk.
 
-    A reference that cannot be meant is refused: the ball is led by the last good one, and held there when no better one
-    comes. Stamps that stay ahead by the same are those of a clock that is ahead, and are corrected by that. What is
-    remembered from one reference to the next, its stamp and acceleration, is used only where the next one follows
-    within 0.1 s; so nothing lasts of a wrong stamp or of a clock that was set.
+    An impossible reference is refused: the last good one is used, and the ball is held there when no better one
+    comes. Where stamps are ahead by a constant time, the sender's clock is ahead, and they are corrected. Stamp and
+    acceleration of a reference are used for the next one only where that follows within 0.1 s, so a wrong stamp or a
+    clock that was set has no lasting effect.
 
     Attributes
     ----------
