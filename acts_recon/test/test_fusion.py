@@ -284,8 +284,8 @@ def test_errors_are_as_large_as_sigma_says(
     assert np.mean(np.abs(ratios) < 2) > 0.9
 
 
-def test_what_comes_down_beside_is_in_doubt_before_it_is_measured() -> None:
-    """Taxels next to a new contact, last measured untouched, are the less certain the larger the innovations of the contact were."""
+def test_what_comes_down_beside_is_uncertain_before_it_is_measured() -> None:
+    """Sigma of untouched taxels next to a new contact grows with the innovations of the contact."""
     estimator = FusionEstimator(ArrayGeometry())
     everything = np.arange(1024, dtype=np.uint16)
     estimator.step(everything, np.zeros(1024, dtype=np.uint16), 0.0, 0.0)
