@@ -13,7 +13,7 @@ from test_reconstruction_node import Bench
 from acts_core.errors import ArrayError
 from acts_msgs.msg import Baseline
 from acts_recon.images import BaselineSubtraction
-from acts_recon.images.baseline import subtract_plain
+from acts_recon.images.baseline import subtract_reference
 from acts_recon.sparse import Dictionary, save_dictionary
 from acts_ros import qos
 
@@ -31,7 +31,7 @@ def test_equals_the_plain_twin(seed: int, m: int) -> None:
     baseline, valid = rng.uniform(0, 700, SIZE).astype(np.float32), rng.random(SIZE) < 0.9
     baseline[~valid] = np.nan
     subtraction.set(baseline, valid)
-    expected = subtract_plain(indices, counts, np.where(valid, baseline, np.float32(0)))
+    expected = subtract_reference(indices, counts, np.where(valid, baseline, np.float32(0)))
     assert (subtraction.apply(indices, counts) == expected).all()
     assert (expected[~valid[indices]] == counts[~valid[indices]]).all()
 

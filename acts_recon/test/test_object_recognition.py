@@ -53,7 +53,7 @@ def test_a_frame_that_is_only_taken_tells_that_the_skin_moves(library: ObjectLib
             objects.update(ONE, ONE, 1.001, 0.001)
         age_s[:] = 0.002
         results.append(objects.step(ONE, ONE, 1.002, 0.001).residuals.copy())
-    # SRC, which only has its say on a resting skin, sharpens the contrast.
+    # SRC, which is only weighed in on a resting skin, sharpens the contrast.
     assert not np.allclose(*results, atol=1e-2)
 
 

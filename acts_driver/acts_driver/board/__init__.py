@@ -1,7 +1,7 @@
-"""The dialogue with a board: what it is, what it is told, and what it made of its frames by itself.
+"""Commands to a board, its replies, and the images and objects that it recovers itself.
 
-In come the driver's parameters and the board's replies; out go commands. `BoardSession` keeps a board as the parameters
-want it.
+In come the driver's parameters and the board's replies; out go commands. `BoardSession` keeps the board's settings
+equal to the parameters.
 """
 
 from acts_driver.board.dialogue import BoardLink, NoAnswerError, RefusedError

@@ -1,4 +1,4 @@
-"""The dialogue with a board: a command out, its reply in, within bounded time."""
+"""Commands to a board and their replies, within bounded time."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class NoAnswerError(BoardError):
 
 
 class RefusedError(BoardError):
-    """The board answers that it does not do what it was told; `reply` is its answer."""
+    """The board refuses a command; `reply` is its reply."""
 
     def __init__(self, reply: Reply) -> None:
         super().__init__(reply.problem)
@@ -69,12 +69,12 @@ class BoardLink:
         self._tries = tries
         self._turn = threading.Lock()
         self._arrived = threading.Condition()
-        # Of another process before this one, replies may still be on their way: begin at a number of our own.
+        # Replies to an earlier process may still arrive: begin at a request number of our own.
         self._request = time.monotonic_ns() & 0xFFFFFFFF
         self._reply: Reply | None = None
 
     def receive(self, message: BoardMessage) -> None:
-        """Take what the board said; on the reader's thread. What is no reply to the last command is left alone."""
+        """Handle a message of the board, on the reader's thread. All but the reply to the last command is ignored."""
         if isinstance(message, Reply):
             with self._arrived:
                 if message.request == self._request:
@@ -144,7 +144,7 @@ class BoardLink:
             piece = model.payload[at : at + UPLOAD_PIECE_MAX]
             reply = self._exchange(partial(_encode_data, at, piece))
             if reply.status is ReplyStatus.UPLOAD_OUT_OF_ORDER and reply.state.uploading and reply.detail <= size:
-                # The piece was there already, its reply was lost.
+                # The board has the piece already; its reply was lost.
                 at = reply.detail
                 continue
             self._done(reply)

@@ -1,4 +1,4 @@
-"""Keeps a board's layout of the skin as the parameters want it."""
+"""Keeps a board's layout of the skin equal to the parameters."""
 
 from __future__ import annotations
 
@@ -32,11 +32,11 @@ class BoardLayout:
         self._is_told = False
 
     def begin_anew(self) -> None:
-        """Tell that there is another board, or another life of it."""
+        """Note that the board was replaced or reset."""
         self._is_told = False
 
     def read_again(self) -> None:
-        """Tell that the file may be another by now."""
+        """Note that the file may have changed."""
         self._map_of = None
         self._reading = None
 

@@ -15,7 +15,7 @@ from acts_core.wire import BoardModel, object_library, patch_dictionary
 MODEL_BYTES_MAX = 1 << 24
 """The arrays of a model file take at most so much, far more than a board holds."""
 
-# A file that is not there after so long is worth a word.
+# Reading that takes longer than this is reported.
 _LONG_S = 1.0
 
 
@@ -42,7 +42,7 @@ def load_model(path: Path) -> BoardModel:
 
 
 class ModelFile:
-    """A model's file, read on a thread of its own when it is first asked for, since that may take for ever.
+    """A model's file, read on a thread of its own when it is first needed: a disk or network may block for ever.
 
     Parameters
     ----------
@@ -60,12 +60,12 @@ class ModelFile:
 
     @property
     def is_read(self) -> bool:
-        """Whether it has been read, or could not be."""
+        """Whether reading has ended, with or without success."""
         return self._reading is not None and self._reading.done()
 
     @property
     def problem(self) -> str:
-        """What a person is to know of a reading that takes long; empty otherwise."""
+        """A message for a person while reading takes long; empty otherwise."""
         if self._reading is None or self._reading.done():
             return ""
         lasted_s = time.monotonic() - self._began_s

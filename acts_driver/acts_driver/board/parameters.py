@@ -1,4 +1,4 @@
-"""What the driver's parameters ask of a board: each either gives a setting or leaves the board's own."""
+"""The driver's parameters for the board: each sets a setting of the board, or leaves the board's own."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from acts_core.skin import LAYOUTS, layout, layout_path
 from acts_core.wire import LEDS, OUTPUTS, BoardSettings
 
 RATE_MIN_HZ = 1.0
-"""Slowest frame rate that a board can be told."""
+"""Slowest frame rate that a board accepts."""
 
 _SAMPLING = ("scheme", "m", "threshold_counts", "neighbour_order", "search_share", "adaptive_share", "seed")
 
@@ -122,7 +122,7 @@ class BoardParameters:
             )
 
     def given(self) -> dict[str, Any]:
-        """The parameters that ask for something, by name."""
+        """The parameters that set something, by name."""
         return {
             field.name: getattr(self, field.name)
             for field in fields(BoardParameters)

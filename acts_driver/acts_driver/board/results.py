@@ -1,4 +1,4 @@
-"""Images and objects that the board made of its frames by itself, with the stamps of these frames."""
+"""Images and objects that the board recovered itself, with the stamps of their frames."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _KEPT = 256
 
 
 class BoardResults:
-    """Brings results and the frames that they were made of together, so that both have the same stamp.
+    """Matches results with the frames that they were made of, so that both have the same stamp.
 
     A result follows its frame on the wire, mostly in a later read but sometimes in the same one. One whose frame was
     not accepted (lost, repeated, of a wrong size) is dropped: there is no time to stamp it with.
@@ -29,7 +29,7 @@ class BoardResults:
     """
 
     def __init__(self) -> None:
-        # By number and board time: a board that begins anew uses the numbers again.
+        # By number and board time: a board that was reset uses the numbers again.
         self._stamps: OrderedDict[tuple[int, int], int] = OrderedDict()
         self._waiting: list[BoardResult] = []
         self.results = 0

@@ -1,4 +1,4 @@
-"""Keeps a board as the parameters want it: asks who it is, tells it its settings, again after every reset."""
+"""Keeps a board's settings equal to the parameters: identifies it and sends its settings, again after every reset."""
 
 from __future__ import annotations
 
@@ -114,7 +114,7 @@ class BoardSession:
             self._thread.join(_STOP_S)
 
     def wake(self) -> None:
-        """Tell that the board may have begun anew: it is asked at once."""
+        """Note that the board may have been reset: its state is queried at once."""
         self._wake.set()
 
     def reconnected(self) -> None:
@@ -128,12 +128,12 @@ class BoardSession:
 
     @property
     def may_publish(self) -> bool:
-        """Whether frames of this board may be used: it has answered, rightly, or turned out not to. Cheap."""
+        """Whether frames of this board may be used: it is compatible, or is known not to reply. Cheap."""
         return self._heard == self._opening and not self.status.is_wrong_version
 
     @property
     def asks_for_something(self) -> bool:
-        """Whether any parameter wants something of the board."""
+        """Whether any parameter sets something on the board."""
         return bool(self._parameters.given())
 
     def ask(self) -> BoardState:
@@ -150,7 +150,7 @@ class BoardSession:
             return state
 
     def change(self, parameters: BoardParameters) -> None:
-        """Want something else from now on, and bring the board to it.
+        """Change the parameters, and send the difference to the board.
 
         While no board is connected the wish is only noted. A model is announced, which tells whether the board can hold
         it; `status` tells when it is there. One whose file cannot be read at once counts as wanted: `status` tells what
@@ -215,7 +215,7 @@ class BoardSession:
             self._wake.wait(_ASK_EVERY_S)
 
     def _round(self) -> bool:
-        """Ask the board and bring it to what is wanted; whether that came off, so that a model may be due."""
+        """Query the board and send what differs; whether that succeeded, so that a model may be uploaded."""
         try:
             state = self._link.query().state
         except PortError as error:
@@ -246,7 +246,7 @@ class BoardSession:
         return True
 
     def _see(self, state: BoardState) -> None:
-        """Take notice of what the board said about itself."""
+        """Update the status by a state of the board."""
         now_s = time.monotonic()
         if self._has_begun_anew(state, now_s):
             self._own = state.settings
@@ -261,7 +261,7 @@ class BoardSession:
         self._set(BoardStatus(state, problem=problem))
 
     def _has_begun_anew(self, state: BoardState, now_s: float) -> bool:
-        """Whether this is another board than the last one, or another life of it: it has forgotten what it was told."""
+        """Whether the board was replaced or reset since the last state, and so has lost its settings."""
         seen = self._seen
         if seen is None or seen.board_id != state.board_id or state.uptime_us < seen.uptime_us:
             return True
@@ -269,12 +269,12 @@ class BoardSession:
         return passed_s - (state.uptime_us - seen.uptime_us) * 1e-6 > _SAME_START_S + _DRIFT_MAX * passed_s
 
     def _bring(self, state: BoardState) -> None:
-        """Bring the board from a state to what is wanted."""
+        """Send what differs between a state of the board and the parameters."""
         assert self._own is not None
         wanted = self._parameters.wanted(self._own)
         if state.settings != wanted and self._settled != (wanted, state.settings):
             state = self._link.configure(wanted).state
-            # A board may take a setting in its own way; it is not told again and again then.
+            # A board may round a setting; it is not sent again and again then.
             self._settled = (wanted, state.settings)
             self._log("info", f"the board has taken its settings: {settings_in_words(state.settings)}")
         state = self._layout.bring(self._parameters, state)
@@ -283,7 +283,7 @@ class BoardSession:
         self._set(BoardStatus(state, problem=self._mismatch(state)))
 
     def _upload(self, model: BoardModel, opening: int) -> None:
-        """Give the board the model that is due. Others may ask it and change settings between two pieces."""
+        """Upload the wanted model. Queries and settings may come between two pieces."""
 
         def is_wanted() -> bool:
             return self._due is model and self._opening == opening and not self._stop.is_set()
@@ -301,7 +301,7 @@ class BoardSession:
                 if not is_wanted():
                     return
                 self._set(replace(self.status, problem=str(error)))
-                # Anything else was an accident on the way, or the board's restart.
+                # Anything else was a fault in transport, or a restart of the board.
                 if error.reply.status is ReplyStatus.MODEL_IMPOSSIBLE:
                     self._refused = wanted
             return

@@ -1,4 +1,4 @@
-"""Configures and activates a lifecycle node without being asked."""
+"""Configures and activates a lifecycle node by itself."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Autostart:
         self._is_over = False
 
     def stop(self) -> None:
-        """Leave the node's state to others. May be called again, also from a transition."""
+        """Stop changing the node's state. May be called again, also from a transition."""
         self._is_over = True
         # Not destroyed: this may be called from one of them.
         self._first.cancel()

@@ -22,7 +22,7 @@ from acts_ros.qos import LATCHED, overridable
 _NS_PER_S = 1_000_000_000
 _PUBLISH_PERIOD_S = 1.0
 _MOVED_COUNTS = 0.5
-# Without a frame for so long, nothing is known of the skin of now [s].
+# Older frames do not show the present skin [s].
 _FRESH_S = 0.5
 
 _WaitFor = Callable[[Callable[[], Baseline | None], str], Baseline | None]
@@ -92,7 +92,7 @@ class BaselineServices:
             self._node.get_logger().info(f"no baseline yet: {path} is not there, the service ~/calibrate writes it")
 
     def observe(self, frames: Sequence[tuple[SampleFrame, int]]) -> None:
-        """Take frames with their stamps [ns], on the reader's thread."""
+        """Update the baseline by frames with their stamps [ns], on the reader's thread."""
         if frames:
             self._heard_s = time.monotonic()
             self._tracker.observe(frames)
@@ -138,7 +138,7 @@ class BaselineServices:
         return self._answer(response, True, f"tared {int(baseline.valid.sum())} of {baseline.valid.size} taxels")
 
     def _require_frames(self) -> None:
-        """Raise where there are none: what is remembered says nothing about the skin of now."""
+        """Raise where no frames arrive: the remembered ones do not show the present skin."""
         if self._heard_s is None:
             raise CalibrationError("no frames so far: is the driver configured, and does the board send?")
         silent_s = time.monotonic() - self._heard_s

@@ -1,4 +1,4 @@
-"""The board dialogue towards ROS: topic `board`, service `~/query_board`."""
+"""The board in ROS: topic `board`, service `~/query_board`."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class BoardInterface:
         except ActsError as error:
             response.message = f"{error}; {frames}"
             return response
-        # A board that answers and sends nothing of use is no success.
+        # A board that replies but sends no usable frames is no success.
         response.success = has_frames and not session.status.problem
         response.message = (
             f"board {state.board_id}, firmware {version_in_words(state)}, up {state.uptime_us * 1e-6:.1f} s: "

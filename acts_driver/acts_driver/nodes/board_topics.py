@@ -1,4 +1,4 @@
-"""Topics ``board_image`` and ``board_object``: what the board made of its frames by itself."""
+"""Topics ``board_image`` and ``board_object``: what the board recovered itself."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """The node `driver`: board bytes in, TactileSamples out.
 
-Topics: samples, baseline, board, and board_image, board_object with what the board itself finds. Services:
+Topics: samples, baseline, board, and board_image, board_object with what the board recovers itself. Services:
 ~/query_board, ~/calibrate, ~/tare, and those of a life cycle.
 """
 
@@ -183,7 +183,7 @@ class DriverNode(LifecycleNode):
         return ""
 
     def _frames_in_words(self) -> tuple[bool, str]:
-        """Whether nothing is known against the frames that come, and what is known; at most a second old."""
+        """Whether the frames are good, and their report in words; at most a second old."""
         if self.intake is None:
             return False, f"not configured: {self._problem or 'nothing is read'}"
         if self._reported is None:

@@ -15,14 +15,14 @@ from acts_driver.stream import FrameStream
 from acts_ros.diagnostics import Report
 
 VERDICT_S = 1.0
-"""Longest time that starting waits for a board to say who it is, or for it to turn out that it says nothing."""
+"""Longest time that the start waits for a board to identify itself, or to be known not to reply."""
 
 Consume = Callable[[list[tuple[SampleFrame, int]], list[tuple[BoardResult, int]]], None]
 """Takes frames, and results of the board, each with its stamp [ns]; on the reader's thread."""
 
 
 class Intake:
-    """All that a driver does between its port and its topics.
+    """The driver without ROS: everything between its port and its topics.
 
     Parameters
     ----------

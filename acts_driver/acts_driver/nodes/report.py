@@ -1,4 +1,4 @@
-"""What the driver says on /diagnostics, from its counters."""
+"""The driver's report on /diagnostics, from its counters."""
 
 from __future__ import annotations
 
@@ -140,7 +140,7 @@ class DriverReport:
         return level, message, values
 
     def _tell_silence(self, added: Totals, message: str) -> None:
-        """On the screen: who starts a driver does not look at its diagnostics first."""
+        """Log silence: a user who starts a driver reads the screen before the diagnostics."""
         if added.frames or not self._reader.connected:
             if added.frames and self._silent_reports >= _SILENT_REPORTS:
                 self._log("info", f"frames again: {message}")
@@ -174,7 +174,7 @@ class DriverReport:
 
 
 def _with_board(level: int, message: str, board: BoardStatus, *, is_needed: bool) -> tuple[int, str]:
-    """What the board says about itself added to what its frames say."""
+    """The report with the board's own state added to that of its frames."""
     if not board.problem:
         return level, message
     if board.is_silent:

@@ -22,10 +22,10 @@ def _subtract(
             result[i] = counts[i]
 
 
-def subtract_plain(
+def subtract_reference(
     indices: NDArray[np.uint16], counts: NDArray[np.uint16], baseline: NDArray[np.float32]
 ) -> NDArray[np.uint16]:
-    """the reference implementation of `BaselineSubtraction.apply`, for frames that fit the array."""
+    """Reference implementation of `BaselineSubtraction.apply`, for frames that fit the array."""
     return np.floor(np.maximum(counts - baseline[indices] + np.float32(0.5), 0)).astype(np.uint16)
 
 
