@@ -22,10 +22,10 @@ from acts_control.ball import (
     TrajectoryConfig,
 )
 from acts_control.ball.controller import BallController, ControlInput, ControllerConfig
-from acts_control.robots import RobotConfig
+from acts_control.robots.ur import UrConfig
 from acts_core.array import COUNT_MAX, ArrayGeometry
+from acts_core.robots import ur5e
 from acts_core.sampling import Sampler, SamplingConfig, measure_in
-from acts_core.ur5e import LEVEL_Q_RAD, tilt_of, wrist_angles_for_tilt
 from acts_recon.settings import ReconstructionSettings
 from acts_sim.ball.ball_plate import JointMotion
 from acts_sim.ball.world import Phase, World, WorldConfig
@@ -55,7 +55,7 @@ class Chain:
     world: WorldConfig = field(default_factory=lambda: WorldConfig(start_after_s=0.1))
     estimator: EstimatorConfig = field(default_factory=EstimatorConfig)
     controller: ControllerConfig = field(default_factory=ControllerConfig)
-    robot: RobotConfig = field(default_factory=RobotConfig)
+    robot: UrConfig = field(default_factory=UrConfig)
     trajectory: TrajectoryConfig = field(default_factory=TrajectoryConfig)
     scheme: str = "tracking"
     method: str = "fusion"
@@ -84,11 +84,11 @@ def run(chain: Chain, limit_s: float = 60.0) -> Recording:
     estimator = BallEstimator(chain.estimator)
     controller = BallController(chain.controller)
     trajectory = Trajectory(chain.trajectory)
-    joints = JointState(LEVEL_Q_RAD, _SPEED_LIMIT_RAD_S, _ACCELERATION_LIMIT_RAD_S2)
+    joints = JointState(ur5e.LEVEL_Q_RAD, _SPEED_LIMIT_RAD_S, _ACCELERATION_LIMIT_RAD_S2)
     servo = Servo()
     control_every = round(1000 / chain.robot.control_rate_hz)
     touches: deque[tuple[int, ContactMeasurement]] = deque()
-    commands: deque[tuple[int, list[float]]] = deque([(0, list(LEVEL_Q_RAD))])
+    commands: deque[tuple[int, list[float]]] = deque([(0, list(ur5e.LEVEL_Q_RAD))])
     recording = Recording()
     started_ms: int | None = None
     for now_ms in range(1, round(limit_s / STEP_S)):
@@ -111,7 +111,7 @@ def run(chain: Chain, limit_s: float = 60.0) -> Recording:
 
         if now_ms % control_every:
             continue
-        tilt = tilt_of(joints.q)
+        tilt = ur5e.tilt_of(joints.q)
         estimator.set_tilt(stamp_ns, *tilt)
         estimate = estimator.state
         ball = Ball(estimate.x_m, estimate.y_m, estimate.vx_m_s, estimate.vy_m_s)
@@ -122,8 +122,8 @@ def run(chain: Chain, limit_s: float = 60.0) -> Recording:
             ControlInput(stamp_ns, BallReport(estimate.stamp_ns, estimate.valid, ball), report, tilt),
             control_every * STEP_S,
         )
-        q_rad = list(LEVEL_Q_RAD)
-        q_rad[_WRISTS[0]], q_rad[_WRISTS[1]] = wrist_angles_for_tilt(LEVEL_Q_RAD, *aim)
+        q_rad = list(ur5e.LEVEL_Q_RAD)
+        q_rad[_WRISTS[0]], q_rad[_WRISTS[1]] = ur5e.wrist_angles_for_tilt(ur5e.LEVEL_Q_RAD, *aim)
         commands.append((now_ms + chain.command_delay_ms, q_rad))
 
         if controller.state.phase.name != "BALANCING":

@@ -24,7 +24,7 @@ from std_srvs.srv import Trigger
 
 from acts_control.ball.plate import acceleration_of
 from acts_control.names import set_stamp
-from acts_core.ur5e import LEVEL_Q_RAD
+from acts_core.robots import ur5e
 from acts_msgs.msg import BalanceStatus, BallReference, BallState, Contact, StreamStatistics
 from acts_ros.qos import STATE, STREAM
 
@@ -87,7 +87,7 @@ class Process:
 class SimulatedRobot(Process):
     """A simulated UR5e, to begin with in the level pose."""
 
-    def __init__(self, host: str, q_rad: Sequence[float] = LEVEL_Q_RAD) -> None:
+    def __init__(self, host: str, q_rad: Sequence[float] = ur5e.LEVEL_Q_RAD) -> None:
         self.host = host
         start = ", ".join(str(angle) for angle in q_rad)
         hooks = ["--hook-port", str(HOOK_PORT), "--unlock-after-s", "0"]

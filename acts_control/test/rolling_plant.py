@@ -23,7 +23,7 @@ from acts_control.ball import (
     TrajectoryConfig,
 )
 from acts_control.ball.controller import BallController, ControlInput, ControllerConfig
-from acts_core.ur5e import LEVEL_Q_RAD, forward_kinematics, tilt_of, wrist_angles_for_tilt
+from acts_core.robots import ur5e
 
 STEP_S = 0.001
 START_NS = 1_700_000_000_000_000_000
@@ -57,8 +57,8 @@ class Plant:
     """Steps of 1 ms."""
 
     config: PlantConfig
-    q: list[float] = field(default_factory=lambda: list(LEVEL_Q_RAD))
-    command: list[float] = field(default_factory=lambda: list(LEVEL_Q_RAD))
+    q: list[float] = field(default_factory=lambda: list(ur5e.LEVEL_Q_RAD))
+    command: list[float] = field(default_factory=lambda: list(ur5e.LEVEL_Q_RAD))
 
     def __post_init__(self) -> None:
         self.x, self.y, self.vx, self.vy = self.config.x_m, self.config.y_m, 0.0, 0.0
@@ -72,7 +72,7 @@ class Plant:
         # A level pose that is a little off: the true pose differs from what the joints say.
         q = list(self.q)
         q[3] += self.config.level_error_rad
-        pose = forward_kinematics(q)
+        pose = ur5e.forward_kinematics(q)
         return pose[:3, :3], pose[:3, 3] + self.config.height_m * pose[:3, 2]
 
     def step(self) -> None:
@@ -178,18 +178,18 @@ def run(
             report = BallReport(s.stamp_ns, s.valid, Ball(s.x_m, s.y_m, s.vx_m_s, s.vy_m_s))
         reference = plan.at(clock_s)
         if row % every == 0:
-            tilt = tilt_of(plant.q)
+            tilt = ur5e.tilt_of(plant.q)
             estimator.set_tilt(now_ns, *tilt)
             new = refer(time_s, ReferenceReport(now_ns, reference.reference))
             referred = new if new is not None else referred
             inputs = ControlInput(now_ns, report, referred, tilt)
             wanted = controller.step(inputs, 1.0 / control_hz)
-            plant.command[3:5] = wrist_angles_for_tilt(LEVEL_Q_RAD, *wanted)
+            plant.command[3:5] = ur5e.wrist_angles_for_tilt(ur5e.LEVEL_Q_RAD, *wanted)
         if controller.state.phase is Phase.BALANCING:
             clock_s += STEP_S
         times[row] = time_s
         errors[row] = 1e3 * hypot(plant.x - reference.reference.x_m, plant.y - reference.reference.y_m)
-        tilts[row] = np.rad2deg(hypot(*tilt_of(plant.q)))
+        tilts[row] = np.rad2deg(hypot(*ur5e.tilt_of(plant.q)))
         segments.append("end" if reference.finished else reference.segment)
         phases.append(controller.state.phase)
     return Run(times, errors, segments, tilts, phases)

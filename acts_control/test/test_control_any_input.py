@@ -30,6 +30,7 @@ from acts_control.ball.nodes.ball_control_node import BallControlNode
 from acts_control.ball.nodes.ball_state_node import BallStateNode
 from acts_control.ball.nodes.ball_trajectory_node import BallTrajectoryNode
 from acts_control.ball.plate import acceleration_of
+from acts_control.robots.base import TiltGate
 from acts_msgs.msg import BalanceStatus, BallReference, BallState
 from acts_ros.messages import ContactFields, write_contact
 
@@ -79,6 +80,7 @@ class Loop:
 
     def __init__(self) -> None:
         self.controller = BallController(CONFIG)
+        self.gate = TiltGate(CONFIG)
         self.estimator = BallEstimator(EstimatorConfig(lever_arm_m=0.0))
         self.now_ns = START_NS
         self.tilt = self.rate = (0.0, 0.0)
@@ -91,6 +93,8 @@ class Loop:
         inputs = ControlInput(self.now_ns, self.ball, self.reference, self.tilt)
         tilt = self.controller.step(inputs, DT)
         assert all(map(isfinite, tilt))
+        assert self.gate.fault(tilt, DT) == ""
+        self.gate.sent(tilt)
         assert hypot(*tilt) <= CONFIG.max_tilt_rad + EPSILON
         for new, old in zip(tilt, self.tilt, strict=True):
             assert abs(new - old) <= CONFIG.max_tilt_rate_rad_s * DT + EPSILON
@@ -152,6 +156,8 @@ def test_after_any_input_the_ball_is_held_again(bad: list[Bad], through_estimato
 
 class NoRobot:
     """Nobody connects to it: the control loop is not launched."""
+
+    address = "nowhere"
 
 
 class Nodes:

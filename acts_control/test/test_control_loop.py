@@ -3,31 +3,33 @@
 import itertools
 import threading
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 
 import pytest
 
 from acts_control.ball import Ball, BallReport, ControlLoop, LoopConfig, Phase, Reference, ReferenceReport
 from acts_control.ball.controller import BallController
-from acts_control.robots import RobotConfig, RobotReading, RobotStoppedError
+from acts_control.robots import with_robots
+from acts_control.robots.base import CommandRefusedError, RobotReading, RobotStoppedError
+from acts_control.robots.ur import UrConfig
 from acts_core.errors import RobotError, SettingsError
-from acts_core.ur5e import LEVEL_Q_RAD, tilt_of
 
 DEADLINE_S = 20.0
-ORDERLY_END = ["end_servo", "end_program", "disconnect"]
+ORDERLY_END = ["end_tilting", "release", "disconnect"]
 
 
 class ArmInProcess:
-    """Follows at once; notes the calls; can be made to fail."""
+    """A plate on two joints that follows at once; notes the calls; can be made to fail."""
+
+    address = "in this process"
 
     def __init__(self) -> None:
-        self.q = [0.1, *LEVEL_Q_RAD[1:]]
+        self.q = (0.1, 0.0)
         self.calls: list[str] = []
-        self.commands: list[tuple[float, ...]] = []
+        self.commands: list[tuple[float, float]] = []
         self.connect_errors: list[RobotError] = []
         self.connected = True
-        self.safety_bits = 1
-        self.runtime_state = 2
+        self.stopped = ""
         self.frozen = False
         self.moves = True
         self.refuses: Callable[[], None] | None = None
@@ -44,28 +46,29 @@ class ArmInProcess:
     def read(self) -> RobotReading:
         if not self.frozen:
             self._timestamp = 0.002 * next(self._time)
-        return RobotReading(self.connected, self._timestamp, tuple(self.q), self.safety_bits, self.runtime_state)
+        return RobotReading(self.connected, self._timestamp, self.q, max(map(abs, self.q)), self.q, self.stopped)
 
-    def begin_move(self, q_rad: Sequence[float]) -> None:
-        self.calls.append("begin_move")
+    def begin_levelling(self) -> float:
+        self.calls.append("begin_levelling")
         if self.moves:
-            self.q = list(q_rad)
+            self.q = (0.0, 0.0)
+        return DEADLINE_S
 
-    def end_move(self) -> None:
-        self.calls.append("end_move")
+    def end_levelling(self) -> None:
+        self.calls.append("end_levelling")
 
-    def servo(self, q_rad: Sequence[float]) -> None:
+    def tilt(self, tilt_x_rad: float, tilt_y_rad: float) -> tuple[float, ...]:
         if self.refuses:
             self.refuses()
-            raise RobotError("servoJ refused")
-        self.commands.append(tuple(q_rad))
-        self.q = list(q_rad)
+        self.q = (tilt_x_rad, tilt_y_rad)
+        self.commands.append(self.q)
+        return self.q
 
-    def end_servo(self) -> None:
-        self.calls.append("end_servo")
+    def end_tilting(self) -> None:
+        self.calls.append("end_tilting")
 
-    def end_program(self) -> None:
-        self.calls.append("end_program")
+    def release(self) -> None:
+        self.calls.append("release")
 
     def disconnect(self) -> None:
         self.calls.append("disconnect")
@@ -128,20 +131,20 @@ def await_stop(loop: ControlLoop) -> str:
 def test_from_connecting_to_balancing_and_back_to_level(arm: ArmInProcess, make: Make) -> None:
     loop = make()
     wait_for(lambda: loop.status.phase is Phase.WAITING, "waiting")
-    assert arm.calls == ["connect", "begin_move"]
+    assert arm.calls == ["connect", "begin_levelling"]
     assert loop.status.reason == "waiting for touch"
     balance(loop)
     assert loop.status.error_m == pytest.approx((0.02, 0.0), abs=1e-3)
     # A ball at +x is brought back by a tilt about -y.
-    assert tilt_of(arm.commands[-1])[1] < 0.0
+    assert arm.commands[-1][1] < 0.0
     assert loop.stop("stopped by request")
     assert await_stop(loop) == "stopped by request"
     wait_for(lambda: arm.calls[-3:] == ORDERLY_END, "the end of the connection")
-    assert tilt_of(arm.commands[-1]) == pytest.approx((0.0, 0.0), abs=1e-5)
+    assert arm.commands[-1] == pytest.approx((0.0, 0.0), abs=1e-5)
     assert not loop.stop("again")
     assert loop.start()
     assert not loop.start()
-    wait_for(lambda: arm.calls.count("begin_move") == 2, "a second start")
+    wait_for(lambda: arm.calls.count("begin_levelling") == 2, "a second start")
 
 
 def test_limits_and_gains_change_while_balancing(arm: ArmInProcess, make: Make) -> None:
@@ -156,7 +159,7 @@ def test_limits_and_gains_change_while_balancing(arm: ArmInProcess, make: Make) 
 
     wait_for(limited, f"the new limit, {loop.status}")
     assert loop.status.phase is Phase.BALANCING
-    tilts = [tilt_of(q)[1] for q in arm.commands[changed_at - 1 :]]
+    tilts = [y for _, y in arm.commands[changed_at - 1 :]]
     # 1 rad/s to begin with, in steps of four periods at most.
     assert max(abs(b - a) for a, b in itertools.pairwise(tilts)) < 0.04
     loop.change(LoopConfig(kp=0.0, kd=0.0, ki=0.0, touch_stale_after_s=1.0, touch_stop_after_s=5.0))
@@ -190,7 +193,7 @@ def test_a_robot_held_by_a_safety_function_is_not_waited_for(arm: ArmInProcess, 
     arm.connect_errors = [RobotStoppedError("protective stop")]
     loop = make()
     assert await_stop(loop) == "protective stop"
-    assert "begin_move" not in arm.calls
+    assert "begin_levelling" not in arm.calls
 
 
 def test_without_autostart_nothing_moves_until_it_is_asked_for(arm: ArmInProcess, make: Make) -> None:
@@ -204,19 +207,20 @@ def test_without_autostart_nothing_moves_until_it_is_asked_for(arm: ArmInProcess
 def test_homing_can_be_broken_off(arm: ArmInProcess, make: Make) -> None:
     arm.moves = False
     loop = make()
-    wait_for(lambda: "begin_move" in arm.calls, "homing")
+    wait_for(lambda: "begin_levelling" in arm.calls, "homing")
     loop.stop("stopped by request")
     assert await_stop(loop) == "stopped by request"
     wait_for(lambda: arm.calls[-1] == "disconnect", "the end of the connection")
-    assert arm.calls == ["connect", "begin_move", "end_move", "end_program", "disconnect"]
+    assert arm.calls == ["connect", "begin_levelling", "end_levelling", "release", "disconnect"]
 
 
 @pytest.mark.parametrize(
     ("fault", "value", "words"),
     [
-        ("safety_bits", 0x404, "robot: protective stop"),
-        ("safety_bits", 0x4C0, "robot: emergency stop"),
-        ("runtime_state", 1, "the robot's program is not running (stopped)"),
+        ("stopped", "robot: protective stop", "robot: protective stop"),
+        ("stopped", "the robot's program is not running (stopped)", "the robot's program is not running (stopped)"),
+        ("q", (float("nan"), 0.0), "the robot reports joint angles (nan, 0.0)"),
+        ("q", (0.0, 0.0, 0.0), "the robot reports 3 joints"),
         ("connected", False, "connection to the robot lost"),
         ("frozen", True, "no data from the robot for"),
     ],
@@ -230,27 +234,32 @@ def test_a_robot_that_stops_gets_no_further_command(
     if when == "balancing":
         balance(loop)
     else:
-        wait_for(lambda: "begin_move" in arm.calls, "homing")
+        wait_for(lambda: "begin_levelling" in arm.calls, "homing")
     setattr(arm, fault, value)
     assert await_stop(loop).startswith(words)
     sent = len(arm.commands)
     loop.close()
-    # Neither servoStop nor stopScript: nothing is sent any more.
-    assert arm.calls == ["connect", "begin_move", "disconnect"]
+    # Neither the end of tilting nor a release: nothing is sent any more.
+    assert arm.calls == ["connect", "begin_levelling", "disconnect"]
     assert len(arm.commands) == sent
 
 
-@pytest.mark.parametrize(("bits", "words"), [(1, "servoJ refused"), (0x404, "robot: protective stop")])
+@pytest.mark.parametrize(("stopped", "words"), [("", "tilt refused"), ("protective stop", "protective stop")])
 def test_a_refused_command_ends_motion_with_the_reason_if_there_is_one(
-    arm: ArmInProcess, make: Make, bits: int, words: str
+    arm: ArmInProcess, make: Make, stopped: str, words: str
 ) -> None:
     loop = make()
     balance(loop)
-    # The command is refused before the stop is told.
-    arm.refuses = lambda: setattr(arm, "safety_bits", bits)
+
+    def refuse() -> None:
+        # The command is refused before the stop is told.
+        arm.stopped = stopped
+        raise RobotError("tilt refused")
+
+    arm.refuses = refuse
     assert await_stop(loop) == words
     loop.close()
-    assert arm.calls == ["connect", "begin_move", "disconnect"]
+    assert arm.calls == ["connect", "begin_levelling", "disconnect"]
 
 
 def test_stale_touch_levels_the_plate_and_ends_the_servo(arm: ArmInProcess, make: Make) -> None:
@@ -259,7 +268,7 @@ def test_stale_touch_levels_the_plate_and_ends_the_servo(arm: ArmInProcess, make
     reason = await_stop(loop)
     assert reason.startswith("touch is stale: the newest is")
     wait_for(lambda: arm.calls[-3:] == ORDERLY_END, "the end of the connection")
-    assert tilt_of(arm.commands[-1]) == pytest.approx((0.0, 0.0), abs=1e-5)
+    assert arm.commands[-1] == pytest.approx((0.0, 0.0), abs=1e-5)
 
 
 def test_a_command_that_is_not_finite_ends_motion_and_is_not_sent(
@@ -288,8 +297,27 @@ def test_a_single_bad_command_levels_the_plate(arm: ArmInProcess, make: Make, mo
 
     monkeypatch.setattr(BallController, "step", once_bad)
     assert "rad off the level pose" in await_stop(loop)
-    assert tilt_of(arm.commands[-1]) == pytest.approx((0.0, 0.0), abs=1e-5)
-    assert max(abs(tilt_of(command)[0]) for command in arm.commands) < 0.2
+    assert arm.commands[-1] == pytest.approx((0.0, 0.0), abs=1e-5)
+    assert max(abs(command[0]) for command in arm.commands) < 0.2
+
+
+@pytest.mark.parametrize(("times", "last_words"), [(1, "joint 4 is too far"), (2, "joint 4 is still too far")])
+def test_what_the_robots_own_check_refuses_levels_the_plate_or_ends_motion_at_once(
+    arm: ArmInProcess, make: Make, times: int, last_words: str
+) -> None:
+    loop = make()
+    balance(loop)
+    words = ["joint 4 is too far", "joint 4 is still too far"][:times]
+
+    def refuse() -> None:
+        if words:
+            raise CommandRefusedError(words.pop(0))
+
+    arm.refuses = refuse
+    assert await_stop(loop) == last_words
+    wait_for(lambda: arm.calls[-3:] == ORDERLY_END, "the end of the connection")
+    is_level = arm.commands[-1] == pytest.approx((0.0, 0.0), abs=1e-5)
+    assert is_level is (times == 1)
 
 
 def test_a_mistake_in_the_program_still_ends_the_robots_program(
@@ -300,7 +328,7 @@ def test_a_mistake_in_the_program_still_ends_the_robots_program(
     monkeypatch.setattr("threading.excepthook", lambda arguments: None)
     monkeypatch.setattr(BallController, "step", lambda self, inputs, dt: 1 / 0)
     assert await_stop(loop) == "the control loop failed"
-    wait_for(lambda: arm.calls[-2:] == ["end_program", "disconnect"], "the end of the robot's program")
+    wait_for(lambda: arm.calls[-2:] == ["release", "disconnect"], "the end of the robot's program")
     assert not loop.start()
 
 
@@ -316,7 +344,7 @@ def test_a_robot_that_does_not_end_its_motion_is_cut_off(
     assert await_stop(loop) == "the robot has not ended its motion within 0.1 s"
     assert not loop.is_stopping
     loop.close()
-    assert arm.calls[-2:] == ["end_servo", "disconnect"]
+    assert arm.calls[-2:] == ["end_tilting", "disconnect"]
 
 
 def test_a_program_that_cannot_be_ended_is_told(arm: ArmInProcess, make: Make, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -326,7 +354,7 @@ def test_a_program_that_cannot_be_ended_is_told(arm: ArmInProcess, make: Make, m
     def fail() -> None:
         raise RobotError("gone")
 
-    monkeypatch.setattr(arm, "end_program", fail)
+    monkeypatch.setattr(arm, "release", fail)
     loop.stop("stopped by request")
     assert await_stop(loop) == "stopped by request; the robot's program may still run: gone"
 
@@ -356,21 +384,22 @@ def test_closing_stops_the_robot_in_order(arm: ArmInProcess, make: Make) -> None
     loop.close()
     assert (loop.status.phase, loop.status.reason) == (Phase.STOPPED, "shutting down")
     assert arm.calls[-3:] == ORDERLY_END
-    assert tilt_of(arm.commands[-1]) == pytest.approx((0.0, 0.0), abs=1e-5)
+    assert arm.commands[-1] == pytest.approx((0.0, 0.0), abs=1e-5)
 
 
 def test_settings_of_the_robot_are_checked() -> None:
     with pytest.raises(SettingsError, match="control_rate_hz = 300: allowed is 125, 250, 500"):
-        RobotConfig(control_rate_hz=300)
+        UrConfig(control_rate_hz=300)
     with pytest.raises(SettingsError, match=r"tilted by 1\.571 rad"):
-        LoopConfig(level_q_rad=(0.0, -1.5708, 1.5708, -1.5708, 0.0, 0.0))
+        UrConfig(level_q_rad=(0.0, -1.5708, 1.5708, -1.5708, 0.0, 0.0))
     with pytest.raises(SettingsError, match="6 values"):
-        LoopConfig(level_q_rad=(0.0,))
+        UrConfig(level_q_rad=(0.0,))
 
 
 @pytest.mark.parametrize("robot_ip", ["192.168.1.10", "127.evil.example.com", "localhost", '127."', ""])
 def test_for_a_simulated_skin_only_a_robot_of_this_machine_is_controlled(robot_ip: str) -> None:
-    with pytest.raises(SettingsError, match=r"nothing is controlled.*sim:=false"):
-        LoopConfig(robot_ip=robot_ip, loopback_only=True)
-    assert LoopConfig(robot_ip="127.0.6.5", loopback_only=True).robot_ip == "127.0.6.5"
-    assert LoopConfig(robot_ip=robot_ip).robot_ip == robot_ip
+    for settings in (UrConfig, with_robots(LoopConfig)):
+        with pytest.raises(SettingsError, match=r"nothing is controlled.*sim:=false"):
+            settings(robot_ip=robot_ip, loopback_only=True)
+        assert settings(robot_ip="127.0.6.5", loopback_only=True).robot_ip == "127.0.6.5"
+        assert settings(robot_ip=robot_ip).robot_ip == robot_ip

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator
 
 import pytest
 import rclpy
@@ -13,30 +13,35 @@ from rclpy.parameter import Parameter
 from acts_control.ball.nodes.ball_control_node import BallControlNode
 from acts_control.ball.nodes.ball_state_node import BallStateNode
 from acts_control.ball.nodes.ball_trajectory_node import BallTrajectoryNode
-from acts_control.robots import RobotReading
+from acts_control.robots.base import RobotReading
 from acts_core.errors import RobotError
 
 
 class NoArm:
     """Is never there."""
 
-    def connect(self) -> None:
+    address = "nowhere"
+    is_busy = False
+
+    def connect(self, is_wanted: Callable[[], bool]) -> None:
         raise RobotError("no arm")
 
     def read(self) -> RobotReading:
         raise RobotError("no arm")
 
-    def begin_move(self, q_rad: Sequence[float]) -> None:
+    def begin_levelling(self) -> float:
         raise RobotError("no arm")
 
-    def end_move(self) -> None: ...
+    def end_levelling(self) -> None: ...
 
-    def servo(self, q_rad: Sequence[float]) -> None:
+    def tilt(self, tilt_x_rad: float, tilt_y_rad: float) -> tuple[float, ...]:
         raise RobotError("no arm")
 
-    def end_servo(self) -> None: ...
+    def end_tilting(self) -> None: ...
 
-    def disconnect(self, *, lost: bool) -> None: ...
+    def release(self) -> None: ...
+
+    def disconnect(self) -> None: ...
 
 
 @pytest.fixture

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 from control_rig import Bench, Process, RollingBall, SimulatedRobot, node_command, wait_for
 
-from acts_core.ur5e import LEVEL_Q_RAD, tilt_of
+from acts_core.robots import ur5e
 from acts_msgs.msg import BalanceStatus
 
 CONNECTING, HOMING = BalanceStatus.STATE_CONNECTING, BalanceStatus.STATE_HOMING
@@ -54,7 +54,7 @@ def balancing_process(tmp_path: Path, robot: SimulatedRobot, domain: int, trajec
 
 def tilt(robot: SimulatedRobot) -> float:
     """How far the plate of the simulated robot is from level [rad]."""
-    return math.hypot(*tilt_of(robot.state()["q_rad"]))
+    return math.hypot(*ur5e.tilt_of(robot.state()["q_rad"]))
 
 
 def test_a_ball_is_held_and_led_and_a_signal_stops_the_robot_in_order(tmp_path: Path) -> None:
@@ -71,8 +71,8 @@ def test_a_ball_is_held_and_led_and_a_signal_stops_the_robot_in_order(tmp_path: 
             status = bench.statuses[-1]
             assert status.header.frame_id == "plate"
             assert math.hypot(status.error.x, status.error.y) < 0.01
-            assert list(status.joints_commanded[:3]) == pytest.approx(LEVEL_Q_RAD[:3], abs=1e-6)
-            assert tilt_of(status.joints_commanded) == pytest.approx(
+            assert list(status.joints_commanded[:3]) == pytest.approx(ur5e.LEVEL_Q_RAD[:3], abs=1e-6)
+            assert ur5e.tilt_of(status.joints_commanded) == pytest.approx(
                 (status.tilt_commanded.x, status.tilt_commanded.y), abs=1e-9
             )
             assert status.touch_age < 0.3
@@ -188,13 +188,15 @@ def test_a_controller_that_vanishes_and_comes_back(tmp_path: Path) -> None:
 
 
 def test_homing_from_another_pose_and_a_second_client(tmp_path: Path) -> None:
-    elsewhere = [angle + offset for angle, offset in zip(LEVEL_Q_RAD, (0.4, -0.1, 0.2, 0.0, -0.3, 0.1), strict=True)]
+    elsewhere = [
+        angle + offset for angle, offset in zip(ur5e.LEVEL_Q_RAD, (0.4, -0.1, 0.2, 0.0, -0.3, 0.1), strict=True)
+    ]
     with SimulatedRobot("127.0.2.6", elsewhere) as robot, Bench(69) as bench:
         bench.start()
         with balancing_process(tmp_path, robot, 69) as process:
             bench.await_phase(WAITING)
             assert bench.statuses[-1].reason == "waiting for touch"
-            assert robot.state()["q_rad"] == pytest.approx(LEVEL_Q_RAD, abs=2e-3)
+            assert robot.state()["q_rad"] == pytest.approx(ur5e.LEVEL_Q_RAD, abs=2e-3)
             # Another program must not take the robot over, and this one tells why it cannot.
             with Process(*node_command("ball_control_node", robot_ip=robot.host), domain=68) as second:
                 has_it = f"robot {robot.host} is controlled by process {process.process.pid} ("

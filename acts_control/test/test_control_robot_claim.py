@@ -5,12 +5,11 @@ import sys
 
 import pytest
 
-from acts_control.robots import RobotTakenError
-from acts_control.robots.robot_claim import RobotClaim
+from acts_control.robots.base import RobotClaim, RobotTakenError
 
 HOLDER = """
 import sys
-from acts_control.robots.robot_claim import RobotClaim
+from acts_control.robots.base import RobotClaim
 claim = RobotClaim("127.0.9.1")
 print("claimed", flush=True)
 sys.stdin.read()

@@ -8,53 +8,59 @@ from acts_control.ball import Ball, BallReport, Phase, Reference, ReferenceRepor
 from acts_control.ball.controller import BallController, ControlInput, ControllerConfig
 from acts_control.ball.plate import acceleration_of
 from acts_control.ball.prediction import TiltHistory
-from acts_control.robots import CommandGate, RobotReading, RobotWatch, SafetyConfig, touch_age_s
+from acts_control.robots.base import RobotReading, RobotWatch, SafetyConfig, TiltGate, TiltLimits, touch_age_s
 from acts_core.errors import SettingsError
-from acts_core.ur5e import LEVEL_Q_RAD
 
 NOW_NS = 1_700_000_000_000_000_000
 MS = 1_000_000
 DT = 0.004
 NAN = float("nan")
 LEVEL = (0.0, 0.0)
-NORMAL = RobotReading(connected=True, timestamp_s=0.0, q_rad=LEVEL_Q_RAD, safety_bits=1, runtime_state=2)
-
-
-def pose(wrist_1: float = 0.0, wrist_2: float = 0.0, elbow: float = 0.0) -> list[float]:
-    q = list(LEVEL_Q_RAD)
-    q[2] += elbow
-    q[3] += wrist_1
-    q[4] += wrist_2
-    return q
+NORMAL = RobotReading(connected=True, time_s=0.0, joints=(0.0, 0.0), off_level=0.0, tilt_rad=LEVEL)
 
 
 # --- the gate
 
 
-def test_the_gate_lets_small_tilts_pass() -> None:
-    gate = CommandGate(SafetyConfig(), LEVEL_Q_RAD)
-    for k in range(4):
-        assert gate.fault(pose(0.03 * k, -0.03 * k)) == ""
+def test_the_gate_lets_tilts_pass_up_to_the_limits() -> None:
+    gate = TiltGate(TiltLimits(max_tilt_rad=0.1, max_tilt_rate_rad_s=1.0))
+    for k in range(25):
+        tilt = (DT * k, 0.0)
+        assert gate.fault(tilt, DT) == ""
+        gate.sent(tilt)
 
 
 @pytest.mark.parametrize(
-    ("q", "words"),
+    ("tilt", "words"),
     [
-        (pose(NAN), "joint 3 is nan"),
-        (pose(0.0, math.inf), "joint 4 is inf"),
-        (pose(0.0, 0.0, NAN), "joint 2 is nan"),
-        (pose(0.2), "joint 3 is \\+0.2000 rad off the level pose, allowed is 0.14"),
-        (pose(0.0, -0.2), "joint 4 is -0.2000 rad off"),
-        (pose(0.0, 0.0, 0.001), "joint 2 is \\+0.0010 rad off"),
-        (pose(0.1), "joint 3 jumps by \\+0.1000 rad, allowed is 0.05"),
-        (pose()[:5], "5 joints"),
+        ((NAN, 0.0), "tilt = (nan, 0.0) rad: only finite"),
+        ((0.0, -math.inf), "tilt = (0.0, -inf) rad: only finite"),
+        ((0.09, 0.09), "is 0.1273 rad off the level pose, allowed is 0.1100"),
+        ((0.0, -0.2), "is 0.2000 rad off the level pose"),
+        ((0.03, 0.0), "jumps by 0.0200 rad, allowed is 0.0062"),
+        ((-0.01, 0.0), "jumps by 0.0200 rad"),
     ],
 )
-def test_the_gate_stops_what_must_not_reach_the_robot(q: list[float], words: str) -> None:
-    gate = CommandGate(SafetyConfig(), LEVEL_Q_RAD)
-    with pytest.raises(AssertionError, match=words):
-        assert gate.fault(q) == ""
-    assert gate.fault(pose()) == ""
+def test_the_gate_stops_what_must_not_reach_the_robot(tilt: tuple[float, float], words: str) -> None:
+    gate = TiltGate(TiltLimits(max_tilt_rad=0.1, max_tilt_rate_rad_s=1.0))
+    assert gate.fault((0.01, 0.0), 0.01) == ""
+    gate.sent((0.01, 0.0))
+    assert words in gate.fault(tilt, DT)
+    # It counts from what was sent last, and the time since then.
+    assert gate.fault((0.02, 0.0), 2 * DT) == ""
+
+
+def test_where_limits_are_tightened_the_gate_lets_the_plate_come_back() -> None:
+    gate = TiltGate(TiltLimits(max_tilt_rad=0.1, max_tilt_rate_rad_s=1.0))
+    for tilt_x in (0.05, 0.1):
+        assert gate.fault((tilt_x, 0.0), 0.05) == ""
+        gate.sent((tilt_x, 0.0))
+    gate.limits = TiltLimits(max_tilt_rad=0.02, max_tilt_rate_rad_s=0.1)
+    for tilt_x in (0.096, 0.0955, 0.05, 0.015):
+        assert gate.fault((tilt_x, 0.0), 0.004 if tilt_x > 0.09 else 0.4) == ""
+        gate.sent((tilt_x, 0.0))
+    assert "jumps" in gate.fault((0.011, 0.0), DT)
+    assert "off the level pose, allowed is 0.0220" in gate.fault((0.03, 0.0), 1.0)
 
 
 # --- the watch
@@ -64,14 +70,11 @@ def test_the_gate_stops_what_must_not_reach_the_robot(q: list[float], words: str
     ("changes", "words"),
     [
         ({"connected": False}, "connection to the robot lost"),
-        ({"safety_bits": 0x404}, "robot: protective stop"),
-        ({"safety_bits": 0x4C0}, "robot: emergency stop"),
-        ({"safety_bits": 0x410}, "robot: safeguard stop"),
-        ({"runtime_state": 1}, "the robot's program is not running (stopped)"),
+        ({"stopped": "robot: protective stop"}, "robot: protective stop"),
         ({"waiting_s": 0.25}, "the robot has not taken a command for 0.25 s"),
-        ({"runtime_state": 4}, "the robot's program is not running (paused)"),
-        ({"q_rad": (NAN,) * 6}, "the robot reports joint angles (nan, nan, nan, nan, nan, nan)"),
-        ({"q_rad": (0.0,) * 5}, "the robot reports joint angles (0.0, 0.0, 0.0, 0.0, 0.0)"),
+        ({"joints": (NAN, 0.0)}, "the robot reports joint angles (nan, 0.0)"),
+        ({"joints": (0.0,) * 5}, "the robot reports 5 joints, and 2 before"),
+        ({"tilt_rad": (0.0, math.inf)}, "the robot reports a tilt of (0.0, inf) rad"),
     ],
 )
 def test_the_watch_tells_why_the_robot_stopped(changes: dict[str, object], words: str) -> None:
@@ -83,8 +86,8 @@ def test_the_watch_tells_why_the_robot_stopped(changes: dict[str, object], words
 def test_a_clock_that_stands_still_is_a_lost_connection() -> None:
     watch = RobotWatch(SafetyConfig(robot_stale_after_s=0.1))
     for k in range(100):
-        assert watch.step(NORMAL._replace(timestamp_s=0.008 * (k // 2)), DT) == ""
-    words = [watch.step(NORMAL._replace(timestamp_s=1.0), DT) for _ in range(30)]
+        assert watch.step(NORMAL._replace(time_s=0.008 * (k // 2)), DT) == ""
+    words = [watch.step(NORMAL._replace(time_s=1.0), DT) for _ in range(30)]
     assert words[24] == ""
     assert words[27].startswith("no data from the robot for 0.1")
 
@@ -357,10 +360,10 @@ def test_the_tilt_stays_within_its_limit_whatever_the_error() -> None:
 @pytest.mark.parametrize(
     ("settings", "words"),
     [
-        ({"max_wrist_offset_rad": 0.1}, "max_wrist_offset_rad = 0.1: allowed is 0.1152 or more"),
         ({"kd": NAN}, "kd = nan"),
+        ({"max_tilt_rad": 0.4}, "max_tilt_rad = 0.4: allowed is 0.001 to 0.35"),
     ],
 )
-def test_settings_that_contradict_each_other_are_refused(settings: dict[str, float], words: str) -> None:
+def test_settings_out_of_range_are_refused(settings: dict[str, float], words: str) -> None:
     with pytest.raises(SettingsError, match=words):
         ControllerConfig(**settings)

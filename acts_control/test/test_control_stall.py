@@ -19,12 +19,14 @@ import pytest
 from control_rig import Bench, Process, RollingBall, SimulatedRobot, node_command, wait_for
 from diagnostic_msgs.msg import DiagnosticArray
 
-import acts_control.robots.robot
+import acts_control.robots.ur.robot
 from acts_control.ball import Ball, BallReport, ControlLoop, LoopConfig, Phase
 from acts_control.ball.controller import ReferenceReport
 from acts_control.ball.pid import Reference
-from acts_control.robots import RobotReading, UrRobot
-from acts_core.ur5e import tilt_of
+from acts_control.robots import with_robots
+from acts_control.robots.base import RobotReading
+from acts_control.robots.ur import UrRobot
+from acts_core.robots import ur5e
 from acts_msgs.msg import BalanceStatus
 
 # Within it the end of motion must have been told: a few steps after it counts as stale where the machine is not loaded.
@@ -44,7 +46,7 @@ class Arm(UrRobot):
 
     def read(self) -> RobotReading:
         reading = super().read()
-        self.time_s = reading.timestamp_s
+        self.time_s = reading.time_s
         return reading
 
     @property
@@ -58,7 +60,7 @@ class Rig:
 
     def __init__(self, host: str, stack: ExitStack, stale_after_s: float = 0.8) -> None:
         self.simulated = stack.enter_context(SimulatedRobot(host))
-        config = LoopConfig(
+        config = with_robots(LoopConfig)(
             robot_ip=host,
             robot_stale_after_s=stale_after_s,
             touch_stale_after_s=1.0,
@@ -112,7 +114,7 @@ def stall(rig: Rig, stall_s: float, meanwhile: Callable[[Rig], None]) -> tuple[f
     told_s = time.monotonic() - paused_s
     assert told_s > 0.1
     wait_for(lambda: rig.arm.is_over, "the end of the connection", TOLD_WITHIN_S)
-    stalled_s, aim = rig.arm.time_s, rig.loop.status.joints_rad
+    stalled_s, aim = rig.arm.time_s, rig.loop.status.joints
     assert not rig.loop.stop("stopped by request")
     meanwhile(rig)
     time.sleep(max(stall_s - (time.monotonic() - paused_s), 0.0))
@@ -185,8 +187,8 @@ def began_anew(rig: Rig, ended_s: float) -> None:
 def test_a_stall_while_connecting_holds_up_nobody(monkeypatch: pytest.MonkeyPatch) -> None:
     with ExitStack() as stack:
         asked: list[bool] = []
-        probe = acts_control.robots.robot.probe
-        monkeypatch.setattr(acts_control.robots.robot, "_CONNECT_TIMEOUT_S", 0.5)
+        probe = acts_control.robots.ur.robot.probe
+        monkeypatch.setattr(acts_control.robots.ur.robot, "_CONNECT_TIMEOUT_S", 0.5)
 
         def probe_and_pause(host: str) -> None:
             probe(host)
@@ -194,12 +196,12 @@ def test_a_stall_while_connecting_holds_up_nobody(monkeypatch: pytest.MonkeyPatc
             # At the worst moment: the library connects next, and waits for an answer with Python's lock in its hand.
             rig.pause()
 
-        monkeypatch.setattr(acts_control.robots.robot, "probe", probe_and_pause)
+        monkeypatch.setattr(acts_control.robots.ur.robot, "probe", probe_and_pause)
         rig = Rig("127.0.17.10", stack)
         wait_for(lambda: "watch: no answer" in rig.loop.status.reason, f"the reason, {rig.loop.status}")
         assert rig.loop.status.phase is Phase.CONNECTING
         assert rig.arm.is_over
-        monkeypatch.setattr(acts_control.robots.robot, "probe", probe)
+        monkeypatch.setattr(acts_control.robots.ur.robot, "probe", probe)
         wait_for(lambda: "does it stand still?" in rig.loop.status.reason, f"the reason, {rig.loop.status}")
         rig.resume()
         rig.balance()
@@ -230,11 +232,10 @@ def test_a_controller_that_stalls_while_motion_ends_is_lost_too() -> None:
 def test_the_robots_program_ends_when_our_process_is_killed() -> None:
     program = """
 import os, signal, sys
-from acts_control.robots.robot import RobotConfig, UrRobot
-from acts_core.ur5e import LEVEL_Q_RAD
-robot = UrRobot(RobotConfig(robot_ip=sys.argv[1]))
+from acts_control.robots.ur import UrConfig, UrRobot
+robot = UrRobot(UrConfig(robot_ip=sys.argv[1]))
 robot.connect(lambda: True)
-robot.servo(LEVEL_Q_RAD)
+robot.tilt(0.0, 0.0)
 while robot.is_busy:
     pass
 os.kill(os.getpid(), signal.SIGKILL)
@@ -260,7 +261,7 @@ def test_the_node_tells_a_stall_and_answers_during_it(tmp_path: Path) -> None:
         command = node_command("ball_balancing", "--set", f"ball_control.robot_ip={robot.host}")
         with Process(*command, "--params-file", str(settings), domain=170):
             bench.await_phase(BalanceStatus.STATE_BALANCING)
-            wait_for(lambda: abs(tilt_of(robot.state()["q_rad"])[1]) > 0.005, "a tilt")
+            wait_for(lambda: abs(ur5e.tilt_of(robot.state()["q_rad"])[1]) > 0.005, "a tilt")
             robot.process.send_signal(signal.SIGSTOP)
             stopped = bench.await_phase(BalanceStatus.STATE_STOPPED, TOLD_WITHIN_S)
             assert stopped.reason.startswith("no data from the robot for 0.")

@@ -1,7 +1,12 @@
-"""Before anything is begun with a controller: does it answer? Addresses 127.0.17.20 to 127.0.17.29."""
+"""The UR5e without its library: does its controller answer, what is said of its state, what its gate refuses.
+
+Addresses 127.0.17.20 to 127.0.17.29.
+"""
 
 from __future__ import annotations
 
+import math
+import re
 import socket
 import threading
 from collections.abc import Iterator
@@ -10,11 +15,16 @@ from types import SimpleNamespace
 
 import pytest
 
-from acts_control.robots import RobotConfig, UrRobot
-from acts_control.robots.ur_probe import DASHBOARD_PORT, RTDE_PORT, SCRIPT_PORT, probe
-from acts_core.errors import RobotError
+from acts_control.robots.base import CommandRefusedError
+from acts_control.robots.ur import UrConfig, UrRobot
+from acts_control.robots.ur.gate import JointGate
+from acts_control.robots.ur.state import UrState
+from acts_control.robots.ur.ur_probe import DASHBOARD_PORT, RTDE_PORT, SCRIPT_PORT, probe
+from acts_core.errors import RobotError, SettingsError
+from acts_core.robots import ur5e
 
 HOST = "127.0.17.20"
+NAN = float("nan")
 VERSION = b"\x00\x04V\x01"
 GREETING = b"Connected: Universal Robots Dashboard Server\n"
 
@@ -76,19 +86,110 @@ def test_something_else_at_the_port(stack: ExitStack, pieces: list[bytes]) -> No
 
 
 def test_no_new_connection_before_the_former_has_ended(monkeypatch: pytest.MonkeyPatch) -> None:
-    robot = UrRobot(RobotConfig(robot_ip=HOST))
+    robot = UrRobot(UrConfig(robot_ip=HOST))
     monkeypatch.setattr(robot, "_process", SimpleNamespace(pid=4711, poll=lambda: None))
     with pytest.raises(RobotError, match=r"waiting for the end of the former connection \(process 4711\)"):
         robot.connect(lambda: True)
 
 
 def test_without_a_connection_nothing_is_commanded() -> None:
-    robot = UrRobot(RobotConfig(robot_ip=HOST))
-    robot.end_program()
+    robot = UrRobot(UrConfig(robot_ip=HOST))
+    robot.release()
     robot.disconnect()
     assert not robot.is_busy
-    for call in (robot.read, robot.end_servo, lambda: robot.servo([0.0] * 6)):
+    assert robot.address == HOST
+    for call in (robot.read, robot.begin_levelling, robot.end_tilting, lambda: robot.tilt(0.0, 0.01)):
         with pytest.raises(RobotError, match="not connected"):
             call()
-    with pytest.raises(RobotError, match="six finite numbers"):
-        robot.servo([0.0, 0.0, float("nan"), 0.0, 0.0, 0.0])
+
+
+@pytest.mark.parametrize(
+    ("tilt", "words"),
+    [
+        ((float("nan"), 0.0), "tilt = (nan, 0.0) rad"),
+        ((0.0, float("inf")), "tilt = (0.0, inf) rad"),
+        ((1.0, 0.0), "tilt = (1.0, 0.0) rad"),
+        ((0.2, 0.0), "rad off the level pose, allowed is 0.14"),
+        ((0.0, 0.1), "jumps by"),
+    ],
+)
+def test_the_arm_refuses_tilts_that_its_joints_must_not_make(tilt: tuple[float, float], words: str) -> None:
+    # Nothing is sent, or it would say that it is not connected.
+    with pytest.raises(CommandRefusedError, match=re.escape(words)):
+        UrRobot(UrConfig(robot_ip=HOST)).tilt(*tilt)
+
+
+def test_the_limit_of_the_wrists_is_not_within_that_of_the_tilt() -> None:
+    with pytest.raises(SettingsError, match=r"max_wrist_offset_rad = 0.1: allowed is 0.1152 or more"):
+        UrConfig(max_wrist_offset_rad=0.1)
+
+
+# --- the gate
+
+
+def pose(wrist_1: float = 0.0, wrist_2: float = 0.0, elbow: float = 0.0) -> list[float]:
+    q = list(ur5e.LEVEL_Q_RAD)
+    q[2] += elbow
+    q[3] += wrist_1
+    q[4] += wrist_2
+    return q
+
+
+def test_the_gate_lets_small_tilts_pass() -> None:
+    gate = JointGate(UrConfig())
+    for k in range(4):
+        assert gate.fault(pose(0.03 * k, -0.03 * k)) == ""
+
+
+@pytest.mark.parametrize(
+    ("q", "words"),
+    [
+        (pose(NAN), "joint 3 is nan"),
+        (pose(0.0, math.inf), "joint 4 is inf"),
+        (pose(0.0, 0.0, NAN), "joint 2 is nan"),
+        (pose(0.2), "joint 3 is \\+0.2000 rad off the level pose, allowed is 0.14"),
+        (pose(0.0, -0.2), "joint 4 is -0.2000 rad off"),
+        (pose(0.0, 0.0, 0.001), "joint 2 is \\+0.0010 rad off"),
+        (pose(0.1), "joint 3 jumps by \\+0.1000 rad, allowed is 0.05"),
+        (pose()[:5], "5 joints"),
+    ],
+)
+def test_the_gate_stops_angles_that_must_not_reach_the_robot(q: list[float], words: str) -> None:
+    gate = JointGate(UrConfig())
+    with pytest.raises(AssertionError, match=words):
+        assert gate.fault(q) == ""
+    assert gate.fault(pose()) == ""
+
+
+# --- what the controller says, in words
+
+
+STATE = UrState(connected=True, timestamp_s=2.5, q_rad=ur5e.LEVEL_Q_RAD, safety_bits=1, runtime_state=2)
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({}, ""),
+        ({"safety_bits": 0x404}, "robot: protective stop"),
+        ({"safety_bits": 0x4C0}, "robot: emergency stop"),
+        ({"safety_bits": 0x410}, "robot: safeguard stop"),
+        ({"runtime_state": 1}, "the robot's program is not running (stopped)"),
+        ({"runtime_state": 4}, "the robot's program is not running (paused)"),
+        ({"q_rad": (NAN,) * 6}, "the robot reports joint angles (nan, nan, nan, nan, nan, nan)"),
+        ({"q_rad": (math.inf,) * 6}, "the robot reports joint angles (inf, inf, inf, inf, inf, inf)"),
+        ({"q_rad": (0.0,) * 5}, "the robot reports joint angles (0.0, 0.0, 0.0, 0.0, 0.0)"),
+    ],
+)
+def test_why_the_arm_does_not_do_what_it_is_told(changes: dict[str, object], words: str) -> None:
+    assert STATE._replace(**changes).reading(UrConfig()).stopped == words  # type: ignore[arg-type]
+
+
+def test_a_reading_has_the_plates_tilt_and_how_far_the_arm_is_from_level() -> None:
+    q_rad = list(ur5e.LEVEL_Q_RAD)
+    q_rad[3:5] = ur5e.wrist_angles_for_tilt(q_rad, 0.02, -0.03, 0.7)
+    q_rad[0] += 0.4
+    reading = STATE._replace(q_rad=tuple(q_rad)).reading(UrConfig(mount_yaw_rad=0.7), 0.1)
+    assert reading.tilt_rad == pytest.approx((0.02, -0.03))
+    assert reading.off_level == pytest.approx(0.4)
+    assert (reading.connected, reading.time_s, reading.joints, reading.waiting_s) == (True, 2.5, tuple(q_rad), 0.1)

@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from acts_core import ur5e
 from acts_core.errors import ArrayError
+from acts_core.robots import ur5e
 
 ANGLE = st.floats(-pi, pi)
 TILT = st.floats(-0.3, 0.3)

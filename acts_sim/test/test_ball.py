@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from acts_core.errors import SettingsError
-from acts_core.ur5e import LEVEL_Q_RAD, forward_kinematics, wrist_angles_for_tilt
+from acts_core.robots import ur5e
 from acts_sim.ball import ball, ball_plate
 from acts_sim.ball.ball import BallConfig, BallState
 from acts_sim.ball.ball_kernels import STANDARD_GRAVITY_M_S2 as G
@@ -27,8 +27,8 @@ def plate(
 
 def tilted(tilt_x_rad: float, tilt_y_rad: float, config: PlateConfig | None = None) -> PlateMotion:
     config = config or PlateConfig()
-    q_rad = np.array(LEVEL_Q_RAD)
-    q_rad[3], q_rad[4] = wrist_angles_for_tilt(LEVEL_Q_RAD, tilt_x_rad, tilt_y_rad, config.mount_yaw_rad)
+    q_rad = np.array(ur5e.LEVEL_Q_RAD)
+    q_rad[3], q_rad[4] = ur5e.wrist_angles_for_tilt(ur5e.LEVEL_Q_RAD, tilt_x_rad, tilt_y_rad, config.mount_yaw_rad)
     return ball_plate.motion(config, JointMotion.still(q_rad))
 
 
@@ -148,7 +148,7 @@ def test_the_plate_is_where_the_kinematics_of_the_arm_say() -> None:
     c, s = math.cos(0.4), math.sin(0.4)
     mount = np.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, 0.03], [0, 0, 0, 1]])
     for q_rad in np.random.default_rng(3).uniform(-3, 3, (50, 6)):
-        expected = forward_kinematics(q_rad) @ mount
+        expected = ur5e.forward_kinematics(q_rad) @ mount
         rotation, origin_m = ball_plate.pose(config, q_rad)
         np.testing.assert_allclose(rotation, expected[:3, :3], atol=1e-12)
         np.testing.assert_allclose(origin_m, expected[:3, 3], atol=1e-12)
@@ -162,7 +162,7 @@ def test_the_plates_motion_is_the_derivative_of_its_pose() -> None:
     def joints(time_s: float) -> JointMotion:
         phase = rate * time_s
         return JointMotion(
-            np.array(LEVEL_Q_RAD) + 0.2 * np.sin(phase), 0.2 * rate * np.cos(phase), -0.2 * rate**2 * np.sin(phase)
+            np.array(ur5e.LEVEL_Q_RAD) + 0.2 * np.sin(phase), 0.2 * rate * np.cos(phase), -0.2 * rate**2 * np.sin(phase)
         )
 
     time_s, h = 0.37, 1e-4
@@ -180,7 +180,7 @@ def test_the_plates_motion_is_the_derivative_of_its_pose() -> None:
 def test_terms_of_the_turning_frame_are_small_at_the_pace_of_balancing() -> None:
     """What the simpler law 5/7 (g - a) leaves out: under 0.01 g at 0.2 rad/s, and the turn's own change counts most."""
     config = PlateConfig()
-    q_rad = np.array(LEVEL_Q_RAD)
+    q_rad = np.array(ur5e.LEVEL_Q_RAD)
     slow = ball_plate.motion(config, JointMotion(q_rad, np.array([0, 0, 0, 0.2, 0.2, 0]), np.zeros(6)))
     state = ball.step(FREE, BallState(0.05, 0.05, 0.1, 0.1), slow, DT_S)
     simple = 5 / 7 * slow.rows[0][:2] * DT_S

@@ -19,8 +19,8 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 
 from acts_core.errors import REFUSED_EXIT_CODE
+from acts_core.robots import ur5e
 from acts_core.skin import ForceResponse
-from acts_core.ur5e import LEVEL_Q_RAD, wrist_angles_for_tilt
 from acts_ros import qos
 from acts_sim.ball.joint_follower import JOINT_RING_WIDTH
 from acts_sim.shared import TimedRingReader, TimedRingWriter
@@ -101,8 +101,8 @@ def observer(request: pytest.FixtureRequest) -> Iterator[Observer]:
 
 
 def tilted(tilt_y_rad: float) -> np.ndarray:
-    q_rad = np.array(LEVEL_Q_RAD)
-    q_rad[3], q_rad[4] = wrist_angles_for_tilt(LEVEL_Q_RAD, 0.0, tilt_y_rad)
+    q_rad = np.array(ur5e.LEVEL_Q_RAD)
+    q_rad[3], q_rad[4] = ur5e.wrist_angles_for_tilt(ur5e.LEVEL_Q_RAD, 0.0, tilt_y_rad)
     return np.concatenate([q_rad, np.zeros(6)])
 
 

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from acts_core.ur5e import LEVEL_Q_RAD, forward_kinematics
+from acts_core.robots import ur5e
 from acts_sim.ur.commands import COMMANDS
 from acts_sim.ur.config import ControllerConfig
 from acts_sim.ur.controller import Controller, RobotMode, RuntimeState, SafetyMode
@@ -80,7 +80,7 @@ def servo(target: list[float]) -> list[float]:
 @pytest.mark.parametrize("offset", [0, 24])
 def test_blocking_move(offset: int) -> None:
     robot = Robot(offset)
-    target = [angle + 0.2 for angle in LEVEL_Q_RAD]
+    target = [angle + 0.2 for angle in ur5e.LEVEL_Q_RAD]
     cycles = robot.run(1, [*target, 1.0, 2.0])
     assert robot.controller.joints.q == target
     assert cycles * 0.002 == pytest.approx(2 * math.sqrt(0.2 / 2.0), abs=0.01)
@@ -96,7 +96,7 @@ def test_asynchronous_move_shows_its_progress() -> None:
         return value >> 24 & 0x7F, bool(value & 0x8000), value & 0x7FFF
 
     assert state() == (0, False, 0)
-    assert robot.run(1, [*[angle + 0.2 for angle in LEVEL_Q_RAD], 1.0, 2.0], integer=1) <= 2
+    assert robot.run(1, [*[angle + 0.2 for angle in ur5e.LEVEL_Q_RAD], 1.0, 2.0], integer=1) <= 2
     assert state() == (1, True, 0)
     robot.cycles(1000)
     assert state() == (1, False, 0)
@@ -105,7 +105,7 @@ def test_asynchronous_move_shows_its_progress() -> None:
 
 def test_a_stop_breaks_off_an_asynchronous_move() -> None:
     robot = Robot()
-    robot.run(1, [*[angle + 2.0 for angle in LEVEL_Q_RAD], 1.0, 2.0], integer=1)
+    robot.run(1, [*[angle + 2.0 for angle in ur5e.LEVEL_Q_RAD], 1.0, 2.0], integer=1)
     robot.cycles(200)
     robot.run(34, [4.0])
     assert robot.controller.joints.at_rest
@@ -116,7 +116,7 @@ def test_a_stop_breaks_off_an_asynchronous_move() -> None:
 
 def test_servo_keeps_following_and_stops() -> None:
     robot = Robot()
-    target = list(LEVEL_Q_RAD)
+    target = list(ur5e.LEVEL_Q_RAD)
     target[3] += 0.1
     robot.write(11, servo(target))
     for _ in range(600):
@@ -144,9 +144,9 @@ def test_speed_and_speed_stop() -> None:
 @pytest.mark.parametrize("other", [1, 9, 34])
 def test_two_ways_of_moving_at_once_end_the_program(other: int) -> None:
     robot = Robot()
-    robot.write(11, servo([angle + 0.5 for angle in LEVEL_Q_RAD]))
+    robot.write(11, servo([angle + 0.5 for angle in ur5e.LEVEL_Q_RAD]))
     robot.cycles(20)
-    robot.write(other, [*LEVEL_Q_RAD, 1.0, 1.0])
+    robot.write(other, [*ur5e.LEVEL_Q_RAD, 1.0, 1.0])
     robot.cycles(300)
     assert robot.controller.runtime == RuntimeState.STOPPED
     assert robot.controller.joints.at_rest
@@ -174,7 +174,7 @@ def test_watchdog_ends_the_program_when_the_client_falls_silent() -> None:
     robot = Robot()
     robot.run(35, [10.0])
     for _ in range(20):
-        robot.write(11, servo([angle + 1.0 for angle in LEVEL_Q_RAD]))
+        robot.write(11, servo([angle + 1.0 for angle in ur5e.LEVEL_Q_RAD]))
         robot.cycles(10)
     assert robot.controller.runtime == RuntimeState.PLAYING
     robot.cycles(150)
@@ -187,8 +187,8 @@ def test_watchdog_ends_the_program_when_the_client_falls_silent() -> None:
 @pytest.mark.parametrize("command", [1, 11])
 def test_impossible_targets_are_a_protective_stop(command: int, bad: float) -> None:
     robot = Robot()
-    start = list(LEVEL_Q_RAD)
-    robot.write(11, servo([angle + 0.3 for angle in LEVEL_Q_RAD]))
+    start = list(ur5e.LEVEL_Q_RAD)
+    robot.write(11, servo([angle + 0.3 for angle in ur5e.LEVEL_Q_RAD]))
     robot.cycles(20)
     robot.run(16, [10.0])
     arguments = [*start, 1.0, 1.0, 0.002, 0.1, 300.0]
@@ -216,7 +216,7 @@ def test_speed_over_the_end_of_the_range_is_a_protective_stop() -> None:
 def test_protective_stop_unlocks_after_its_time_and_play_goes_on() -> None:
     robot = Robot()
     controller = robot.controller
-    target = [angle + 0.4 for angle in LEVEL_Q_RAD]
+    target = [angle + 0.4 for angle in ur5e.LEVEL_Q_RAD]
     robot.write(1, [*target, 1.0, 2.0])
     robot.cycles(100)
     assert hooks.answer(controller, "protective_stop hand in the way") == "ok"
@@ -239,7 +239,7 @@ def test_protective_stop_unlocks_after_its_time_and_play_goes_on() -> None:
 def test_emergency_stop_switches_off_and_is_cleared() -> None:
     robot = Robot()
     controller = robot.controller
-    robot.write(11, servo([angle + 0.5 for angle in LEVEL_Q_RAD]))
+    robot.write(11, servo([angle + 0.5 for angle in ur5e.LEVEL_Q_RAD]))
     robot.cycles(50)
     hooks.answer(controller, "emergency_stop")
     robot.cycles(200)
@@ -276,7 +276,7 @@ def test_what_clients_have_ordered_is_recorded() -> None:
     robot = Robot()
     controller = robot.controller
     controller.orders.clear()
-    robot.write(11, servo(list(LEVEL_Q_RAD)))
+    robot.write(11, servo(list(ur5e.LEVEL_Q_RAD)))
     robot.cycles(5)
     dashboard.answer(controller, "running")
     dashboard.answer(controller, "stop")
@@ -295,14 +295,14 @@ def test_kinematics_answers() -> None:
     robot.run(29, [0.0, 0.0, 0.05, 0.0, 0.0, 0.0])
     robot.run(1, [*q, 3.0, 10.0])
     robot.run(43)
-    expected = forward_kinematics(q) @ transform_from_pose([0, 0, 0.05, 0, 0, 0])
+    expected = ur5e.forward_kinematics(q) @ transform_from_pose([0, 0, 0.05, 0, 0, 0])
     assert transform_from_pose(robot.result()) == pytest.approx(expected, abs=1e-9)
     robot.controller.publish_tcp()
     assert robot.controller.output.get("actual_TCP_pose") == pytest.approx(robot.result(), abs=1e-9)
     robot.run(40)
     assert robot.result() == pytest.approx([0, 0, 0.05, 0, 0, 0])
-    robot.run(44, [*LEVEL_Q_RAD, *[0.0] * 6])
-    assert transform_from_pose(robot.result()) == pytest.approx(forward_kinematics(LEVEL_Q_RAD), abs=1e-9)
+    robot.run(44, [*ur5e.LEVEL_Q_RAD, *[0.0] * 6])
+    assert transform_from_pose(robot.result()) == pytest.approx(ur5e.forward_kinematics(ur5e.LEVEL_Q_RAD), abs=1e-9)
     robot.write(27, integer=0)
     robot.cycles(1)
     assert robot.result() == pytest.approx(q)

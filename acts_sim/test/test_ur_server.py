@@ -16,7 +16,7 @@ from pathlib import Path
 import pytest
 from ur_process import HOOK_PORT, Simulator, wait_for
 
-from acts_core.ur5e import LEVEL_Q_RAD
+from acts_core.robots import ur5e
 from acts_sim.shared import TimedRingReader
 from acts_sim.ur.main import JOINT_RING_WIDTH, parse
 from acts_sim.ur.rtde.packets import PacketType, encode
@@ -65,7 +65,7 @@ def test_joint_ring_is_written_every_cycle(simulator: Simulator, ring_path: Path
     newest = reader.newest()
     assert newest is not None
     time_ns, values = newest
-    assert values[:6] == pytest.approx(LEVEL_Q_RAD)
+    assert values[:6] == pytest.approx(ur5e.LEVEL_Q_RAD)
     assert values[6:] == pytest.approx([0.0] * 6)
     assert time_ns > first[0]
     assert reader.age_s() < 5.0

@@ -6,18 +6,18 @@ import numpy as np
 import pytest
 
 from acts_core.errors import SettingsError
+from acts_core.robots import ur5e
 from acts_core.skin import ForceResponse
-from acts_core.ur5e import LEVEL_Q_RAD, wrist_angles_for_tilt
 from acts_sim.ball.ball_plate import JointMotion
 from acts_sim.ball.world import Phase, World, WorldConfig, WorldState
 
 DT_S = 0.001
-LEVEL = JointMotion.still(np.array(LEVEL_Q_RAD))
+LEVEL = JointMotion.still(np.array(ur5e.LEVEL_Q_RAD))
 
 
 def tilted(tilt_x_rad: float, tilt_y_rad: float) -> JointMotion:
-    q_rad = np.array(LEVEL_Q_RAD)
-    q_rad[3], q_rad[4] = wrist_angles_for_tilt(LEVEL_Q_RAD, tilt_x_rad, tilt_y_rad)
+    q_rad = np.array(ur5e.LEVEL_Q_RAD)
+    q_rad[3], q_rad[4] = ur5e.wrist_angles_for_tilt(ur5e.LEVEL_Q_RAD, tilt_x_rad, tilt_y_rad)
     return JointMotion.still(q_rad)
 
 
@@ -42,7 +42,7 @@ def test_the_ball_is_put_on_after_a_while_and_presses_from_then_on() -> None:
 def test_the_ball_is_not_put_on_a_plate_that_is_tilted_or_turns() -> None:
     world = World(WorldConfig(start_after_s=0.0))
     assert run(world, tilted(0.1, 0.0), 0.05).phase is Phase.AWAITED
-    turning = JointMotion(np.array(LEVEL_Q_RAD), np.array([0, 0, 0, 0.5, 0, 0]), np.zeros(6))
+    turning = JointMotion(np.array(ur5e.LEVEL_Q_RAD), np.array([0, 0, 0, 0.5, 0, 0]), np.zeros(6))
     assert run(world, turning, 0.05).phase is Phase.AWAITED
     assert run(world, LEVEL, 0.001).phase is Phase.ROLLING
 
@@ -148,7 +148,7 @@ def test_the_plates_own_acceleration_moves_the_load() -> None:
     run(world, LEVEL, 0.01)
     loads = []
     for acceleration in (-5.0, 0.0, 5.0):
-        joints = JointMotion(np.array(LEVEL_Q_RAD), np.zeros(6), np.array([0, 0, 0, acceleration, 0, 0]))
+        joints = JointMotion(np.array(ur5e.LEVEL_Q_RAD), np.zeros(6), np.array([0, 0, 0, acceleration, 0, 0]))
         loads.append(world.step(joints, 1e-6).ball.load_n)
     assert loads[0] != pytest.approx(loads[1], rel=0.01)
     assert loads[0] + loads[2] == pytest.approx(2 * loads[1], rel=0.01)

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from acts_core.ur5e import LEVEL_Q_RAD
+from acts_core.robots import ur5e
 from acts_sim.ball.joint_follower import JOINT_RING_WIDTH, JointFollower, JointSource
 from acts_sim.ball.world import World, WorldConfig, WorldState
 from acts_sim.ball.world_loop import LEAD_NS, LONGEST_CATCH_UP_STEPS, STEP_NS, WAKE_NS, WorldLoop
@@ -19,7 +19,7 @@ MS = 1_000_000
 def swing(time_ns: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Smooth joints with their derivatives."""
     phase = 6.0 * time_ns / 1e9
-    still = np.array(LEVEL_Q_RAD)
+    still = np.array(ur5e.LEVEL_Q_RAD)
     one = np.array([0.0, 0.0, 0.0, 0.05, 0.0, 0.0])
     return still + one * math.sin(phase), 6.0 * one * math.cos(phase), -36.0 * one * math.sin(phase)
 

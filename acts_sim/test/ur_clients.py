@@ -18,9 +18,9 @@ from rtde_control import RTDEControlInterface
 from rtde_receive import RTDEReceiveInterface
 from ur_process import HOOK_PORT, wait_for
 
-from acts_core.ur5e import LEVEL_Q_RAD
+from acts_core.robots import ur5e
 
-LEVEL = list(LEVEL_Q_RAD)
+LEVEL = list(ur5e.LEVEL_Q_RAD)
 
 
 def hook(host: str, line: str) -> str:

@@ -11,8 +11,7 @@ from acts_control.ball.limiter import LimiterConfig, TiltLimiter
 from acts_control.ball.pid import Ball, BallPid, PidConfig
 from acts_control.ball.prediction import TiltHistory
 from acts_control.ball.reference import Reference, ReferenceFollower, ReferenceLimits, ReferenceReport
-from acts_control.robots import SafetyConfig, touch_age_s
-from acts_core.errors import SettingsError
+from acts_control.robots.base import SafetyConfig, touch_age_s
 from acts_core.settings import Changeable, setting, validate
 
 # An estimate beyond these is of no ball on a plate [m, m/s].
@@ -65,11 +64,6 @@ class ControllerConfig(PidConfig, LimiterConfig, SafetyConfig):
 
     def __post_init__(self) -> None:
         validate(self)
-        if self.max_wrist_offset_rad < 1.1 * self.max_tilt_rad:
-            raise SettingsError(
-                f"max_wrist_offset_rad = {self.max_wrist_offset_rad:g}: allowed is {1.1 * self.max_tilt_rad:.4f} or "
-                f"more, 1.1 times max_tilt_rad, or the limit of the tilt would trip it"
-            )
 
 
 class BallReport(NamedTuple):

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import ceil, hypot, isfinite, radians, sqrt
+from math import ceil, hypot, isfinite, sqrt
 
-from acts_core.settings import Changeable, setting, validate
+from acts_control.robots.base import TiltLimits
+from acts_core.settings import setting, validate
 
 _LEVEL_RAD = 1e-6
 _STILL_RAD_S = 1e-3
@@ -13,23 +14,9 @@ _ROUNDING = 1e-9
 
 
 @dataclass(frozen=True)
-class LimiterConfig:
+class LimiterConfig(TiltLimits):
     """How far, how fast and how hard the plate may be tilted."""
 
-    max_tilt_rad: float = setting(
-        round(radians(6.0), 6),
-        "largest angle between plate and level [rad]",
-        minimum=0.001,
-        maximum=0.35,
-        changeable=Changeable.RUNNING,
-    )
-    max_tilt_rate_rad_s: float = setting(
-        1.0,
-        "largest rate of the tilt about each axis [rad/s]",
-        minimum=0.01,
-        maximum=3.0,
-        changeable=Changeable.RUNNING,
-    )
     max_tilt_acceleration_rad_s2: float = setting(
         20.0, "largest acceleration of the tilt about each axis [rad/s^2]", minimum=0.1, maximum=40.0
     )
@@ -49,7 +36,7 @@ class LimiterState:
 
 
 class TiltLimiter:
-    """Turns steps of the wanted tilt into a motion that the wrist can make.
+    """Turns steps of the wanted tilt into a motion that a robot can make.
 
     Attributes
     ----------

@@ -7,31 +7,28 @@ import time
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from math import hypot
 
 from acts_control.ball.controller import BallController, BallReport, ControlInput, ControllerConfig, Phase
 from acts_control.ball.reference import ReferenceReport
-from acts_control.robots import (
-    CommandGate,
+from acts_control.robots.base import (
+    CommandRefusedError,
     Robot,
     RobotConfig,
     RobotReading,
     RobotStoppedError,
     RobotTakenError,
     RobotWatch,
+    TiltGate,
 )
-from acts_core.errors import ActsError, ArrayError, RobotError, SettingsError
+from acts_core.errors import ActsError, RobotError
 from acts_core.settings import setting
-from acts_core.ur5e import JOINTS, LEVEL_Q_RAD, WRIST_1, WRIST_2, tilt_of, wrist_angles_for_tilt
-
-# A pose further from level than this cannot be meant as the level one.
-_LEVEL_TOLERANCE_RAD = 0.02
 
 _HOMING_PERIOD_S = 0.02
 _ENDING_PERIOD_S = 0.002
 _ENDING_TIMEOUT_S = 3.0
-_HOMED_RAD = 0.002
-_STANDING_STILL_RAD = 2e-4
+# In the unit of the joints, rad or m.
+_HOMED = 0.002
+_STANDING_STILL = 2e-4
 _STANDING_STILL_POLLS = 5
 
 # Longest step the controller is told of: after the process was held up, it goes on from where it was.
@@ -46,28 +43,12 @@ _REASON_S = 0.1
 class LoopConfig(ControllerConfig, RobotConfig):
     """All of the control loop."""
 
-    level_q_rad: tuple[float, ...] = setting(
-        tuple(round(angle, 9) for angle in LEVEL_Q_RAD),
-        "joint angles with the plate level and the skin facing up, base to wrist 3 [rad]",
-        minimum=-6.3,
-        maximum=6.3,
-        length=JOINTS,
-    )
-    mount_yaw_rad: float = setting(
-        0.0, "how far the skin is turned on the flange about its z axis [rad]", minimum=-6.3, maximum=6.3
-    )
     autostart: bool = setting(True, "whether to connect and move to the level pose at once; else on ~/start")
     connect_retry_s: float = setting(1.0, "time between attempts to connect [s]", minimum=0.05, maximum=60.0)
 
     def __post_init__(self) -> None:
         ControllerConfig.__post_init__(self)
         RobotConfig.__post_init__(self)
-        tilt = tilt_of(self.level_q_rad, self.mount_yaw_rad)
-        if hypot(*tilt) > _LEVEL_TOLERANCE_RAD:
-            raise SettingsError(
-                f"level_q_rad = {self.level_q_rad}: the flange is tilted by {hypot(*tilt):.3f} rad there; "
-                f"give a pose in which it faces straight up"
-            )
 
 
 @dataclass(frozen=True)
@@ -79,7 +60,7 @@ class LoopStatus:
     error_m: tuple[float, float] = (0.0, 0.0)
     tilt_commanded_rad: tuple[float, float] = (0.0, 0.0)
     tilt_measured_rad: tuple[float, float] = (0.0, 0.0)
-    joints_rad: tuple[float, ...] = (0.0,) * JOINTS
+    joints: tuple[float, ...] = ()
     touch_age_s: float = float("inf")
     steps: int = 0
     late_steps: int = 0
@@ -96,6 +77,8 @@ class ControlLoop:
         The clock of the stamps [ns].
     on_step : callable
         Called after every control step with the time [ns] and the measured tilt [rad].
+    steady_s, sleep : callable
+        The clock that steps and waits go by [s], and how to let it pass; a simulation has its own.
 
     Attributes
     ----------
@@ -115,6 +98,9 @@ class ControlLoop:
         robot: Robot,
         now_ns: Callable[[], int],
         on_step: Callable[[int, tuple[float, float]], None] = lambda _now_ns, _tilt: None,
+        *,
+        steady_s: Callable[[], float] = time.monotonic,
+        sleep: Callable[[float], None] = time.sleep,
     ) -> None:
         self.look: Callable[[Phase], None] = lambda _phase: None
         self.ball: BallReport | None = None
@@ -125,6 +111,8 @@ class ControlLoop:
         self._robot = robot
         self._now_ns = now_ns
         self._on_step = on_step
+        self._steady_s = steady_s
+        self._sleep = sleep
         # Guards the three below, and wakes the thread when one changes.
         self._changed = threading.Condition()
         self._wanted = False
@@ -223,28 +211,24 @@ class ControlLoop:
 
     def _home(self, watch: RobotWatch) -> bool:
         """Move to the level pose; False when that was broken off by request."""
-        level = self._config.level_q_rad
         self.status = replace(self.status, phase=Phase.HOMING, reason="moving to the level pose")
-        before = self._checked(watch, 0.0).q_rad
-        farthest = max(abs(angle - target) for angle, target in zip(before, level, strict=True))
-        timeout_s = 5.0 + 3.0 * farthest / self._config.homing_speed_rad_s
-        self._robot.begin_move(level)
+        before = self._checked(watch, 0.0).joints
+        timeout_s = self._robot.begin_levelling()
         still = 0
-        end = time.monotonic() + timeout_s
-        while time.monotonic() < end:
+        end = self._steady_s() + timeout_s
+        while self._steady_s() < end:
             if self._stop_reason:
-                self._robot.end_move()
+                self._robot.end_levelling()
                 self._await_end(watch)
                 return False
-            time.sleep(_HOMING_PERIOD_S)
+            self._sleep(_HOMING_PERIOD_S)
             reading = self._checked(watch, _HOMING_PERIOD_S)
-            moved = max(abs(angle - last) for angle, last in zip(reading.q_rad, before, strict=True))
-            off = max(abs(angle - target) for angle, target in zip(reading.q_rad, level, strict=True))
-            before = reading.q_rad
-            still = still + 1 if moved < _STANDING_STILL_RAD and off < _HOMED_RAD else 0
+            moved = max((abs(new - old) for new, old in zip(reading.joints, before, strict=True)), default=0.0)
+            before = reading.joints
+            still = still + 1 if moved < _STANDING_STILL and reading.off_level < _HOMED else 0
             if still >= _STANDING_STILL_POLLS:
                 return True
-        self._robot.end_move()
+        self._robot.end_levelling()
         self._await_end(watch)
         raise RobotError(f"the level pose was not reached within {timeout_s:.1f} s")
 
@@ -253,18 +237,18 @@ class ControlLoop:
         config, robot = self._config, self._robot
         period = 1.0 / config.control_rate_hz
         controller = BallController(config)
-        gate = CommandGate(config, config.level_q_rad)
-        joints = list(config.level_q_rad)
+        gate = TiltGate(config)
+        joints: tuple[float, ...] = ()
         steps = late = refused = 0
-        last = deadline = time.monotonic()
+        last = deadline = self._steady_s()
         while controller.state.phase is not Phase.STOPPED:
             deadline += period
-            wait = deadline - time.monotonic()
+            wait = deadline - self._steady_s()
             if wait > 0.0:
-                time.sleep(wait)
+                self._sleep(wait)
             elif wait < -period:
                 deadline -= wait  # no burst of steps to make up for lost ones
-            now = time.monotonic()
+            now = self._steady_s()
             steps += 1
             late += now - last > 1.5 * period
             dt = min(max(now - last, _MIN_STEP_S), _MAX_PERIODS * period)
@@ -274,63 +258,55 @@ class ControlLoop:
             reading = self._checked(watch, dt)
             if self._stop_reason:
                 controller.end(self._stop_reason)
-            self._take_changes(controller)
+            self._take_changes(controller, gate)
             now_ns = self._now_ns()
-            measured = tilt_of(reading.q_rad, config.mount_yaw_rad)
+            measured = reading.tilt_rad
             tilt = controller.step(ControlInput(now_ns, self.ball, self.reference, measured), dt)
-            fault = self._aim(joints, tilt) or gate.fault(joints)
+            fault = gate.fault(tilt, dt)
+            if not fault:
+                try:
+                    joints = robot.tilt(*tilt)
+                    gate.sent(tilt)
+                except CommandRefusedError as error:
+                    fault = str(error)
+                except RobotError as error:
+                    raise RobotError(self._cause(watch) or str(error)) from error
             refused = refused + 1 if fault else 0
             if refused > 1:
                 # Not even the way back to level can be sent.
-                robot.end_servo()
+                robot.end_tilting()
                 self._await_end(watch)
                 return fault
             if fault:
                 controller.end(fault)
-            else:
-                self._send(watch, joints)
             state = controller.state
             self.status = LoopStatus(
-                # The robot counts as stopped only once the servo has ended.
+                # The robot counts as stopped only once it follows no more.
                 state.phase if state.phase is not Phase.STOPPED else self.status.phase,
                 state.reason,
                 state.error_m,
                 tilt,
                 measured,
-                tuple(joints),
+                joints,
                 state.touch_age_s,
                 steps,
                 late,
             )
             self._on_step(now_ns, measured)
-        robot.end_servo()
+        robot.end_tilting()
         self._await_end(watch)
         return controller.state.reason
 
-    def _take_changes(self, controller: BallController) -> None:
+    def _take_changes(self, controller: BallController, gate: TiltGate) -> None:
         if self._newest_config is not self._config:
             self._config = self._newest_config
             controller.change(self._config)
-
-    def _send(self, watch: RobotWatch, joints: list[float]) -> None:
-        try:
-            self._robot.servo(joints)
-        except RobotError as error:
-            raise RobotError(self._cause(watch) or str(error)) from error
-
-    def _aim(self, joints: list[float], tilt: tuple[float, float]) -> str:
-        """Write the wrist angles of a tilt into `joints`; why that cannot be, or nothing."""
-        config = self._config
-        try:
-            joints[WRIST_1], joints[WRIST_2] = wrist_angles_for_tilt(config.level_q_rad, *tilt, config.mount_yaw_rad)
-        except ArrayError as error:
-            return str(error)
-        return ""
+            gate.limits = self._config
 
     def _end_program(self, watch: RobotWatch) -> str:
         """End the robot's program; what went wrong, to be added to the reason."""
         try:
-            self._robot.end_program()
+            self._robot.release()
             self._await_end(watch)
         except RobotError as error:
             return f"; the robot's program may still run: {error}"
@@ -338,11 +314,11 @@ class ControlLoop:
 
     def _await_end(self, watch: RobotWatch) -> None:
         """Wait until the robot has done what ends motion. It may brake for a while, but it must be there."""
-        end = time.monotonic() + _ENDING_TIMEOUT_S
-        last = time.monotonic()
+        end = self._steady_s() + _ENDING_TIMEOUT_S
+        last = self._steady_s()
         while self._robot.is_busy:
-            time.sleep(_ENDING_PERIOD_S)
-            last, before = time.monotonic(), last
+            self._sleep(_ENDING_PERIOD_S)
+            last, before = self._steady_s(), last
             loss = watch.loss(self._robot.read(), last - before)
             if loss:
                 raise RobotError(loss)
@@ -361,11 +337,11 @@ class ControlLoop:
 
     def _cause(self, watch: RobotWatch) -> str:
         """Why a command was refused, or nothing: that it was is often known a packet earlier than why."""
-        end = time.monotonic() + _REASON_S
-        while time.monotonic() < end:
+        end = self._steady_s() + _REASON_S
+        while self._steady_s() < end:
             with suppress(RobotError):
                 fault = watch.step(self._robot.read(), 0.0)
                 if fault:
                     return fault
-            time.sleep(0.002)
+            self._sleep(0.002)
         return ""

@@ -1,21 +1,8 @@
-"""Robots that carry the plate, behind what the control loop knows of them.
+"""Robots that carry the plate: `base` says what the control loop asks of one, `ur` is the UR5e.
 
-In come wanted postures; out come readings of the robot, and motion that ends as defined whatever happens.
+In comes a name with settings; out comes a robot that tilts the plate, tells its state and stops.
 """
 
-from acts_control.robots.robot import Robot, RobotConfig, RobotStoppedError, UrRobot
-from acts_control.robots.robot_claim import RobotTakenError
-from acts_control.robots.safety import CommandGate, RobotReading, RobotWatch, SafetyConfig, touch_age_s
+from acts_control.robots.registry import ROBOTS, RobotKind, make_robot, with_robots
 
-__all__ = [
-    "CommandGate",
-    "Robot",
-    "RobotConfig",
-    "RobotReading",
-    "RobotStoppedError",
-    "RobotTakenError",
-    "RobotWatch",
-    "SafetyConfig",
-    "UrRobot",
-    "touch_age_s",
-]
+__all__ = ["ROBOTS", "RobotKind", "make_robot", "with_robots"]

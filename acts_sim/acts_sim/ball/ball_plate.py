@@ -7,11 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.robots import ur5e
 from acts_core.settings import setting, validate
-from acts_core.ur5e import DH_A_M, DH_ALPHA_RAD, DH_D_M
 from acts_sim.ball.ball_kernels import plate_motion, plate_pose
 
-_DH = np.column_stack([DH_A_M, DH_D_M, DH_ALPHA_RAD])
+_DH = np.column_stack([ur5e.DH_A_M, ur5e.DH_D_M, ur5e.DH_ALPHA_RAD])
 
 # Short against anything the arm does, long against rounding: 1e-16 m over (1 ms)^2 is 1e-10 m/s^2.
 _DIFFERENCE_S = 0.001

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
+from acts_core.robots import ur5e
 from acts_core.settings import setting, validate
-from acts_core.ur5e import LEVEL_Q_RAD
 from acts_sim.ball import ball, ball_plate
 from acts_sim.ball.ball import BallConfig, BallState
 from acts_sim.ball.ball_contact import BallContact, ContactConfig
@@ -107,7 +107,7 @@ class World:
 
     def __init__(self, config: WorldConfig) -> None:
         self.config = config
-        self.state = WorldState(0.0, Phase.AWAITED, 0.0, BallState(), JointMotion.still(np.array(LEVEL_Q_RAD)))
+        self.state = WorldState(0.0, Phase.AWAITED, 0.0, BallState(), JointMotion.still(np.array(ur5e.LEVEL_Q_RAD)))
         self._contact = BallContact(config, config.geometry, config.radius_m)
         self._rng = np.random.default_rng(config.seed)
         self._half_x_m = config.cols * config.pitch_m / 2

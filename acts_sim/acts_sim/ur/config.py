@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from acts_core.robots import ur5e
 from acts_core.settings import setting, validate
-from acts_core.ur5e import JOINTS, LEVEL_Q_RAD
 
 CYCLE_HZ = 500
 """Cycles a second of an e-Series controller."""
@@ -31,11 +31,11 @@ class ControllerConfig:
     """How the simulated robot behaves."""
 
     q0_rad: tuple[float, ...] = setting(
-        LEVEL_Q_RAD,
+        ur5e.LEVEL_Q_RAD,
         "joint angles at the start, base to wrist 3 [rad]; by default with the flange level and facing up",
         minimum=-POSITION_LIMIT_RAD,
         maximum=POSITION_LIMIT_RAD,
-        length=JOINTS,
+        length=ur5e.JOINTS,
     )
     speed_limit_rad_s: float = setting(
         SPEED_LIMIT_RAD_S, "largest joint speed [rad/s]", minimum=0.01, maximum=2 * SPEED_LIMIT_RAD_S

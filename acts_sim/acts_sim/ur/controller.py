@@ -11,7 +11,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_core.ur5e import JOINTS, forward_kinematics
+from acts_core.robots import ur5e
 from acts_sim.ur.config import CYCLE_S, POSITION_LIMIT_RAD, ControllerConfig
 from acts_sim.ur.joints import Brake, JointState, Motion, Rest
 from acts_sim.ur.pose import Rows, pose_from_rows, speed_between, transform_from_pose
@@ -125,7 +125,7 @@ class Controller:
         self.time_s = 0.0
         self.output = OutputImage()
         self.registers: dict[str, Value] = {
-            name: 0.0 if kind == "DOUBLE" else (0.0,) * JOINTS if kind == "VECTOR6D" else 0
+            name: 0.0 if kind == "DOUBLE" else (0.0,) * ur5e.JOINTS if kind == "VECTOR6D" else 0
             for name, kind in INPUT_TYPES.items()
         }
         self.joints = JointState(config.q0_rad, config.speed_limit_rad_s, config.acceleration_limit_rad_s2)
@@ -167,7 +167,7 @@ class Controller:
                     self.log(f"program stopped: {reason}")
                 self.stop_program()
         self.motion_done = self.motion.step(self.joints, CYCLE_S)
-        for index in range(JOINTS):
+        for index in range(ur5e.JOINTS):
             angle, speed = self.joints.q[index], self.joints.qd[index]
             if abs(angle) > POSITION_LIMIT_RAD and angle * speed > 0.0:
                 self.protective_stop(f"joint {index} is beyond its range at {math.degrees(angle):.1f} degrees")
@@ -303,7 +303,7 @@ class Controller:
 
     def transform(self, q_rad: Sequence[float]) -> NDArray[np.float64]:
         """Transform of the flange in the base frame, shape (4, 4), for joint angles."""
-        return forward_kinematics(q_rad)
+        return ur5e.forward_kinematics(q_rad)
 
     def set_tcp(self, pose: Sequence[float]) -> None:
         """Set the pose of the tool centre point in the flange frame."""
@@ -315,7 +315,7 @@ class Controller:
     def publish_tcp(self) -> None:
         """Bring the pose and speed of the tool centre point up to date in the outputs."""
         now = tuple(self.joints.q)
-        speed: Sequence[float] = (0.0,) * JOINTS
+        speed: Sequence[float] = (0.0,) * ur5e.JOINTS
         if now != self._tcp_of:
             before = self._tcp
             flange = self.transform(now)
@@ -350,7 +350,7 @@ class Controller:
         running = self.runtime == RuntimeState.PLAYING
         self.output.set("runtime_state", self.runtime)
         self.output.set("robot_mode", self.robot_mode)
-        self.output.set("joint_mode", *(_JOINT_MODES[self.robot_mode],) * JOINTS)
+        self.output.set("joint_mode", *(_JOINT_MODES[self.robot_mode],) * ur5e.JOINTS)
         self.output.set("safety_mode", self.safety)
         self.output.set("safety_status", self.safety)
         self.output.set("safety_status_bits", _SAFETY_BITS[self.safety])

@@ -9,7 +9,7 @@ import math
 from collections.abc import Sequence
 from typing import Protocol
 
-from acts_core.ur5e import JOINTS
+from acts_core.robots import ur5e
 
 Joint6 = list[float]
 
@@ -22,8 +22,8 @@ class JointState:
 
     def __init__(self, q_rad: Sequence[float], speed_limit_rad_s: float, acceleration_limit_rad_s2: float) -> None:
         self.q = [float(angle) for angle in q_rad]
-        self.qd: Joint6 = [0.0] * JOINTS
-        self.qdd: Joint6 = [0.0] * JOINTS
+        self.qd: Joint6 = [0.0] * ur5e.JOINTS
+        self.qdd: Joint6 = [0.0] * ur5e.JOINTS
         self.speed_limit_rad_s = speed_limit_rad_s
         self.acceleration_limit_rad_s2 = acceleration_limit_rad_s2
 
@@ -66,7 +66,7 @@ class Rest:
 
     def step(self, joints: JointState, dt_s: float) -> bool:
         """Stay."""
-        joints.qdd = [0.0] * JOINTS
+        joints.qdd = [0.0] * ur5e.JOINTS
         return True
 
 
@@ -82,7 +82,7 @@ class Brake:
         deceleration = min(self.deceleration_rad_s2, joints.acceleration_limit_rad_s2)
         remaining = max(fastest - deceleration * dt_s, 0.0)
         scale = remaining / fastest if fastest > _STANDSTILL_RAD_S else 0.0
-        for index in range(JOINTS):
+        for index in range(ur5e.JOINTS):
             joints.advance(index, joints.qd[index] * scale, dt_s)
         return joints.at_rest
 
@@ -96,7 +96,7 @@ class Servo:
     """
 
     def __init__(self) -> None:
-        self.target: Joint6 = [0.0] * JOINTS
+        self.target: Joint6 = [0.0] * ur5e.JOINTS
         self.lookahead_s = 0.1
 
     def set(self, target_rad: Sequence[float], lookahead_s: float) -> None:
@@ -128,7 +128,7 @@ class Speed:
     """``speedj``: reach joint speeds with the fastest change at the given acceleration, and keep them."""
 
     def __init__(self) -> None:
-        self.target: Joint6 = [0.0] * JOINTS
+        self.target: Joint6 = [0.0] * ur5e.JOINTS
         self.acceleration_rad_s2 = 1.0
 
     def set(self, target_rad_s: Sequence[float], acceleration_rad_s2: float) -> None:

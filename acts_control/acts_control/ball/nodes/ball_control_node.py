@@ -1,4 +1,4 @@
-"""The node `ball_control`: estimate and reference in, joint angles to the UR5e out.
+"""The node `ball_control`: estimate and reference in, tilts of the plate to the robot out.
 
 Topics: ball/state and ball/reference in; ball/status and ball/tilt out. Services: ~/start, ~/stop.
 """
@@ -27,7 +27,8 @@ from acts_control.names import (
     set_stamp,
     to_ns,
 )
-from acts_control.robots import Robot, UrRobot
+from acts_control.robots import make_robot, with_robots
+from acts_control.robots.base import Robot
 from acts_core.runtime import RealtimeConfig, enter_realtime
 from acts_core.settings import Changeable, setting
 from acts_core.stop_signals import StopSignals
@@ -52,7 +53,7 @@ _LAST_WORDS_S = 0.5
 
 
 @dataclass(frozen=True)
-class BallControlSettings(RealtimeConfig, LoopConfig):
+class _OwnSettings(RealtimeConfig, LoopConfig):
     """Parameters of the node."""
 
     status_rate_hz: float = setting(
@@ -65,26 +66,34 @@ class BallControlSettings(RealtimeConfig, LoopConfig):
         RealtimeConfig.__post_init__(self)
 
 
+def settings_class() -> type:
+    """The node's own parameters, and those of every robot there is."""
+    return with_robots(_OwnSettings)
+
+
+BallControlSettings = settings_class()
+
+
 class BallControlNode(Node):
     """Hands messages to the control loop's thread and publishes what it does.
 
     Parameters
     ----------
-    make_robot : callable
-        Makes the arm from the settings; by default a UR5e.
+    make : callable
+        Makes the robot from the settings; by default the one that they name.
     subscribes : bool
         Whether estimate and reference come as messages; otherwise `follow` says who gives them.
     """
 
     def __init__(
         self,
-        make_robot: Callable[[BallControlSettings], Robot] = UrRobot,
+        make: Callable[[Any], Robot] = make_robot,
         *,
         subscribes: bool = True,
         **node_arguments: Any,
     ) -> None:
         super().__init__("ball_control", **node_options(), **node_arguments)
-        settings = declare(self, BallControlSettings, self._change)
+        settings: Any = declare(self, settings_class(), self._change)
         keep_system_clock(self, CLOCK_REASON)
         self._settings = settings
         self._told = LoopStatus()
@@ -96,7 +105,8 @@ class BallControlNode(Node):
         self._status_publisher = self.create_publisher(BalanceStatus, STATUS_TOPIC, STATE)
         self._tilt_publisher = self.create_publisher(Vector3Stamped, TILT_TOPIC, STREAM)
         clock = self.get_clock()
-        self._loop = ControlLoop(settings, make_robot(settings), lambda: clock.now().nanoseconds, self._on_step)
+        robot = make(settings)
+        self._loop = ControlLoop(settings, robot, lambda: clock.now().nanoseconds, self._on_step)
         self._state_node: BallStateNode | None = None
         if subscribes:
             self.create_subscription(BallState, STATE_TOPIC, self._on_state, STATE)
@@ -104,7 +114,7 @@ class BallControlNode(Node):
         self.create_service(Trigger, "~/start", self._on_start)
         self.create_service(Trigger, "~/stop", self._on_stop)
         self._status_timer = steady_timer(self, 1.0 / settings.status_rate_hz, self._publish_status)
-        self._diagnostics = DiagnosticsReporter(self, settings.robot_ip, self._report)
+        self._diagnostics = DiagnosticsReporter(self, robot.address, self._report)
 
     def follow(self, state: BallStateNode, trajectory: BallTrajectoryNode) -> None:
         """Ask these two nodes of the same process at the begin of every control step; they wait for no timer then."""
@@ -132,7 +142,7 @@ class BallControlNode(Node):
         # What has not arrived when the publisher is destroyed is lost.
         self._status_publisher.wait_for_all_acked(Duration(seconds=_LAST_WORDS_S))
 
-    def _change(self, settings: BallControlSettings) -> str:
+    def _change(self, settings: Any) -> str:
         """Put changed parameters in force."""
         self._loop.change(settings)
         set_rate(self._status_timer, settings.status_rate_hz)
@@ -190,7 +200,7 @@ class BallControlNode(Node):
         message.error.x, message.error.y = status.error_m
         message.tilt_commanded.x, message.tilt_commanded.y = status.tilt_commanded_rad
         message.tilt_measured.x, message.tilt_measured.y = status.tilt_measured_rad
-        message.joints_commanded = list(status.joints_rad)
+        message.joints_commanded = list(status.joints)
         message.touch_age = min(status.touch_age_s, _LONG_AGO_S)
         message.steps = status.steps
         message.late_steps = status.late_steps

@@ -1,4 +1,4 @@
-"""The arm as the control loop sees it, and the UR5e behind it.
+"""The UR5e as a robot that tilts a plate.
 
 `ur_rtde` and all in which it may wait are in a process of their own (`ur_process`); here nothing but connecting waits,
 and that for a stated time. That ``servoJ`` returns True says nothing about the robot: every loss is found by
@@ -16,16 +16,15 @@ import time
 from collections import deque
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from math import isfinite
-from typing import Protocol
 
-from acts_control.robots.robot_claim import RobotClaim
-from acts_control.robots.safety import RUNTIME_PLAYING, RobotReading, safety_stop
-from acts_control.robots.ur_probe import probe
-from acts_core.errors import RobotError, SettingsError
-from acts_core.runtime import is_loopback
-from acts_core.settings import setting, validate
+from acts_control.robots.base import CommandRefusedError, RobotClaim, RobotReading, RobotStoppedError
+from acts_control.robots.ur.config import UrConfig
+from acts_control.robots.ur.gate import JointGate
+from acts_control.robots.ur.state import UrState
+from acts_control.robots.ur.ur_probe import probe
+from acts_core.errors import ArrayError, RobotError
+from acts_core.robots import ur5e
 
 # The library itself waits for up to 5 s for its program to start.
 _CONNECT_TIMEOUT_S = 10.0
@@ -35,96 +34,30 @@ _POLL_S = 0.002
 
 _STOP_DECELERATION_RAD_S2 = 4.0
 
-_RATES_HZ = (125, 250, 500)
+# Added to how long the way to the level pose takes at its speed, which itself may be three times as long.
+_LEVELLING_S = 5.0
+_LEVELLING_FACTOR = 3.0
 
 _PACKET_BYTES = 65536
 
 
-@dataclass(frozen=True)
-class RobotConfig:
-    """How the robot is reached and moved."""
-
-    robot_ip: str = setting("127.0.0.1", "address of the UR5e's controller")
-    loopback_only: bool = setting(
-        False, "for a simulated skin: refuse a robot_ip that is no numeric address of this machine"
-    )
-    control_rate_hz: int = setting(
-        125, "control steps and commands a second: 125, 250 or 500", minimum=125, maximum=500
-    )
-    servo_lookahead_s: float = setting(
-        0.05, "lookahead of servoJ: shorter is quicker, longer is smoother [s]", minimum=0.03, maximum=0.2
-    )
-    servo_gain: float = setting(300.0, "gain of servoJ", minimum=100.0, maximum=2000.0)
-    homing_speed_rad_s: float = setting(
-        0.6, "joint speed on the way to the level pose [rad/s]", minimum=0.01, maximum=3.0
-    )
-    homing_acceleration_rad_s2: float = setting(
-        1.5, "joint acceleration on the way to the level pose [rad/s^2]", minimum=0.01, maximum=10.0
-    )
-
-    def __post_init__(self) -> None:
-        validate(self)
-        # What a simulated skin feels must not move a real arm.
-        if self.loopback_only and not is_loopback(self.robot_ip):
-            raise SettingsError(
-                f"robot_ip = {self.robot_ip!r}: nothing is controlled, for the skin is simulated and this is no "
-                "numeric address of this machine (127.0.0.1 to 127.255.255.254, ::1); "
-                "with a real skin and robot give sim:=false"
-            )
-        if self.control_rate_hz not in _RATES_HZ:
-            raise SettingsError(
-                f"control_rate_hz = {self.control_rate_hz}: allowed is {', '.join(map(str, _RATES_HZ))}; "
-                f"ur_rtde works in whole milliseconds"
-            )
-
-
-class RobotStoppedError(RobotError):
-    """A safety function holds the robot; a person has to release it."""
-
-
-class Robot(Protocol):
-    """What the control loop needs of an arm. Nothing but `connect` waits; every method may raise `RobotError`."""
-
-    def connect(self, is_wanted: Callable[[], bool]) -> None:
-        """Connect and take control; soon gives up, with a `RobotError`, when it is not wanted any more."""
-
-    def read(self) -> RobotReading:
-        """The newest state; costs microseconds."""
-
-    @property
-    def is_busy(self) -> bool:
-        """Whether something that was asked for has not been carried out yet. (A move counts once it has begun.)"""
-
-    def begin_move(self, q_rad: Sequence[float]) -> None:
-        """Start to move to a pose."""
-
-    def end_move(self) -> None:
-        """Stop such a move."""
-
-    def servo(self, q_rad: Sequence[float]) -> None:
-        """Aim for joint angles; to be called `control_rate_hz` times a second."""
-
-    def end_servo(self) -> None:
-        """Stop following; the arm holds its pose."""
-
-    def end_program(self) -> None:
-        """Give up control; the robot's program ends."""
-
-    def disconnect(self) -> None:
-        """Cut the connection; no command is sent any more."""
-
-
 class UrRobot:
-    """A UR5e, real or simulated, through `ur_process`."""
+    """A UR5e, real or simulated, through `ur_process`. The plate is tilted by wrist 1 and wrist 2."""
 
-    def __init__(self, config: RobotConfig) -> None:
+    def __init__(self, config: UrConfig) -> None:
         self._config = config
+        self._gate = JointGate(config)
         self._claim: RobotClaim | None = None
         self._process: subprocess.Popen[bytes] | None = None
         self._link: socket.socket | None = None
-        self._reading: RobotReading | None = None
+        self._state: UrState | None = None
         # Commands that have not been answered yet, oldest first: name, and when it was sent [s].
         self._pending: deque[tuple[str, float]] = deque()
+
+    @property
+    def address(self) -> str:
+        """Address of the robot's controller."""
+        return self._config.robot_ip
 
     def connect(self, is_wanted: Callable[[], bool]) -> None:
         """Connect and upload the control script.
@@ -146,13 +79,13 @@ class UrRobot:
         try:
             self._start_process()
             self._carry_out("watch", is_wanted)
-            stop = safety_stop(self.read())
+            stop = self._newest().safety_stop
             if stop:
                 raise RobotStoppedError(f"{host}: {stop}; release it at the robot, then start again")
             self._carry_out("take_control", is_wanted)
             # The library knows that its program runs a packet or two before it can be read.
             self._await(
-                lambda: self.read().runtime_state == RUNTIME_PLAYING,
+                lambda: self._newest().is_playing,
                 is_wanted,
                 _PROGRAM_TIMEOUT_S,
                 "the control script does not run; is the robot in remote control?",
@@ -165,42 +98,60 @@ class UrRobot:
 
     def read(self) -> RobotReading:
         """The newest state; costs microseconds."""
-        self._take_in()
-        if self._reading is None:
-            raise RobotError(f"{self._config.robot_ip}: nothing has been read yet")
+        state = self._newest()
         waiting_s = time.monotonic() - self._pending[0][1] if self._pending else 0.0
-        return self._reading._replace(waiting_s=waiting_s)
+        return state.reading(self._config, waiting_s)
+
+    def _newest(self) -> UrState:
+        self._take_in()
+        if self._state is None:
+            raise RobotError(f"{self._config.robot_ip}: nothing has been read yet")
+        return self._state
 
     @property
     def is_busy(self) -> bool:
-        """Whether something that was asked for has not been carried out yet. (A move counts once it has begun.)"""
+        """Whether something that was asked for has not been carried out yet. (Levelling counts once it has begun.)"""
         if self._link is not None:
             self._take_in()
         return bool(self._pending)
 
-    def begin_move(self, q_rad: Sequence[float]) -> None:
-        """Start to move to a pose."""
+    def begin_levelling(self) -> float:
+        """Start to move to the level pose; the longest time that this may take [s]."""
+        config = self._config
+        farthest = self.read().off_level
+        self._gate = JointGate(config)
         # Asynchronous: a blocking moveJ would answer at its end only.
-        self._send(
-            "moveJ", _finite(q_rad), self._config.homing_speed_rad_s, self._config.homing_acceleration_rad_s2, True
-        )
+        level = _finite(config.level_q_rad)
+        self._send("moveJ", level, config.homing_speed_rad_s, config.homing_acceleration_rad_s2, True)
+        return _LEVELLING_S + _LEVELLING_FACTOR * farthest / config.homing_speed_rad_s
 
-    def end_move(self) -> None:
-        """Stop such a move."""
+    def end_levelling(self) -> None:
+        """Break that off; the arm comes to rest."""
         self._send("stopJ", _STOP_DECELERATION_RAD_S2)
 
-    def servo(self, q_rad: Sequence[float]) -> None:
-        """Aim for joint angles."""
+    def tilt(self, tilt_x_rad: float, tilt_y_rad: float) -> tuple[float, ...]:
+        """Aim for the wrist angles of a tilt; the six joint angles that were sent [rad]."""
         config = self._config
+        q_rad = list(config.level_q_rad)
+        try:
+            q_rad[ur5e.WRIST_1], q_rad[ur5e.WRIST_2] = ur5e.wrist_angles_for_tilt(
+                q_rad, tilt_x_rad, tilt_y_rad, config.mount_yaw_rad
+            )
+        except ArrayError as error:
+            raise CommandRefusedError(str(error)) from error
+        fault = self._gate.fault(q_rad)
+        if fault:
+            raise CommandRefusedError(fault)
         # Speed and acceleration are ignored by the script.
         step_s = 1.0 / config.control_rate_hz
         self._send("servoJ", _finite(q_rad), 0.0, 0.0, step_s, config.servo_lookahead_s, config.servo_gain)
+        return tuple(q_rad)
 
-    def end_servo(self) -> None:
+    def end_tilting(self) -> None:
         """Stop following; the arm holds its pose."""
         self._send("servoStop", _STOP_DECELERATION_RAD_S2)
 
-    def end_program(self) -> None:
+    def release(self) -> None:
         """Give up control; the robot's program ends."""
         if self._link is not None:
             self._send("stopScript")
@@ -214,7 +165,7 @@ class UrRobot:
                 self._process.wait(_KILL_TIMEOUT_S)
         if self._link is not None:
             self._link.close()
-        self._link, self._reading = None, None
+        self._link, self._state = None, None
         self._pending.clear()
         if self._claim is not None and (self._process is None or self._process.poll() is not None):
             # Last: another program may take the robot from here on.
@@ -239,7 +190,7 @@ class UrRobot:
             words = [str(theirs.fileno()), self._config.robot_ip, str(self._config.control_rate_hz)]
             try:
                 self._process = subprocess.Popen(
-                    [sys.executable, "-m", "acts_control.robots.ur_process", *words],
+                    [sys.executable, "-m", "acts_control.robots.ur.ur_process", *words],
                     stdin=subprocess.DEVNULL,
                     pass_fds=[theirs.fileno()],
                     # A Ctrl-C in the terminal is for this process, which ends motion in order.
@@ -292,7 +243,7 @@ class UrRobot:
             kind, *words = json.loads(packet)
             if kind == "reading":
                 connected, timestamp_s, q_rad, safety_bits, runtime_state = words
-                self._reading = RobotReading(connected, timestamp_s, tuple(q_rad), safety_bits, runtime_state)
+                self._state = UrState(connected, timestamp_s, tuple(q_rad), safety_bits, runtime_state)
                 continue
             name, _ = self._pending.popleft()
             if kind == "failed":
@@ -320,6 +271,6 @@ _REFUSALS = {
 def _finite(q_rad: Sequence[float]) -> list[float]:
     # ur_rtde sends NaN and vectors of any length; the gate has looked before, this is the very last place to.
     q = [float(angle) for angle in q_rad]
-    if len(q) != 6 or not all(map(isfinite, q)):
+    if len(q) != ur5e.JOINTS or not all(map(isfinite, q)):
         raise RobotError(f"joint angles {q} cannot be sent: six finite numbers are needed")
     return q
