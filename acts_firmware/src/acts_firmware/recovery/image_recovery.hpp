@@ -1,4 +1,4 @@
-// From the samples of one frame to the full image, patch by patch; the board's implementation of acts_recon's Reconstructor.
+// From the samples of one frame to the full image, patch by patch; acts_recon's Reconstructor, on the board.
 #pragma once
 
 #include <array>
