@@ -1,1 +1,1 @@
-"""The vocabulary of ACTS, free of ROS: array geometry, sampling schemes, force response, settings, errors."""
+"""What all packages share, without ROS: arrays, sampling schemes, force response, wire format, settings, errors."""

@@ -1,4 +1,4 @@
-"""SIGINT, SIGTERM and SIGHUP as one request to stop, which further signals do not disturb.
+"""SIGINT, SIGTERM and SIGHUP as one request to stop; further signals have no effect.
 
 A program that ends motion must not be interrupted while it does so. Python's own answer to SIGINT, an exception in the
 main thread wherever that is, interrupts it; a second signal does so again. Here a signal is an exception only while

@@ -1,4 +1,4 @@
-"""Work that may take long or never end, such as reading a file of a server that is away, on a thread of its own."""
+"""Work on a thread of its own that may take long or never end, such as reading a file from a lost network drive."""
 
 from __future__ import annotations
 

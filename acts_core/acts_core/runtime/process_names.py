@@ -1,4 +1,4 @@
-"""Processes as a person knows them, for messages that say who holds something."""
+"""Processes by number and command line, for messages that say which one holds a file or port."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""Real-time scheduling for the processes that must not be late: priority, cores, and a sentence on what became of it.
+"""Real-time scheduling of a process: priority, cores, and a message about what is in force.
 
-A process that asks for nothing is left as it is. What the machine does not allow is told and done without: late data is
-better than none. `acts_core.runtime.realtime_guard` ends what a thread that never pauses would do to the machine.
+A process without such settings is left as it is. What the machine does not allow is reported, and the process goes on
+without it: late data is better than none. `acts_core.runtime.realtime_guard` stops a thread that never pauses.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What keeps a real-time thread that never pauses from taking the machine.
+"""A guard against real-time threads that never pause, which would block the machine.
 
 Two limits stand behind each other:
 
@@ -43,7 +43,7 @@ _TASKS = Path("/proc/self/task")
 
 
 class BudgetWatch:
-    """Finds the thread that takes more than its share.
+    """Finds a thread that uses more CPU time than allowed.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ class BudgetWatch:
         self._history: deque[tuple[int, Mapping[int, int]]] = deque()
 
     def step(self, now_ns: int, used_ns: Mapping[int, int]) -> tuple[int, float] | None:
-        """Take the CPU time that each thread has used so far.
+        """Update by the CPU time that each thread has used so far.
 
         Parameters
         ----------

@@ -1,4 +1,4 @@
-"""Which stamps continue a stream, and when its clock was set."""
+"""The order of stamps in a stream, and whether its clock was set."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class StampOrder:
         self._strays_in_a_row = 0
 
     def step(self, stamp_ns: int) -> Order:
-        """Take the stamp of the next message [ns]."""
+        """Update by the stamp of the next message [ns]."""
         if self._newest_ns is None:
             self._newest_ns = stamp_ns
             return Order.ANEW

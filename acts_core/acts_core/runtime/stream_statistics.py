@@ -1,4 +1,4 @@
-"""How a stream arrives: what was received, what is missing, and how late each message was."""
+"""Statistics of a stream of messages: received, missing, and the latency of each."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a skin is: how its taxels lie, and what a force makes of their counts.
+"""The skin: where its taxels lie, and the force response of a taxel.
 
 In come layout files and measured force responses; out come `Layout`, `SkinPatch` and `ForceResponse`, of which all
 other packages learn where a taxel lies and what it reads. `RegionContact` is what a patch of a skin feels.

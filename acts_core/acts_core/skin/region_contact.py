@@ -1,4 +1,4 @@
-"""What one patch of a skin feels; the vocabulary between reconstruction and the reflexes of a hand."""
+"""The contact on one patch of a skin, as the reconstruction passes it to the reflexes of a hand."""
 
 from __future__ import annotations
 

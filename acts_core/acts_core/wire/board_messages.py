@@ -1,4 +1,4 @@
-"""What a board says besides samples: replies, and the images and objects that it recovers by itself."""
+"""Messages of a board besides samples: replies, and the images and objects that it recovers itself."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class BoardImage:
 
 @dataclass(frozen=True)
 class BoardObject:
-    """Which object the board takes for the one that one frame touches.
+    """The object that the board recognises in one frame.
 
     Attributes
     ----------

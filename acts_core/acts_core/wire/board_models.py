@@ -1,4 +1,4 @@
-"""What a board recovers and classifies with, ready to be uploaded: a patch dictionary or an object library."""
+"""Models for a board, ready to be uploaded: a patch dictionary to recover images, or an object library to classify."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Everything that a board can be told over the wire, and its bytes."""
+"""Settings of a board, and their bytes on the wire."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class SettingField(IntEnum):
 
 @dataclass(frozen=True)
 class BoardSettings:
-    """What a board is told: how to sample, how fast, what to send besides, what its LED shows.
+    """Settings of a board: how to sample, how fast, what to send besides samples, what its LED shows.
 
     A board takes them over as a whole or refuses them as a whole, by the same rules as this class.
     """

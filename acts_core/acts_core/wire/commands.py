@@ -1,4 +1,4 @@
-"""What a host says to a board, and what the board answers. `docs/wire_protocol.md` is the description.
+"""Commands to a board and its replies. `docs/wire_protocol.md` is the description.
 
 Every command carries a request number, which the reply repeats; a reply carries the board's whole state::
 
@@ -111,7 +111,7 @@ NO_MODEL = HeldModel(ModelKind.NONE, 0, 0, 0, 0, 0, 0)
 
 @dataclass(frozen=True)
 class BoardState:
-    """What a board tells about itself with every reply.
+    """State of a board, as every reply reports it.
 
     Attributes
     ----------

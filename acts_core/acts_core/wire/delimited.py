@@ -41,7 +41,7 @@ class DelimitedDecoder(ABC):
     """Whether `SampleFrame.board_us` comes from a clock of the board, so that it can be mapped to the host's."""
 
     has_checksum = True
-    """Whether a packet that lost its front is told by its content; otherwise the first one is never used."""
+    """Whether a packet without its first bytes is recognised by its content; otherwise the first packet is dropped."""
 
     def __init__(self, delimiter: bytes, packet_size_max: int) -> None:
         self._delimiter = delimiter
@@ -61,7 +61,7 @@ class DelimitedDecoder(ABC):
         """Decode one packet, given without its delimiter, or raise `PacketError`; None where it is no frame."""
 
     def reset(self) -> None:
-        """Tell that the stream was (re)opened: what is pending is dropped, and the first packet may be a cut one.
+        """Reset for a stream that was (re)opened: pending bytes are dropped, and the first packet may be incomplete.
 
         Such a cut packet is counted as `partial`. The counters keep their values.
         """
@@ -71,7 +71,7 @@ class DelimitedDecoder(ABC):
         self._may_be_cut = True
 
     def feed(self, data: bytes) -> list[SampleFrame]:
-        """Take the next bytes of the stream, cut anywhere, and return the frames that they complete, in order.
+        """Decode the next bytes of the stream, split anywhere; return the frames that they complete, in order.
 
         Never raises for what the bytes hold: packets that are not valid are counted and dropped.
         """

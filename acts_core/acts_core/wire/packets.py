@@ -1,4 +1,4 @@
-"""What every packet between host and board has in common. `docs/wire_protocol.md` is the description.
+"""Head, checksum and stuffing of all packets between host and board. `docs/wire_protocol.md` is the description.
 
 A packet is little-endian and begins with type, version and its own length; a CRC-32 ends it. It travels stuffed (see
 `acts_core.wire.cobs_reference`) and followed by one zero byte.

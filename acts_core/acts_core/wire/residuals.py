@@ -1,4 +1,4 @@
-"""What the residuals of a classification say; those of the board and those of the host mean the same."""
+"""Confidence from the residuals of a classification, the same for board and host."""
 
 from __future__ import annotations
 
