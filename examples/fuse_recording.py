@@ -13,10 +13,8 @@ from pathlib import Path
 
 from acts_core.array import ArrayGeometry
 from acts_core.sampling import SamplingConfig
-from acts_core.skin import ForceResponse
 from acts_driver.replay import ReplayOptions, open_recording
-from acts_recon.fusion import FusionEstimator
-from acts_recon.recovery import FusedRecovery
+from acts_recon.methods import Fusion, Recovery, SkinSetup
 
 
 def sampling(rows: int, cols: int) -> SamplingConfig:
@@ -25,11 +23,11 @@ def sampling(rows: int, cols: int) -> SamplingConfig:
 
 
 def main() -> None:
-    recovery: FusedRecovery | None = None
+    recovery: Recovery | None = None
     for frame in open_recording(ReplayOptions(Path(sys.argv[1]), sampling=sampling)).frames():
         if recovery is None:
-            geometry = ArrayGeometry(frame.rows, frame.cols)
-            recovery = FusedRecovery(FusionEstimator(geometry), ForceResponse(), touch_counts=60)
+            skin = SkinSetup(ArrayGeometry(frame.rows, frame.cols), touch_counts=60)
+            recovery = Recovery(Fusion(skin), skin)
         end_s, duration_s = frame.board_us * 1e-6, frame.duration_us * 1e-6
         contact = recovery.step(frame.indices, frame.counts, end_s, duration_s)
         # recovery.image and recovery.sigma are (rows, cols) float32 [counts]; overwritten by the next step.

@@ -10,11 +10,9 @@ import argparse
 import time
 
 from acts_core.array import ArrayGeometry
-from acts_core.skin import ForceResponse
 from acts_core.wire import RasterDecoder, StreamDecoder
 from acts_driver.port import SerialSource
-from acts_recon.fusion import FusionEstimator
-from acts_recon.recovery import FusedRecovery
+from acts_recon.methods import Fusion, Recovery, SkinSetup
 
 
 def main() -> None:
@@ -37,15 +35,15 @@ def main() -> None:
 
 
 def read(source: SerialSource, decoder: RasterDecoder | StreamDecoder, seconds: float) -> None:
-    recovery: FusedRecovery | None = None
+    recovery: Recovery | None = None
     begin_s = told_s = time.monotonic()
     frames = 0
     while (now_s := time.monotonic()) < begin_s + seconds:
         # At most 0.1 s, then empty. PortError, should the board be unplugged; open() may then be tried again.
         for frame in decoder.feed(source.read()):
             if recovery is None:
-                estimator = FusionEstimator(ArrayGeometry(frame.rows, frame.cols))
-                recovery = FusedRecovery(estimator, ForceResponse(), touch_counts=60)
+                skin = SkinSetup(ArrayGeometry(frame.rows, frame.cols), touch_counts=60)
+                recovery = Recovery(Fusion(skin), skin)
                 begin_s = told_s = time.monotonic()  # to compile it the first time has taken a while
             frames += 1
             end_s = frame.board_us * 1e-6

@@ -47,7 +47,7 @@ class Chain:
     scheme : str
         How the board samples.
     method : str
-        How images are recovered, see `acts_recon.recovery.METHODS`.
+        How images are recovered, see `acts_recon.methods.METHODS`.
     touch_delay_ms, command_delay_ms : int
         From the last measurement to the estimate, and from the control step to the robot's servo.
     """

@@ -239,6 +239,11 @@ def from_mapping(settings_class: type[T], values: Mapping[str, Any], where: str 
     return settings_class(**arguments)
 
 
+def part_of(settings_class: type[T], settings: object) -> T:
+    """A settings dataclass out of an object that has all its settings among others, as the parameters of a node."""
+    return settings_class(**{name: getattr(settings, name) for name in describe(settings_class)})
+
+
 def load_yaml(path: Path) -> dict[str, Any]:
     """Read a YAML file whose top level is a mapping.
 

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
 from acts_core.array import MAX_SIDE
 from acts_core.runtime import RealtimeConfig
 from acts_core.settings import Changeable, setting
-from acts_core.wire import BoardMessage, DelimitedDecoder, RasterDecoder, StreamDecoder
 from acts_driver.baseline import BaselineParameters
 from acts_driver.board import BoardParameters
 from acts_driver.port import SerialSource, Source, check_port
+from acts_driver.protocols import PROTOCOLS, Decoder, OnMessage
 from acts_driver.replay import ReplayOptions, ReplaySource, open_recording
 
 NO_FILE = "none"
@@ -30,8 +29,8 @@ class SourceParameters:
     )
     protocol: str = setting(
         "binary",
-        "what the board speaks: binary (ACTS) or raster_ascii (the published raster sketch)",
-        choices=("binary", "raster_ascii"),
+        "what the board speaks: " + " or ".join(f"{name} ({kind.of})" for name, kind in PROTOCOLS.items()),
+        choices=tuple(PROTOCOLS),
         changeable=Changeable.UNCONFIGURED,
     )
     frame_id: str = setting(
@@ -132,10 +131,9 @@ class DriverSettings(RealtimeConfig, BaselineParameters, BoardParameters, Source
     @property
     def has_dialogue(self) -> bool:
         """Whether there is a board that may take commands."""
-        return self.protocol == "binary" and not self.is_replay
+        return PROTOCOLS[self.protocol].takes_commands and not self.is_replay
 
-    def make_decoder(self, on_message: Callable[[BoardMessage], None]) -> DelimitedDecoder:
-        """The decoder of the protocol; `on_message` as of `StreamDecoder`."""
-        if self.protocol == "raster_ascii" and not self.is_replay:
-            return RasterDecoder(self.rows, self.cols)
-        return StreamDecoder(on_message)
+    def make_decoder(self, on_message: OnMessage) -> Decoder:
+        """The decoder of the protocol; a recording is replayed as binary. `on_message` as of `StreamDecoder`."""
+        name = "binary" if self.is_replay else self.protocol
+        return PROTOCOLS[name].decoder(self.rows, self.cols, on_message)

@@ -2,30 +2,23 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections import Counter
+from dataclasses import dataclass, make_dataclass
 from pathlib import Path
 
 from acts_core.array import COUNT_MAX, MAX_SIDE, ArrayGeometry
 from acts_core.errors import SettingsError
 from acts_core.runtime import RealtimeConfig
-from acts_core.settings import Changeable, default_of, setting
+from acts_core.settings import Changeable, default_of, describe, part_of, setting
 from acts_core.skin import LAYOUTS, ForceResponse, Layout, MeasuredForceResponse, layout, layout_path
+from acts_recon.classifiers import AUTO, CLASSIFIERS, ObjectRecogniser, classifier_named
 from acts_recon.contacts import BlobConfig
-from acts_recon.fusion import FusionConfig, FusionEstimator
-from acts_recon.objects import (
-    Classifier,
-    ClassifierConfig,
-    FusedObjects,
-    ImageClassifier,
-    ImageClassifierConfig,
-    ObjectRecogniser,
-    PerFrameObjects,
-    load_object_library,
-)
-from acts_recon.recovery import METHODS, FusedRecovery, PerFrameRecovery, Recovery
+from acts_recon.fusion import FusionConfig
+from acts_recon.methods import METHODS, Recovery, SkinSetup
+from acts_recon.objects import load_object_library
 from acts_recon.regions import Regions
 from acts_recon.slip import SlipConfig
-from acts_recon.sparse import Reconstructor, ReconstructorConfig, load_dictionary, shipped_dictionary_path
+from acts_recon.sparse import ReconstructorConfig
 
 _ARRAY = ArrayGeometry()
 _RESPONSE = ForceResponse()
@@ -33,16 +26,10 @@ _RESPONSE = ForceResponse()
 # Of a reading in whole counts.
 _LEAST_NOISE_COUNTS = 0.3
 
-# Parameters that one method alone uses.
-_OF_METHOD = {
-    "fusion": ("object_touch_counts", "object_src_weight"),
-    "per_frame": ("dictionary", "patch_step", "sparsity_ratio", "keep_measured", "object_columns"),
-}
-
 
 @dataclass(frozen=True)
-class ReconstructionSettings(RealtimeConfig, SlipConfig):
-    """Parameters of the node ``reconstruction``."""
+class ReconstructionConfig(RealtimeConfig, SlipConfig):
+    """The node's own parameters; those of methods and classifiers come with `ReconstructionSettings`."""
 
     rows: int = setting(_ARRAY.rows, "rows of the array", minimum=1, maximum=MAX_SIDE)
     cols: int = setting(_ARRAY.cols, "columns of the array", minimum=1, maximum=MAX_SIDE)
@@ -65,18 +52,14 @@ class ReconstructionSettings(RealtimeConfig, SlipConfig):
     )
     method: str = setting(
         "fusion",
-        "fusion: the image is estimated from all samples so far; per_frame: from each frame alone, as in the paper, "
-        "with dictionary, patch_step, sparsity_ratio and keep_measured",
-        choices=METHODS,
+        "; ".join(f"{name}: {kind.summary}" for name, kind in METHODS.items()),
+        choices=tuple(METHODS),
     )
     noise_counts: float = setting(
         default_of(FusionConfig, "noise_counts"),
         "standard deviation of a reading about the truth, for fusion [counts]",
         minimum=0.0,
         maximum=100.0,
-    )
-    dictionary: str = setting(
-        "", "path of a dictionary file made by `acts train`, for per_frame; empty for the shipped one"
     )
     touch_counts: int = setting(
         default_of(ReconstructorConfig, "touch_counts"),
@@ -87,19 +70,6 @@ class ReconstructionSettings(RealtimeConfig, SlipConfig):
     subtract_baseline: bool = setting(
         True, "subtract what the topic baseline says a taxel reads untouched; nothing while there is none"
     )
-    patch_step: int = setting(
-        default_of(ReconstructorConfig, "patch_step"),
-        "distance of neighbouring patches in taxels",
-        minimum=1,
-        maximum=64,
-    )
-    sparsity_ratio: float = setting(
-        default_of(ReconstructorConfig, "sparsity_ratio"),
-        "atoms per measured taxel of a patch",
-        minimum=0.01,
-        maximum=1.0,
-    )
-    keep_measured: bool = setting(True, "measured taxels keep their measured value in the image")
     force_full_scale_counts: float = setting(
         _RESPONSE.full_scale_counts, "counts of a taxel at infinite force", minimum=1.0, maximum=float(COUNT_MAX)
     )
@@ -167,25 +137,10 @@ class ReconstructionSettings(RealtimeConfig, SlipConfig):
     object_library: str = setting(
         "", "path of an object library made by `acts library`, to publish the topic object; empty: off"
     )
-    object_touch_counts: int = setting(
-        default_of(ImageClassifierConfig, "touch_counts"),
-        "topic object, fusion: counts above which a taxel is pressed, as when the library was made; per_frame takes "
-        "touch_counts",
-        minimum=0,
-        maximum=COUNT_MAX,
-    )
-    object_src_weight: float = setting(
-        default_of(ImageClassifierConfig, "src_weight"),
-        "topic object, fusion: weight of SRC on a resting image against the comparison of images; 0: none",
-        minimum=0.0,
-        maximum=100.0,
-    )
-    object_columns: int = setting(
-        default_of(ClassifierConfig, "max_columns"),
-        "topic object, per_frame: library columns that explain a frame at most; 0: a quarter as many as samples; 2 as "
-        "on the board",
-        minimum=0,
-        maximum=1024,
+    object_classifier: str = setting(
+        AUTO,
+        "topic object: which classifier; auto: fused_image where the method knows how sure it is, otherwise src",
+        choices=(AUTO, *CLASSIFIERS),
     )
     object_rate_hz: float = setting(
         0.0,
@@ -198,21 +153,36 @@ class ReconstructionSettings(RealtimeConfig, SlipConfig):
     def __post_init__(self) -> None:
         RealtimeConfig.__post_init__(self)
         layout_path(self.layout)  # refuses what is neither a name nor a path
-        if self.dictionary and self.method != "per_frame":
-            raise SettingsError(
-                f"dictionary = {self.dictionary!r}: the method {self.method} uses none; "
-                "choose method per_frame, or leave the dictionary out"
-            )
+        for name in self.unused:
+            value = getattr(self, name)
+            if isinstance(value, str):
+                raise SettingsError(
+                    f"{name} = {value!r}: the method {self.method} uses none; "
+                    f"choose {_user_of(name)}, or leave {name} out"
+                )
 
     @property
     def unused(self) -> tuple[str, ...]:
-        """Parameters that were given and that the method does not use."""
+        """Parameters that were given and that neither the method nor its classifier uses."""
+        used = {*describe(METHODS[self.method].Config), *describe(self.classifier.Config)}
         return tuple(
             name
-            for method, names in _OF_METHOD.items()
-            for name in names
-            if method != self.method and getattr(self, name) != default_of(type(self), name)
+            for part in (METHODS, CLASSIFIERS)
+            for kind in part.values()
+            for name in describe(kind.Config)
+            if name not in used and getattr(self, name) != default_of(type(self), name)
         )
+
+    @property
+    def classifier(self) -> type[ObjectRecogniser]:
+        """The classifier that `object_classifier` names.
+
+        Raises
+        ------
+        SettingsError
+            When it does not go with the method.
+        """
+        return classifier_named(self.object_classifier, METHODS[self.method])
 
     def arranged(self) -> Layout:
         """The layout.
@@ -224,8 +194,25 @@ class ReconstructionSettings(RealtimeConfig, SlipConfig):
         """
         return layout(self.layout, self.rows, self.cols)
 
-    def reconstructor(self) -> Reconstructor:
-        """Load the dictionary and make everything ready for the first frame; takes seconds when not yet compiled.
+    def skin(self) -> SkinSetup:
+        """What method and classifier are told of the skin.
+
+        Raises
+        ------
+        ArrayError, SettingsError
+            As of `arranged`, and when the force response cannot be used.
+        """
+        arranged = self.arranged()
+        return SkinSetup(
+            arranged.geometry(self.pitch_m, self.row_pitch_m),
+            None if arranged.is_matrix else arranged,
+            self._response(),
+            self.touch_counts,
+            self.noise_counts,
+        )
+
+    def recovery(self) -> Recovery:
+        """Make the method that `method` names ready for the first frame; takes seconds when not yet compiled.
 
         Raises
         ------
@@ -236,38 +223,8 @@ class ReconstructionSettings(RealtimeConfig, SlipConfig):
         SettingsError
             When the force response cannot be used.
         """
-        path = Path(self.dictionary).expanduser() if self.dictionary else shipped_dictionary_path()
-        arranged = self.arranged()
-        return Reconstructor(
-            arranged.geometry(self.pitch_m, self.row_pitch_m),
-            load_dictionary(path),
-            ReconstructorConfig(
-                touch_counts=self.touch_counts,
-                patch_step=self.patch_step,
-                sparsity_ratio=self.sparsity_ratio,
-                keep_measured=self.keep_measured,
-            ),
-            self._response(),
-            None if arranged.is_matrix else arranged,
-        )
-
-    def recovery(self) -> Recovery:
-        """Make the method that `method` names ready for the first frame; takes seconds when not yet compiled.
-
-        Raises
-        ------
-        DictionaryError, ArrayError, SettingsError
-            As `reconstructor`.
-        """
-        if self.method == "per_frame":
-            return PerFrameRecovery(self.reconstructor())
-        arranged = self.arranged()
-        estimator = FusionEstimator(
-            arranged.geometry(self.pitch_m, self.row_pitch_m),
-            FusionConfig(noise_counts=self.noise_counts),
-            None if arranged.is_matrix else arranged,
-        )
-        return FusedRecovery(estimator, self._response(), self.touch_counts)
+        kind, skin = METHODS[self.method], self.skin()
+        return Recovery(kind(skin, part_of(kind.Config, self)), skin)
 
     def _response(self) -> ForceResponse | MeasuredForceResponse:
         if self.force_response:
@@ -317,18 +274,38 @@ class ReconstructionSettings(RealtimeConfig, SlipConfig):
         if not self.object_library:
             return None
         library = load_object_library(Path(self.object_library).expanduser(), shape=(self.rows, self.cols))
-        arranged = self.arranged()
-        if recovery.sigma is None or recovery.age_s is None:
-            config = ClassifierConfig(touch_counts=self.touch_counts, max_columns=self.object_columns)
-            return PerFrameObjects(Classifier(library, config))
-        return FusedObjects(
-            ImageClassifier(
-                library,
-                ImageClassifierConfig(touch_counts=self.object_touch_counts, src_weight=self.object_src_weight),
-                recovery.response,
-            ),
-            recovery.image,
-            recovery.sigma,
-            recovery.age_s,
-            None if arranged.is_matrix else arranged,
-        )
+        kind = self.classifier
+        return kind(library, part_of(kind.Config, self), recovery.skin, recovery.method)
+
+
+def _user_of(name: str) -> str:
+    """Which method or classifier uses a parameter, in words."""
+    for word, part in (("method", METHODS), ("object_classifier", CLASSIFIERS)):
+        for user, kind in part.items():
+            if name in describe(kind.Config):
+                return f"{word} {user}"
+    raise AssertionError(name)
+
+
+def settings_class() -> type:
+    """The node's own parameters, and those of every method and every classifier there is.
+
+    Raises
+    ------
+    SettingsError
+        When two of them have a parameter of one name.
+    """
+    configs = [kind.Config for part in (METHODS, CLASSIFIERS) for kind in part.values()]
+    configs = list(dict.fromkeys(configs))
+    names = Counter(name for config in (ReconstructionConfig, *configs) for name in describe(config))
+    for name, number in names.items():
+        if number > 1:
+            raise SettingsError(f"parameter {name!r} is declared {number} times: begin it with the name of its thing")
+    # The fields of the last base come first.
+    bases = (*reversed(configs), ReconstructionConfig)
+    checks = {"__post_init__": ReconstructionConfig.__post_init__}
+    return make_dataclass("ReconstructionSettings", [], bases=bases, namespace=checks, frozen=True)
+
+
+ReconstructionSettings = settings_class()
+"""Parameters of the node ``reconstruction``."""

@@ -13,7 +13,7 @@ from acts_core.errors import ActsError
 from acts_core.files import Section
 from acts_core.settings import checked, default_of, describe, unknown_key_message
 from acts_driver.settings import DriverSettings
-from acts_recon.settings import ReconstructionSettings
+from acts_recon.settings import ReconstructionConfig, ReconstructionSettings
 from acts_skins.skins_file import Skin
 
 T = TypeVar("T")
@@ -32,7 +32,7 @@ class TactileParameters:
     """
 
     driver: DriverSettings
-    reconstruction: ReconstructionSettings
+    reconstruction: ReconstructionConfig
     words: tuple[str, ...]
 
 
@@ -56,7 +56,9 @@ def tactile_parameters(skin: Skin, port: str) -> TactileParameters:
         driver["replay"] = str(skin.replay)
     given = {"driver": driver, "reconstruction": dict(skin.reconstruction)}
     driver_settings = _settings(DriverSettings, skin, "driver", driver)
-    reconstruction = _settings(ReconstructionSettings, skin, "reconstruction", skin.reconstruction)
+    reconstruction: ReconstructionConfig = _settings(
+        ReconstructionSettings, skin, "reconstruction", skin.reconstruction
+    )
     try:
         reconstruction.arranged()
     except ActsError as error:

@@ -9,12 +9,12 @@ from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
 from acts_core.errors import DictionaryError, SettingsError
-from acts_recon.sparse import Dictionary, ReconstructorConfig, load_dictionary, shipped_dictionary_path
+from acts_recon.methods import Method, SkinSetup
+from acts_recon.sparse import Dictionary, load_dictionary, shipped_dictionary_path
 from acts_tools.evaluate.estimators.dictionaries import cosine_dictionary, dictionary_named, haar_dictionary
-from acts_tools.evaluate.estimators.methods import METHODS, Method, method_named
+from acts_tools.evaluate.estimators.methods import METHODS, method_named
 
-GEOMETRY = ArrayGeometry()
-CONFIG = ReconstructorConfig(touch_counts=50)
+SKIN = SkinSetup(ArrayGeometry(), touch_counts=50)
 
 
 @pytest.fixture(scope="module")
@@ -30,7 +30,7 @@ def step(method: Method, field: NDArray[np.uint16], indices: NDArray[np.uint16])
 def test_every_method_keeps_what_was_measured_and_shows_nothing_on_an_untouched_skin(
     name: str, shipped: Dictionary
 ) -> None:
-    method = method_named(name)(GEOMETRY, shipped, CONFIG)
+    method = method_named(name)(SKIN, shipped, {})
     rng = np.random.default_rng(1)
     row, col = np.indices((32, 32))
     field = (600 * np.exp(-((row - 9) ** 2 + (col - 20) ** 2) / 8)).astype(np.uint16)
@@ -57,14 +57,14 @@ def test_linear_continues_a_plane_beyond_what_was_measured(shipped: Dictionary) 
     plane = (100 + 10 * row + 5 * col).astype(np.uint16)
     inner = (row >= 4) & (row <= 25) & (col >= 6) & (col <= 20)
     indices = np.random.default_rng(2).permutation(np.flatnonzero(inner))[:60].astype(np.uint16)
-    image = step(METHODS["linear"](GEOMETRY, shipped, CONFIG), plane, indices)
+    image = step(METHODS["linear"](SKIN, shipped, {}), plane, indices)
     np.testing.assert_allclose(image, plane, atol=1e-3)
 
 
 def test_linear_takes_the_nearest_where_there_is_no_triangle(shipped: Dictionary) -> None:
     field = np.zeros((32, 32), dtype=np.uint16)
     field[:, 16:] = 300
-    image = step(METHODS["linear"](GEOMETRY, shipped, CONFIG), field, np.arange(32, dtype=np.uint16))
+    image = step(METHODS["linear"](SKIN, shipped, {}), field, np.arange(32, dtype=np.uint16))
     np.testing.assert_array_equal(image, field)
 
 
@@ -72,7 +72,7 @@ def test_the_gaussian_process_is_exact_with_everything_near_measured(shipped: Di
     row, col = np.indices((32, 32))
     field = (600 * np.exp(-((row - 15) ** 2 + (col - 15) ** 2) / 30)).astype(np.uint16)
     indices = np.flatnonzero((row + col) % 2 == 0).astype(np.uint16)
-    image = step(METHODS["gp"](GEOMETRY, shipped, CONFIG), field, indices)
+    image = step(METHODS["gp"](SKIN, shipped, {}), field, indices)
     assert np.linalg.norm(image - field) < 0.03 * np.linalg.norm(field)
 
 
@@ -80,7 +80,7 @@ def test_last_value_remembers_and_zero_fill_does_not(shipped: Dictionary) -> Non
     field = np.full((32, 32), 77, dtype=np.uint16)
     first, second = np.array([1, 2], dtype=np.uint16), np.array([3], dtype=np.uint16)
     for name, seen in (("last", 3), ("zero", 1)):
-        method = METHODS[name](GEOMETRY, shipped, CONFIG)
+        method = METHODS[name](SKIN, shipped, {})
         step(method, field, first)
         assert np.count_nonzero(step(method, field, second)) == seen
         method.reset()
@@ -126,7 +126,7 @@ def test_patches_may_lie_closer(shipped: Dictionary) -> None:
     indices = np.random.default_rng(1).permutation(1024)[:256].astype(np.uint16)
     errors = []
     for patch_step in (4, 1):
-        config = ReconstructorConfig(touch_counts=50, patch_step=patch_step)
-        errors.append(np.linalg.norm(step(METHODS["paper"](GEOMETRY, shipped, config), field, indices) - field))
+        method = METHODS["paper"](SKIN, shipped, {"patch_step": patch_step})
+        errors.append(np.linalg.norm(step(method, field, indices) - field))
     # Each taxel then is the mean of up to 64 patches, not of 4.
     assert errors[1] < errors[0]

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 
-from acts_core.wire import DelimitedDecoder
 from acts_driver.board import BoardSession, BoardStatus, settings_in_words, version_in_words
 from acts_driver.port import LogCallback, Reader, Source
+from acts_driver.protocols import Decoder
 from acts_driver.stream import FrameStream
 from acts_ros.diagnostics import ERROR, OK, WARN, Report
 
@@ -72,7 +72,7 @@ class DriverReport:
         self,
         source: Source,
         reader: Reader,
-        decoder: DelimitedDecoder,
+        decoder: Decoder,
         stream: FrameStream,
         expected_size: tuple[int, int],
         session: BoardSession | None = None,

@@ -9,8 +9,8 @@ from collections.abc import Callable
 from acts_core.errors import ActsError, PortError
 from acts_core.frames import SampleFrame
 from acts_core.runtime import RealtimeConfig, enter_realtime
-from acts_core.wire import DelimitedDecoder
 from acts_driver.port.source import READ_TIMEOUT_S, Source
+from acts_driver.protocols import Decoder
 
 FramesCallback = Callable[[list[SampleFrame], int], None]
 """Takes frames that were read together and the host time of their arrival [ns], on the reader's thread.
@@ -35,7 +35,7 @@ class Reader:
     ----------
     source : Source
         Open already, or else opened by the thread.
-    decoder : DelimitedDecoder
+    decoder : Decoder
         Used by the reader's thread alone; its counters may be read from any.
     on_frames : callable
         See `FramesCallback`.
@@ -67,7 +67,7 @@ class Reader:
     def __init__(
         self,
         source: Source,
-        decoder: DelimitedDecoder,
+        decoder: Decoder,
         on_frames: FramesCallback,
         *,
         has_results: Callable[[], bool] = lambda: False,

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from acts_core.frames import SampleFrame
-from acts_core.wire import BoardMessage, DelimitedDecoder, Reply
+from acts_core.wire import BoardMessage, Reply
+from acts_driver.protocols import Decoder
 
 
 class StaleFrames:
@@ -13,11 +14,11 @@ class StaleFrames:
 
     Parameters
     ----------
-    decoder : DelimitedDecoder
+    decoder : Decoder
         Decodes the stream.
     """
 
-    def __init__(self, decoder: DelimitedDecoder) -> None:
+    def __init__(self, decoder: Decoder) -> None:
         self._decoder = decoder
         self._before_answer: int | None = None
         self._is_over = False

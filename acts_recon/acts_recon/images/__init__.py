@@ -8,6 +8,7 @@ from acts_recon.images.borders import Borders, borders_of, grown
 from acts_recon.images.frame_check import place_table, require_samples, skin_table, why_refused
 from acts_recon.images.frame_check_kernels import OK, check_frame
 from acts_recon.images.image import mono16, rgb8
+from acts_recon.images.placed_samples import PlacedSamples
 from acts_recon.images.uncertainty import (
     ERR_TOGETHER,
     FAR,
@@ -26,6 +27,7 @@ __all__ = [
     "OK",
     "BaselineSubtraction",
     "Borders",
+    "PlacedSamples",
     "Variances",
     "borders_of",
     "check_frame",

@@ -12,7 +12,7 @@ from std_msgs.msg import Header
 
 from acts_core.runtime import RateLimit
 from acts_msgs.msg import ObjectClass
-from acts_recon.objects import ObjectRecogniser
+from acts_recon.classifiers import ObjectRecogniser
 from acts_ros import qos
 
 

@@ -31,7 +31,7 @@ from acts_recon.images import BaselineSubtraction, mono16, rgb8
 from acts_recon.nodes.contacts_publisher import ContactsPublisher
 from acts_recon.nodes.object_publisher import ObjectPublisher
 from acts_recon.nodes.region_publisher import RegionsPublisher
-from acts_recon.settings import ReconstructionSettings
+from acts_recon.settings import ReconstructionConfig, ReconstructionSettings
 from acts_ros import qos
 from acts_ros.clocks import steady_timer
 from acts_ros.composition import parameters_from
@@ -71,7 +71,7 @@ class ReconstructionNode(Node):
 
     def __init__(self, *, subscribes: bool = True, cli_args: Sequence[str] | None = None, **options: object) -> None:
         super().__init__("reconstruction", cli_args=cli_args, **node_options(), **options)
-        self._settings = declare(self, ReconstructionSettings, self._change)
+        self._settings: ReconstructionConfig = declare(self, ReconstructionSettings, self._change)
         if self._settings.unused:
             self.get_logger().warning(f"{', '.join(self._settings.unused)}: not used by method {self._settings.method}")
         self.get_logger().info("compiling (the first time on a machine takes some seconds)")
@@ -131,7 +131,7 @@ class ReconstructionNode(Node):
         """Let this process be scheduled as the parameters ask."""
         enter_realtime(self._settings, "reconstruction", log_of(self))
 
-    def _change(self, settings: ReconstructionSettings) -> str:
+    def _change(self, settings: ReconstructionConfig) -> str:
         """Put changed parameters in force."""
         self._settings = settings
         self._raw_limit.set_rate(settings.image_raw_rate_hz)

@@ -8,7 +8,7 @@ from rclpy.node import Node
 
 from acts_core.runtime import RateLimit
 from acts_msgs.msg import RegionContacts
-from acts_recon.recovery import Recovery
+from acts_recon.methods import Recovery
 from acts_recon.regions import Regions
 from acts_ros import qos
 from acts_ros.messages import write_regions

@@ -11,18 +11,14 @@ from acts_recon.objects.object_library import (
     load_object_library,
     save_object_library,
 )
-from acts_recon.objects.object_recognition import FusedObjects, ObjectRecogniser, PerFrameObjects
 
 __all__ = [
     "Classification",
     "Classifier",
     "ClassifierConfig",
-    "FusedObjects",
     "ImageClassifier",
     "ImageClassifierConfig",
     "ObjectLibrary",
-    "ObjectRecogniser",
-    "PerFrameObjects",
     "build_object_library",
     "load_object_library",
     "save_object_library",

@@ -88,7 +88,12 @@ class Reconstructor:
         self._warm_up()
 
     def step(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16]) -> Contact:
-        """Recover one frame into `image` and find the contact in it.
+        """Recover one frame into `image` and find the contact in it; parameters and errors as of `recover`."""
+        self.recover(indices, counts)
+        return self._finder.find(self._flat)
+
+    def recover(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16]) -> NDArray[np.float32]:
+        """Recover one frame into `image`, and return that.
 
         Parameters
         ----------
@@ -118,7 +123,7 @@ class Reconstructor:
         )
         if code != OK:
             raise ArrayError(why_refused(code, indices, counts, *self._matrix_size))
-        return self._finder.find(self._flat)
+        return self.image
 
     def _warm_up(self) -> None:
         """Compile, or load from the cache, what the first frame would otherwise wait seconds for."""

@@ -44,7 +44,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     )
     parser.add_argument("port", nargs="?", default="auto", help="a path, auto (default) or serial:NUMBER")
     parser.add_argument(
-        "--protocol", choices=("binary", "raster_ascii"), default="binary", help="what the board speaks"
+        "--protocol", default="binary", help="what the board speaks: binary, raster_ascii or your own (binary)"
     )
     parser.add_argument("--rows", type=_side, default=32, help="of the array, with raster_ascii and --sim (32)")
     parser.add_argument("--cols", type=_side, default=32, help="of the array, with raster_ascii and --sim (32)")

@@ -10,9 +10,10 @@ from dataclasses import replace
 
 from acts_core.errors import PortError
 from acts_core.frames import SampleFrame
-from acts_core.wire import BoardSettings, BoardState, DelimitedDecoder, RasterDecoder, StreamDecoder
+from acts_core.wire import BoardSettings, BoardState
 from acts_driver.board import BoardLink, NoAnswerError, RefusedError
 from acts_driver.port import Reader, SerialSource
+from acts_driver.protocols import protocol_named
 from acts_driver.selftest import FrameRecord
 
 _REPLY_S = 0.5
@@ -30,21 +31,20 @@ class BoardReader:
     port : str
         A path, ``auto`` or ``serial:NUMBER``.
     protocol : str
-        ``binary`` or ``raster_ascii``.
+        A name of `acts_driver.protocols.PROTOCOLS`.
     rows, cols : int
-        Size of the array, for ``raster_ascii``, which does not tell it.
+        Size of the array, for protocols that do not tell it.
     baud : int
         Bits per second; of no effect on USB boards.
     """
 
     def __init__(self, port: str, protocol: str, rows: int, cols: int, baud: int = 115200) -> None:
         self._source = SerialSource(port, baud)
-        self._is_binary = protocol == "binary"
+        kind = protocol_named(protocol)
+        self._takes_commands = kind.takes_commands
         # More patient than the driver: full frames come slowly, and nothing else waits.
         self._link = BoardLink(self._source.write, reply_timeout_s=_REPLY_S, tries=_TRIES)
-        self._decoder: DelimitedDecoder = (
-            StreamDecoder(self._link.receive) if self._is_binary else RasterDecoder(rows, cols)
-        )
+        self._decoder = kind.decoder(rows, cols, self._link.receive)
         self._batches: queue.SimpleQueue[tuple[list[SampleFrame], int]] = queue.SimpleQueue()
         self._reader = Reader(
             self._source, self._decoder, lambda frames, arrival_ns: self._batches.put((frames, arrival_ns))
@@ -70,7 +70,7 @@ class BoardReader:
 
     def query(self) -> BoardState | None:
         """The board's state; None where it does not understand commands."""
-        if not self._is_binary:
+        if not self._takes_commands:
             return None
         try:
             return self._link.query().state

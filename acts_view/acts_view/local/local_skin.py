@@ -15,7 +15,7 @@ from acts_recon.contacts.blob_tracker import BlobTracker
 from acts_recon.contacts.blobs import TrackedBlob
 from acts_recon.contacts.contact import Contact
 from acts_recon.images.baseline import BaselineSubtraction
-from acts_recon.settings import ReconstructionSettings
+from acts_recon.settings import ReconstructionConfig
 from acts_view.skin.snapshot import CONTACT_COLUMNS, Frame, RegionState, Sample, SkinShape
 
 _SEQUENCE_MODULUS = 1 << 32
@@ -28,16 +28,16 @@ class LocalSkin:
 
     Parameters
     ----------
-    settings : ReconstructionSettings
+    settings : ReconstructionConfig
         Size, layout and method, as the node's parameters.
 
     Raises
     ------
     ArrayError, SettingsError
-        As of `ReconstructionSettings.recovery`.
+        As of `ReconstructionConfig.recovery`.
     """
 
-    def __init__(self, settings: ReconstructionSettings) -> None:
+    def __init__(self, settings: ReconstructionConfig) -> None:
         self._recovery = settings.recovery()
         self._regions = settings.regions(self._recovery)
         self._tracker = BlobTracker(

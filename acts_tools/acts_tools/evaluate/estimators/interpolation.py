@@ -6,27 +6,29 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import Delaunay, QhullError
 
-from acts_core.array import COUNT_MAX, ArrayGeometry
+from acts_core.array import COUNT_MAX
 from acts_core.kernels import kernel
+from acts_recon.methods import Method, NoSettings, SkinSetup
 
 _LENGTH_TAXELS = 2.0
 _NOISE = 0.05
 
 
-class Linear:
+class Linear(Method):
     """Linear interpolation over the Delaunay triangles of the measured taxels, linear extrapolation beyond them.
 
     Outside of the convex hull of the measured taxels the plane of the triangle at the nearest edge of the hull goes on.
     What comes out is clipped to 0 to 1023. Where the measured taxels span no triangle the nearest one's value is taken.
     """
 
-    sigma = None
+    summary = "linear interpolation"
 
-    def __init__(self, geometry: ArrayGeometry) -> None:
+    def __init__(self, skin: SkinSetup, config: NoSettings | None = None) -> None:
+        geometry = skin.geometry
         row, col = np.divmod(np.arange(geometry.rows * geometry.cols), geometry.cols)
         self._places = np.stack((row, col), axis=1).astype(np.float64)
-        self._image = np.zeros((geometry.rows, geometry.cols), dtype=np.float32)
-        self._flat = self._image.ravel()
+        self.image = np.zeros((geometry.rows, geometry.cols), dtype=np.float32)
+        self._flat = self.image.ravel()
 
     def reset(self) -> None:
         """Nothing is kept."""
@@ -34,7 +36,7 @@ class Linear:
     def step(
         self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float
     ) -> NDArray[np.float32]:
-        """See `acts_tools.evaluate.estimators.methods.Method.step`."""
+        """See `Method.step`."""
         if not counts.any():
             self._flat.fill(0)
         elif len(indices) == len(self._flat):
@@ -42,7 +44,7 @@ class Linear:
         else:
             self._flat[:] = np.clip(self._interpolate(indices, counts.astype(np.float64)), 0, COUNT_MAX)
             self._flat[indices] = counts
-        return self._image
+        return self.image
 
     def _interpolate(self, indices: NDArray[np.uint16], counts: NDArray[np.float64]) -> NDArray[np.float64]:
         known = self._places[indices]
@@ -54,7 +56,7 @@ class Linear:
         corners = mesh.simplices[owner]
         edge = np.arange(len(owner))
         ends = np.stack((corners[edge, (opposite + 1) % 3], corners[edge, (opposite + 2) % 3]), axis=1)
-        image = np.full(self._image.shape, np.nan)
+        image = np.full(self.image.shape, np.nan)
         _fill(image, known, counts, mesh.simplices, owner, ends)
         return image.ravel()
 
@@ -111,7 +113,7 @@ def _nearest(places: NDArray[np.float64], known: NDArray[np.float64]) -> NDArray
     return np.asarray(np.argmin(((places[:, None] - known[None]) ** 2).sum(axis=2), axis=1))
 
 
-class GaussianProcess:
+class GaussianProcess(Method):
     """Mean of a Gaussian process through the measured taxels, each frame alone.
 
     The prior mean is 0, the kernel a Matern 3/2 with a length of 2 taxels, the noise of a reading 5 % of the kernel's
@@ -119,14 +121,15 @@ class GaussianProcess:
     1023.
     """
 
-    sigma = None
+    summary = "a Gaussian process"
 
-    def __init__(self, geometry: ArrayGeometry) -> None:
+    def __init__(self, skin: SkinSetup, config: NoSettings | None = None) -> None:
+        geometry = skin.geometry
         row, col = np.divmod(np.arange(geometry.rows * geometry.cols), geometry.cols)
         distance = np.sqrt(3) * np.hypot(row[:, None] - row, col[:, None] - col) / _LENGTH_TAXELS
         self._kernel = (1 + distance) * np.exp(-distance)
-        self._image = np.zeros((geometry.rows, geometry.cols), dtype=np.float32)
-        self._flat = self._image.ravel()
+        self.image = np.zeros((geometry.rows, geometry.cols), dtype=np.float32)
+        self._flat = self.image.ravel()
 
     def reset(self) -> None:
         """Nothing is kept."""
@@ -134,12 +137,12 @@ class GaussianProcess:
     def step(
         self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float
     ) -> NDArray[np.float32]:
-        """See `acts_tools.evaluate.estimators.methods.Method.step`."""
+        """See `Method.step`."""
         if not counts.any():
             self._flat.fill(0)
-            return self._image
+            return self.image
         known = self._kernel[indices]
         covariance = known[:, indices] + _NOISE**2 * np.eye(len(indices))
         self._flat[:] = np.clip(np.linalg.solve(covariance, counts.astype(np.float64)) @ known, 0, COUNT_MAX)
         self._flat[indices] = counts
-        return self._image
+        return self.image

@@ -2,59 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Protocol
+from collections.abc import Callable, Mapping
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_core.array import ArrayGeometry
 from acts_core.errors import SettingsError
-from acts_recon.fusion import FusionEstimator
-from acts_recon.sparse import Dictionary, Reconstructor, ReconstructorConfig
+from acts_core.settings import SettingValue, describe
+from acts_recon.methods import METHODS as REGISTERED
+from acts_recon.methods import Fusion, Method, NoSettings, PerFrame, SkinSetup
+from acts_recon.sparse import Dictionary
 from acts_tools.evaluate.estimators.dictionaries import cosine_dictionary, haar_dictionary
 from acts_tools.evaluate.estimators.interpolation import GaussianProcess, Linear
 
 
-class Method(Protocol):
-    """Makes an image of every frame of samples.
-
-    How to add one: a class with these, and a line in `METHODS`.
-    """
-
-    @property
-    def sigma(self) -> NDArray[np.float32] | None:
-        """Standard deviation of the last image [counts], (rows, cols); None from a method that does not know."""
-
-    def reset(self) -> None:
-        """Forget everything: another recording begins."""
-
-    def step(
-        self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float
-    ) -> NDArray[np.float32]:
-        """Take one frame of samples and return the image at its end.
-
-        Parameters
-        ----------
-        indices, counts : np.ndarray [shape=(m,), dtype=uint16]
-            Row-major taxel indices in the order of measurement, and what was measured.
-        end_s, duration_s : float
-            When the last measurement ended, and how long all of them took [s]; they are evenly spaced.
-
-        Returns
-        -------
-        np.ndarray [shape=(rows, cols), dtype=float32]
-            Counts, 0 to 1023. May be overwritten by the next call.
-        """
-
-
-class ZeroFill:
+class ZeroFill(Method):
     """What was not measured in this frame is 0."""
 
-    sigma = None
+    summary = "0 where nothing was measured"
 
-    def __init__(self, geometry: ArrayGeometry) -> None:
-        self._image = np.zeros((geometry.rows, geometry.cols), dtype=np.float32)
+    def __init__(self, skin: SkinSetup, config: NoSettings | None = None) -> None:
+        self.image = np.zeros((skin.geometry.rows, skin.geometry.cols), dtype=np.float32)
 
     def reset(self) -> None:
         """Nothing is kept."""
@@ -63,76 +32,57 @@ class ZeroFill:
         self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float
     ) -> NDArray[np.float32]:
         """See `Method.step`."""
-        self._image.fill(0)
-        self._image.ravel()[indices] = counts
-        return self._image
+        self.image.fill(0)
+        self.image.ravel()[indices] = counts
+        return self.image
 
 
 class LastValue(ZeroFill):
     """Every taxel keeps what was last measured there."""
 
+    summary = "what was last measured"
+
     def reset(self) -> None:
         """Forget all values."""
-        self._image.fill(0)
+        self.image.fill(0)
 
     def step(
         self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float
     ) -> NDArray[np.float32]:
         """See `Method.step`."""
-        self._image.ravel()[indices] = counts
-        return self._image
+        self.image.ravel()[indices] = counts
+        return self.image
 
 
-class PerFrame:
-    """The paper's method: FastOMP over patches, each frame alone."""
-
-    sigma = None
-
-    def __init__(self, geometry: ArrayGeometry, dictionary: Dictionary, config: ReconstructorConfig) -> None:
-        self._reconstructor = Reconstructor(geometry, dictionary, config)
-
-    def reset(self) -> None:
-        """Nothing is kept."""
-
-    def step(
-        self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float
-    ) -> NDArray[np.float32]:
-        """See `Method.step`."""
-        self._reconstructor.step(indices, counts)
-        return self._reconstructor.image
+MethodFactory = Callable[[SkinSetup, Dictionary, Mapping[str, SettingValue]], Method]
+"""From the skin, the dictionary of methods that use a learnt one, and settings by name to a method."""
 
 
-class Fused:
-    """ACTS' own: samples fused over time."""
-
-    def __init__(self, geometry: ArrayGeometry) -> None:
-        self._estimator = FusionEstimator(geometry)
-        self.sigma: NDArray[np.float32] | None = self._estimator.sigma
-
-    def reset(self) -> None:
-        """Forget everything."""
-        self._estimator.reset()
-
-    def step(
-        self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float
-    ) -> NDArray[np.float32]:
-        """See `Method.step`."""
-        return self._estimator.step(indices, counts, end_s, duration_s)
+def _registered(kind: type[Method]) -> MethodFactory:
+    return lambda skin, dictionary, settings: kind(skin, _config(kind, settings))
 
 
-MethodFactory = Callable[[ArrayGeometry, Dictionary, ReconstructorConfig], Method]
-"""From geometry, dictionary and the settings of recovery by patches to a method."""
+def _config(kind: type[Method], settings: Mapping[str, SettingValue]) -> Any:
+    """Of all settings that are given, a method takes those that are its own."""
+    return kind.Config(**{name: value for name, value in settings.items() if name in describe(kind.Config)})
+
 
 METHODS: dict[str, MethodFactory] = {
-    "paper": PerFrame,
-    "acts": lambda geometry, dictionary, config: Fused(geometry),
-    "dct": lambda geometry, dictionary, config: PerFrame(geometry, cosine_dictionary(), config),
-    "haar": lambda geometry, dictionary, config: PerFrame(geometry, haar_dictionary(), config),
-    "zero": lambda geometry, dictionary, config: ZeroFill(geometry),
-    "linear": lambda geometry, dictionary, config: Linear(geometry),
-    "gp": lambda geometry, dictionary, config: GaussianProcess(geometry),
-    "last": lambda geometry, dictionary, config: LastValue(geometry),
+    "paper": lambda skin, dictionary, settings: PerFrame(skin, _config(PerFrame, settings), dictionary),
+    "acts": _registered(Fusion),
+    "dct": lambda skin, dictionary, settings: PerFrame(skin, _config(PerFrame, settings), cosine_dictionary()),
+    "haar": lambda skin, dictionary, settings: PerFrame(skin, _config(PerFrame, settings), haar_dictionary()),
+    "zero": _registered(ZeroFill),
+    "linear": _registered(Linear),
+    "gp": _registered(GaussianProcess),
+    "last": _registered(LastValue),
 }
+"""The node's two methods by their names in reports, and baselines."""
+
+
+def method_names() -> tuple[str, ...]:
+    """All that can be evaluated: `METHODS`, and what else the node offers (docs/extending.md)."""
+    return *METHODS, *(name for name, kind in REGISTERED.items() if kind not in (Fusion, PerFrame))
 
 
 def method_named(name: str) -> MethodFactory:
@@ -143,6 +93,8 @@ def method_named(name: str) -> MethodFactory:
     SettingsError
         Naming those that exist.
     """
-    if name not in METHODS:
-        raise SettingsError(f"method {name!r}: allowed is one of {', '.join(METHODS)}")
-    return METHODS[name]
+    if name in METHODS:
+        return METHODS[name]
+    if name in REGISTERED:
+        return _registered(REGISTERED[name])
+    raise SettingsError(f"method {name!r}: allowed is one of {', '.join(method_names())}")

@@ -11,7 +11,7 @@ import numpy as np
 from acts_core.errors import RecordingError
 from acts_sim.pressing import OBJECTS, PRESS_RATE_HZ, ContactModel, FoamConfig, object_named, press_over_time
 from acts_tools.evaluate import report
-from acts_tools.evaluate.estimators.methods import METHODS
+from acts_tools.evaluate.estimators.methods import method_names
 from acts_tools.evaluate.images import options
 from acts_tools.evaluate.images.progress import evaluate_all
 from acts_tools.evaluate.images.recovery import Recording
@@ -32,7 +32,7 @@ def add_parser(commands: Any) -> None:
     )
     parser.add_argument("--m", nargs="+", type=int, default=list(_M), help="taxels per frame (default: %(default)s)")
     parser.add_argument("--objects", nargs="+", default=list(OBJECTS), metavar="NAME", help="default: all 30")
-    parser.add_argument("--ours", default=options.METHOD, choices=tuple(METHODS), help="default: %(default)s")
+    parser.add_argument("--ours", default=options.METHOD, choices=method_names(), help="default: %(default)s")
     parser.add_argument(
         "--presses", type=options.at_least_one, default=1, metavar="N", help="of each object (default: %(default)s)"
     )

@@ -5,17 +5,20 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from acts_core.errors import SettingsError
 from acts_core.sampling import SCHEMES, SamplingConfig
-from acts_core.settings import default_of, describe
+from acts_core.settings import SettingValue, default_of, describe, from_text, unknown_key_message
+from acts_recon.methods import METHODS as REGISTERED
 from acts_recon.sparse import Dictionary, shipped_dictionary_path
 from acts_tools.evaluate.estimators.dictionaries import dictionary_named
-from acts_tools.evaluate.estimators.methods import METHODS
+from acts_tools.evaluate.estimators.methods import method_names
 from acts_tools.evaluate.images.recovery import FOLLOW_COUNTS, Task
 
 METHOD = "acts"
 """Recovers unless another method is asked for."""
 
 _SCHEME, _M = "tracking", 55
+_OPTIONS_OF_THEIR_OWN = ("dictionary", "patch_step")
 
 
 def add_arguments(parser: argparse.ArgumentParser, **defaults: float) -> None:
@@ -23,7 +26,7 @@ def add_arguments(parser: argparse.ArgumentParser, **defaults: float) -> None:
     # Given again, each adds to what it named before; defaults are put in by `tasks`, or they would be added to.
     parser.add_argument("--scheme", nargs="+", action="extend", choices=tuple(SCHEMES), help=f"default: {_SCHEME}")
     parser.add_argument("--m", nargs="+", action="extend", type=int, help=f"taxels per frame (default: {_M})")
-    parser.add_argument("--method", nargs="+", action="extend", choices=tuple(METHODS), help=f"default: {METHOD}")
+    parser.add_argument("--method", nargs="+", action="extend", choices=method_names(), help=f"default: {METHOD}")
     add_common_arguments(parser, **defaults)
 
 
@@ -48,8 +51,29 @@ def add_common_arguments(parser: argparse.ArgumentParser, **defaults: float) -> 
         help="counts above which the sampling searches around a taxel or follows it (default: "
         f"{FOLLOW_COUNTS} for tracking, as --touch-counts for the others)",
     )
+    parser.add_argument(
+        "--set",
+        action="append",
+        type=_method_setting,
+        default=[],
+        metavar="NAME=VALUE",
+        help="a setting of a method, by the name of its parameter (docs/reference.md, reconstruction)",
+    )
     parser.add_argument("--seed", type=int, default=1, metavar="X", help="of everything random (default: %(default)s)")
     parser.add_argument("--json", type=Path, metavar="OUT", help="write the results here, too")
+
+
+def _method_setting(word: str) -> tuple[str, SettingValue]:
+    """``NAME=VALUE`` of a setting of a registered method, for argparse."""
+    name, _, text = word.partition("=")
+    configs = {key: kind.Config for kind in REGISTERED.values() for key in describe(kind.Config)}
+    known = [key for key in configs if key not in _OPTIONS_OF_THEIR_OWN]
+    if name not in known:
+        raise argparse.ArgumentTypeError(unknown_key_message(name, known, "settings of methods"))
+    try:
+        return name, from_text(configs[name], name, text)
+    except SettingsError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
 
 
 def at_least_one(word: str) -> int:
@@ -85,7 +109,8 @@ def task(arguments: argparse.Namespace, scheme: str, m: int, method: str, shape:
         threshold_counts=threshold,
         seed=arguments.seed,
     )
-    return Task(sampling, method, **{name: getattr(arguments, name) for name in describe(Task)})
+    settings = {name: getattr(arguments, name) for name in describe(Task)}
+    return Task(sampling, method, **settings, settings=tuple(arguments.set))
 
 
 def tasks(arguments: argparse.Namespace, shape: tuple[int, ...] = (32, 32)) -> list[Task]:
@@ -101,4 +126,4 @@ def tasks(arguments: argparse.Namespace, shape: tuple[int, ...] = (32, 32)) -> l
 def as_report(arguments: argparse.Namespace) -> dict[str, object]:
     """What a report says of the arguments."""
     used = {name: getattr(arguments, name) for name in (*describe(Task), "search_counts", "seed")}
-    return {**used, "dictionary": arguments.dictionary or "shipped"}
+    return {**used, "dictionary": arguments.dictionary or "shipped", "set": dict(arguments.set)}

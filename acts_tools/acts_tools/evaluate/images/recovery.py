@@ -15,9 +15,10 @@ from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX, ArrayGeometry
 from acts_core.sampling import SamplingConfig
-from acts_core.settings import setting, validate
-from acts_recon.sparse import Dictionary, ReconstructorConfig
-from acts_tools.evaluate.estimators.methods import Method, method_named
+from acts_core.settings import SettingValue, setting, validate
+from acts_recon.methods import Method, SkinSetup
+from acts_recon.sparse import Dictionary
+from acts_tools.evaluate.estimators.methods import method_named
 from acts_tools.evaluate.images import calibration
 from acts_tools.evaluate.images.board_sampler import BoardSampler
 from acts_tools.evaluate.images.scores import FRAME_SCORES, INVENTED, FrameScores, score_image
@@ -62,6 +63,8 @@ class Task:
     method : str
         See `acts_tools.evaluate.estimators.methods.METHODS`.
     rate_hz, touch_counts, sample_us, noise_counts, onset_s, patch_step : see below
+    settings : tuple of (str, value)
+        Further settings of the method.
     """
 
     sampling: SamplingConfig
@@ -74,6 +77,7 @@ class Task:
     )
     onset_s: float = setting(0.020, "how long a contact counts as new", minimum=0)
     patch_step: int = setting(4, "taxels from patch to patch, in the methods that use patches", minimum=1, maximum=64)
+    settings: tuple[tuple[str, SettingValue], ...] = ()
 
     def __post_init__(self) -> None:
         validate(self)
@@ -154,8 +158,8 @@ def method_of(task: Task, dictionary: Dictionary) -> Method:
         When patches do not fit the array.
     """
     geometry = ArrayGeometry(rows=task.sampling.rows, cols=task.sampling.cols)
-    config = ReconstructorConfig(touch_counts=task.touch_counts, patch_step=task.patch_step)
-    return method_named(task.method)(geometry, dictionary, config)
+    skin = SkinSetup(geometry, touch_counts=task.touch_counts)
+    return method_named(task.method)(skin, dictionary, {"patch_step": task.patch_step, **dict(task.settings)})
 
 
 def images(recordings: Iterable[Recording], task: Task) -> int:

@@ -8,6 +8,7 @@ sampler with frames that begin at the same times, and know the objects from the 
 from __future__ import annotations
 
 import time
+from collections import defaultdict
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Protocol
@@ -17,7 +18,9 @@ from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
 from acts_core.sampling import SamplingConfig
+from acts_recon.classifiers import CLASSIFIERS, FusedImageRecogniser, ObjectRecogniser, SrcRecogniser
 from acts_recon.fusion import FusionEstimator
+from acts_recon.methods import Fusion, SkinSetup
 from acts_recon.objects import (
     Classification,
     Classifier,
@@ -129,6 +132,56 @@ class FusedImage:
         began_s = time.thread_time()
         result = self._classifier.step(image, self._estimator.sigma, self._estimator.age_s, self._period_s)
         return _answer(result, began_s, self.spent_us)
+
+
+class Registered:
+    """Any classifier of the node (docs/extending.md): tracking sampling and fusion, as `FusedImage`."""
+
+    def __init__(self, kind: type[ObjectRecogniser], library: ObjectLibrary, m: int) -> None:
+        config = ImageClassifierConfig()
+        self.sampling = SamplingConfig(
+            scheme="tracking", rows=library.rows, cols=library.cols, m=m, threshold_counts=config.touch_counts
+        )
+        skin = SkinSetup(ArrayGeometry(rows=library.rows, cols=library.cols), touch_counts=config.touch_counts)
+        self._method = Fusion(skin)
+        self._recogniser = kind(library, kind.Config(), skin, self._method)
+        self.spent_us: list[float] = []
+
+    def reset(self) -> None:
+        """See `Contender`."""
+        self._method.reset()
+        self._recogniser.reset()
+
+    def take(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float) -> None:
+        """See `Contender`."""
+        self._method.step(indices, counts, end_s, duration_s)
+        self._recogniser.update(indices, counts, end_s, duration_s)
+
+    def answer(
+        self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float
+    ) -> int | None:
+        """See `Contender`."""
+        self._method.step(indices, counts, end_s, duration_s)
+        began_s = time.thread_time()
+        return _answer(self._recogniser.step(indices, counts, end_s, duration_s), began_s, self.spent_us)
+
+
+def contenders(coarse: ObjectLibrary, fine: ObjectLibrary, m: int) -> dict[str, Contender]:
+    """All classifiers by name: the paper's, ours, and what else the node offers.
+
+    Parameters
+    ----------
+    coarse, fine : ObjectLibrary
+        Of the same presses: without what is below the paper's touch, and with it.
+    m : int
+        Taxels per frame.
+    """
+    own = {name: kind for name, kind in CLASSIFIERS.items() if kind not in (SrcRecogniser, FusedImageRecogniser)}
+    return {
+        PAPER: PerFrameSrc(coarse, m),
+        ACTS: FusedImage(fine, m, period_s=frame_period_s(m)),
+        **{name: Registered(kind, fine, m) for name, kind in own.items()},
+    }
 
 
 def _answer(result: Classification, began_s: float, spent_us: list[float]) -> int | None:
@@ -248,12 +301,13 @@ def run_trials(
     Returns
     -------
     dict
-        `over_m` and `over_time`: by method ("paper", "acts") a list of accuracies. `frame_us`: by method `median` and
-        `p99` of the processor time that the classification of a frame took, at `M_OVER_TIME`.
+        `over_m` and `over_time`: by method ("paper", "acts", further ones of the node) a list of accuracies.
+        `frame_us`: by method `median` and `p99` of the processor time that the classification of a frame took, at
+        `M_OVER_TIME`.
     """
-    spent_us: dict[str, list[float]] = {PAPER: [], ACTS: []}
-    over_m = {method: {m: Score() for m in ms} for method in (PAPER, ACTS)}
-    over_time = {method: Score() for method in (PAPER, ACTS)}
+    spent_us: dict[str, list[float]] = defaultdict(list)
+    over_m: dict[str, dict[int, Score]] = defaultdict(lambda: {m: Score() for m in ms})
+    over_time: dict[str, Score] = defaultdict(Score)
     times_s = [1e-3 * time_ms for time_ms in times_ms]
     after_s = 1e-3 * max(MIDDLE_MS, *times_ms) + 0.015
     for number in range(trials.arms):
@@ -262,11 +316,8 @@ def run_trials(
         coarse = build_object_library(known, labels, touch_counts=TOUCH_COUNTS)
         fine = build_object_library(known, labels, touch_counts=ImageClassifierConfig().touch_counts)
 
-        def pair(m: int, coarse: ObjectLibrary = coarse, fine: ObjectLibrary = fine) -> dict[str, Contender]:
-            return {PAPER: PerFrameSrc(coarse, m), ACTS: FusedImage(fine, m, period_s=frame_period_s(m))}
-
-        contenders = {m: pair(m) for m in ms}
-        timed = pair(M_OVER_TIME)
+        judged = {m: contenders(coarse, fine, m) for m in ms}
+        timed = contenders(coarse, fine, M_OVER_TIME)
         for item in range(len(arm.objects)):
             show((number + item / len(arm.objects)) / trials.arms)
             wanted = coarse.names.index(arm.objects[item].name)
@@ -277,7 +328,7 @@ def run_trials(
                     found = answers(contender, frames, RECORDED_HZ, contact_s, times_s)
                     over_time[method].rows.append([answer == wanted for answer in found])
                 for m in ms:
-                    for method, contender in contenders[m].items():
+                    for method, contender in judged[m].items():
                         found = answers(contender, frames, RECORDED_HZ, contact_s, [1e-3 * MIDDLE_MS])
                         over_m[method][m].rows.append([found[0] == wanted])
         for method, contender in timed.items():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -11,15 +12,10 @@ from acts_core.errors import RecordingError
 from acts_core.files import FramesFile, without_contact
 from acts_recon.objects import ImageClassifierConfig, build_object_library
 from acts_tools.evaluate.objects.classification import (
-    ACTS,
-    PAPER,
     TOUCH_COUNTS,
-    Contender,
-    FusedImage,
-    PerFrameSrc,
     accuracy,
     answers,
-    frame_period_s,
+    contenders,
 )
 
 NEAREST = "nearest"
@@ -64,19 +60,16 @@ def run_recorded(
     coarse = build_object_library(frames, labels, touch_counts=TOUCH_COUNTS)
     fine = build_object_library(frames, labels, touch_counts=ImageClassifierConfig().touch_counts)
     truth = [coarse.names.index(recorded.label[number]) for number in asked]
-    over_m: dict[str, list[dict[str, Any]]] = {PAPER: [], ACTS: [], NEAREST: []}
+    over_m: dict[str, list[dict[str, Any]]] = defaultdict(list)
     cosines = np.stack([flat[peaks[number]].ravel() for number in asked]) @ fine.columns
     nearest = fine.classes[np.argmax(cosines, axis=1)]
     done = 0
     for m in ms:
-        contenders: dict[str, Contender] = {
-            PAPER: PerFrameSrc(coarse, m),
-            ACTS: FusedImage(fine, m, period_s=frame_period_s(m)),
-        }
-        for method, contender in contenders.items():
+        judged = contenders(coarse, fine, m)
+        for method, contender in judged.items():
             right = 0
             for number, wanted in zip(asked, truth, strict=True):
-                show(done / (len(ms) * len(contenders) * len(asked)))
+                show(done / (len(ms) * len(judged) * len(asked)))
                 done += 1
                 start, length = recorded.start[number], recorded.length[number]
                 frames = np.ascontiguousarray(flat[start : start + length])

@@ -51,9 +51,12 @@ def draw(path: Path, results: dict[str, Any], m_over_time: int) -> None:
     for axes, curves, question in ((left, results["over_m"], "m"), (right, results["over_time"], "time_ms")):
         for method, cells in curves.items():
             x = [cell[question] for cell in cells]
-            axes.plot(x, [cell["accuracy"] for cell in cells], "o-", ms=3, color=_COLOURS[method], label=_NAMES[method])
+            colour = _COLOURS.get(method, "tab:green")
+            axes.plot(
+                x, [cell["accuracy"] for cell in cells], "o-", ms=3, color=colour, label=_NAMES.get(method, method)
+            )
             axes.fill_between(
-                x, [cell["low"] for cell in cells], [cell["high"] for cell in cells], color=_COLOURS[method], alpha=0.15
+                x, [cell["low"] for cell in cells], [cell["high"] for cell in cells], color=colour, alpha=0.15
             )
         axes.set(ylabel="accuracy", ylim=(0, 1.02))
         axes.grid(alpha=0.3)

@@ -1,0 +1,62 @@
+"""From samples to image and contact, by any of the methods."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_recon.contacts import Contact, ContactFinder
+from acts_recon.images import borders_of
+from acts_recon.methods.method import Method, SkinSetup
+
+
+class Recovery:
+    """Recovers frame after frame, and finds the contact in the image.
+
+    Parameters
+    ----------
+    method : Method
+        Made for the same skin.
+    skin : SkinSetup
+
+    Attributes
+    ----------
+    method : Method
+    skin : SkinSetup
+    geometry : ArrayGeometry
+        Of the image.
+    borders : Borders
+        Likewise.
+    response : ForceResponse or MeasuredForceResponse
+        From counts to newtons.
+    image, sigma, age_s, measured
+        See `Method`.
+    """
+
+    def __init__(self, method: Method, skin: SkinSetup) -> None:
+        self.method = method
+        self.skin = skin
+        self.geometry = skin.geometry
+        self.borders = borders_of(skin.geometry.rows, skin.geometry.cols, skin.layout)
+        self.response = skin.response
+        self.image = method.image
+        self.sigma = method.sigma
+        self.age_s = method.age_s
+        self.measured = method.measured
+        self._flat = method.image.ravel(), None if method.sigma is None else method.sigma.ravel()
+        self._finder = ContactFinder(
+            skin.geometry, skin.response, float(skin.touch_counts), skin.noise_counts, borders=self.borders
+        )
+
+    def reset(self) -> None:
+        """See `Method.reset`."""
+        self.method.reset()
+
+    def step(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float) -> Contact:
+        """Recover one frame and find the contact in it; parameters and errors as of `Method.step`."""
+        self.method.step(indices, counts, end_s, duration_s)
+        return self._finder.find(*self._flat)
+
+    def confidence(self) -> NDArray[np.uint8] | None:
+        """See `Method.confidence`."""
+        return self.method.confidence()
