@@ -39,8 +39,8 @@ def compare(tracker: BlobTracker, frames: list[Frame]) -> int:
         assert [(blob.number - first, blob.merged) for blob in found] == [
             (blob.number, blob.merged) for blob in expected
         ]
-        for blob, reference in zip(found, expected, strict=True):
-            assert np.array(blob[2:]) == pytest.approx(np.array(reference[2:]), rel=1e-5, abs=1e-7)
+        for blob, wanted in zip(found, expected, strict=True):
+            assert np.array(blob[2:]) == pytest.approx(np.array(wanted[2:]), rel=1e-5, abs=1e-7)
             merged += blob.merged > 0
     return merged
 
@@ -78,7 +78,7 @@ def presses(seed: int, contacts: int, frames: int) -> list[Frame]:
 
 @settings(max_examples=40, deadline=None, derandomize=True)
 @given(st.integers(0, 2**32 - 1), st.integers(1, 5))
-def test_kernels_equal_the_plain_twin_on_presses_that_meet_and_part(
+def test_kernels_equal_the_reference_on_presses_that_meet_and_part(
     tracker: BlobTracker, seed: int, contacts: int
 ) -> None:
     compare(tracker, presses(seed, contacts, 80))
@@ -90,7 +90,7 @@ def test_presses_of_the_comparison_do_meet(tracker: BlobTracker) -> None:
 
 @settings(max_examples=40, deadline=None, derandomize=True)
 @given(st.integers(0, 2**32 - 1))
-def test_kernels_equal_the_plain_twin_on_anything(tracker: BlobTracker, seed: int) -> None:
+def test_kernels_equal_the_reference_on_anything(tracker: BlobTracker, seed: int) -> None:
     """Images that have nothing to do with one another, of few and of many taxels."""
     rng = np.random.default_rng(seed)
     frames: list[Frame] = []

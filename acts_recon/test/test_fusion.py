@@ -141,11 +141,11 @@ def test_nothing_is_added_where_the_skin_was_lately_measured_untouched(
 @given(streams())
 # The same examples every time: where a motion is just used or just not, single and double precision may differ.
 @settings(max_examples=40, deadline=None, derandomize=True)
-def test_kernels_equal_the_plain_twin(frames: list[tuple[Frame, float, float]]) -> None:
+def test_kernels_equal_the_reference(frames: list[tuple[Frame, float, float]]) -> None:
     compare(FusionEstimator(SMALL), frames)
 
 
-def test_kernels_equal_the_plain_twin_on_a_sliding_contact() -> None:
+def test_kernels_equal_the_reference_on_a_sliding_contact() -> None:
     skin = Skin(sliding(200.0), noise=2.0)
     compare(
         FusionEstimator(ArrayGeometry()),
@@ -154,7 +154,7 @@ def test_kernels_equal_the_plain_twin_on_a_sliding_contact() -> None:
 
 
 @pytest.mark.parametrize("shape", [(1, 1), (1, 9), (40, 1), (5, 64), (64, 64)])
-def test_kernels_equal_the_plain_twin_on_arrays_of_any_shape(shape: tuple[int, int]) -> None:
+def test_kernels_equal_the_reference_on_arrays_of_any_shape(shape: tuple[int, int]) -> None:
     """A bump that slides over a corner and saturates, in frames of one taxel, of some and of all."""
     geometry = ArrayGeometry(*shape)
     rng = np.random.default_rng(5)
