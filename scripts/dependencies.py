@@ -23,6 +23,7 @@ KEYS = {
     "pytest": "python3-pytest",
     "scipy": "python3-scipy",
     "serial": "python3-serial",
+    "tqdm": "python3-tqdm",
     "yaml": "python3-yaml",
 }
 # Without a key: they are in requirements-ros.txt.

@@ -19,9 +19,9 @@ from acts_recon.learning import KsvdConfig, KsvdProgress, learn_dictionary, prun
 from acts_recon.sparse import Dictionary, save_dictionary
 from acts_sim.pressing import OBJECTS, FoamConfig, object_named
 from acts_tools.output_file import require_writable
+from acts_tools.progress import Progress
 from acts_tools.training.checkpoint import Checkpoint
 from acts_tools.training.frames import Source, model_frames, recorded_frames
-from acts_tools.training.progress import ProgressBar
 
 __all__ = ["add_parser", "choose_patches", "model_frames", "run"]
 
@@ -117,17 +117,17 @@ def run(arguments: argparse.Namespace) -> int:
         + (f", the first {done} of them taken from {checkpoint.path}" if done else ""),
         flush=True,
     )
-    bar = ProgressBar("iteration", config.iterations, done=done)
-
-    def show(progress: KsvdProgress) -> None:
-        unexplained = 100 * progress.relative_error
-        bar.show(progress.iteration, f"{unexplained:.2f} % unexplained, {progress.replaced} atoms replaced")
-
     try:
-        atoms = learn_dictionary(patches, config, rng=rng, progress=show, save=checkpoint.save, resume=state)
+        with Progress("iteration", config.iterations, done=done, keep=True, stream=sys.stdout) as bar:
+
+            def show(progress: KsvdProgress) -> None:
+                residual = 100 * progress.relative_error
+                bar.show(progress.iteration, f"residual {residual:.2f} %, {progress.replaced} atoms replaced")
+
+            atoms = learn_dictionary(patches, config, rng=rng, progress=show, save=checkpoint.save, resume=state)
     except KeyboardInterrupt:
         if checkpoint.path.exists():
-            print(f"\ninterrupted; {checkpoint.path} holds what is done: the same command goes on", file=sys.stderr)
+            print(f"interrupted; {checkpoint.path} holds what is done: the same command goes on", file=sys.stderr)
         raise
     provenance = f"Learnt by K-SVD (acts train) from {source.description}."
     dictionary = Dictionary(atoms, arguments.patch_size, settings, provenance)
@@ -150,8 +150,8 @@ def _source(arguments: argparse.Namespace) -> tuple[Source, dict[str, Any]]:
         return recorded, {}
     objects = [object_named(name) for name in arguments.objects] if arguments.objects else list(OBJECTS.values())
     print(f"pressing {len(objects)} objects into the contact model", flush=True)
-    bar = ProgressBar("press", arguments.presses)
-    frames = model_frames(objects, arguments.presses, arguments.seed, bar.show)
+    with Progress("press", arguments.presses, keep=True, stream=sys.stdout) as bar:
+        frames = model_frames(objects, arguments.presses, arguments.seed, bar.show)
     description = f"{arguments.presses} presses of {len(objects)} objects into the ACTS contact model"
     made = {"presses": arguments.presses, "objects": [item.name for item in objects], **asdict(FoamConfig())}
     return Source(frames, description), made

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import json
 from pathlib import Path
 from typing import Any
@@ -13,14 +12,9 @@ import pytest
 from acts_core.sampling import SamplingConfig
 from acts_tools.cli import main
 from acts_tools.evaluate.estimators.dictionaries import cosine_dictionary
-from acts_tools.evaluate.images import progress
+from acts_tools.evaluate.images import tasks
 from acts_tools.evaluate.images.recovery import Recording, Task, evaluate, images
 from acts_tools.evaluate.report import Results
-
-
-class Terminal(io.StringIO):
-    def isatty(self) -> bool:
-        return True
 
 
 @pytest.fixture
@@ -74,37 +68,11 @@ def test_an_interrupted_evaluation_keeps_what_is_done(
             raise KeyboardInterrupt
         return evaluate(recordings, task, *others)
 
-    monkeypatch.setattr(progress, "evaluate", interrupted)
+    monkeypatch.setattr(tasks, "evaluate", interrupted)
     out = tmp_path / "out.json"
     words = ["--m", "20", "--method", "last", "zero", "--json", str(out)]
     assert main(["evaluate", "recovery", "--frames", str(frames), *words]) == 130
     assert [entry["method"] for entry in json.loads(out.read_text())["results"]] == ["last"]
-
-
-def test_a_terminal_shows_the_share_done_and_is_clean_in_the_end() -> None:
-    stream = Terminal()
-
-    def work() -> None:
-        with progress.Progress("tracking", 200, stream) as shown:
-            shown.show(50)
-            shown.show(201)
-            raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        work()
-    before, first, last, end = stream.getvalue().split("\r\033[K")[1:]
-    assert before == "tracking: 0%"
-    assert first.startswith("tracking: 25%, ")
-    assert first.endswith(" s left")
-    assert last == "tracking: 100%, 0 s left"
-    assert end == ""
-
-
-def test_nothing_is_shown_where_there_is_no_terminal() -> None:
-    stream = io.StringIO()
-    with progress.Progress("tracking", 2, stream) as shown:
-        shown.show(1)
-    assert stream.getvalue() == ""
 
 
 @pytest.mark.parametrize(("m", "rate_hz", "n"), [(55, 31.0, 40), (128, 1000.0, 90), (1024, 4000.0, 1), (7, 0.5, 3)])

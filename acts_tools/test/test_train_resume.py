@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import signal
 import subprocess
 import sys
@@ -16,7 +15,6 @@ from acts_recon.learning import KsvdState
 from acts_recon.sparse import load_dictionary
 from acts_tools.cli import main
 from acts_tools.training.checkpoint import Checkpoint
-from acts_tools.training.progress import ProgressBar
 
 TIMEOUT_S = 60.0
 WORDS = ("--presses", "60", "--patches", "400", "--atoms", "50", "--sparsity", "4", "--objects", "eraser", "x")
@@ -134,38 +132,3 @@ def test_a_checkpoint_of_another_training_is_refused(tmp_path: Path, capsys: pyt
         checkpoint.load()
     checkpoint.remove()
     assert checkpoint.load() is None
-
-
-def test_a_file_has_a_line_now_and_then() -> None:
-    stream = io.StringIO()
-    bar = ProgressBar("press", 1000, stream=stream)
-    for done in range(1, 1001):
-        bar.show(done, "note")
-    lines = stream.getvalue().splitlines()
-    assert len(lines) == 10
-    assert lines[0] == "press 100 of 1000: note"
-    assert lines[-1] == "press 1000 of 1000: note"
-
-
-class Terminal(io.StringIO):
-    def isatty(self) -> bool:
-        return True
-
-
-def test_a_terminal_has_a_bar(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("COLUMNS", "100")
-    stream = Terminal()
-    bar = ProgressBar("iteration", 4, done=1, stream=stream)
-    bar.show(2, "fine")
-    bar.show(4, "done")
-    first, last = stream.getvalue().split("\r\033[K")[1:]
-    assert first.startswith("iteration [############............] 2/4 ")
-    assert first.endswith("s left: fine")
-    assert last == "iteration [########################] 4/4: done\n"
-
-
-def test_a_bar_fits_a_narrow_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("COLUMNS", "30")
-    stream = Terminal()
-    ProgressBar("iteration", 4, stream=stream).show(2, "a long note")
-    assert len(stream.getvalue().removeprefix("\r\033[K")) <= 29

@@ -34,7 +34,7 @@ def _library() -> ctypes.CDLL:
 
 
 class BoardSampler:
-    """The C++ twin of `acts_core.sampling.schemes.Sampler`, a hundred times as fast, on recordings.
+    """The C++ implementation of `acts_core.sampling.schemes.Sampler`, a hundred times as fast, on recordings.
 
     Parameters
     ----------

@@ -10,8 +10,8 @@ import numpy as np
 from acts_sim.pressing import EVENT_RATE_HZ, EVENTS, event_recordings
 from acts_tools.evaluate import report
 from acts_tools.evaluate.images import options
-from acts_tools.evaluate.images.progress import evaluate_shown, require_methods
 from acts_tools.evaluate.images.recovery import Recording
+from acts_tools.evaluate.images.tasks import evaluate_shown, require_methods
 
 
 def add_parser(commands: Any) -> None:

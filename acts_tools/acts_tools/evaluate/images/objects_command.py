@@ -13,8 +13,8 @@ from acts_sim.pressing import OBJECTS, PRESS_RATE_HZ, ContactModel, FoamConfig, 
 from acts_tools.evaluate import report
 from acts_tools.evaluate.estimators.methods import method_names
 from acts_tools.evaluate.images import options
-from acts_tools.evaluate.images.progress import evaluate_all
 from acts_tools.evaluate.images.recovery import Recording
+from acts_tools.evaluate.images.tasks import evaluate_all
 from acts_tools.output_file import require_writable
 
 _M = (42, 56, 64, 88, 128, 176, 256, 352, 512)

@@ -15,8 +15,8 @@ from acts_core.files import load_frames, without_contact
 from acts_sim.pressing import OBJECTS
 from acts_tools.evaluate import report
 from acts_tools.evaluate.images import options
-from acts_tools.evaluate.images.progress import evaluate_all
 from acts_tools.evaluate.images.recovery import Recording
+from acts_tools.evaluate.images.tasks import evaluate_all
 from acts_tools.train import model_frames
 
 

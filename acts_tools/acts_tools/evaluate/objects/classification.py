@@ -63,7 +63,7 @@ class Contender(Protocol):
     def reset(self) -> None:
         """Another recording begins."""
 
-    def take(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float) -> None:
+    def update(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float) -> None:
         """Take a frame of samples of which no answer is needed."""
 
     def answer(
@@ -85,7 +85,7 @@ class PerFrameSrc:
     def reset(self) -> None:
         """Nothing is kept."""
 
-    def take(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float) -> None:
+    def update(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float) -> None:
         """Nothing is kept."""
 
     def answer(
@@ -120,7 +120,7 @@ class FusedImage:
         self._estimator.reset()
         self._classifier.reset()
 
-    def take(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float) -> None:
+    def update(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float) -> None:
         """See `Contender`."""
         self._estimator.step(indices, counts, end_s, duration_s)
 
@@ -239,7 +239,7 @@ def answers(
         indices, counts = sampler.frame(frames, begin_s * recorded_hz, step_s * recorded_hz)
         end_s = begin_s + m * step_s
         if number < listen:
-            contender.take(indices, counts, end_s, m * step_s)
+            contender.update(indices, counts, end_s, m * step_s)
         else:
             found[number] = contender.answer(indices, counts, end_s, m * step_s)
     return [found[number] for number in wanted]

@@ -12,11 +12,11 @@ from acts_core.settings import default_of
 from acts_sim.pressing import OBJECTS, PressingConfig, object_named
 from acts_tools.evaluate import report
 from acts_tools.evaluate.images import options
-from acts_tools.evaluate.images.progress import Progress
 from acts_tools.evaluate.objects.classification import M_OVER_TIME, MS, Trials, run_trials
 from acts_tools.evaluate.objects.classification_recorded import run_recorded
 from acts_tools.evaluate.objects.classification_report import draw, table, times
 from acts_tools.output_file import require_writable
+from acts_tools.progress import Progress
 
 
 def add_parser(commands: Any) -> None:

@@ -2,56 +2,13 @@
 
 from __future__ import annotations
 
-import sys
-import time
 from collections.abc import Sequence
-from types import TracebackType
-from typing import Any, TextIO
+from typing import Any
 
 from acts_recon.sparse import Dictionary
 from acts_tools.evaluate import report
 from acts_tools.evaluate.images.recovery import Recording, Task, evaluate, images, method_of
-
-
-class Progress:
-    """While it is entered, a terminal shows how much of a work of `total` steps is done, and how long the rest takes.
-
-    Parameters
-    ----------
-    title : str
-        What is being done.
-    total : int
-        Steps, at least 1.
-    stream : TextIO or None
-        Where to write; None for standard error. Nothing is written where that is no terminal.
-    """
-
-    def __init__(self, title: str, total: int, stream: TextIO | None = None) -> None:
-        self._title = title
-        self._total = total
-        self._stream = sys.stderr if stream is None else stream
-        self._shown = self._stream.isatty()
-        self._begin_s = time.monotonic()
-
-    def show(self, done: float) -> None:
-        """Show that so many steps are done."""
-        if not self._shown:
-            return
-        share = min(done / self._total, 1.0)
-        left = f", {(time.monotonic() - self._begin_s) * (1 / share - 1):.0f} s left" if share > 0 else ""
-        self._stream.write(f"\r\033[K{self._title}: {share:.0%}{left}")
-        self._stream.flush()
-
-    def __enter__(self) -> Progress:
-        self.show(0)
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, where: TracebackType | None
-    ) -> None:
-        if self._shown:
-            self._stream.write("\r\033[K")
-            self._stream.flush()
+from acts_tools.progress import Progress
 
 
 def evaluate_shown(

@@ -1,0 +1,71 @@
+"""How far a long work is: a tqdm bar on a terminal, a few lines or nothing elsewhere."""
+
+from __future__ import annotations
+
+import sys
+from types import TracebackType
+from typing import TextIO
+
+from tqdm import tqdm
+
+_LINES = 10
+"""Lines at most where there is no terminal."""
+
+
+class Progress:
+    """Shows how much of a work is done while it is entered.
+
+    Parameters
+    ----------
+    title : str
+        What is being done.
+    total : int
+        Steps, at least 1.
+    done : int
+        Steps done before; the time that is left is estimated from the others.
+    keep : bool
+        Leave the bar on the terminal, and print at most ten lines where there is none. False: clear the bar in the end,
+        and print nothing where there is no terminal.
+    stream : TextIO or None
+        Where to write; None for standard error.
+    """
+
+    def __init__(
+        self, title: str, total: int, *, done: int = 0, keep: bool = False, stream: TextIO | None = None
+    ) -> None:
+        self._title = title
+        self._total = total
+        self._stream = sys.stderr if stream is None else stream
+        self._print_lines = keep and not self._stream.isatty()
+        self._lines = done * _LINES // total
+        steps = " {n_fmt}/{total_fmt}" if keep else ""
+        self._bar = tqdm(
+            desc=title,
+            total=total,
+            initial=done,
+            leave=keep,
+            file=self._stream,
+            disable=None,  # without a terminal
+            dynamic_ncols=True,
+            bar_format="{desc}: {percentage:.0f}%|{bar}|" + steps + " [{elapsed}<{remaining}{postfix}]",
+        )
+
+    def show(self, done: float, note: str = "") -> None:
+        """Show that so many steps are done, and a note on the last of them."""
+        done = min(done, self._total)
+        if self._print_lines:
+            lines = int(done * _LINES // self._total)
+            if lines > self._lines:
+                self._lines = lines
+                after = f": {note}" if note else ""
+                print(f"{self._title} {done} of {self._total}{after}", file=self._stream, flush=True)
+        self._bar.set_postfix_str(note, refresh=False)
+        self._bar.update(done - self._bar.n)
+
+    def __enter__(self) -> Progress:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, where: TracebackType | None
+    ) -> None:
+        self._bar.close()
