@@ -14,8 +14,6 @@ setup(
     install_requires=["setuptools"],
     extras_require={"test": ["pytest"]},
     zip_safe=False,
-    maintainer="ACTS maintainers",
-    maintainer_email="acts-maintainers@example.org",
     description="Control by touch: ball balancing on a UR5e, reflexes of a LEAP hand.",
     license="Apache-2.0",
     entry_points={

@@ -14,8 +14,6 @@ setup(
     install_requires=["numba", "numpy", "pyyaml"],
     extras_require={"test": ["pytest"]},
     zip_safe=False,
-    maintainer="ACTS maintainers",
-    maintainer_email="acts-maintainers@example.org",
     description="The vocabulary of ACTS, free of ROS: geometry, sampling schemes, force response, settings, errors.",
     license="Apache-2.0",
     entry_points={"console_scripts": []},

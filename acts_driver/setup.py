@@ -15,8 +15,6 @@ setup(
     install_requires=["acts_core", "numpy", "pyserial"],
     extras_require={"test": ["pytest"]},
     zip_safe=False,
-    maintainer="ACTS maintainers",
-    maintainer_email="acts-maintainers@example.org",
     description="Serial driver of the ACTS tactile array: board bytes in, TactileSamples out.",
     license="Apache-2.0",
     entry_points={"console_scripts": [f"driver = {PACKAGE}.programs:driver"]},

@@ -14,8 +14,6 @@ setup(
     install_requires=["acts_core", "numba", "numpy", "scipy"],
     extras_require={"test": ["pytest"]},
     zip_safe=False,
-    maintainer="ACTS maintainers",
-    maintainer_email="acts-maintainers@example.org",
     description="Sparse recovery of full tactile images, and the contact in them.",
     license="Apache-2.0",
     entry_points={"console_scripts": ["reconstruction = acts_recon.programs:reconstruction"]},

@@ -14,8 +14,6 @@ setup(
     install_requires=["setuptools"],
     extras_require={"test": ["pytest"]},
     zip_safe=False,
-    maintainer="ACTS maintainers",
-    maintainer_email="acts-maintainers@example.org",
     description="What ACTS nodes share: parameters, quality of service, executors, diagnostics.",
     license="Apache-2.0",
     entry_points={"console_scripts": []},

@@ -14,8 +14,6 @@ setup(
     install_requires=["setuptools"],
     extras_require={"test": ["pytest"]},
     zip_safe=False,
-    maintainer="ACTS maintainers",
-    maintainer_email="acts-maintainers@example.org",
     description="The simulated world: contacts, a ball on a plate, a UR5e, a LEAP hand, speaking the real protocols.",
     license="Apache-2.0",
     entry_points={

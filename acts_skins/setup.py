@@ -14,8 +14,6 @@ setup(
     install_requires=["setuptools"],
     extras_require={"test": ["pytest"]},
     zip_safe=False,
-    maintainer="ACTS maintainers",
-    maintainer_email="acts-maintainers@example.org",
     description="Driver and reconstruction of a skin in one process, and several skins of a robot.",
     license="Apache-2.0",
     entry_points={

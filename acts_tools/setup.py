@@ -16,8 +16,6 @@ setup(
     install_requires=["setuptools"],
     extras_require={"test": ["pytest"]},
     zip_safe=False,
-    maintainer="ACTS maintainers",
-    maintainer_email="acts-maintainers@example.org",
     description="The acts command: launch, record, play, train, demo, bench.",
     license="Apache-2.0",
     entry_points={"console_scripts": ["acts = acts_tools.cli:main"]},

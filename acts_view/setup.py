@@ -14,8 +14,6 @@ setup(
     install_requires=["setuptools"],
     extras_require={"test": ["pytest"]},
     zip_safe=False,
-    maintainer="ACTS maintainers",
-    maintainer_email="acts-maintainers@example.org",
     description="Touch on a page in the browser.",
     license="Apache-2.0",
     entry_points={"console_scripts": [f"view = {PACKAGE}.programs:view"]},
