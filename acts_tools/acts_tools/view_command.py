@@ -14,6 +14,7 @@ examples:
   acts view --bag touch              a bag with samples, with pause and seek; needs nothing that runs
   acts view --npz FILE.npz           likewise of frames in an npz file
   acts view --board auto             the board that is plugged in, without a driver
+  acts view --control                the page can tare, set the sampling, start and stop balancing and grasps
   acts view --host 0.0.0.0           also for other machines: the address that is printed has a token that lets them in
 
 docs/view.md explains the page.
@@ -26,7 +27,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "view",
         help="show touch on a page in the browser",
         description="Serve a page that shows what the skins feel: image, contacts, plots, diagnostics; or what a "
-        "recording holds, or a board sends. It only listens. Ctrl-C ends it.",
+        "recording holds, or a board sends. It only listens, unless --control is given. Ctrl-C ends it.",
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
@@ -44,6 +45,11 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument(
         "--protocol", default="binary", choices=("binary", "raster_ascii"), help="of a board, as the driver's (binary)"
     )
+    parser.add_argument(
+        "--control",
+        action="store_true",
+        help="let the page tare, calibrate, set the sampling, start and stop balancing and grasps: this moves robots",
+    )
     parser.add_argument("--host", default="127.0.0.1", help="address to listen on (127.0.0.1: this machine only)")
     parser.add_argument("--port", type=int, default=8080, help="port to listen on; 0: any that is free (8080)")
 
@@ -58,6 +64,7 @@ def run(arguments: argparse.Namespace) -> int:
     from acts_view.main import main
 
     given = {"skins": ",".join(arguments.skins), "host": arguments.host, "port": arguments.port}
+    given["control"] = str(arguments.control).lower()
     words = [word for name, value in given.items() for word in ("--set", f"view.{name}={value}")]
     return main(StopSignals(), ["acts view", *words])
 
@@ -75,7 +82,7 @@ def _show_local(arguments: argparse.Namespace, signals: object) -> int:
         rows, cols = arguments.size
         driver = DriverSettings(port=arguments.board, protocol=arguments.protocol, rows=rows, cols=cols)
         name = f"/{arguments.skins[0].strip('/')}" if arguments.skins else "/board"
-        source = BoardSource(driver, arguments.layout, log)
+        source = BoardSource(name, driver, arguments.layout, log)
     else:
         source, name = open_recorded(arguments.bag or arguments.npz, arguments.skins, arguments.layout)
     return show(source, name, host=arguments.host, port=arguments.port, signals=signals)

@@ -15,6 +15,9 @@ class ViewSettings:
     skins: str = setting("", "namespaces of the skins to show, with commas between; empty: all that are found")
     host: str = setting("127.0.0.1", "address to listen on; another than this machine's own gets a token, see the log")
     port: int = setting(8080, "port to listen on; 0: any that is free, see the log", minimum=0, maximum=65535)
+    control: bool = setting(
+        False, "whether pages may call the services of drivers, ball_control and hand_reflexes: this moves robots"
+    )
     rate_hz: float = setting(30.0, "how often the page is sent what is new", minimum=1.0, maximum=100.0)
     send_limit_s: float = setting(
         5.0, "a page that takes nothing for so long is dropped [s]", minimum=0.1, maximum=60.0

@@ -35,7 +35,9 @@ def open_page(browser: Browser) -> Iterator[Callable[..., Page]]:
     pages: list[Page] = []
     complaints: list[str] = []
 
-    def begin(player: HasAddress, width: int = 1280, height: int = 900, **options: Any) -> Page:
+    def begin(
+        player: HasAddress, width: int = 1280, height: int = 900, *, is_live: bool = True, **options: Any
+    ) -> Page:
         page = browser.new_page(viewport={"width": width, "height": height}, **options)
         pages.append(page)
         page.set_default_timeout(DEADLINE_MS)
@@ -43,7 +45,8 @@ def open_page(browser: Browser) -> Iterator[Callable[..., Page]]:
         # A server that is gone is told so by the browser itself.
         page.on("console", lambda line: "ERR_CONNECTION_REFUSED" in line.text or complaints.append(line.text))
         page.goto(player.url)
-        page.wait_for_selector(".skin .pill[data-state=live]")
+        if is_live:
+            page.wait_for_selector(".skin .pill[data-state=live]")
         return page
 
     yield begin

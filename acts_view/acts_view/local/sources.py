@@ -108,7 +108,6 @@ class RecordedSource:
                 "length_s": state.length_s,
                 "playing": state.is_playing,
             },
-            "offers": ["play", "pause", "seek"],
             "diagnostics": [_diagnosis(f"recording {self._name}", level, message, {})],
         }
 
@@ -135,6 +134,8 @@ class BoardSource:
 
     Parameters
     ----------
+    name : str
+        Of the skin, with a slash before.
     driver : DriverSettings
     layout : str
         As `acts_core.skin.layouts.layout` takes it.
@@ -149,7 +150,8 @@ class BoardSource:
         The layout does not fit.
     """
 
-    def __init__(self, driver: DriverSettings, layout: str, log: Callable[[str, str], None]) -> None:
+    def __init__(self, name: str, driver: DriverSettings, layout: str, log: Callable[[str, str], None]) -> None:
+        self._name = name
         self._source = driver.make_source()
         self._source.open()
         # Now, since frames come as soon as the port is read.
@@ -174,7 +176,7 @@ class BoardSource:
             self._told_s = now_s
             level, message, values = self._intake.report("active", time.time_ns())
             self._told = _diagnosis("driver", level, message, values)
-        return {"offers": ["tare"], "diagnostics": [self._told]}
+        return {"offers": [["tare", self._name]], "diagnostics": [self._told]}
 
     def do(self, request: Request) -> str:
         """See `LocalSource.do`."""

@@ -1,4 +1,4 @@
-"""Node ``view``: a page in the browser that shows what skins feel. It only listens.
+"""Node ``view``: a page in the browser that shows what skins feel. It only listens, unless `control` lets pages ask.
 
 While no page is open it subscribes to no skin, so that nothing is computed for it.
 """
@@ -20,6 +20,7 @@ from acts_ros.diagnostics import OK, DiagnosticsReporter, Report
 from acts_ros.log import log_of
 from acts_ros.parameters import declare, node_options
 from acts_ros.polled import PollingNode
+from acts_view.nodes.control import Control
 from acts_view.nodes.skin_topics import SkinTopics
 from acts_view.settings import ViewSettings
 from acts_view.skin.snapshot import SkinShape
@@ -50,12 +51,14 @@ class ViewNode(PollingNode):
         self._names = list(settings.namespaces)
         self._heard: dict[str, tuple[float, DiagnosticStatus]] = {}
         self._pages = 0
+        self._control = Control(self) if settings.control else None
         self._server = ViewServer(
             settings.host,
             settings.port,
             send_limit_s=settings.send_limit_s,
             on_clients=self._on_pages,
             log=log_of(self),
+            on_request=None if self._control is None else self._control.take,
         )
         self.address = self._server.address
         self.create_subscription(DiagnosticArray, "/diagnostics", self._on_diagnostics, _DIAGNOSTICS_DEPTH)
@@ -73,6 +76,8 @@ class ViewNode(PollingNode):
         self._pages = pages
 
     def _step(self) -> None:
+        if self._control is not None:
+            self._control.step()
         if not self._pages:
             self._leave()
             return
@@ -95,8 +100,9 @@ class ViewNode(PollingNode):
             else:
                 self._skins[name] = SkinTopics(self, name)
             self._ask_shape(name)
+        told = {} if self._control is None else self._control.look()
         self._server.show_status(
-            {"time_s": time.time(), "pages": self._pages, "skins": self._names, "diagnostics": self._statuses()}
+            {"time_s": time.time(), "pages": self._pages, "skins": self._names, "diagnostics": self._statuses(), **told}
         )
 
     def _leave(self) -> None:

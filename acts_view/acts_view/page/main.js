@@ -1,6 +1,7 @@
 // Puts the page together: messages to panels, choices to what is drawn.
 
 import { connect } from "./connection.js";
+import { Controls } from "./controls.js";
 import { Diagnostics } from "./diagnostics.js";
 import { Panel } from "./skin/panel.js";
 import { Replay } from "./replay.js";
@@ -14,6 +15,7 @@ const KEYS = { s: "scale", m: "colours", i: "smooth", c: "contacts", u: "unsure"
 const panels = new Map();
 const diagnostics = new Diagnostics(document.getElementById("diagnostics"));
 const replay = new Replay(document.getElementById("replay"));
+const controls = new Controls(document.getElementById("controls"));
 let isHeld = false;
 
 const byId = (id) => document.getElementById(id);
@@ -38,6 +40,7 @@ function onMessage(message) {
   else if (message.type === "status") {
     diagnostics.show(message.diagnostics);
     replay.show(message.replay);
+    controls.show(message);
   }
 }
 

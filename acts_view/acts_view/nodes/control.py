@@ -1,0 +1,203 @@
+"""What pages ask for, done by the services of the nodes, of which none can hold the view up."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
+from rcl_interfaces.srv import GetParameters, SetParameters
+from rclpy.client import Client
+from rclpy.node import Node
+from rclpy.task import Future
+from std_srvs.srv import Trigger
+
+from acts_core.array import COUNT_MAX, MAX_SIDE
+from acts_core.errors import ViewRequestError
+from acts_core.sampling import SCHEMES
+from acts_view.web.requests import Answer, Request
+
+TRIGGERS = {
+    "tare": "driver/tare",
+    "calibrate": "driver/calibrate",
+    "balance": "ball_control/start",
+    "stop_balancing": "ball_control/stop",
+    "grasp": "hand_reflexes/grasp",
+    "release": "hand_reflexes/release",
+    "stop_grasp": "hand_reflexes/stop",
+}
+"""Services that can be called, without their namespace, by what a page calls it."""
+
+_TRIGGER_TYPE = "std_srvs/srv/Trigger"
+_SET, _GET = "driver/set_parameters", "driver/get_parameters"
+_RANGES = {"m": (0, MAX_SIDE**2), "threshold_counts": (-1, COUNT_MAX)}
+_PARAMETERS = ("scheme", *_RANGES)
+_PATIENCE_S = 10.0
+_WAITING_MAX = 32
+
+
+@dataclass
+class _Call:
+    client: Client
+    future: Future[Any]
+    answer: Answer
+    what: str
+    deadline_s: float
+
+
+class Control:
+    """Calls services for pages.
+
+    Parameters
+    ----------
+    node : Node
+        Spun by somebody else.
+    patience_s : float
+        A service that has not answered within this time is waited for no longer [s].
+    """
+
+    def __init__(self, node: Node, patience_s: float = _PATIENCE_S) -> None:
+        self._node = node
+        self._patience_s = patience_s
+        self._requests: deque[tuple[Request, Answer]] = deque()
+        self._services: dict[str, list[str]] = {}
+        self._clients: dict[str, Client] = {}
+        self._calls: list[_Call] = []
+        self._settings: dict[str, dict[str, Any]] = {}
+
+    def take(self, request: Request, answer: Answer) -> None:
+        """Take what a page asks for; on the server's thread.
+
+        Raises
+        ------
+        ViewRequestError
+            Too much waits already.
+        """
+        if len(self._requests) + len(self._calls) >= _WAITING_MAX:
+            raise ViewRequestError(f"{_WAITING_MAX} requests wait for the nodes already; try again")
+        self._requests.append((request, answer))
+
+    def step(self) -> None:
+        """Pass on what was asked for, and give up what nobody answers; often, on the executor's thread."""
+        while self._requests:
+            request, answer = self._requests.popleft()
+            try:
+                self._begin(request, answer)
+            except ViewRequestError as error:
+                answer(False, str(error))
+        now_s = time.monotonic()
+        for call in [call for call in self._calls if call.deadline_s < now_s]:
+            self._calls.remove(call)
+            call.client.remove_pending_request(call.future)
+            call.answer(False, f"{call.what} did not answer within {self._patience_s:g} s; it may still be done")
+
+    def look(self) -> dict[str, Any]:
+        """What can be asked for at present, and the settings in force, as the page is told; now and then.
+
+        Returns
+        -------
+        dict
+            ``offers``: pairs of what and of which namespace; ``settings``: of drivers, by namespace.
+        """
+        self._services = dict(self._node.get_service_names_and_types())
+        offers: list[list[str]] = [
+            [do, service.removesuffix(f"/{name}")]
+            for do, name in TRIGGERS.items()
+            for service, kinds in self._services.items()
+            if service.endswith(f"/{name}") and _TRIGGER_TYPE in kinds
+        ]
+        for do, namespace in offers:
+            # Ahead of the first request, which would have to wait until the service is reached.
+            self._client(f"{namespace}/{TRIGGERS[do]}", Trigger)
+        drivers = [name.removesuffix(f"/{_SET}") for name in self._services if name.endswith(f"/{_SET}")]
+        for driver in drivers:
+            self._client(f"{driver}/{_SET}", SetParameters)
+            self._ask_settings(driver)
+        self._settings = {driver: self._settings.get(driver, {}) for driver in drivers}
+        return {
+            "offers": [*offers, *(["set", driver] for driver in drivers)],
+            "settings": {driver: values for driver, values in self._settings.items() if values},
+            "schemes": list(SCHEMES),
+        }
+
+    def _begin(self, request: Request, answer: Answer) -> None:
+        if request.do in TRIGGERS:
+            self._call(f"{request.skin}/{TRIGGERS[request.do]}", Trigger, Trigger.Request(), answer, _of_trigger)
+        elif request.do == "set":
+            asked = SetParameters.Request(parameters=[_parameter(request)])
+            self._call(f"{request.skin}/{_SET}", SetParameters, asked, answer, _of_set)
+        else:
+            raise ViewRequestError(f"what is asked for is one of {', '.join(TRIGGERS)}, set; not '{request.do}'")
+
+    def _call(
+        self, service: str, kind: type, asked: object, answer: Answer, read: Callable[[Any], tuple[bool, str]]
+    ) -> None:
+        # Only what was found: a page names no service that the graph does not have.
+        if service not in self._services:
+            raise ViewRequestError(f"there is no service {service}: is the node running?")
+        client = self._client(service, kind)
+        if not client.service_is_ready():
+            raise ViewRequestError(f"{service} is not reached yet; try again")
+        future = client.call_async(asked)
+        call = _Call(client, future, answer, service, time.monotonic() + self._patience_s)
+        self._calls.append(call)
+
+        def on_done(done: Future[Any]) -> None:
+            if call not in self._calls:
+                return
+            self._calls.remove(call)
+            response = done.result()
+            answer(*((False, f"{service} gave no answer") if response is None else read(response)))
+
+        future.add_done_callback(on_done)
+
+    def _ask_settings(self, driver: str) -> None:
+        client = self._client(f"{driver}/{_GET}", GetParameters)
+        if not client.service_is_ready():
+            return
+
+        def on_done(done: Future[Any]) -> None:
+            response = done.result()
+            if response is not None and len(response.values) == len(_PARAMETERS):
+                values = [
+                    one.string_value if one.type == ParameterType.PARAMETER_STRING else one.integer_value
+                    for one in response.values
+                ]
+                self._settings[driver] = dict(zip(_PARAMETERS, values, strict=True))
+
+        client.call_async(GetParameters.Request(names=list(_PARAMETERS))).add_done_callback(on_done)
+
+    def _client(self, service: str, kind: type) -> Client:
+        if service not in self._clients:
+            self._clients[service] = self._node.create_client(kind, service)
+        return self._clients[service]
+
+
+def _parameter(request: Request) -> Parameter:
+    name, value = request.name, request.value
+    if name == "scheme" and isinstance(value, str) and value in ("", *SCHEMES):
+        return Parameter(name=name, value=ParameterValue(type=ParameterType.PARAMETER_STRING, string_value=value))
+    if name in _RANGES and isinstance(value, int | float) and math.floor(value) == value:
+        lowest, highest = _RANGES[name]
+        if lowest <= value <= highest:
+            number = ParameterValue(type=ParameterType.PARAMETER_INTEGER, integer_value=int(value))
+            return Parameter(name=name, value=number)
+    raise ViewRequestError(
+        f"{name or 'nothing'} = {value!r}: what can be set is scheme ({', '.join(SCHEMES)}, or empty for the "
+        f"board's own), m (0 to {MAX_SIDE**2}) and threshold_counts (-1 to {COUNT_MAX})"
+    )
+
+
+def _of_trigger(response: Trigger.Response) -> tuple[bool, str]:
+    return response.success, response.message or ("done" if response.success else "refused without a reason")
+
+
+def _of_set(response: SetParameters.Response) -> tuple[bool, str]:
+    if len(response.results) != 1:
+        return False, "the node gave no answer"
+    (result,) = response.results
+    return result.successful, result.reason or ("set" if result.successful else "refused without a reason")

@@ -1,0 +1,195 @@
+"""What a page asks for, done by real services, in a real browser and by messages; ROS_DOMAIN_ID 222."""
+
+from __future__ import annotations
+
+import json
+import threading
+import time
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, Any
+
+import pytest
+import rclpy
+from rcl_interfaces.msg import SetParametersResult
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from std_srvs.srv import Trigger
+from test_view_codec import decode
+from view_browser import expect, needs_browser
+from websockets.sync.client import ClientConnection, connect
+
+from acts_msgs.msg import Contact
+from acts_ros import qos
+from acts_view.nodes.view_node import ViewNode
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+DOMAIN_ID = 222
+DEADLINE_S = 30.0
+PATIENCE_S = 0.5
+BUTTONS = {
+    "/plate": {"tare": "Tare", "calibrate": "Calibrate"},
+    "": {"start": "Start balancing", "stop": "Stop balancing"},
+    "/hand": {"grasp": "Grasp", "release": "Release", "stop": "Stop the hand"},
+}
+SERVERS = {"/plate": "driver", "": "ball_control", "/hand": "hand_reflexes"}
+
+
+class Bench:
+    """The node, services that answer, and one that does not; what was called."""
+
+    def __init__(self, *, control: bool) -> None:
+        self._context = Context()
+        rclpy.init(context=self._context, domain_id=DOMAIN_ID)
+        self.called: list[str] = []
+        nodes = []
+        for namespace, name in SERVERS.items():
+            node = Node(name, namespace=namespace, context=self._context)
+            for what in BUTTONS[namespace]:
+                node.create_service(Trigger, f"~/{what}", self._callback(name, what))
+            nodes.append(node)
+        self.driver = nodes[0]
+        for parameter, value in (("scheme", ""), ("m", 55), ("threshold_counts", -1)):
+            self.driver.declare_parameter(parameter, value)
+        self.driver.add_on_set_parameters_callback(_refuse_thirteen)
+        self.driver.create_publisher(Contact, "contact", qos.STREAM)
+        # Nobody spins it: its service is there, and says nothing.
+        self._stuck = Node("driver", namespace="/stuck", context=self._context)
+        self._stuck.create_service(Trigger, "~/tare", self._callback("stuck", "tare"))
+        options = [Parameter("port", value=0), Parameter("control", value=control)]
+        self.view = ViewNode(context=self._context, parameter_overrides=options)
+        if self.view._control is not None:
+            self.view._control._patience_s = PATIENCE_S
+        self.url = self.view.address.url
+        self._nodes = [*nodes, self.view]
+        self._executor = SingleThreadedExecutor(context=self._context)
+        for node in self._nodes:
+            self._executor.add_node(node)
+        self._thread = threading.Thread(target=self._executor.spin, daemon=True)
+        self._thread.start()
+
+    def connect(self) -> ClientConnection:
+        port = self.view.address.port
+        return connect(f"ws://127.0.0.1:{port}/stream", origin=f"http://127.0.0.1:{port}", compression=None)  # type: ignore[arg-type]
+
+    def close(self) -> None:
+        self._executor.shutdown()
+        self._thread.join()
+        self.view.close()
+        for node in (*self._nodes, self._stuck):
+            node.destroy_node()
+        rclpy.try_shutdown(context=self._context)
+
+    def _callback(self, name: str, what: str) -> Callable[[Any, Trigger.Response], Trigger.Response]:
+        def answer(_: Any, response: Trigger.Response) -> Trigger.Response:
+            self.called.append(f"{name}/{what}")
+            response.success = what != "calibrate"
+            response.message = f"{what} was heard"
+            return response
+
+        return answer
+
+
+def _refuse_thirteen(parameters: list[Parameter]) -> SetParametersResult:
+    wrong = any(one.name == "m" and one.value == 13 for one in parameters)
+    return SetParametersResult(successful=not wrong, reason="not thirteen" if wrong else "")
+
+
+@pytest.fixture
+def begin() -> Iterator[Callable[..., Bench]]:
+    made: list[Bench] = []
+
+    def make(*, control: bool) -> Bench:
+        made.append(Bench(control=control))
+        return made[-1]
+
+    yield make
+    for one in made:
+        one.close()
+
+
+def until(client: ClientConnection, condition: Callable[[dict[str, Any]], bool]) -> dict[str, Any]:
+    deadline_s = time.monotonic() + DEADLINE_S
+    while time.monotonic() < deadline_s:
+        header, _ = decode(client.recv(DEADLINE_S))  # type: ignore[arg-type]
+        if condition(header):
+            return header
+    raise AssertionError("it was not told")
+
+
+def test_a_page_that_only_shows_is_refused_by_the_server(begin: Callable[..., Bench]) -> None:
+    bench = begin(control=False)
+    with bench.connect() as client:
+        status = until(client, lambda header: header["type"] == "status")
+        assert "offers" not in status
+        client.send('{"id":1,"do":"tare","skin":"/plate"}')
+        answer = until(client, lambda header: header["type"] == "answer")
+        assert (answer["done"], bench.called) == (False, [])
+        assert "--control" in answer["text"]
+
+
+def test_what_is_asked_is_bounded_and_a_service_that_is_silent_holds_nothing_up(begin: Callable[..., Bench]) -> None:
+    bench = begin(control=True)
+    with bench.connect() as client:
+        until(client, lambda header: ["tare", "/stuck"] in header.get("offers", []))
+        refused = [
+            {"do": "tare", "skin": "/nowhere"},
+            {"do": "shutdown", "skin": "/plate"},
+            {"do": "set", "skin": "/plate", "name": "port", "value": "/dev/null"},
+            {"do": "set", "skin": "/plate", "name": "m", "value": 1e9},
+            {"do": "set", "skin": "/plate", "name": "m", "value": 5.5},
+            {"do": "set", "skin": "/plate", "name": "scheme", "value": "none"},
+        ]
+        for number, request in enumerate(refused):
+            client.send(json.dumps({"id": number, **request}))
+            answer = until(client, lambda header, number=number: header.get("id") == number)  # type: ignore[misc]
+            assert answer["done"] is False
+            assert answer["text"]
+        # As soon as its client is connected it is asked, and what comes after is answered before it.
+        client.send('{"id":50,"do":"tare","skin":"/stuck"}')
+        client.send('{"id":51,"do":"tare","skin":"/plate"}')
+        order: list[dict[str, Any]] = []
+        until(client, lambda header: header["type"] == "answer" and (order.append(header) or len(order) == 2))  # type: ignore[func-returns-value]
+        assert [one["id"] for one in order] == [51, 50]
+        assert [one["done"] for one in order] == [True, False]
+        assert "did not answer" in order[1]["text"]
+        for number in range(60, 66):
+            client.send(json.dumps({"id": number, "do": "tare", "skin": "/stuck"}))
+        first = until(client, lambda header: header["type"] == "answer")
+        assert (first["id"], first["done"]) == (64, False)
+        assert "wait for their answers" in first["text"]
+    assert bench.called == ["driver/tare"]
+
+
+@needs_browser
+def test_every_button_calls_its_service_and_shows_the_answer(
+    begin: Callable[..., Bench], open_page: Callable[..., Page]
+) -> None:
+    bench = begin(control=True)
+    page = open_page(bench, is_live=False)
+    line = page.locator("#controls .answer")
+    for namespace, buttons in BUTTONS.items():
+        group = page.locator(f'#controls .group[data-of="{namespace}"]')
+        for what, title in buttons.items():
+            group.get_by_text(title, exact=True).click()
+            expect(line).to_have_text(f"{title}, {namespace or '/'}: {what} was heard")
+            expect(line).to_have_attribute("data-done", str(what != "calibrate").lower())
+            assert bench.called[-1] == f"{SERVERS[namespace]}/{what}"
+    group = page.locator('#controls .group[data-of="/plate"]')
+    expect(group.locator("[data-name=m]")).to_have_value("55")
+    group.locator("[data-name=m]").fill("64")
+    group.locator("[data-name=m]").press("Enter")
+    expect(line).to_have_text("Taxels a frame, /plate: set")
+    group.locator("[data-name=scheme]").select_option("tracking")
+    expect(line).to_have_text("Scheme, /plate: set")
+    group.locator("[data-name=threshold_counts]").fill("30")
+    group.locator("[data-name=threshold_counts]").press("Enter")
+    expect(line).to_have_text("Threshold, /plate: set")
+    values = [bench.driver.get_parameter(name).value for name in ("scheme", "m", "threshold_counts")]
+    assert values == ["tracking", 64, 30]
+    group.locator("[data-name=m]").fill("13")
+    group.locator("[data-name=m]").press("Enter")
+    expect(line).to_have_text("Taxels a frame, /plate: not thirteen")
