@@ -43,7 +43,10 @@ def run(title: str, command: list[str], env: dict[str, str] | None = None) -> bo
 
 def lint() -> bool:
     """Every linter, also after one has failed, so that one run shows all there is."""
-    firmware = [f"-I{ROOT}/acts_firmware/{folder}" for folder in ("src", "virtual_board", "teensy/arduino")]
+    firmware = [
+        f"-I{ROOT}/acts_firmware/{folder}"
+        for folder in ("src", "virtual_board", "teensy/arduino", "test/example_scheme")
+    ]
     on_host = [name for name in tracked("*.cpp") if not name.startswith(TARGET_ONLY)]
     passed = [
         run("ruff: rules", ["ruff", "check", "."]),

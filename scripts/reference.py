@@ -1,13 +1,18 @@
-"""Write docs/reference.md: every parameter of every node and every argument of every launch file, from the sources."""
+"""Write docs/reference.md: every launch argument, node parameter and sampling scheme, from the sources.
+
+Writes the choices of the argument `scheme` into the launch files, too: XML takes them from no registry.
+"""
 
 from __future__ import annotations
 
 import argparse
 import importlib
+import re
 import sys
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
+from acts_core.sampling import SCHEME_NUMBERS, SCHEMES
 from acts_core.settings import Changeable, default_of, describe
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -31,7 +36,8 @@ NODES = (
 
 HEAD = """# Reference: launch arguments and parameters
 
-Written by `./acts run python3 scripts/reference.py` from the launch files and settings classes; a test compares them.
+Written by `./acts run python3 scripts/reference.py` from the launch files, settings classes and sampling schemes; a
+test compares them.
 """
 
 
@@ -79,6 +85,35 @@ def node_section(package: str, executable: str, module: str, class_name: str) ->
     return [*lines, ""]
 
 
+def schemes_section() -> list[str]:
+    lines = ["## Sampling schemes", "", "| scheme | number | a frame is | own settings |", "|---|---|---|---|"]
+    for name, scheme in SCHEMES.items():
+        own = "; ".join(
+            f"`{setting.parameter}` ({setting.parameter_default:g}): {setting.parameter_description}"
+            for setting in scheme.own_settings
+        )
+        number = scheme.number or "none: in Python only"
+        lines.append(f"| `{name}` | {number} | {cell(scheme.description)} | {cell(own)} |")
+    return [*lines, ""]
+
+
+def with_schemes(launch_file: str) -> str:
+    """The text of a launch file, with all schemes as choices of its argument `scheme`."""
+
+    def written(found: re.Match[str]) -> str:
+        names = [*SCHEME_NUMBERS, *(["params_file"] if 'default="params_file"' in found[1] else [])]
+        choices = "".join(f'<choice value="{name}"/>' for name in names)
+        return f"{found[1]}\n    {choices}\n{found[2]}"
+
+    return re.sub(r'(<arg name="scheme" default=[^>]*[^/]>)\n.*?\n(  </arg>)', written, launch_file, flags=re.DOTALL)
+
+
+def written_files() -> dict[Path, str]:
+    """What this script writes, by path."""
+    launch_files = {path: with_schemes(path.read_text()) for path in sorted((ROOT / "launch").glob("*.launch.xml"))}
+    return {**launch_files, PAGE: page()}
+
+
 def page() -> str:
     lines = [HEAD, "## Launch files of acts_bringup", ""]
     for path in sorted((ROOT / "launch").glob("*.launch.xml")):
@@ -86,6 +121,7 @@ def page() -> str:
     lines += ["## Parameters of the nodes", "", CHANGE_IN_WORDS]
     for node in NODES:
         lines += node_section(*node)
+    lines += schemes_section()
     return "\n".join(lines).rstrip() + "\n"
 
 
@@ -93,14 +129,13 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--check", action="store_true", help="only say whether the page is up to date")
     arguments = parser.parse_args()
-    text = page()
-    if not arguments.check:
-        PAGE.write_text(text)
-        return 0
-    if not PAGE.is_file() or PAGE.read_text() != text:
-        print(f"{PAGE.relative_to(ROOT)} is out of date: ./acts run python3 scripts/reference.py", file=sys.stderr)
-        return 1
-    return 0
+    stale = {path: text for path, text in written_files().items() if not path.is_file() or path.read_text() != text}
+    for path, text in stale.items():
+        if arguments.check:
+            print(f"{path.relative_to(ROOT)} is out of date: ./acts run python3 scripts/reference.py", file=sys.stderr)
+        else:
+            path.write_text(text)
+    return 1 if arguments.check and stale else 0
 
 
 if __name__ == "__main__":

@@ -8,17 +8,21 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.numbers import FromRegistry
+from acts_core.sampling import SCHEME_NUMBERS
 
-class Scheme(IntEnum):
-    """How the taxels of a frame are chosen. 1 to 3 are the mode numbers of the published firmware."""
+
+class Scheme(IntEnum, metaclass=FromRegistry):
+    """How the taxels of a frame are chosen: the number on the wire of every sampling scheme, by its name in capitals.
+
+    1 to 3 are the mode numbers of the published firmware.
+    """
+
+    _ignore_ = "_name _number"
 
     UNKNOWN = 0
-    UNIFORM = 1
-    RANDOM = 2
-    ADAPTIVE = 3
-    RASTER = 4
-    HYBRID = 5
-    TRACKING = 6
+    for _name, _number in SCHEME_NUMBERS.items():
+        vars()[_name.upper()] = _number
 
 
 class SampleFrame(NamedTuple):

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from acts_core.errors import ArrayError, PacketError, SettingsError
 from acts_core.frames import SampleFrame, Scheme
-from acts_core.sampling import SCHEMES, SamplingConfig
+from acts_core.sampling import SCHEME_NUMBERS, SamplingConfig
 from acts_core.settings import describe
 from acts_core.wire import (
     LEDS,
@@ -50,7 +50,7 @@ def board_settings(draw: st.DrawFn) -> BoardSettings:
     return BoardSettings(
         rows=rows,
         cols=cols,
-        scheme=draw(st.sampled_from([scheme for scheme in SCHEMES if scheme != "uniform"])),
+        scheme=draw(st.sampled_from([scheme for scheme in SCHEME_NUMBERS if scheme != "uniform"])),
         neighbour_order=draw(st.sampled_from(["columns", "rows"])),
         m=m,
         threshold_counts=draw(st.integers(0, 1023)),
@@ -178,7 +178,7 @@ def test_settings_that_cannot_be_are_refused(values: dict[str, object], words: s
 
 
 def test_settings_of_a_sampling_config() -> None:
-    config = SamplingConfig("tracking", 16, 24, 100, 200, "rows", 7, 0.5, 0.25)
+    config = SamplingConfig("tracking", 16, 24, 100, 200, "rows", 7, search_share=0.5, adaptive_share=0.25)
     settings = BoardSettings.from_sampling(config, frame_period_us=500, led="touch")
     assert (settings.rows, settings.cols, settings.m, settings.threshold_counts) == (16, 24, 100, 200)
     assert (settings.search_quota, settings.adaptive_quota, settings.seed) == (50, 25, 7)
@@ -187,7 +187,8 @@ def test_settings_of_a_sampling_config() -> None:
 
 
 def test_every_setting_has_a_number() -> None:
-    assert [field.name.lower() for field in SettingField] == list(describe(BoardSettings))
+    assert sorted(field.name.lower() for field in SettingField) == sorted(describe(BoardSettings))
+    assert [int(field) for field in SettingField] == list(range(1, len(SettingField) + 1))
 
 
 @given(st.lists(MESSAGES, max_size=4), st.lists(st.integers(0, 2000), max_size=6))

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from acts_core.errors import SettingsError
 from acts_core.sampling import NEIGHBOURS, Sampler, SamplingConfig, measure_in
-from acts_core.sampling.schemes import adaptive
+from acts_core.sampling.schemes.adaptive import adaptive
 
 
 def test_the_quota_is_the_share_rounded_up() -> None:

@@ -8,10 +8,12 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from acts_core.errors import ArrayError, SettingsError
-from acts_core.sampling import NEIGHBOURS, SCHEMES, Sampler, SamplingConfig, measure_in, uniform_spacing
-from acts_core.sampling.random_taxels import Pcg32, RandomTaxels
-from acts_core.sampling.schemes import adaptive, division_order, raster
-from acts_core.sampling.uniform import uniform
+from acts_core.sampling import NEIGHBOURS, SCHEMES, Sampler, SamplingConfig, SkinMap, measure_in
+from acts_core.sampling.basis.division_order import division_order
+from acts_core.sampling.basis.pcg32 import Pcg32
+from acts_core.sampling.schemes.adaptive import adaptive
+from acts_core.sampling.schemes.random_taxels import RandomTaxels
+from acts_core.sampling.schemes.uniform import uniform, uniform_spacing
 
 # M and spacing (rows, columns) of the authors' firmware on 32 x 32.
 PUBLISHED_SPACING = {
@@ -146,7 +148,7 @@ def test_random_numbers_are_pcg32() -> None:
 
 
 def test_random_taxels_are_distinct_and_all_equally_likely() -> None:
-    taxels = RandomTaxels(4, 5, seed=3)
+    taxels = RandomTaxels(SamplingConfig(rows=4, cols=5, m=5, seed=3), SkinMap.of_matrix(4, 5))
     counts = np.zeros(20, dtype=int)
     frames = 4000
     for _ in range(frames):
@@ -187,7 +189,9 @@ def test_a_field_of_fractions_is_refused() -> None:
 
 
 def test_raster_is_row_by_row() -> None:
-    assert raster(2, 3).tolist() == [0, 1, 2, 3, 4, 5]
+    field = [[10, 11, 12], [13, 14, 15]]
+    indices, counts = Sampler(SamplingConfig("raster", 2, 3)).frame(measure_in(field))
+    assert (indices.tolist(), counts.tolist()) == ([0, 1, 2, 3, 4, 5], [10, 11, 12, 13, 14, 15])
 
 
 def test_published_adaptive_order_of_15_x_15(recording_path: Callable[[str], Path]) -> None:

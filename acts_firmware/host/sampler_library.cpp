@@ -5,8 +5,11 @@
 #include <cstdint>
 #include <memory>
 #include <random>
+#include <sstream>
+#include <string>
 
 #include "acts_firmware/sampling/sampler.hpp"
+#include "acts_firmware/wire/command.hpp"
 
 namespace {
 
@@ -58,6 +61,25 @@ class RecordingReader final : public acts::TaxelReader {
   Noise& noise_;
 };
 
+std::string scheme_table() {
+  std::ostringstream text;
+  for (const acts::SchemeInfo& info : acts::Schemes::kInfos) {
+    const auto own = std::count_if(info.own_settings.begin(), info.own_settings.end(),
+                                   [](const acts::OwnSetting& setting) { return setting.number != 0; });
+    text << info.name << '\t' << static_cast<int>(info.number) << '\t' << info.description << '\t' << info.measures_all
+         << '\t' << own << '\n';
+    for (const acts::OwnSetting& setting : info.own_settings) {
+      if (setting.number != 0) {
+        text << int{setting.number} << '\t' << setting.name << '\t' << setting.description << '\t' << setting.initial
+             << '\t' << setting.minimum << '\t' << setting.maximum << '\t'
+             << (setting.is_share() ? setting.share_name : "") << '\t' << setting.share_description << '\t'
+             << setting.share_initial << '\n';
+      }
+    }
+  }
+  return text.str();
+}
+
 }  // namespace
 
 extern "C" {
@@ -70,25 +92,33 @@ struct ActsSampler {
   Noise noise;
 };
 
-// Null where the core refuses the settings. Every reading has normal noise of this standard deviation.
-ActsSampler* acts_sampler_new(int rows, int cols, int scheme, int m, int threshold, int neighbour_order,
-                              std::uint64_t seed, int search_quota, int adaptive_quota, double noise_counts) {
-  acts::SamplingConfig config;
-  config.rows = rows;
-  config.cols = cols;
-  config.scheme = static_cast<acts::Scheme>(scheme);
-  config.m = m;
-  config.threshold = threshold;
-  config.neighbour_order = static_cast<acts::NeighbourOrder>(neighbour_order);
-  config.seed = seed;
-  config.search_quota = search_quota;
-  config.adaptive_quota = adaptive_quota;
-  auto made = std::make_unique<ActsSampler>(Noise(seed, noise_counts));
-  return made->sampler.configure(config) == acts::ConfigError::kNone ? made.release() : nullptr;
+// `settings` are those of a board as on the wire. Null where the core refuses them. Every reading has normal noise of
+// this standard deviation.
+ActsSampler* acts_sampler_new(const std::uint8_t* settings, std::size_t bytes, double noise_counts) {
+  if (bytes != acts::kSettingsBytes) {
+    return nullptr;
+  }
+  const acts::SamplingConfig config = acts::read_settings(settings).sampling;
+  auto made = std::make_unique<ActsSampler>(Noise(config.seed, noise_counts));
+  return made->sampler.configure(config) == acts::SettingField::kNone ? made.release() : nullptr;
 }
 
 void acts_sampler_free(ActsSampler* sampler) {
   delete sampler;
+}
+
+// What the schemes say of themselves: for each a line of name, number, description, whether it measures all; then a
+// line for each of its own settings, of number, name, description, initial value, minimum, maximum, and of the share
+// that it is given as name, description and initial value (empty, empty, 0 for none). Separated by tabs; the last field
+// of a scheme's line is the number of such lines that follow it.
+const char* acts_sampler_schemes() {
+  static const std::string kTable = scheme_table();
+  return kTable.c_str();
+}
+
+// Whether a frame of m taxels can be.
+int acts_sampler_takes(int scheme, int rows, int cols, int m) {
+  return acts::Schemes::takes(static_cast<acts::Scheme>(scheme), rows, cols, m) ? 1 : 0;
 }
 
 // Samples one frame of `frames` (count, rows, cols), the first measurement at `position` (in frames, fractional), each

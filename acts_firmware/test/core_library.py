@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.frames import SampleFrame
-from acts_core.sampling import SCHEMES, SamplingConfig, SkinMap
+from acts_core.sampling import SamplingConfig, SkinMap
+from acts_core.wire import BoardSettings
 
-NEIGHBOUR_ORDERS = {"columns": 0, "rows": 1}
 U16 = np.dtype("<u2")
 
 
@@ -40,14 +40,14 @@ def library() -> ctypes.CDLL:
     u16, u8, i32 = ctypes.c_void_p, ctypes.c_char_p, ctypes.c_int
     u32, u64, size = ctypes.c_uint32, ctypes.c_uint64, ctypes.c_size_t
     signatures = {
-        "probe_new": (ctypes.c_void_p, [i32, i32, i32, i32, i32, i32, u64, i32, i32]),
+        "probe_new": (ctypes.c_void_p, [u8]),
         "probe_arrange": (i32, [ctypes.c_void_p, i32, i32, i32, u32, u8]),
         "probe_free": (None, [ctypes.c_void_p]),
         "probe_sample": (i32, [ctypes.c_void_p, u16, u16, u16]),
         "probe_division_order": (i32, [i32, i32, u16]),
         "probe_spacing": (None, [i32, i32, i32, ctypes.POINTER(i32)]),
         "probe_quota_of": (i32, [ctypes.c_double, i32]),
-        "probe_published_sample_us": (ctypes.c_double, [i32, i32, i32, i32, i32]),
+        "probe_published_sample_us": (ctypes.c_double, [u8]),
         "probe_random": (None, [u64, u64, u32, i32, ctypes.c_void_p]),
         "probe_cobs_encode": (size, [u8, size, ctypes.c_void_p]),
         "probe_cobs_decode": (size, [u8, size, ctypes.c_void_p]),
@@ -60,21 +60,11 @@ def library() -> ctypes.CDLL:
 
 
 class CoreSampler:
-    """`acts_core.sampling.schemes.Sampler` in C++, measuring through the model of the board's wiring."""
+    """`acts_core.sampling.Sampler` in C++, measuring through the model of the board's wiring."""
 
     def __init__(self, config: SamplingConfig, skin_map: SkinMap | None = None) -> None:
         self._size = config.rows * config.cols
-        self._probe = library().probe_new(
-            config.rows,
-            config.cols,
-            int(SCHEMES[config.scheme]),
-            config.m,
-            config.threshold_counts,
-            NEIGHBOUR_ORDERS[config.neighbour_order],
-            config.seed,
-            config.search_quota,
-            config.adaptive_quota,
-        )
+        self._probe = library().probe_new(BoardSettings.from_sampling(config).to_bytes())
         assert self._probe, f"the core refuses {config}"
         if skin_map is not None:
             assert library().probe_arrange(
@@ -115,8 +105,7 @@ def quota_of(share: float, m: int) -> int:
 
 def published_sample_us(config: SamplingConfig) -> float:
     """What the virtual board takes for one measurement."""
-    scheme = int(SCHEMES[config.scheme])
-    return float(library().probe_published_sample_us(scheme, config.rows, config.cols, config.m, config.adaptive_quota))
+    return float(library().probe_published_sample_us(BoardSettings.from_sampling(config).to_bytes()))
 
 
 def random_numbers(seed: int, stream: int, bound: int, count: int) -> list[int]:

@@ -7,6 +7,7 @@
 #include "acts_firmware/sampling/division_order.hpp"
 #include "acts_firmware/sampling/random.hpp"
 #include "acts_firmware/sampling/sampler.hpp"
+#include "acts_firmware/wire/command.hpp"
 #include "acts_firmware/wire/packet.hpp"
 #include "published_timing.hpp"
 #include "wired_board.hpp"
@@ -33,33 +34,23 @@ struct Probe {
   explicit Probe(const acts::SamplingConfig& config)
       : board(config.rows, config.cols),
         scanner(board, acts::wiring_for(config.rows, config.cols)),
-        error(sampler.configure(config)) {}
+        refused(sampler.configure(config)) {}
 
   StillBoard board;
   acts::Scanner scanner;
   acts::Sampler sampler;
   acts::SampleFrame frame;
-  acts::ConfigError error;
+  acts::SettingField refused;
 };
 
 }  // namespace
 
 extern "C" {
 
-Probe* probe_new(int rows, int cols, int scheme, int m, int threshold, int neighbour_order, std::uint64_t seed,
-                 int search_quota, int adaptive_quota) {
-  acts::SamplingConfig config;
-  config.rows = rows;
-  config.cols = cols;
-  config.scheme = static_cast<acts::Scheme>(scheme);
-  config.m = m;
-  config.threshold = threshold;
-  config.neighbour_order = static_cast<acts::NeighbourOrder>(neighbour_order);
-  config.seed = seed;
-  config.search_quota = search_quota;
-  config.adaptive_quota = adaptive_quota;
-  auto probe = std::make_unique<Probe>(config);
-  return probe->error == acts::ConfigError::kNone ? probe.release() : nullptr;
+// `settings` as on the wire.
+Probe* probe_new(const std::uint8_t* settings) {
+  auto probe = std::make_unique<Probe>(acts::read_settings(settings).sampling);
+  return probe->refused == acts::SettingField::kNone ? probe.release() : nullptr;
 }
 
 // `entries`: u16, little-endian. Non-zero where the map is in force.
@@ -99,14 +90,8 @@ int probe_quota_of(double share, int m) {
   return acts::quota_of(share, m);
 }
 
-double probe_published_sample_us(int scheme, int rows, int cols, int m, int adaptive_quota) {
-  acts::SamplingConfig config;
-  config.scheme = static_cast<acts::Scheme>(scheme);
-  config.rows = rows;
-  config.cols = cols;
-  config.m = m;
-  config.adaptive_quota = adaptive_quota;
-  return acts::published_sample_us(config);
+double probe_published_sample_us(const std::uint8_t* settings) {
+  return acts::published_sample_us(acts::read_settings(settings).sampling);
 }
 
 void probe_random(std::uint64_t seed, std::uint64_t stream, std::uint32_t bound, int count, std::uint32_t* out) {

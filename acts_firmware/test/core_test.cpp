@@ -152,7 +152,7 @@ void test_packet_layout() {
   frame->board_us = 0x1122334455667788ULL;
   frame->duration_us = 0x0A0B0C0D;
   frame->overruns = 7;
-  frame->scheme = acts::Scheme::kRandom;
+  frame->scheme = acts::RandomTaxels::kInfo.number;
   frame->rows = 15;
   frame->cols = 33;
   frame->append(0x0102, 0x0304);
@@ -198,7 +198,7 @@ void test_overruns_are_counted_and_numbered() {
   IndexBoard board(32, 32);
   auto firmware = make_firmware(board);
   acts::Settings settings;
-  settings.sampling.scheme = acts::Scheme::kRaster;
+  settings.sampling.scheme = acts::Raster::kInfo.number;
   CHECK(firmware->configure(settings) == acts::SettingField::kNone);
   firmware->measure_frame();
   CHECK(firmware->output().size() == 0);  // nobody reads: discarded, no overrun
@@ -221,33 +221,33 @@ void test_settings_are_checked() {
   auto sampler = std::make_unique<acts::Sampler>();
   acts::SamplingConfig config;
   config.rows = 65;
-  CHECK(sampler->configure(config) == acts::ConfigError::kSize);
+  CHECK(sampler->configure(config) == acts::SettingField::kRows);
   config = {};
   config.m = 1025;
-  CHECK(sampler->configure(config) == acts::ConfigError::kM);
+  CHECK(sampler->configure(config) == acts::SettingField::kM);
   config = {};
   config.threshold = 1024;
-  CHECK(sampler->configure(config) == acts::ConfigError::kThreshold);
+  CHECK(sampler->configure(config) == acts::SettingField::kThreshold);
   config = {};
-  config.scheme = acts::Scheme::kUniform;
+  config.scheme = acts::Uniform::kInfo.number;
   config.m = 53;
-  CHECK(sampler->configure(config) == acts::ConfigError::kUniformM);
+  CHECK(sampler->configure(config) == acts::SettingField::kM);
   config = {};
   for (const int unknown : {0, 7, 9}) {
     config.scheme = static_cast<acts::Scheme>(unknown);
-    CHECK(sampler->configure(config) == acts::ConfigError::kScheme);
+    CHECK(sampler->configure(config) == acts::SettingField::kScheme);
   }
   config = {};
-  config.scheme = acts::Scheme::kTracking;
+  config.scheme = acts::Tracking::kInfo.number;
   for (const int quota : {0, 56}) {
-    config.search_quota = quota;
-    CHECK(sampler->configure(config) == acts::ConfigError::kSearchQuota);
+    config.set_own(acts::Tracking::kSearchQuota, quota);
+    CHECK(sampler->configure(config) == acts::SettingField{acts::Tracking::kSearchQuota.number});
   }
   config = {};
-  config.scheme = acts::Scheme::kHybrid;
+  config.scheme = acts::Hybrid::kInfo.number;
   for (const int quota : {0, 56}) {
-    config.adaptive_quota = quota;
-    CHECK(sampler->configure(config) == acts::ConfigError::kAdaptiveQuota);
+    config.set_own(acts::Hybrid::kAdaptiveQuota, quota);
+    CHECK(sampler->configure(config) == acts::SettingField{acts::Hybrid::kAdaptiveQuota.number});
   }
   CHECK(sampler->config().rows == 32 && sampler->frame_size() == 55);  // refused settings change nothing
 }
@@ -262,13 +262,13 @@ void test_new_settings_forget_what_was_pressed() {
   auto frame = std::make_unique<acts::SampleFrame>();
   PressedReader reader;
   acts::SamplingConfig config;
-  config.scheme = acts::Scheme::kTracking;
-  CHECK(sampler->configure(config) == acts::ConfigError::kNone);
+  config.scheme = acts::Tracking::kInfo.number;
+  CHECK(sampler->configure(config) == acts::SettingField::kNone);
   sampler->sample(reader, *frame);
   const auto first = frame->indices;
   sampler->sample(reader, *frame);
   CHECK(frame->indices != first);
-  CHECK(sampler->configure(config) == acts::ConfigError::kNone);
+  CHECK(sampler->configure(config) == acts::SettingField::kNone);
   sampler->sample(reader, *frame);
   CHECK(frame->indices == first);
 }
@@ -280,7 +280,7 @@ void test_published_ascii() {
   settings.sampling.rows = 2;
   settings.sampling.cols = 3;
   settings.sampling.m = 6;
-  settings.sampling.scheme = acts::Scheme::kRaster;
+  settings.sampling.scheme = acts::Raster::kInfo.number;
   CHECK(firmware->configure(settings) == acts::SettingField::kNone);
   firmware->start_stream();
   firmware->measure_frame();

@@ -56,7 +56,7 @@ class Digest {
 bool print_digest(const acts::SamplingConfig& config) {
   auto sampler = std::make_unique<acts::Sampler>();
   auto frame = std::make_unique<acts::SampleFrame>();
-  if (sampler->configure(config) != acts::ConfigError::kNone) {
+  if (sampler->configure(config) != acts::SettingField::kNone) {
     std::fputs("settings refused\n", stderr);
     return false;
   }
@@ -87,16 +87,15 @@ struct Size {
 int main() {
   bool right = true;
   for (const Size& size : {Size{32, 32, 64}, Size{15, 7, 20}, Size{64, 64, 256}}) {
-    for (const auto scheme : {acts::Scheme::kUniform, acts::Scheme::kRandom, acts::Scheme::kAdaptive,
-                              acts::Scheme::kRaster, acts::Scheme::kHybrid, acts::Scheme::kTracking}) {
+    for (const acts::SchemeInfo& scheme : acts::Schemes::kInfos) {
       for (const auto order : {acts::NeighbourOrder::kColumns, acts::NeighbourOrder::kRows}) {
         acts::SamplingConfig config;
         config.rows = size.rows;
         config.cols = size.cols;
-        config.scheme = scheme;
+        config.scheme = scheme.number;
         config.m = size.m;
         config.neighbour_order = order;
-        config.adaptive_quota = size.m / 2;
+        config.set_own(acts::Hybrid::kAdaptiveQuota, size.m / 2);
         right = print_digest(config) && right;
       }
     }

@@ -7,7 +7,11 @@ FIRMWARE = Path(__file__).resolve().parents[1]
 
 
 def test_cmake_lists_every_source_of_the_core() -> None:
-    listed = re.findall(r"^ +(src/\S+\.cpp)$", (FIRMWARE / "CMakeLists.txt").read_text(), re.MULTILINE)
+    text = (FIRMWARE / "CMakeLists.txt").read_text()
+    (core,) = re.findall(r"^add_library\(acts_firmware_core STATIC$(.*?)^\)$", text, re.MULTILINE | re.DOTALL)
+    (schemes,) = re.findall(r"^file\(GLOB SCHEMES .*/(src/\S+)\)$", text, re.MULTILINE)
+    assert "${SCHEMES}" in core
+    listed = [str(path.relative_to(FIRMWARE)) for path in FIRMWARE.glob(schemes)] + re.findall(r"src/\S+\.cpp", core)
     assert sorted(listed) == sorted(str(path.relative_to(FIRMWARE)) for path in FIRMWARE.glob("src/**/*.cpp"))
 
 

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from acts_core.errors import PacketError
 from acts_core.frames import Scheme
-from acts_core.sampling import SCHEMES, SkinMap
+from acts_core.sampling import SCHEME_NUMBERS, SkinMap
 from acts_core.skin import layout
 from acts_core.wire import (
     LEDS,
@@ -92,7 +92,7 @@ def test_core_and_reference_take_the_same_settings(raw: bytes) -> None:
             assert reply.state.settings == wanted
             firmware.measure()
             (frame,) = firmware.read()
-            assert (frame.rows, frame.cols, frame.scheme) == (wanted.rows, wanted.cols, SCHEMES[wanted.scheme])
+            assert (frame.rows, frame.cols, frame.scheme) == (wanted.rows, wanted.cols, SCHEME_NUMBERS[wanted.scheme])
             assert len(frame.indices) == wanted.frame_size
 
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
 from acts_core.sampling import measure_in
-from acts_core.sampling.schemes import adaptive
+from acts_core.sampling.schemes.adaptive import adaptive
 from acts_recon.objects import Classifier, ClassifierConfig, ObjectLibrary, build_object_library
 from acts_recon.objects.classification import BOARD_COLUMNS
 from acts_recon.sparse import Dictionary, Reconstructor, ReconstructorConfig, load_dictionary, shipped_dictionary_path

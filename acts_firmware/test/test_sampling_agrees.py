@@ -13,9 +13,10 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from acts_core.errors import SettingsError
-from acts_core.sampling import NEIGHBOURS, SCHEMES, Sampler, SamplingConfig, SkinMap, measure_in, uniform_spacing
-from acts_core.sampling.random_taxels import Pcg32
-from acts_core.sampling.schemes import division_order
+from acts_core.sampling import NEIGHBOURS, SCHEME_NUMBERS, Sampler, SamplingConfig, SkinMap, measure_in
+from acts_core.sampling.basis.division_order import division_order
+from acts_core.sampling.basis.pcg32 import Pcg32
+from acts_core.sampling.schemes.uniform import uniform_spacing
 from acts_core.skin import layout
 
 FRAMES = 3
@@ -71,7 +72,7 @@ def blobs(rng: np.random.Generator, rows: int, cols: int) -> NDArray[np.int64]:
 @given(
     st.integers(1, 64),
     st.integers(1, 64),
-    st.sampled_from(sorted(SCHEMES)),
+    st.sampled_from(sorted(SCHEME_NUMBERS)),
     st.sampled_from(sorted(NEIGHBOURS)),
     st.integers(0, 1023),
     st.integers(0, 2**64 - 1),
@@ -212,7 +213,7 @@ def test_random_numbers(seed: int, stream: int, bound: int) -> None:
 
 
 def test_every_shape_up_to_64_x_64() -> None:
-    schemes = sorted(SCHEMES)
+    schemes = sorted(SCHEME_NUMBERS)
     field = np.random.default_rng(0).integers(0, 400, (64, 64))
     for number, (rows, cols) in enumerate(product(range(1, 65), repeat=2)):
         scheme = schemes[number % len(schemes)]
@@ -249,7 +250,7 @@ FIELDS = {
 }
 
 
-@pytest.mark.parametrize("scheme", sorted(SCHEMES))
+@pytest.mark.parametrize("scheme", sorted(SCHEME_NUMBERS))
 @pytest.mark.parametrize("recorded", FIELDS)
 def test_on_recorded_fields(recorded: str, scheme: str, recording_path: Callable[[str], Path]) -> None:
     fields = FIELDS[recorded](recording_path(recorded))

@@ -12,7 +12,7 @@ from board_process import BoardProcess
 from core_library import installed
 
 from acts_core.frames import SampleFrame, Scheme
-from acts_core.sampling import SCHEMES
+from acts_core.sampling import SCHEME_NUMBERS
 from acts_core.wire import RasterDecoder
 
 
@@ -53,7 +53,7 @@ def test_schemes_and_their_pace(tmp_path: Path, scheme: str, m: int) -> None:
     # A frame takes m * 10 us or the time the rate cap asks for, whichever is longer.
     period_us = max(m * 10, 1000)
     assert [len(frame.indices) for frame in frames] == [m] * len(frames)
-    assert {frame.scheme for frame in frames} == {SCHEMES[scheme]}
+    assert {frame.scheme for frame in frames} == {SCHEME_NUMBERS[scheme]}
     for before, frame in pairwise(frames):
         steps = frame.sequence - before.sequence
         assert abs(frame.board_us - before.board_us - steps * period_us) <= 1
@@ -149,7 +149,7 @@ def test_what_the_host_sends_is_taken_and_disturbs_nothing(tmp_path: Path) -> No
         (["--m", "0"], "--m 0"),
         (["--rows", "5", "--cols", "5"], "--m 55: an array of 5 x 5 has 25 taxels"),
         (["--scheme", "spiral"], "adaptive, tracking, hybrid, uniform, random, raster"),
-        (["--scheme", "uniform", "--m", "53"], "--m 53: no uniform grid"),
+        (["--scheme", "uniform", "--m", "53"], "--m 53: no uniform frame"),
         (["--search-share", "0"], "--search-share 0: allowed is a number from 0.0001 to 1"),
         (["--search-share", "1.01"], "--search-share 1.01"),
         (["--adaptive-share", "0"], "--adaptive-share 0: allowed is a number from 0.0001 to 1"),

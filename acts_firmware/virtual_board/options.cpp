@@ -1,5 +1,6 @@
 #include "options.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
@@ -22,9 +23,9 @@ constexpr int kDecimal = 10;
 constexpr int kDecimalOrHexadecimal = 0;
 
 struct Option {
-  const char* name;
+  std::string name;
   const char* value;  // what stands for the value in the help; empty for a switch
-  const char* help;
+  std::string help;
   std::function<void(const std::string&)> set;
 };
 
@@ -90,14 +91,44 @@ std::string path_or_none(const std::string& text) {
   return text == "none" ? "" : text;
 }
 
-const std::vector<std::pair<const char*, Scheme>>& schemes() {
-  static const std::vector<std::pair<const char*, Scheme>> kSchemes = {
-      {"adaptive", Scheme::kAdaptive}, {"tracking", Scheme::kTracking}, {"hybrid", Scheme::kHybrid},
-      {"uniform", Scheme::kUniform},   {"random", Scheme::kRandom},     {"raster", Scheme::kRaster}};
-  return kSchemes;
+std::vector<std::pair<const char*, Scheme>> schemes() {
+  std::vector<std::pair<const char*, Scheme>> words;
+  for (const SchemeInfo& info : Schemes::kInfos) {
+    words.emplace_back(info.name, info.number);
+  }
+  return words;
 }
 
-std::vector<Option> make_options(Options& o) {
+std::string scheme_names() {
+  std::string names;
+  for (const SchemeInfo& info : Schemes::kInfos) {
+    names += (names.empty() ? "" : ", ") + std::string(info.name);
+  }
+  return names;
+}
+
+// search_share: --search-share
+std::string option_name(const char* setting) {
+  std::string name = std::string("--") + setting;
+  std::replace(name.begin(), name.end(), '_', '-');
+  return name;
+}
+
+Option own_option(Options& o, const OwnSetting& setting) {
+  if (setting.is_share()) {
+    const std::string name = option_name(setting.share_name);
+    double& share = o.shares[setting.place()];
+    return {name, "F", std::string(setting.share_description) + " (" + shortest(setting.share_initial) + ")",
+            [&share, name](const std::string& v) { share = number(name, v, kMinShare, 1.0); }};
+  }
+  const std::string name = option_name(setting.name);
+  return {name, "N", std::string(setting.description) + " (" + std::to_string(setting.initial) + ")",
+          [&o, setting, name](const std::string& v) {
+            o.sampling.set_own(setting, whole(name, v, setting.minimum, setting.maximum));
+          }};
+}
+
+std::vector<Option> common_options(Options& o) {
   SamplingConfig& s = o.sampling;
   return {
       {"--link", "PATH", "symbolic link to the pseudo-terminal, made at the start and removed at the end",
@@ -114,7 +145,7 @@ std::vector<Option> make_options(Options& o) {
        [&s](const std::string& v) { s.rows = whole("--rows", v, 1, kMaxSide); }},
       {"--cols", "N", "columns of the array, 1 to 64 (32)",
        [&s](const std::string& v) { s.cols = whole("--cols", v, 1, kMaxSide); }},
-      {"--scheme", "NAME", "adaptive, tracking, hybrid, uniform, random or raster (adaptive)",
+      {"--scheme", "NAME", scheme_names() + " (" + name_of(s.scheme) + ")",
        [&s](const std::string& v) { s.scheme = word<Scheme>("--scheme", v, schemes()); }},
       {"--m", "M", "taxels measured per frame (55); raster measures all",
        [&s](const std::string& v) { s.m = whole("--m", v, 1, kMaxTaxels); }},
@@ -132,10 +163,6 @@ std::vector<Option> make_options(Options& o) {
          s.neighbour_order = word<NeighbourOrder>(
              "--neighbour-order", v, {{"columns", NeighbourOrder::kColumns}, {"rows", NeighbourOrder::kRows}});
        }},
-      {"--search-share", "F", "share of a tracking frame that is kept for the search (0.2)",
-       [&o](const std::string& v) { o.search_share = number("--search-share", v, kMinShare, 1.0); }},
-      {"--adaptive-share", "F", "share of a hybrid frame that is chosen adaptively (0.5)",
-       [&o](const std::string& v) { o.adaptive_share = number("--adaptive-share", v, kMinShare, 1.0); }},
       {"--noise-counts", "S", "standard deviation of the noise in counts (1.5)",
        [&o](const std::string& v) { o.noise_counts = number("--noise-counts", v, 0.0, 1000.0); }},
       {"--seed", "N", "of the noise and of random and hybrid sampling (1)",
@@ -172,6 +199,14 @@ std::vector<Option> make_options(Options& o) {
   };
 }
 
+std::vector<Option> make_options(Options& o) {
+  std::vector<Option> options = common_options(o);
+  for (const OwnSetting& setting : kAllOwnSettings) {
+    options.insert(options.end() - 1, own_option(o, setting));  // the last is --help
+  }
+  return options;
+}
+
 void check_sampling(const Options& options) {
   const SamplingConfig& sampling = options.sampling;
   const std::string size = std::to_string(sampling.rows) + " x " + std::to_string(sampling.cols);
@@ -180,16 +215,16 @@ void check_sampling(const Options& options) {
     throw OptionError("--m " + std::to_string(sampling.m) + ": an array of " + size + " has " + std::to_string(taxels) +
                       " taxels");
   }
-  if (sampling.scheme != Scheme::kUniform || uniform_spacing(sampling.rows, sampling.cols, sampling.m).row != 0) {
+  if (Schemes::takes(sampling.scheme, sampling.rows, sampling.cols, sampling.m)) {
     return;
   }
   std::string possible;
   for (int m = 1; m <= taxels; ++m) {
-    if (uniform_spacing(sampling.rows, sampling.cols, m).row != 0) {
+    if (Schemes::takes(sampling.scheme, sampling.rows, sampling.cols, m)) {
       possible += " " + std::to_string(m);
     }
   }
-  throw OptionError("--m " + std::to_string(sampling.m) + ": no uniform grid of " + size +
+  throw OptionError("--m " + std::to_string(sampling.m) + ": no " + name_of(sampling.scheme) + " frame of " + size +
                     " has so many taxels; allowed are" + possible);
 }
 
@@ -225,13 +260,14 @@ Options parse_options(int argc, const char* const* argv) {
     }
   }
   if (options.protocol == Protocol::kRasterAscii) {
-    options.sampling.scheme = Scheme::kRaster;
+    options.sampling.scheme = Raster::kInfo.number;
   }
-  if (options.sampling.scheme == Scheme::kRaster) {
-    options.sampling.m = options.sampling.rows * options.sampling.cols;
+  options.sampling.m = options.sampling.frame_size();
+  for (const OwnSetting& setting : kAllOwnSettings) {
+    if (setting.is_share()) {
+      options.sampling.set_own(setting, quota_of(options.shares[setting.place()], options.sampling.m));
+    }
   }
-  options.sampling.search_quota = quota_of(options.search_share, options.sampling.m);
-  options.sampling.adaptive_quota = quota_of(options.adaptive_share, options.sampling.m);
   check_sampling(options);
   named("--hardware-fault", [&options] { options.wiring_faults.check(options.sampling.rows, options.sampling.cols); });
   return options;
@@ -243,7 +279,7 @@ std::string help_text() {
       "virtual_board: the ACTS firmware on the host, behind a pseudo-terminal.\n"
       "usage: virtual_board [options] [--ros-args ...]   (what follows --ros-args is left alone)\n";
   for (const Option& option : make_options(options)) {
-    std::string left = std::string("  ") + option.name + " " + option.value;
+    std::string left = "  " + option.name + " " + option.value;
     left.resize(left.size() < 26 ? 26 : left.size() + 1, ' ');
     text += left + option.help + "\n";
   }
@@ -251,12 +287,16 @@ std::string help_text() {
 }
 
 const char* name_of(Scheme scheme) {
-  for (const auto& [name, value] : schemes()) {
-    if (value == scheme) {
-      return name;
-    }
+  const SchemeInfo* info = scheme_info(scheme);
+  return info != nullptr ? info->name : "unknown";
+}
+
+Shares initial_shares() {
+  Shares shares{};
+  for (const OwnSetting& setting : kAllOwnSettings) {
+    shares[setting.place()] = setting.share_initial;
   }
-  return "unknown";
+  return shares;
 }
 
 }  // namespace acts

@@ -1,6 +1,7 @@
 // Command line of the virtual board.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <stdexcept>
@@ -16,6 +17,10 @@
 
 namespace acts {
 
+// The shares of a frame that schemes' own settings are given as, by their place.
+using Shares = std::array<double, kMaxOwnSettings>;
+Shares initial_shares();
+
 struct Options {
   bool help = false;
   std::string link;        // empty: none
@@ -24,8 +29,7 @@ struct Options {
   double recording_rate_hz = 1000.0;
   bool loop = false;
   SamplingConfig sampling;
-  double search_share = 0.2;
-  double adaptive_share = 0.5;
+  Shares shares = initial_shares();
   double rate_hz = 1000.0;
   double sample_us = 0.0;             // of one measurement; 0: as published
   std::optional<double> recovery_us;  // of recovery or classification; none: as published

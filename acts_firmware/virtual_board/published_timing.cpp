@@ -49,19 +49,16 @@ double frame_us(const std::array<Timing, kSize>& table, int m) {
 }
 
 double published_frame_us(const SamplingConfig& sampling, int m) {
-  switch (sampling.scheme) {
-    case Scheme::kUniform:
-      return frame_us(kUniform, m);
-    case Scheme::kAdaptive:
-    case Scheme::kTracking:
-      return frame_us(kAdaptive, m);
-    case Scheme::kHybrid: {
-      const int drawn = m - sampling.adaptive_quota;
-      return frame_us(kAdaptive, sampling.adaptive_quota) + drawn * frame_us(kRandom, m) / m;
-    }
-    case Scheme::kRandom:
-    case Scheme::kRaster:
-      break;
+  const Scheme scheme = sampling.scheme;
+  if (scheme == Uniform::kInfo.number) {
+    return frame_us(kUniform, m);
+  }
+  if (scheme == Adaptive::kInfo.number || scheme == Tracking::kInfo.number) {
+    return frame_us(kAdaptive, m);
+  }
+  if (scheme == Hybrid::kInfo.number) {
+    const int quota = sampling.own(Hybrid::kAdaptiveQuota);
+    return frame_us(kAdaptive, quota) + (m - quota) * frame_us(kRandom, m) / m;
   }
   return frame_us(kRandom, m);
 }

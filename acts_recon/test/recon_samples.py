@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
 from acts_core.sampling import measure_in
-from acts_core.sampling.schemes import adaptive
+from acts_core.sampling.schemes.adaptive import adaptive
 from acts_core.skin import NO_PATCH, Layout, SkinPatch
 
 

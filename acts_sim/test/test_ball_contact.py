@@ -5,7 +5,7 @@ import pytest
 
 from acts_core.array import ArrayGeometry
 from acts_core.sampling import measure_in
-from acts_core.sampling.schemes import adaptive
+from acts_core.sampling.schemes.adaptive import adaptive
 from acts_core.skin import ForceResponse
 from acts_sim.ball.ball import BallConfig
 from acts_sim.ball.ball_contact import BallContact, ContactConfig, depth_m, forces_n

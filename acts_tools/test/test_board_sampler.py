@@ -10,9 +10,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from acts_core.errors import ArrayError, SettingsError
-from acts_core.sampling import NEIGHBOURS, SCHEMES, Sampler, SamplingConfig
-from acts_core.sampling.schemes import Measure
-from acts_tools.evaluate.images.board_sampler import BoardSampler
+from acts_core.sampling import NEIGHBOURS, SCHEME_NUMBERS, Measure, Sampler, SamplingConfig
+from acts_tools.evaluate.images.board_sampler import BoardSampler, PythonSampler
 
 
 def measure_while_it_moves(frames: NDArray[np.uint16], position: float, step: float) -> Measure:
@@ -43,7 +42,7 @@ def blobs(n: int, rows: int, cols: int, seed: int) -> NDArray[np.uint16]:
 
 @settings(max_examples=60, deadline=None)
 @given(
-    scheme=st.sampled_from(sorted(SCHEMES)),
+    scheme=st.sampled_from(sorted(SCHEME_NUMBERS)),
     neighbour_order=st.sampled_from(sorted(NEIGHBOURS)),
     shape=st.sampled_from([(32, 32), (33, 15), (7, 9)]),
     threshold=st.integers(0, 300),
@@ -66,13 +65,14 @@ def test_it_samples_as_the_reference(
     frames = blobs(4, rows, cols, seed)
     # Powers of two, so that adding them up is exact on both sides. The recording ends before the last frame does.
     step = 2.0**-7 if moving else 0.0
-    reference, board = Sampler(config), BoardSampler(config)
+    reference, board, python = Sampler(config), BoardSampler(config), PythonSampler(config)
     for number in range(6):
         position = number * 0.625
         expected = reference.frame(measure_while_it_moves(frames, position, step))
         indices, counts = board.frame(frames, position, step)
         np.testing.assert_array_equal(indices, expected[0])
         np.testing.assert_array_equal(counts, expected[1])
+        np.testing.assert_array_equal(python.frame(frames, position, step), expected)
 
 
 def test_noise_is_as_large_as_asked_for_and_repeatable() -> None:
@@ -94,9 +94,7 @@ def test_what_does_not_fit_is_refused() -> None:
 
 
 def test_an_unbuilt_library_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
-    from acts_tools.evaluate.images import board_sampler
 
     monkeypatch.setenv("AMENT_PREFIX_PATH", "/nowhere")
-    board_sampler._library.cache_clear()
     with pytest.raises(SettingsError, match=r"libacts_sampler.so .* build the workspace"):
         BoardSampler(SamplingConfig())

@@ -4,8 +4,42 @@ In come settings and, for schemes that follow touch, the counts so far; out come
 what a board is told of the skin's layout.
 """
 
-from acts_core.sampling.schemes import NEIGHBOURS, SCHEMES, Sampler, SamplingConfig, measure_in
-from acts_core.sampling.skin_map import SkinMap
-from acts_core.sampling.uniform import uniform_spacing
+from acts_core.sampling.basis import (
+    NEIGHBOURS,
+    Measure,
+    OwnSetting,
+    Samples,
+    SamplingScheme,
+    Share,
+    SkinMap,
+    with_fields,
+)
+from acts_core.sampling.registry import (
+    BOARD_OWN_SETTINGS,
+    OWN_SETTINGS,
+    SCHEME_NUMBERS,
+    SCHEMES,
+    check_frame,
+    frame_size,
+)
+from acts_core.sampling.sampler import Sampler, SamplingConfig, measure_in
 
-__all__ = ["NEIGHBOURS", "SCHEMES", "Sampler", "SamplingConfig", "SkinMap", "measure_in", "uniform_spacing"]
+__all__ = [
+    "BOARD_OWN_SETTINGS",
+    "NEIGHBOURS",
+    "OWN_SETTINGS",
+    "SCHEMES",
+    "SCHEME_NUMBERS",
+    "Measure",
+    "OwnSetting",
+    "Sampler",
+    "Samples",
+    "SamplingConfig",
+    "SamplingScheme",
+    "Share",
+    "SkinMap",
+    "check_frame",
+    "frame_size",
+    "measure_in",
+    "with_fields",
+]

@@ -5,10 +5,21 @@ from __future__ import annotations
 import struct
 from dataclasses import dataclass
 from enum import IntEnum
+from typing import Any
 
 from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import SettingsError
-from acts_core.sampling import NEIGHBOURS, SCHEMES, SamplingConfig, uniform_spacing
+from acts_core.numbers import FromRegistry
+from acts_core.sampling import (
+    BOARD_OWN_SETTINGS,
+    NEIGHBOURS,
+    SCHEME_NUMBERS,
+    SCHEMES,
+    SamplingConfig,
+    check_frame,
+    frame_size,
+    with_fields,
+)
 from acts_core.settings import setting, validate
 from acts_core.wire.packets import version_mismatch
 
@@ -21,43 +32,58 @@ LEDS = ("off", "on", "frames", "touch")
 FRAME_PERIOD_MAX_US = 1_000_000
 
 _NEIGHBOUR_ORDERS = tuple(NEIGHBOURS)
-_SCHEME_NAMES = {int(scheme): name for name, scheme in SCHEMES.items()}
+_SCHEME_NAMES = {number: name for name, number in SCHEME_NUMBERS.items()}
 
-# rows, cols, scheme, neighbour_order, m, threshold, search_quota, adaptive_quota, touch, output, led, period, seed
-_LAYOUT = struct.Struct("<BBBBHHHHHBBIQ")
+# Two own settings of schemes lie in the midst of the others, the rest behind them: uint16 each.
+_OWN_IN_THE_MIDST = 2
+_OWN_BEHIND = len(BOARD_OWN_SETTINGS) - _OWN_IN_THE_MIDST
+
+# rows, cols, scheme, neighbour_order, m, threshold, own (2), touch, output, led, period, seed, own (the rest)
+_LAYOUT = struct.Struct(f"<BBBBHHHHHBBIQ{_OWN_BEHIND}H")
 
 SETTINGS_SIZE = _LAYOUT.size
 """Bytes of the settings in a packet."""
 
 
-class SettingField(IntEnum):
+_NUMBERS = {
+    "rows": 1,
+    "cols": 2,
+    "scheme": 3,
+    "neighbour_order": 4,
+    "m": 5,
+    "threshold_counts": 6,
+    "touch_counts": 9,
+    "output": 10,
+    "led": 11,
+    "frame_period_us": 12,
+    "seed": 13,
+    **{own.name: number for number, own in BOARD_OWN_SETTINGS.items()},
+}
+
+
+class SettingField(IntEnum, metaclass=FromRegistry):
     """Number of a setting on the wire, as a board names the one it refuses."""
 
-    ROWS = 1
-    COLS = 2
-    SCHEME = 3
-    NEIGHBOUR_ORDER = 4
-    M = 5
-    THRESHOLD_COUNTS = 6
-    SEARCH_QUOTA = 7
-    ADAPTIVE_QUOTA = 8
-    TOUCH_COUNTS = 9
-    OUTPUT = 10
-    LED = 11
-    FRAME_PERIOD_US = 12
-    SEED = 13
+    _ignore_ = "_name _number"
+
+    for _name, _number in sorted(_NUMBERS.items(), key=lambda item: item[1]):
+        vars()[_name.upper()] = _number
+
+
+_Own: Any = with_fields("_Own", {own.name: own.as_board_setting() for own in BOARD_OWN_SETTINGS.values()})
 
 
 @dataclass(frozen=True)
-class BoardSettings:
+class BoardSettings(_Own):  # type: ignore[misc]
     """Settings of a board: how to sample, how fast, what to send besides samples, what its LED shows.
 
-    A board takes them over as a whole or refuses them as a whole, by the same rules as this class.
+    The schemes' own settings are among them, by their names. A board takes all over as a whole or refuses them as a
+    whole, by the same rules as this class.
     """
 
     rows: int = setting(32, "rows of the array", minimum=1, maximum=MAX_SIDE)
     cols: int = setting(32, "columns of the array", minimum=1, maximum=MAX_SIDE)
-    scheme: str = setting("adaptive", "how the taxels of a frame are chosen", choices=tuple(SCHEMES))
+    scheme: str = setting("adaptive", "how the taxels of a frame are chosen", choices=tuple(SCHEME_NUMBERS))
     neighbour_order: str = setting("columns", "order of the neighbour search", choices=_NEIGHBOUR_ORDERS)
     m: int = setting(55, "taxels measured per frame; raster measures all", minimum=1, maximum=MAX_SIDE**2)
     threshold_counts: int = setting(
@@ -65,12 +91,6 @@ class BoardSettings:
         "counts above which adaptive and hybrid search a taxel's neighbours and tracking follows it",
         minimum=0,
         maximum=COUNT_MAX,
-    )
-    search_quota: int = setting(
-        11, "taxels of a tracking frame that are kept for the search, 1 to m there", minimum=0, maximum=MAX_SIDE**2
-    )
-    adaptive_quota: int = setting(
-        28, "taxels of a hybrid frame that are chosen adaptively, 1 to m there", minimum=0, maximum=MAX_SIDE**2
     )
     touch_counts: int = setting(
         60,
@@ -87,15 +107,9 @@ class BoardSettings:
 
     def __post_init__(self) -> None:
         validate(self)
-        if self.m > self.rows * self.cols and self.scheme != "raster":
-            raise SettingsError(
-                f"m = {self.m}: an array of {self.rows} x {self.cols} has {self.rows * self.cols} taxels"
-            )
-        if self.scheme == "uniform":
-            uniform_spacing(self.rows, self.cols, self.m)
-        for scheme, name in (("tracking", "search_quota"), ("hybrid", "adaptive_quota")):
-            if self.scheme == scheme and not 1 <= getattr(self, name) <= self.m:
-                raise SettingsError(f"{name} = {getattr(self, name)}: allowed is 1 to m = {self.m} of a {scheme} frame")
+        check_frame(self.scheme, self.rows, self.cols, self.m)
+        for own in SCHEMES[self.scheme].own_settings:
+            own.check(getattr(self, own.name), self.m, self.scheme)
 
     @classmethod
     def from_sampling(
@@ -115,36 +129,36 @@ class BoardSettings:
             neighbour_order=config.neighbour_order,
             m=config.m,
             threshold_counts=config.threshold_counts,
-            search_quota=config.search_quota,
-            adaptive_quota=config.adaptive_quota,
             touch_counts=touch_counts,
             output=output,
             led=led,
             frame_period_us=frame_period_us,
             seed=config.seed,
+            **{own.name: config.own(own) for own in BOARD_OWN_SETTINGS.values()},
         )
 
     @property
     def frame_size(self) -> int:
         """Taxels that a frame holds."""
-        return self.rows * self.cols if self.scheme == "raster" else self.m
+        return frame_size(self.scheme, self.rows, self.cols, self.m)
 
     def to_bytes(self) -> bytes:
         """The settings as they stand in a packet."""
+        own = [getattr(self, setting.name) for setting in BOARD_OWN_SETTINGS.values()]
         return _LAYOUT.pack(
             self.rows,
             self.cols,
-            int(SCHEMES[self.scheme]),
+            SCHEME_NUMBERS[self.scheme],
             _NEIGHBOUR_ORDERS.index(self.neighbour_order),
             self.m,
             self.threshold_counts,
-            self.search_quota,
-            self.adaptive_quota,
+            *own[:_OWN_IN_THE_MIDST],
             self.touch_counts,
             OUTPUTS.index(self.output),
             LEDS.index(self.led),
             self.frame_period_us,
             self.seed,
+            *own[_OWN_IN_THE_MIDST:],
         )
 
     @classmethod
@@ -158,9 +172,10 @@ class BoardSettings:
         """
         if len(data) != SETTINGS_SIZE:
             raise version_mismatch(f"settings of {len(data)} bytes; this release knows {SETTINGS_SIZE}")
-        rows, cols, scheme, order, m, threshold, search, adaptive, touch, output, led, period, seed = _LAYOUT.unpack(
-            data
+        rows, cols, scheme, order, m, threshold, first, second, touch, output, led, period, seed, *rest = (
+            _LAYOUT.unpack(data)
         )
+        own = zip((own.name for own in BOARD_OWN_SETTINGS.values()), (first, second, *rest), strict=True)
         if scheme not in _SCHEME_NAMES or order >= len(_NEIGHBOUR_ORDERS) or output >= len(OUTPUTS) or led >= len(LEDS):
             raise version_mismatch(
                 f"settings with scheme {scheme}, neighbour order {order}, output {output}, LED {led}"
@@ -173,13 +188,12 @@ class BoardSettings:
                 neighbour_order=_NEIGHBOUR_ORDERS[order],
                 m=m,
                 threshold_counts=threshold,
-                search_quota=search,
-                adaptive_quota=adaptive,
                 touch_counts=touch,
                 output=OUTPUTS[output],
                 led=LEDS[led],
                 frame_period_us=period,
                 seed=seed,
+                **dict(own),
             )
         except SettingsError as error:
             raise version_mismatch(f"settings that cannot be ({error})") from error

@@ -8,7 +8,16 @@ from typing import Any
 
 from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import SettingsError
-from acts_core.sampling import NEIGHBOURS, SCHEMES, SamplingConfig, SkinMap
+from acts_core.sampling import (
+    BOARD_OWN_SETTINGS,
+    NEIGHBOURS,
+    SCHEME_NUMBERS,
+    SCHEMES,
+    OwnSetting,
+    SamplingConfig,
+    SkinMap,
+    with_fields,
+)
 from acts_core.settings import Changeable, setting
 from acts_core.skin import LAYOUTS, layout, layout_path
 from acts_core.wire import LEDS, OUTPUTS, BoardSettings
@@ -16,17 +25,39 @@ from acts_core.wire import LEDS, OUTPUTS, BoardSettings
 RATE_MIN_HZ = 1.0
 """Slowest frame rate that a board accepts."""
 
-_SAMPLING = ("scheme", "m", "threshold_counts", "neighbour_order", "search_share", "adaptive_share", "seed")
+_OWN = tuple(BOARD_OWN_SETTINGS.values())
+_SAMPLING = (
+    *("scheme", "m", "threshold_counts", "neighbour_order", "seed"),
+    *(own.parameter for own in _OWN),
+)
+
+
+def _own_parameter(own: OwnSetting) -> Any:
+    """The parameter of a scheme's own setting: 0, or -1 where 0 could be meant, leaves the board's own."""
+    unset: float = 0.0 if own.share else -1
+    return setting(
+        unset,
+        f"{own.parameter_description}; {unset:g}: the board's own",
+        minimum=unset,
+        maximum=1.0 if own.share else own.maximum,
+        changeable=Changeable.RUNNING,
+    )
+
+
+_Own: Any = with_fields("_Own", {own.parameter: _own_parameter(own) for own in _OWN})
 
 
 @dataclass(frozen=True)
-class BoardParameters:
-    """Parameters that the board is told. The default of each leaves what the board does by itself."""
+class BoardParameters(_Own):  # type: ignore[misc]
+    """Parameters that the board is told. The default of each leaves what the board does by itself.
+
+    The schemes' own settings are among them, by their names.
+    """
 
     scheme: str = setting(
         "",
-        "how the board chooses the taxels of a frame; empty: the board's own",
-        choices=("", *SCHEMES),
+        "how the board chooses the taxels of a frame, a scheme that it has; empty: the board's own",
+        choices=("", *SCHEME_NUMBERS),
         changeable=Changeable.RUNNING,
     )
     m: int = setting(
@@ -47,20 +78,6 @@ class BoardParameters:
         "",
         "order of the neighbour search; empty: the board's own",
         choices=("", *NEIGHBOURS),
-        changeable=Changeable.RUNNING,
-    )
-    search_share: float = setting(
-        0.0,
-        "share of a tracking frame that is kept for the search; 0: the board's own",
-        minimum=0.0,
-        maximum=1.0,
-        changeable=Changeable.RUNNING,
-    )
-    adaptive_share: float = setting(
-        0.0,
-        "share of a hybrid frame that is chosen adaptively; 0: the board's own",
-        minimum=0.0,
-        maximum=1.0,
         changeable=Changeable.RUNNING,
     )
     rate_cap_hz: float = setting(
@@ -148,13 +165,21 @@ class BoardParameters:
         scheme = asked.get("scheme", own.scheme)
         period_us = round(1e6 / self.rate_cap_hz) if "rate_cap_hz" in asked else own.frame_period_us
         plain = ("scheme", "neighbour_order", "m", "threshold_counts", "touch_counts", "output", "led", "seed")
+        own_values: dict[str, Any] = {setting.name: self._own_value(setting, own, m, scheme) for setting in _OWN}
         return replace(
             own,
-            search_quota=_quota(self.search_share, own.search_quota, own.m, m, is_used=scheme == "tracking"),
-            adaptive_quota=_quota(self.adaptive_share, own.adaptive_quota, own.m, m, is_used=scheme == "hybrid"),
             frame_period_us=period_us,
+            **own_values,
             **{name: asked[name] for name in plain if name in asked},
         )
+
+    def _own_value(self, setting: OwnSetting, own: BoardSettings, m: int, scheme: str) -> int:
+        """What the board is told of a scheme's own setting, in frames of `m` taxels of `scheme`."""
+        given = getattr(self, setting.parameter)
+        held = int(getattr(own, setting.name))
+        if setting.share:
+            return _quota(given, held, own.m, m, is_used=setting in SCHEMES[scheme].own_settings)
+        return held if given < 0 else int(given)
 
     def skin_map(self, rows: int, cols: int) -> SkinMap | None:
         """How the taxels of a board of this size are to lie on the skin; None: as in the matrix.

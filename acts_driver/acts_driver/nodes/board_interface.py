@@ -8,6 +8,8 @@ from rclpy.lifecycle import LifecycleNode
 from std_srvs.srv import Trigger
 
 from acts_core.errors import ActsError
+from acts_core.settings import describe
+from acts_core.wire import BoardSettings
 from acts_driver.board import BoardSession, BoardStatus, settings_in_words, version_in_words
 from acts_msgs.msg import BoardState
 from acts_ros.qos import LATCHED, overridable
@@ -73,21 +75,8 @@ def board_message(status: BoardStatus) -> BoardState:
     settings, model = state.settings, state.model
     message.board_id = state.board_id
     message.firmware_version = version_in_words(state)
-    for name in (
-        "rows",
-        "cols",
-        "scheme",
-        "m",
-        "threshold_counts",
-        "neighbour_order",
-        "search_quota",
-        "adaptive_quota",
-        "seed",
-        "frame_period_us",
-        "output",
-        "led",
-        "touch_counts",
-    ):
+    # A new scheme's own settings have no field of the message unless somebody gives them one.
+    for name in describe(BoardSettings).keys() & message.get_fields_and_field_types().keys():
         setattr(message, name, getattr(settings, name))
     message.samples_only = state.samples_only
     message.model = model.kind.name.lower()

@@ -16,7 +16,7 @@ from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import RecordingError
 from acts_core.files import UNPACKED_BYTES_MAX, FramesFile, load_frames, read_npz
 from acts_core.frames import SampleFrame, Scheme
-from acts_core.sampling import SCHEMES, Sampler, SamplingConfig, SkinMap, measure_in
+from acts_core.sampling import SCHEME_NUMBERS, Sampler, SamplingConfig, SkinMap, measure_in
 
 MEASUREMENT_US = 17.877
 """Time of one measurement on the paper's board (55,936 samples per second) [us]."""
@@ -135,7 +135,7 @@ class SampledFrames:
     rate_cap_hz : float
         At most so many samplings per second; 0 for `BOARD_RATE_HZ`.
     skin_map : SkinMap, optional
-        See `acts_core.sampling.schemes.Sampler`.
+        See `acts_core.sampling.Sampler`.
     """
 
     def __init__(
@@ -150,8 +150,7 @@ class SampledFrames:
         self._frames = content.frames
         self._frames_hz = frames_hz
         self._sampling = sampling
-        m = sampling.rows * sampling.cols if sampling.scheme == "raster" else sampling.m
-        self._duration_us = m * MEASUREMENT_US
+        self._duration_us = sampling.frame_size * MEASUREMENT_US
         self._period_us = max(1e6 / (rate_cap_hz or BOARD_RATE_HZ), self._duration_us)
         self._count = max(1, int(len(self._frames) / self._frames_hz * 1e6 / self._period_us))
 
@@ -163,7 +162,7 @@ class SampledFrames:
     def frames(self, from_us: int = 0) -> Iterator[SampleFrame]:
         """One pass; see `SeekableRecording.frames`."""
         sampler = Sampler(self._sampling, self._map)
-        scheme = SCHEMES[self._sampling.scheme]
+        scheme = Scheme(SCHEME_NUMBERS[self._sampling.scheme])
         for sequence in range(math.ceil(from_us / self._period_us), self._count):
             end_us = sequence * self._period_us + self._duration_us
             indices, counts = sampler.frame(measure_in(self._at(end_us)))
@@ -302,11 +301,11 @@ def _times_us(path: Path, content: dict[str, NDArray[Any]], n: int) -> NDArray[n
 def _scheme(path: Path, content: dict[str, NDArray[Any]]) -> Scheme:
     given = content.get("scheme", np.array(0))
     value = given.item() if given.size == 1 else None
-    if value in SCHEMES:
-        return SCHEMES[value]
+    if value in SCHEME_NUMBERS:
+        return Scheme(SCHEME_NUMBERS[value])
     if isinstance(value, int) and value in list(Scheme):
         return Scheme(value)
-    raise RecordingError(f"{path}: scheme {given}: needed is one of {', '.join(SCHEMES)}, or a number of Scheme")
+    raise RecordingError(f"{path}: scheme {given}: needed is one of {', '.join(SCHEME_NUMBERS)}, or a number of Scheme")
 
 
 def _whole(path: Path, content: dict[str, NDArray[Any]], name: str, default: int, lowest: int, highest: int) -> int:

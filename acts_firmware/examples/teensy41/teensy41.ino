@@ -18,7 +18,7 @@ namespace {
 
 // What the board starts with; a host can change all but the protocol.
 constexpr acts::Protocol kProtocol = ACTS_RASTER_ASCII ? acts::Protocol::kRasterAscii : acts::Protocol::kBinary;
-constexpr acts::Scheme kScheme = ACTS_RASTER_ASCII ? acts::Scheme::kRaster : acts::Scheme::kAdaptive;
+constexpr acts::Scheme kScheme = ACTS_RASTER_ASCII ? acts::Raster::kInfo.number : acts::Adaptive::kInfo.number;
 constexpr int kRows = 32;
 constexpr int kCols = 32;
 constexpr int kM = 55;                          // taxels per frame

@@ -15,7 +15,7 @@ Firmware::Firmware(Board& board, const Wiring& wiring, Protocol protocol, ModelM
 SettingField Firmware::configure(const Settings& settings) {
   SettingField refused = out_of_range(settings, wiring_.lines);
   if (refused == SettingField::kNone && !(settings.sampling == settings_.sampling)) {
-    refused = field_of(sampler_.configure(settings.sampling));
+    refused = sampler_.configure(settings.sampling);
   }
   if (refused == SettingField::kNone) {
     settings_ = settings;

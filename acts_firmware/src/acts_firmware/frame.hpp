@@ -8,15 +8,18 @@
 
 namespace acts {
 
-// Numbers on the wire; 1 to 3 are the mode numbers of the published firmware.
-enum class Scheme : std::uint8_t { kUniform = 1, kRandom = 2, kAdaptive = 3, kRaster = 4, kHybrid = 5, kTracking = 6 };
+// How the taxels were chosen: the number on the wire that each sampling scheme says of itself (sampling/schemes.hpp). 1
+// to 3 are the mode numbers of the published firmware.
+enum class Scheme : std::uint8_t {};
+
+constexpr Scheme kNoScheme{0};
 
 struct SampleFrame {
   std::uint32_t sequence = 0;
   std::uint64_t board_us = 0;     // end of the last measurement
   std::uint32_t duration_us = 0;  // from the start of the first to the end of the last measurement
   std::uint32_t overruns = 0;     // frames dropped since the start
-  Scheme scheme = Scheme::kAdaptive;
+  Scheme scheme = kNoScheme;
   std::uint8_t rows = 0;
   std::uint8_t cols = 0;
   std::uint16_t m = 0;

@@ -24,11 +24,10 @@ SettingField out_of_range(const Settings& settings, int lines) {
   if (!within(sampling.m, 1, kMaxTaxels)) {
     return SettingField::kM;
   }
-  if (!within(sampling.search_quota, 0, kMaxTaxels)) {
-    return SettingField::kSearchQuota;
-  }
-  if (!within(sampling.adaptive_quota, 0, kMaxTaxels)) {
-    return SettingField::kAdaptiveQuota;
+  for (const OwnSetting& setting : kAllOwnSettings) {
+    if (!within(sampling.own(setting), setting.minimum, setting.maximum)) {
+      return static_cast<SettingField>(setting.number);
+    }
   }
   if (!within(settings.touch_counts, 0, kCountMax)) {
     return SettingField::kTouchCounts;
@@ -41,27 +40,6 @@ SettingField out_of_range(const Settings& settings, int lines) {
   }
   if (settings.frame_period_us > kMaxFramePeriodUs) {
     return SettingField::kFramePeriod;
-  }
-  return SettingField::kNone;
-}
-
-SettingField field_of(ConfigError error) {
-  switch (error) {
-    case ConfigError::kNone:
-      break;
-    case ConfigError::kSize:
-      return SettingField::kRows;
-    case ConfigError::kScheme:
-      return SettingField::kScheme;
-    case ConfigError::kM:
-    case ConfigError::kUniformM:
-      return SettingField::kM;
-    case ConfigError::kThreshold:
-      return SettingField::kThreshold;
-    case ConfigError::kSearchQuota:
-      return SettingField::kSearchQuota;
-    case ConfigError::kAdaptiveQuota:
-      return SettingField::kAdaptiveQuota;
   }
   return SettingField::kNone;
 }

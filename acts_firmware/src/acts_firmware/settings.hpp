@@ -27,28 +27,7 @@ struct Settings {
   std::uint32_t frame_period_us = 1000;  // frames start no closer; whoever calls Firmware::measure_frame keeps to it
 };
 
-// Which setting is refused.
-enum class SettingField : std::uint8_t {
-  kNone = 0,
-  kRows = 1,
-  kCols = 2,
-  kScheme = 3,
-  kNeighbourOrder = 4,
-  kM = 5,
-  kThreshold = 6,
-  kSearchQuota = 7,
-  kAdaptiveQuota = 8,
-  kTouchCounts = 9,
-  kOutput = 10,
-  kLed = 11,
-  kFramePeriod = 12,
-  kSeed = 13,  // never refused
-};
-
 // The first setting out of its range, on a board of `lines` row lines; what only the sampler can tell is left to it.
 SettingField out_of_range(const Settings& settings, int lines);
-
-// The setting that the sampler's refusal is about.
-SettingField field_of(ConfigError error);
 
 }  // namespace acts

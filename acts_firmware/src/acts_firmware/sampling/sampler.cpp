@@ -7,25 +7,22 @@ Sampler::Sampler() {
   configure(config_);
 }
 
-ConfigError Sampler::configure(const SamplingConfig& config) {
-  const ConfigError error = check(config);
-  if (error != ConfigError::kNone) {
-    return error;
+SettingField Sampler::configure(const SamplingConfig& config) {
+  const SettingField refused = check(config);
+  if (refused != SettingField::kNone) {
+    return refused;
   }
   if (config.rows != config_.rows || config.cols != config_.cols) {
     map_.reset(config.rows, config.cols);
   }
   config_ = config;
   begin();
-  return ConfigError::kNone;
+  return SettingField::kNone;
 }
 
 void Sampler::begin() {
-  order_.build(map_.rows(), map_.cols());
-  search_order_.build(map_.rows(), map_.cols());
-  tracking_.reset();
-  uniform_.reset(uniform_spacing(config_.rows, config_.cols, config_.m));
-  random_.reset(config_.taxels(), config_.seed);
+  Schemes::make(scheme_, config_.scheme);
+  std::visit([this](auto& scheme) { scheme.begin(config_, map_); }, scheme_);
 }
 
 bool Sampler::put_map(int place, const std::uint8_t* entries, int count) {
@@ -59,29 +56,7 @@ void Sampler::sample(TaxelReader& reader, SampleFrame& frame) {
   frame.cols = static_cast<std::uint8_t>(config_.cols);
   frame.m = 0;
   Measurement measurement(reader, marks_, frame);
-  switch (config_.scheme) {
-    case Scheme::kAdaptive:
-      adaptive_.sample(config_, map_, order_, config_.m, measurement);
-      break;
-    case Scheme::kTracking:
-      tracking_.sample(config_, map_, search_order_, measurement);
-      break;
-    case Scheme::kHybrid:
-      adaptive_.sample(config_, map_, order_, config_.adaptive_quota, measurement);
-      random_.sample(config_.m, measurement);
-      break;
-    case Scheme::kUniform:
-      uniform_.sample(config_, measurement);
-      break;
-    case Scheme::kRandom:
-      random_.sample(config_.m, measurement);
-      break;
-    case Scheme::kRaster:
-      for (int index = 0; index < config_.taxels(); ++index) {
-        measurement.take(index);
-      }
-      break;
-  }
+  std::visit([&](auto& scheme) { scheme.sample(config_, map_, measurement); }, scheme_);
 }
 
 }  // namespace acts

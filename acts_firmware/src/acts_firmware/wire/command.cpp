@@ -12,6 +12,10 @@ namespace {
 static_assert(kCommandHeadBytes + kUploadOffsetBytes + kMaxUploadPiece + kPacketCrcBytes == PacketReceiver::kCapacity,
               "the largest command fits exactly");
 
+// So many own settings of schemes lie in the midst of the others, the rest behind them.
+constexpr std::size_t kOwnInTheMidst = 2;
+static_assert(kOwnSettings >= kOwnInTheMidst, "the settings of tracking and hybrid have their places");
+
 constexpr std::uint8_t kFlagSamplesOnly = 1;
 constexpr std::uint8_t kFlagUploading = 2;
 
@@ -23,13 +27,17 @@ void put_settings(Writer& writer, const Settings& settings) {
   writer.u8(static_cast<std::uint8_t>(sampling.neighbour_order));
   writer.u16(static_cast<std::uint16_t>(sampling.m));
   writer.u16(static_cast<std::uint16_t>(sampling.threshold));
-  writer.u16(static_cast<std::uint16_t>(sampling.search_quota));
-  writer.u16(static_cast<std::uint16_t>(sampling.adaptive_quota));
+  for (std::size_t i = 0; i < kOwnInTheMidst; ++i) {
+    writer.u16(static_cast<std::uint16_t>(sampling.own_values[i]));
+  }
   writer.u16(static_cast<std::uint16_t>(settings.touch_counts));
   writer.u8(static_cast<std::uint8_t>(settings.output));
   writer.u8(static_cast<std::uint8_t>(settings.led));
   writer.u32(settings.frame_period_us);
   writer.u64(sampling.seed);
+  for (std::size_t i = kOwnInTheMidst; i < kOwnSettings; ++i) {
+    writer.u16(static_cast<std::uint16_t>(sampling.own_values[i]));
+  }
 }
 
 void put_model(Writer& writer, const Model& model) {
@@ -72,13 +80,17 @@ Settings read_settings(const std::uint8_t* body) {
   sampling.neighbour_order = static_cast<NeighbourOrder>(reader.u8());
   sampling.m = reader.u16();
   sampling.threshold = reader.u16();
-  sampling.search_quota = reader.u16();
-  sampling.adaptive_quota = reader.u16();
+  for (std::size_t i = 0; i < kOwnInTheMidst; ++i) {
+    sampling.own_values[i] = reader.u16();
+  }
   settings.touch_counts = reader.u16();
   settings.output = static_cast<Output>(reader.u8());
   settings.led = static_cast<LedMode>(reader.u8());
   settings.frame_period_us = reader.u32();
   sampling.seed = reader.u64();
+  for (std::size_t i = kOwnInTheMidst; i < kOwnSettings; ++i) {
+    sampling.own_values[i] = reader.u16();
+  }
   return settings;
 }
 

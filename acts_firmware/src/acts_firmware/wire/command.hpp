@@ -34,7 +34,7 @@ enum class Status : std::uint8_t {
 };
 
 constexpr std::size_t kCommandHeadBytes = 8;  // type, version, length, request
-constexpr std::size_t kSettingsBytes = 28;
+constexpr std::size_t kSettingsBytes = 24 + 2 * kOwnSettings;
 constexpr std::size_t kUploadBeginBytes = 16;
 constexpr std::size_t kUploadOffsetBytes = 4;
 constexpr std::size_t kMaxUploadPiece = 1024;

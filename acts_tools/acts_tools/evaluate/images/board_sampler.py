@@ -1,8 +1,10 @@
-"""The firmware's own sampler, measuring in recorded frames: what a board would have sampled of them."""
+"""Samplers that measure in recorded frames: the firmware's own, and Python's for schemes that no board has."""
 
 from __future__ import annotations
 
 import ctypes
+import itertools
+import math
 import os
 from functools import lru_cache
 from pathlib import Path
@@ -10,22 +12,38 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.array import COUNT_MAX
 from acts_core.errors import ArrayError, SettingsError
-from acts_core.sampling import NEIGHBOURS, SCHEMES, SamplingConfig
+from acts_core.sampling import Sampler, SamplingConfig
+from acts_core.wire import BoardSettings
 
 _LIBRARY = "libacts_sampler.so"
 
 
-@lru_cache(maxsize=1)
-def _library() -> ctypes.CDLL:
+def library_path() -> Path:
+    """Where the firmware's sampler is installed.
+
+    Raises
+    ------
+    SettingsError
+        When it is not built.
+    """
     prefixes = [Path(prefix) for prefix in os.environ.get("AMENT_PREFIX_PATH", "").split(":") if prefix]
     path = next((p for prefix in prefixes if (p := prefix / "lib" / _LIBRARY).is_file()), None)
     if path is None:
         raise SettingsError(f"{_LIBRARY} of package acts_firmware is in none of {prefixes}: build the workspace")
+    return path
+
+
+@lru_cache(maxsize=4)
+def _library(path: Path) -> ctypes.CDLL:
     library = ctypes.CDLL(str(path))
     pointer, integer, size, real = ctypes.c_void_p, ctypes.c_int, ctypes.c_size_t, ctypes.c_double
     library.acts_sampler_new.restype = pointer
-    library.acts_sampler_new.argtypes = [*[integer] * 6, ctypes.c_uint64, integer, integer, real]
+    library.acts_sampler_new.argtypes = [ctypes.c_char_p, size, real]
+    library.acts_sampler_schemes.restype = ctypes.c_char_p
+    library.acts_sampler_takes.restype = integer
+    library.acts_sampler_takes.argtypes = [integer] * 4
     library.acts_sampler_free.restype = None
     library.acts_sampler_free.argtypes = [pointer]
     library.acts_sampler_frame.restype = integer
@@ -34,13 +52,15 @@ def _library() -> ctypes.CDLL:
 
 
 class BoardSampler:
-    """The C++ implementation of `acts_core.sampling.schemes.Sampler`, a hundred times as fast, on recordings.
+    """What a board would have sampled: `acts_core.sampling.Sampler` in C++, a hundred times as fast, on recordings.
 
     Parameters
     ----------
     config : SamplingConfig
     noise_counts : float
         Standard deviation of normal noise that is added to every measurement, drawn from the seed of `config`.
+    library : Path, optional
+        The firmware's sampler as a library; without it, the installed one.
 
     Raises
     ------
@@ -48,29 +68,20 @@ class BoardSampler:
         When the firmware refuses the settings, or its library is not built.
     """
 
-    def __init__(self, config: SamplingConfig, noise_counts: float = 0.0) -> None:
+    def __init__(self, config: SamplingConfig, noise_counts: float = 0.0, library: Path | None = None) -> None:
         self.config = config
+        self._library = _library(library or library_path())
         taxels = config.rows * config.cols
         self._indices = np.zeros(taxels, dtype=np.uint16)
         self._counts = np.zeros(taxels, dtype=np.uint16)
-        self._sampler = _library().acts_sampler_new(
-            config.rows,
-            config.cols,
-            int(SCHEMES[config.scheme]),
-            config.m,
-            config.threshold_counts,
-            list(NEIGHBOURS).index(config.neighbour_order),
-            config.seed,
-            config.search_quota,
-            config.adaptive_quota,
-            noise_counts,
-        )
+        settings = BoardSettings.from_sampling(config).to_bytes()
+        self._sampler = self._library.acts_sampler_new(settings, len(settings), noise_counts)
         if not self._sampler:
             raise SettingsError(f"the firmware refuses {config}")
 
     def __del__(self) -> None:
         if getattr(self, "_sampler", None):
-            _library().acts_sampler_free(self._sampler)
+            self._library.acts_sampler_free(self._sampler)
 
     def frame(
         self, frames: NDArray[np.uint16], position: float, step: float
@@ -89,14 +100,10 @@ class BoardSampler:
         Returns
         -------
         indices, counts : np.ndarray [shape=(m,), dtype=uint16]
-            As in `acts_core.sampling.schemes.Sampler.frame`; overwritten by the next call.
+            As in `acts_core.sampling.Sampler.frame`; overwritten by the next call.
         """
-        shape = (self.config.rows, self.config.cols)
-        if frames.dtype != np.uint16 or frames.shape[1:] != shape or not len(frames) or not frames.flags.c_contiguous:
-            raise ArrayError(
-                f"frames {frames.shape}, {frames.dtype}: needed are C-contiguous uint16 (n, {shape[0]}, {shape[1]})"
-            )
-        m = _library().acts_sampler_frame(
+        _check_frames(self.config, frames)
+        m = self._library.acts_sampler_frame(
             self._sampler,
             frames.ctypes.data,
             len(frames),
@@ -106,3 +113,61 @@ class BoardSampler:
             self._counts.ctypes.data,
         )
         return self._indices[:m], self._counts[:m]
+
+
+class PythonSampler:
+    """`acts_core.sampling.Sampler` on recordings, for schemes that exist in Python only.
+
+    Parameters
+    ----------
+    config, noise_counts
+        See `BoardSampler`.
+    """
+
+    def __init__(self, config: SamplingConfig, noise_counts: float = 0.0) -> None:
+        self.config = config
+        self._sampler = Sampler(config)
+        self._noise_counts = noise_counts
+        self._random = np.random.default_rng(config.seed)
+
+    def frame(
+        self, frames: NDArray[np.uint16], position: float, step: float
+    ) -> tuple[NDArray[np.uint16], NDArray[np.uint16]]:
+        """See `BoardSampler.frame`."""
+        _check_frames(self.config, frames)
+        later = itertools.count()
+        last = len(frames) - 1
+
+        def measure(row: int, col: int) -> int:
+            at = min(max(position + next(later) * step, 0.0), float(last))
+            before = min(int(at), last)
+            first, second = float(frames[before, row, col]), float(frames[min(before + 1, last), row, col])
+            counts = first + (at - before) * (second - first) + self._noise_counts * self._random.standard_normal()
+            return min(max(math.floor(counts + 0.5), 0), COUNT_MAX)
+
+        return self._sampler.frame(measure)
+
+
+def sampler_of(config: SamplingConfig, noise_counts: float = 0.0) -> BoardSampler | PythonSampler:
+    """The firmware's sampler where it has the scheme, else Python's."""
+    in_firmware = any(line.split("\t")[0] == config.scheme for line in scheme_table().splitlines())
+    return (BoardSampler if in_firmware else PythonSampler)(config, noise_counts)
+
+
+def scheme_table(library: Path | None = None) -> str:
+    """What the firmware's schemes say of themselves; see `acts_sampler_schemes` in acts_firmware/host."""
+    table: bytes = _library(library or library_path()).acts_sampler_schemes()
+    return table.decode()
+
+
+def firmware_takes(scheme: int, rows: int, cols: int, m: int) -> bool:
+    """Whether the firmware has frames of `m` taxels of the scheme of this number."""
+    return bool(_library(library_path()).acts_sampler_takes(scheme, rows, cols, m))
+
+
+def _check_frames(config: SamplingConfig, frames: NDArray[np.uint16]) -> None:
+    shape = (config.rows, config.cols)
+    if frames.dtype != np.uint16 or frames.shape[1:] != shape or not len(frames) or not frames.flags.c_contiguous:
+        raise ArrayError(
+            f"frames {frames.shape}, {frames.dtype}: needed are C-contiguous uint16 (n, {shape[0]}, {shape[1]})"
+        )

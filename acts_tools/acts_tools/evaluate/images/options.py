@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from acts_core.errors import SettingsError
-from acts_core.sampling import SCHEMES, SamplingConfig
+from acts_core.sampling import OWN_SETTINGS, SCHEMES, SamplingConfig
 from acts_core.settings import SettingValue, default_of, describe, from_text, unknown_key_message
 from acts_recon.methods import METHODS as REGISTERED
 from acts_recon.sparse import Dictionary, shipped_dictionary_path
@@ -59,6 +59,14 @@ def add_common_arguments(parser: argparse.ArgumentParser, **defaults: float) -> 
         metavar="NAME=VALUE",
         help="a setting of a method, by the name of its parameter (docs/reference.md, reconstruction)",
     )
+    for own in OWN_SETTINGS:
+        parser.add_argument(
+            f"--{own.parameter.replace('_', '-')}",
+            type=type(own.parameter_default),
+            default=own.parameter_default,
+            metavar="X",
+            help=f"{own.parameter_description} (default: %(default)s)",
+        )
     parser.add_argument("--seed", type=int, default=1, metavar="X", help="of everything random (default: %(default)s)")
     parser.add_argument("--json", type=Path, metavar="OUT", help="write the results here, too")
 
@@ -105,9 +113,10 @@ def task(arguments: argparse.Namespace, scheme: str, m: int, method: str, shape:
         scheme=scheme,
         rows=rows,
         cols=cols,
-        m=rows * cols if scheme == "raster" else m,
+        m=rows * cols if SCHEMES[scheme].measures_all else m,
         threshold_counts=threshold,
         seed=arguments.seed,
+        **{own.parameter: getattr(arguments, own.parameter) for own in OWN_SETTINGS},
     )
     settings = {name: getattr(arguments, name) for name in describe(Task)}
     return Task(sampling, method, **settings, settings=tuple(arguments.set))
@@ -125,5 +134,6 @@ def tasks(arguments: argparse.Namespace, shape: tuple[int, ...] = (32, 32)) -> l
 
 def as_report(arguments: argparse.Namespace) -> dict[str, object]:
     """What a report says of the arguments."""
-    used = {name: getattr(arguments, name) for name in (*describe(Task), "search_counts", "seed")}
+    own = (setting.parameter for setting in OWN_SETTINGS)
+    used = {name: getattr(arguments, name) for name in (*describe(Task), *own, "search_counts", "seed")}
     return {**used, "dictionary": arguments.dictionary or "shipped", "set": dict(arguments.set)}

@@ -20,7 +20,7 @@ from acts_recon.methods import Method, SkinSetup
 from acts_recon.sparse import Dictionary
 from acts_tools.evaluate.estimators.methods import method_named
 from acts_tools.evaluate.images import calibration
-from acts_tools.evaluate.images.board_sampler import BoardSampler
+from acts_tools.evaluate.images.board_sampler import sampler_of
 from acts_tools.evaluate.images.scores import FRAME_SCORES, INVENTED, FrameScores, score_image
 from acts_tools.evaluate.images.truth import ContactStart, contact_starts, interpolate
 
@@ -85,9 +85,7 @@ class Task:
     @property
     def duration_s(self) -> float:
         """From the beginning of the first measurement of a frame to the end of the last [s]."""
-        config = self.sampling
-        m = config.rows * config.cols if config.scheme == "raster" else config.m
-        return m * self.sample_us * 1e-6
+        return float(self.sampling.frame_size * self.sample_us * 1e-6)
 
     @property
     def period_s(self) -> float:
@@ -243,7 +241,7 @@ def _for_recording(task: Task, which: int, recording: Recording) -> Task:
 
 def _play(recording: Recording, task: Task, method: Method) -> Iterator[_Frame]:
     """Sample and recover from the beginning to the end; at least one frame, for which the last is held."""
-    sampler = BoardSampler(task.sampling, task.noise_counts)
+    sampler = sampler_of(task.sampling, task.noise_counts)
     frames = np.ascontiguousarray(recording.frames)
     flat = frames.reshape(len(frames), -1)
     truth = np.zeros(flat.shape[1], dtype=np.float32)

@@ -1,10 +1,11 @@
-#include "acts_firmware/sampling/tracking.hpp"
+#include "acts_firmware/sampling/schemes/tracking.hpp"
 
 #include <algorithm>
 
 namespace acts {
 
-void Tracking::reset() {
+void Tracking::begin(const SamplingConfig& /*config*/, const SkinMap& map) {
+  order_.build(map.rows(), map.cols());
   pressed_.fill(false);
   pressed_near_.fill(0);
   reserved_.fill(false);
@@ -12,19 +13,20 @@ void Tracking::reset() {
   walk_ = 0;
 }
 
-void Tracking::sample(const SamplingConfig& config, const SkinMap& map, const DitherOrder& order, Measurement& frame) {
-  const int followed = list_candidates(order.size(), config.m - config.search_quota);
+void Tracking::sample(const SamplingConfig& config, const SkinMap& map, Measurement& frame) {
+  const int search_quota = config.own(kSearchQuota);
+  const int followed = list_candidates(order_.size(), config.m - search_quota);
   const int others = config.m - followed;
   found_count_ = 0;
   int searched = 0;
   int looked_around = 0;
   while (frame.size() < others) {
-    if (looked_around < found_count_ && searched >= config.search_quota) {
+    if (looked_around < found_count_ && searched >= search_quota) {
       look_around(config, map, others, found_[static_cast<std::size_t>(looked_around++)], frame);
       continue;
     }
-    const int place = order[walk_];
-    walk_ = walk_ + 1 == order.size() ? 0 : walk_ + 1;
+    const int place = order_[walk_];
+    walk_ = walk_ + 1 == order_.size() ? 0 : walk_ + 1;
     if (is_free(map, place, frame)) {
       track(config, map, place, frame);
       ++searched;

@@ -6,6 +6,30 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import SettingsError
+from acts_core.sampling.basis import CommonSettings, Measure, Samples, SamplingScheme, SkinMap
+
+
+class Uniform(SamplingScheme):
+    """The frames of `uniform`, one after the other."""
+
+    name = "uniform"
+    number = 1
+    description = "a grid that moves from frame to frame"
+
+    def __init__(self, config: CommonSettings, skin_map: SkinMap) -> None:
+        super().__init__(config, skin_map)
+        self._frame = 0
+
+    def frame(self, measure: Measure) -> Samples:
+        """See `SamplingScheme.frame`."""
+        indices = uniform(self.config.rows, self.config.cols, self.config.m, self._frame)
+        self._frame += 1
+        return self.measured(measure, indices)
+
+    @classmethod
+    def check_m(cls, rows: int, cols: int, m: int) -> None:
+        """Refuse what is no grid, see `uniform_spacing`."""
+        uniform_spacing(rows, cols, m)
 
 
 def uniform_spacing(rows: int, cols: int, m: int) -> tuple[int, int]:

@@ -10,15 +10,33 @@ all sides in the same frame; what is known to be pressed is measured last, so th
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
-from acts_core.sampling.skin_map import SkinMap
+from acts_core.array import MAX_SIDE
+from acts_core.sampling.basis import (
+    CommonSettings,
+    Measure,
+    OwnSetting,
+    Samples,
+    SamplingScheme,
+    Share,
+    SkinMap,
+    dither_order,
+)
+
+SEARCH_QUOTA = OwnSetting(
+    "search_quota",
+    "taxels of a tracking frame that are kept for the search, 1 to m there",
+    default=11,
+    minimum=0,
+    maximum=MAX_SIDE**2,
+    number=7,
+    share=Share("search_share", "share of a tracking frame that is kept for the search", 0.2),
+)
 
 
-class Tracking:
+class Tracking(SamplingScheme):
     """Chooses the taxels of tracking sampling, frame after frame (in C++: ``acts::Tracking``).
 
     A taxel is flagged as pressed when it was above the threshold the last time it was measured. Candidates are the
@@ -36,58 +54,36 @@ class Tracking:
     - every taxel at least once in any ``ceil(rows * cols / search_quota)`` frames,
     - every taxel that stays a candidate at least once in any ``ceil(c / (m - search_quota))`` frames, where c taxels
       were candidates in that time.
-
-    Parameters
-    ----------
-    order : np.ndarray [shape=(rows * cols,), dtype=uint16]
-        Order of search, every place of the picture once, as row-major indices.
-    skin_map : SkinMap
-        How the taxels lie on the skin.
-    cols : int
-        Columns of the matrix.
-    m : int
-        Taxels measured per frame, 1 to ``rows * cols``.
-    search_quota : int
-        Taxels of each frame that are kept for the search, 1 to `m`.
-    threshold_counts : int
-        ADC counts above which a taxel is pressed.
     """
 
-    def __init__(
-        self,
-        order: NDArray[np.uint16],
-        skin_map: SkinMap,
-        cols: int,
-        m: int,
-        *,
-        search_quota: int,
-        threshold_counts: int,
-    ) -> None:
-        self._map = skin_map
-        self._matrix_cols = cols
-        self._order: list[int] = order.tolist()
-        self._m = m
-        self._search_quota = search_quota
-        self._threshold_counts = threshold_counts
+    name = "tracking"
+    number = 6
+    description = "on with the search, then what was pressed in the last frames"
+    own_settings = (SEARCH_QUOTA,)
+
+    def __init__(self, config: CommonSettings, skin_map: SkinMap) -> None:
+        super().__init__(config, skin_map)
+        self._order: list[int] = dither_order(skin_map.rows, skin_map.cols).tolist()
+        self._search_quota = config.own(SEARCH_QUOTA)
         self._pressed = np.zeros((skin_map.rows, skin_map.cols), dtype=bool)
         self._patches = np.array(skin_map.patches).reshape(self._pressed.shape)
         self._cursor = 0
         self._walk = 0
 
-    def frame(self, measure: Callable[[int, int], int]) -> tuple[NDArray[np.uint16], NDArray[np.uint16]]:
-        """Sample one frame; as `acts_core.sampling.schemes.Sampler.frame`."""
+    def frame(self, measure: Measure) -> Samples:
+        """See `SamplingScheme.frame`."""
         rows, cols = self._pressed.shape
-        skin = self._map
+        skin = self.skin_map
         followed = self._follow()
-        others = self._m - len(followed)
+        others = self.config.m - len(followed)
         reserved = set(followed)
         measured: dict[int, int] = {}
         found: deque[tuple[int, int]] = deque()
 
         def take(place: int) -> None:
             row, col = divmod(place, cols)
-            measured[place] = measure(*divmod(skin.taxels[place], self._matrix_cols))
-            pressed = measured[place] > self._threshold_counts and skin.has_skin(place)
+            measured[place] = measure(*divmod(skin.taxels[place], self.config.cols))
+            pressed = measured[place] > self.config.threshold_counts and skin.has_skin(place)
             if pressed and not self._pressed[row, col]:
                 found.append((row, col))
             self._pressed[row, col] = pressed
@@ -127,6 +123,6 @@ class Tracking:
                 near |= padded[there] & (patches[there] == self._patches)
         candidates = np.flatnonzero(near)
         from_cursor = np.roll(candidates, -int(np.searchsorted(candidates, self._cursor))).tolist()
-        limit = self._m - self._search_quota
+        limit = self.config.m - self._search_quota
         self._cursor = from_cursor[limit] if limit < len(from_cursor) else 0
         return from_cursor[:limit]

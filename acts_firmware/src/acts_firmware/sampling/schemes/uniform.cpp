@@ -1,4 +1,4 @@
-#include "acts_firmware/sampling/uniform.hpp"
+#include "acts_firmware/sampling/schemes/uniform.hpp"
 
 #include <algorithm>
 
@@ -35,7 +35,12 @@ Spacing uniform_spacing(int rows, int cols, int m) {
   return best;
 }
 
-void Uniform::sample(const SamplingConfig& config, Measurement& frame) {
+void Uniform::begin(const SamplingConfig& config, const SkinMap& /*map*/) {
+  spacing_ = uniform_spacing(config.rows, config.cols, config.m);
+  offset_ = 0;
+}
+
+void Uniform::sample(const SamplingConfig& config, const SkinMap& /*map*/, Measurement& frame) {
   const int first_row = offset_ / spacing_.col;
   const int first_col = offset_ % spacing_.col;
   for (int i = 0; i < divide_up(config.rows, spacing_.row); ++i) {

@@ -4,9 +4,10 @@
 #include <array>
 #include <cstdint>
 
-#include "acts_firmware/sampling/config.hpp"
 #include "acts_firmware/sampling/dither_order.hpp"
 #include "acts_firmware/sampling/measurement.hpp"
+#include "acts_firmware/sampling/scheme.hpp"
+#include "acts_firmware/sampling/settings.hpp"
 #include "acts_firmware/sampling/skin_map.hpp"
 
 namespace acts {
@@ -16,12 +17,23 @@ namespace acts {
 // from frame to frame gets search_quota or more; what is left when it has had these goes first to the neighbours of
 // what it found newly pressed. So every taxel is measured at least once in any ceil(rows * cols / search_quota) frames,
 // and every lasting candidate at least once in any ceil(candidates / (m - search_quota)).
-class Tracking {
+class Tracking : public SchemeDefaults {
  public:
-  // Forgets what was pressed and where the search stopped.
-  void reset();
+  static constexpr OwnSetting kSearchQuota = {7,
+                                              "search_quota",
+                                              "taxels of a tracking frame that are kept for the search, 1 to m there",
+                                              11,
+                                              0,
+                                              kMaxTaxels,
+                                              "search_share",
+                                              "share of a tracking frame that is kept for the search",
+                                              0.2};
+  static constexpr SchemeInfo kInfo = {
+      "tracking", Scheme{6}, "on with the search, then what was pressed in the last frames", {{kSearchQuota}}};
 
-  void sample(const SamplingConfig& config, const SkinMap& map, const DitherOrder& order, Measurement& frame);
+  // Forgets what was pressed and where the search stopped.
+  void begin(const SamplingConfig& config, const SkinMap& map);
+  void sample(const SamplingConfig& config, const SkinMap& map, Measurement& frame);
 
  private:
   int list_candidates(int places, int limit);
@@ -29,6 +41,7 @@ class Tracking {
   bool is_free(const SkinMap& map, int place, const Measurement& frame) const;
   void track(const SamplingConfig& config, const SkinMap& map, int place, Measurement& frame);
 
+  DitherOrder order_;
   // By place on the skin: what was pressed when last measured, and how many of a place and its neighbours were.
   std::array<bool, kMaxTaxels> pressed_{};
   std::array<std::uint8_t, kMaxTaxels> pressed_near_{};

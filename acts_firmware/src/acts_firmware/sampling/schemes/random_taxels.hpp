@@ -6,18 +6,23 @@
 
 #include "acts_firmware/sampling/measurement.hpp"
 #include "acts_firmware/sampling/random.hpp"
+#include "acts_firmware/sampling/scheme.hpp"
+#include "acts_firmware/sampling/settings.hpp"
+#include "acts_firmware/sampling/skin_map.hpp"
 
 namespace acts {
 
 // Draws distinct taxels, frame after frame: the first steps of a Fisher-Yates shuffle that is never undone.
-class RandomTaxels {
+class RandomTaxels : public SchemeDefaults {
  public:
+  static constexpr SchemeInfo kInfo = {"random", Scheme{2}, "M random taxels, drawn on the board"};
+
   RandomTaxels() : random_(0, kStream) {}
 
-  void reset(int taxels, std::uint64_t seed);
+  void begin(const SamplingConfig& config, const SkinMap& map);
 
   // Measures random taxels until the frame has m, every one that it does not have yet equally likely.
-  void sample(int m, Measurement& frame);
+  void sample(const SamplingConfig& config, const SkinMap& map, Measurement& frame);
 
  private:
   static constexpr std::uint64_t kStream = 1;  // the virtual board's noise has another

@@ -1,4 +1,4 @@
-#include "acts_firmware/sampling/adaptive.hpp"
+#include "acts_firmware/sampling/schemes/adaptive.hpp"
 
 namespace acts {
 
@@ -16,10 +16,17 @@ constexpr Steps kRowsOuter = {{{-1, -1}, {-1, 0}, {-1, 1}, {0, -1}, {0, 1}, {1, 
 
 }  // namespace
 
-void Adaptive::sample(const SamplingConfig& config, const SkinMap& map, const DivisionOrder& order, int m,
-                      Measurement& frame) {
-  for (int rank = 0; rank < order.size() && frame.size() < m; ++rank) {
-    const int centre = order[rank];
+void Adaptive::begin(const SamplingConfig& /*config*/, const SkinMap& map) {
+  order_.build(map.rows(), map.cols());
+}
+
+void Adaptive::sample(const SamplingConfig& config, const SkinMap& map, Measurement& frame) {
+  sample_until(config.m, config, map, frame);
+}
+
+void Adaptive::sample_until(int m, const SamplingConfig& config, const SkinMap& map, Measurement& frame) {
+  for (int rank = 0; rank < order_.size() && frame.size() < m; ++rank) {
+    const int centre = order_[rank];
     if (!frame.has(map.taxel(centre)) && is_pressed(config, map, centre, frame)) {
       search(config, map, centre, m, frame);
     }

@@ -1,8 +1,10 @@
 // Uniform sampling: a grid that moves from frame to frame.
 #pragma once
 
-#include "acts_firmware/sampling/config.hpp"
 #include "acts_firmware/sampling/measurement.hpp"
+#include "acts_firmware/sampling/scheme.hpp"
+#include "acts_firmware/sampling/settings.hpp"
+#include "acts_firmware/sampling/skin_map.hpp"
 
 namespace acts {
 
@@ -17,14 +19,14 @@ Spacing uniform_spacing(int rows, int cols, int m);
 
 // The grid moves by one column a frame and, when it has been through the columns, by one row. Where its last row or
 // column falls off the array, the array's last is taken instead, as by the authors' program: m taxels in every frame.
-class Uniform {
+class Uniform : public SchemeDefaults {
  public:
-  void reset(Spacing spacing) {
-    spacing_ = spacing;
-    offset_ = 0;
-  }
+  static constexpr SchemeInfo kInfo = {"uniform", Scheme{1}, "a grid that moves from frame to frame"};
 
-  void sample(const SamplingConfig& config, Measurement& frame);
+  static bool takes(int rows, int cols, int m) { return uniform_spacing(rows, cols, m).row != 0; }
+
+  void begin(const SamplingConfig& config, const SkinMap& map);
+  void sample(const SamplingConfig& config, const SkinMap& map, Measurement& frame);
 
  private:
   Spacing spacing_;

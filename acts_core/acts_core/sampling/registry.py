@@ -1,0 +1,57 @@
+"""All sampling schemes: the classes in the modules of ``acts_core.sampling.schemes``."""
+
+from __future__ import annotations
+
+import pkgutil
+from importlib import import_module
+
+from acts_core.errors import SettingsError
+from acts_core.sampling import schemes
+from acts_core.sampling.basis import SamplingScheme
+
+
+def _find() -> dict[str, type[SamplingScheme]]:
+    found: dict[str, type[SamplingScheme]] = {}
+    for info in pkgutil.iter_modules(schemes.__path__):
+        module = import_module(f"{schemes.__name__}.{info.name}")
+        for scheme in vars(module).values():
+            if isinstance(scheme, type) and issubclass(scheme, SamplingScheme) and scheme.__module__ == module.__name__:
+                found[scheme.name] = scheme
+    return dict(sorted(found.items()))
+
+
+SCHEMES = _find()
+"""Every sampling scheme by its name."""
+
+SCHEME_NUMBERS = {name: scheme.number for name, scheme in SCHEMES.items() if scheme.number is not None}
+"""Numbers on the wire of the schemes that a board has; the others exist in Python only."""
+
+OWN_SETTINGS = tuple(own for scheme in SCHEMES.values() for own in scheme.own_settings)
+"""The schemes' own settings."""
+
+BOARD_OWN_SETTINGS = {
+    own.number: own
+    for own in sorted(
+        (own for name in SCHEME_NUMBERS for own in SCHEMES[name].own_settings), key=lambda own: own.number or 0
+    )
+    if own.number is not None
+}
+"""Those that a board has, by their number on the wire and in that order."""
+
+
+def check_frame(name: str, rows: int, cols: int, m: int) -> None:
+    """Check that a scheme has frames of `m` taxels of an array.
+
+    Raises
+    ------
+    SettingsError
+    """
+    scheme = SCHEMES[name]
+    if m > rows * cols and not scheme.measures_all:
+        raise SettingsError(f"m = {m}: an array of {rows} x {cols} has {rows * cols} taxels")
+    scheme.check_m(rows, cols, m)
+
+
+def frame_size(name: str, rows: int, cols: int, m: int) -> int:
+    """Taxels that a frame of a scheme holds."""
+    return rows * cols if SCHEMES[name].measures_all else m
