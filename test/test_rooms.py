@@ -16,6 +16,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[1]
+MODULES_MAX = 12
 ENTRANCES = {"bags", "nodes", "process", "processes", "executables"}
 
 LAYERS = (
@@ -140,3 +141,8 @@ def test_a_room_says_what_it_is_for_and_exports_what_exists(room: str) -> None:
     }
     if room.rpartition(".")[2] not in ENTRANCES:
         assert taken == exported(room)
+
+
+def test_rooms_are_small_enough_to_look_around_in() -> None:
+    counts = {room: sum(path.parent == MODULES[room].parent for path in MODULES.values()) - 1 for room in ROOMS}
+    assert {room: n for room, n in counts.items() if n > MODULES_MAX} == {}

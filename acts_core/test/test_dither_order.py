@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from acts_core.sampling.basis.dither_order import dither_order
+from acts_core.sampling.basis import dither_order
 
 
 @given(st.integers(1, 64), st.integers(1, 64))

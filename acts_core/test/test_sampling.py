@@ -9,8 +9,7 @@ from numpy.typing import NDArray
 
 from acts_core.errors import ArrayError, SettingsError
 from acts_core.sampling import NEIGHBOURS, SCHEMES, Sampler, SamplingConfig, SkinMap, measure_in
-from acts_core.sampling.basis.division_order import division_order
-from acts_core.sampling.basis.pcg32 import Pcg32
+from acts_core.sampling.basis import Pcg32, division_order
 from acts_core.sampling.schemes.adaptive import adaptive
 from acts_core.sampling.schemes.random_taxels import RandomTaxels
 from acts_core.sampling.schemes.uniform import uniform, uniform_spacing

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from acts_core.errors import SettingsError
 from acts_core.sampling import Sampler, SamplingConfig, measure_in
-from acts_core.sampling.basis.dither_order import dither_order
+from acts_core.sampling.basis import dither_order
 
 THRESHOLD = 180
 

@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 
 from acts_core.errors import SettingsError
 from acts_core.sampling import NEIGHBOURS, SCHEME_NUMBERS, Sampler, SamplingConfig, SkinMap, measure_in
-from acts_core.sampling.basis.division_order import division_order
-from acts_core.sampling.basis.pcg32 import Pcg32
+from acts_core.sampling.basis import Pcg32, division_order
 from acts_core.sampling.schemes.uniform import uniform_spacing
 from acts_core.skin import layout
 

@@ -7,7 +7,7 @@ from recon_samples import bump, sample
 from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError
 from acts_core.sampling import Sampler, SamplingConfig, measure_in
-from acts_core.sampling.basis.division_order import division_order
+from acts_core.sampling.basis import division_order
 from acts_core.skin import ForceResponse, layout
 from acts_recon.contacts.contact import find_contact
 from acts_recon.sparse import Dictionary, Reconstructor

@@ -10,13 +10,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from acts_core.robots import ur5e
-from acts_sim.ur.commands import COMMANDS
-from acts_sim.ur.config import ControllerConfig
-from acts_sim.ur.controller import Controller, RobotMode, RuntimeState, SafetyMode
-from acts_sim.ur.ports import dashboard, hooks
-from acts_sim.ur.ports.script import ScriptSession
+from acts_sim.ur import COMMANDS, Controller, ControllerConfig, ControlProgram, RobotMode, RuntimeState, SafetyMode
+from acts_sim.ur.ports import ScriptSession, dashboard, hooks
 from acts_sim.ur.pose import transform_from_pose
-from acts_sim.ur.program import ControlProgram
 
 READY, DONE = 1, 2
 

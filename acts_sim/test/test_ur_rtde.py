@@ -10,11 +10,21 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from acts_core.errors import PacketError
-from acts_sim.ur.config import ControllerConfig
-from acts_sim.ur.controller import Controller
-from acts_sim.ur.ports.session import RtdePort, RtdeSession
-from acts_sim.ur.rtde.packets import TYPE_FORMATS, InputRecipe, PacketReader, PacketType, encode, split_names
-from acts_sim.ur.rtde.variables import INPUT_TYPES, OUTPUT_TYPES, OutputImage, OutputRecipe
+from acts_sim.ur import Controller, ControllerConfig
+from acts_sim.ur.ports import RtdePort
+from acts_sim.ur.ports.session import RtdeSession
+from acts_sim.ur.rtde import (
+    INPUT_TYPES,
+    OUTPUT_TYPES,
+    InputRecipe,
+    OutputImage,
+    OutputRecipe,
+    PacketReader,
+    PacketType,
+    encode,
+    split_names,
+)
+from acts_sim.ur.rtde.packets import TYPE_FORMATS
 
 SERVO_NAMES = ["input_int_register_0", *(f"input_double_register_{index}" for index in range(11))]
 

@@ -19,7 +19,7 @@ from ur_process import HOOK_PORT, Simulator, wait_for
 from acts_core.robots import ur5e
 from acts_sim.shared import TimedRingReader
 from acts_sim.ur.main import JOINT_RING_WIDTH, parse
-from acts_sim.ur.rtde.packets import PacketType, encode
+from acts_sim.ur.rtde import PacketType, encode
 
 HOST = "127.0.1.20"
 RTDE_PORT, SCRIPT_PORT, DASHBOARD_PORT = 30004, 30003, 29999

@@ -11,9 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from acts_sim.shared import LineSession
-from acts_sim.ur.config import ControllerConfig
-from acts_sim.ur.controller import Controller, RuntimeState
-from acts_sim.ur.ports.script import ScriptReader, ScriptSession
+from acts_sim.ur import Controller, ControllerConfig, RuntimeState
+from acts_sim.ur.ports import ScriptSession
+from acts_sim.ur.ports.script import ScriptReader
 from acts_sim.ur.pose import pose_from_transform, transform_from_pose
 
 

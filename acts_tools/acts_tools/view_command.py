@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from acts_core.skin.layouts import LAYOUTS
+from acts_core.skin import LAYOUTS
 
 _EPILOG = """\
 examples:

@@ -19,7 +19,7 @@ from websockets.sync.client import ClientConnection, connect
 from acts_core.errors import ViewRequestError
 from acts_core.frames import SampleFrame, Scheme
 from acts_core.stop_signals import StopSignals
-from acts_driver.replay.recordings import ReplayOptions, open_recording
+from acts_driver.replay import ReplayOptions, open_recording
 from acts_recon.settings import ReconstructionSettings
 from acts_view.local.local_skin import LocalSkin
 from acts_view.local.playback import Playback

@@ -11,10 +11,8 @@ import numpy as np
 from acts_core.errors import ArrayError
 from acts_core.frames import SampleFrame
 from acts_driver.baseline import Baseline
-from acts_recon.contacts.blob_tracker import BlobTracker
-from acts_recon.contacts.blobs import TrackedBlob
-from acts_recon.contacts.contact import Contact
-from acts_recon.images.baseline import BaselineSubtraction
+from acts_recon.contacts import BlobTracker, Contact, TrackedBlob
+from acts_recon.images import BaselineSubtraction
 from acts_recon.settings import ReconstructionConfig
 from acts_view.skin.snapshot import CONTACT_COLUMNS, Frame, RegionState, Sample, SkinShape
 

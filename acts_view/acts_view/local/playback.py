@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from acts_core.errors import RecordingError
 from acts_core.frames import SampleFrame
-from acts_driver.replay.recordings import SeekableRecording
+from acts_driver.replay import SeekableRecording
 
 # Frames are handed on so often: what is drawn 30 times a second need not come one by one [s].
 _TURN_S = 0.01

@@ -10,9 +10,9 @@ from typing import Any, Protocol
 from acts_core.errors import ActsError, SettingsError, ViewRequestError
 from acts_core.frames import SampleFrame
 from acts_core.sampling import SamplingConfig
-from acts_driver.baseline.baseline_tracker import BaselineTracker
+from acts_driver.baseline import BaselineTracker
 from acts_driver.nodes.intake import Intake
-from acts_driver.replay.recordings import ReplayOptions, SeekableRecording, open_recording
+from acts_driver.replay import ReplayOptions, SeekableRecording, open_recording
 from acts_driver.settings import DriverSettings
 from acts_recon.settings import ReconstructionSettings
 from acts_view.local.local_skin import LocalSkin

@@ -3,5 +3,3 @@
 In come settings, the skin's map and a function that measures a taxel; out come the taxels of each frame and their
 counts. The registry one folder up names them all; nothing is exported here.
 """
-
-__all__: list[str] = []

@@ -3,15 +3,7 @@
 In come bytes and values; out come values and bytes. Nothing here knows a robot.
 """
 
-from acts_sim.ur.rtde.packets import (
-    PROTOCOL_VERSION,
-    InputRecipe,
-    PacketReader,
-    PacketType,
-    Value,
-    encode,
-    split_names,
-)
+from acts_sim.ur.rtde.packets import PROTOCOL_VERSION, InputRecipe, PacketReader, PacketType, Value, encode, split_names
 from acts_sim.ur.rtde.variables import INPUT_TYPES, OUTPUT_TYPES, OutputImage, OutputRecipe
 
 __all__ = [
