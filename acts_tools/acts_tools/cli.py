@@ -18,7 +18,7 @@ COMMANDS = {
     "play": ("acts_tools.bags.play", "publish a bag's messages again"),
     "view": ("acts_tools.view_command", "show touch on a page in the browser"),
     "listen": ("acts_tools.listen.command", "tell what of a topic arrives here, and how late"),
-    "driver": ("acts_tools.driver_command", "ask or tell a running driver: query, calibrate, tare, set"),
+    "driver": ("acts_tools.driver.driver_command", "ask or tell a running driver: query, calibrate, tare, set"),
     "diagnostics": ("acts_tools.diagnostics.command", "print what the running nodes say of themselves"),
     "selftest": ("acts_tools.selftest.command", "test a board, its wiring and its skin"),
     "doctor": ("acts_tools.doctor.command", "tell what this machine lacks, and how to mend it"),

@@ -13,7 +13,7 @@ import pytest
 from acts_core.errors import SettingsError
 from acts_tools.bench.rigs.processes import virtual_board
 from acts_tools.cli import main
-from acts_tools.driver_command import parameters_of
+from acts_tools.driver.driver_command import parameters_of
 
 DEADLINE_S = 60.0
 
@@ -72,7 +72,7 @@ def test_a_driver_that_is_not_there_is_named(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("ROS_DOMAIN_ID", "119")
-    monkeypatch.setattr("acts_tools.driver_command._FOUND_S", 0.1)
+    monkeypatch.setattr("acts_tools.driver.driver_command._FOUND_S", 0.1)
     assert main(["driver", "calibrate"]) == 1
     assert "no driver offers /plate/driver/calibrate" in capsys.readouterr().err
     assert main(["driver", "tare", "m=5"]) == 1

@@ -12,7 +12,7 @@ from acts_msgs.msg import BalanceStatus, BallReference, StreamStatistics
 from acts_ros import qos
 from acts_ros.polled import PollingNode
 from acts_tools.demo.ball.recording import Recording
-from acts_tools.driver_status import driver_values
+from acts_tools.driver.driver_status import driver_values
 
 # Of the most frequent topic twice as many as come in a second.
 _DEPTH = 256
