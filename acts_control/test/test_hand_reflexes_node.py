@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
-from hand_rig import TAXEL_M2, all_regions, region
+from hand_rig import all_regions, region
 from rclpy.node import Node
 from std_srvs.srv import Trigger
 from test_dynamixel_hand import DEADLINE_S, TIMEOUT_MS, Bus
@@ -21,7 +21,7 @@ from acts_ros.qos import STREAM
 
 DOMAIN_ID = 215
 GRIPPED = [region(f"{finger}_distal", 0.8) for finger in LEAP_RIGHT.fingers]
-TIP = region("index_distal", 0.5, 1, area_m2=TAXEL_M2, peak_n=0.5, concentration=1.0)
+TIP = region("index_distal", 0.5, 1, sharpness=10.0)
 
 
 @pytest.fixture
@@ -40,6 +40,7 @@ def message_of(touch: Touch) -> RegionContact:
         area=touch.area_m2,
         peak=touch.peak_n,
         concentration=touch.concentration,
+        sharpness=touch.sharpness,
         slip=touch.slip_m,
         slipping=touch.slipping,
     )

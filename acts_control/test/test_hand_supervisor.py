@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from hand_rig import TAXEL_M2, RigidHand, all_regions, region
+from hand_rig import RigidHand, all_regions, region
 
 from acts_control.hand.description import LEAP_RIGHT
 from acts_control.hand.reflexes import HandState
@@ -14,7 +14,7 @@ from acts_control.hand.reflexes.sharp_avoidance import SharpAvoidance, SharpAvoi
 from acts_control.hand.reflexes.slip_prevention import SlipPrevention, SlipPreventionConfig
 from acts_core.skin import RegionContact
 
-TIP = region("index_distal", 0.5, 1, area_m2=TAXEL_M2, peak_n=0.5, concentration=1.0)
+TIP = region("index_distal", 0.5, 1, sharpness=10.0)
 GRIPPED = [region(f"{finger}_distal", 0.8) for finger in LEAP_RIGHT.fingers]
 
 

@@ -16,7 +16,7 @@ from acts_recon.contacts import BlobConfig
 from acts_recon.fusion import FusionConfig
 from acts_recon.methods import METHODS, Recovery, SkinSetup
 from acts_recon.objects import load_object_library
-from acts_recon.regions import Regions
+from acts_recon.regions import Regions, SharpnessConfig
 from acts_recon.slip import SlipConfig
 from acts_recon.sparse import ReconstructorConfig
 
@@ -28,7 +28,7 @@ _LEAST_NOISE_COUNTS = 0.3
 
 
 @dataclass(frozen=True)
-class ReconstructionConfig(RealtimeConfig, SlipConfig):
+class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig):
     """The node's own parameters; those of methods and classifiers come with `ReconstructionSettings`."""
 
     rows: int = setting(_ARRAY.rows, "rows of the array", minimum=1, maximum=MAX_SIDE)
@@ -255,7 +255,7 @@ class ReconstructionConfig(RealtimeConfig, SlipConfig):
         # Noise of 0 would let anything be slip.
         noise_counts = max(self.noise_counts, _LEAST_NOISE_COUNTS)
         return Regions(
-            arranged, recovery.response, self.touch_counts, noise_counts, self, slip_rate_hz=self.regions_slip_rate_hz
+            arranged, recovery.response, self.touch_counts, noise_counts, self, self.regions_slip_rate_hz, self
         )
 
     def recogniser(self, recovery: Recovery) -> ObjectRecogniser | None:

@@ -31,6 +31,7 @@ REGIONS = st.builds(
     peak_n=SINGLES,
     spread_m=SINGLES,
     concentration=SINGLES,
+    sharpness=SINGLES,
     motion_m_s=VECTORS,
     slip_m=SINGLES,
     slipping=st.booleans(),
@@ -52,6 +53,7 @@ def message_of(skin: RegionsFields) -> RegionContacts:
         entry = RegionMessage(name=region.name, link=region.link, active_taxels=region.active_taxels)
         entry.force, entry.area, entry.peak = region.force_n, region.area_m2, region.peak_n
         entry.spread, entry.concentration = region.spread_m, region.concentration
+        entry.sharpness = region.sharpness
         entry.slip, entry.slipping = region.slip_m, region.slipping
         entry.centre.x, entry.centre.y, entry.centre.z = region.centre_m
         entry.normal.x, entry.normal.y, entry.normal.z = region.normal

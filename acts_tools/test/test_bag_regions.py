@@ -55,6 +55,7 @@ def grasp() -> list[bytes]:
                     area_m2=7.5e-6 * (1 if is_sharp else 9),
                     peak_n=force_n * (1.0 if is_sharp else 0.2),
                     concentration=1.0 if is_sharp else 0.2,
+                    sharpness=10.0 if is_sharp else 0.0,
                 )
                 if 90 < k < 110 and name == "index_distal":
                     region = region._replace(motion_m_s=(0.0, 0.01, 0.0), slip_m=0.0004, slipping=True)

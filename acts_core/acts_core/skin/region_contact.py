@@ -34,6 +34,8 @@ class RegionContact(NamedTuple):
         Root mean square distance of the force from the centre [m].
     concentration : float
         `peak_n` over `force_n`: 1 where one taxel carries all of it.
+    sharpness : float
+        How much likelier a tip is than something blunt, as a natural logarithm; 0 where it is not likelier.
     motion_m_s : tuple of float
         Velocity of the pressure pattern along the skin [m/s]; 0 where it cannot be told from noise.
     slip_m : float
@@ -51,6 +53,7 @@ class RegionContact(NamedTuple):
     peak_n: float = 0.0
     spread_m: float = 0.0
     concentration: float = 0.0
+    sharpness: float = 0.0
     motion_m_s: Vector = _ZERO
     slip_m: float = 0.0
     slipping: bool = False

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from acts_core.errors import ArrayError
 from acts_core.skin import ForceResponse, Layout, MeasuredForceResponse, RegionContact, Vector, force_table
 from acts_recon.regions import region_kernels as kernels
+from acts_recon.regions.sharpness import Sharpness, SharpnessConfig
 from acts_recon.slip import NO_SLIP, SMALLEST_SIDE, Slip, SlipConfig, SlipWatch
 
 # Of a slip rate, so that a time that is a little early counts as due.
@@ -33,6 +34,7 @@ class Regions:
     slip : SlipConfig, optional
     slip_rate_hz : float
         Motion and slip are looked for so often at most [Hz]; 0: in every image.
+    sharpness : SharpnessConfig, optional
 
     Raises
     ------
@@ -48,6 +50,7 @@ class Regions:
         noise_counts: float = 2.0,
         slip: SlipConfig | None = None,
         slip_rate_hz: float = 250.0,
+        sharpness: SharpnessConfig | None = None,
     ) -> None:
         patches = layout.patches
         self._shape = (layout.rows, layout.cols)
@@ -65,6 +68,9 @@ class Regions:
         self._areas_m2 = np.array([patch.geometry.taxel_area_m2 for patch in patches])
         self._touch_counts = float(touch_counts)
         self._force_n = force_table(response)
+        self._sharpness = Sharpness(
+            patches, self._force_n, self._touch_counts, noise_counts, sharpness or SharpnessConfig()
+        )
         self._results = np.zeros((len(patches), kernels.RESULTS))
         watched = [p for p, patch in enumerate(patches) if min(patch.rows, patch.cols) >= SMALLEST_SIDE]
         self._watched = np.array(watched, dtype=np.intp)
@@ -74,7 +80,9 @@ class Regions:
         )
         self._slip_period_s = _EARLY / slip_rate_hz if slip_rate_hz else 0.0
         self._slip_s = -math.inf
-        self.step(0.0, np.zeros(self._shape, dtype=np.float32))  # compiles, or loads from the cache
+        # Compiles, or loads from the cache.
+        self._sharpness.of(np.zeros(self._shape, dtype=np.float32))
+        self.step(0.0, np.zeros(self._shape, dtype=np.float32))
         self.reset()
 
     def reset(self) -> None:
@@ -132,8 +140,9 @@ class Regions:
         if not touched:
             regions[:] = self._untouched
             return regions
+        sharpness = self._sharpness.of(image).tolist()
         for p, numbers in enumerate(results.tolist()):
-            regions[p] = self._region(p, numbers) if numbers[0] else self._untouched[p]
+            regions[p] = self._region(p, numbers, sharpness[p]) if numbers[0] else self._untouched[p]
         return regions
 
     def _look_for_slip(self, time_s: float, values: NDArray[np.float32], age_s: NDArray[np.float32] | None) -> None:
@@ -142,7 +151,7 @@ class Regions:
         for p, slip in zip(self._watched.tolist(), found, strict=True):
             self._slips[p] = slip
 
-    def _region(self, patch: int, numbers: list[float]) -> RegionContact:
+    def _region(self, patch: int, numbers: list[float], sharpness: float) -> RegionContact:
         pressed, force_n, x, y, z, nx, ny, nz, area_m2, peak_n, spread_m, share, _, *steps = numbers
         slip = self._slips[patch]
         return RegionContact(
@@ -155,6 +164,7 @@ class Regions:
             peak_n,
             spread_m,
             share,
+            sharpness,
             self._velocity(slip, steps),
             slip.distance_m,
             slip.slipping,

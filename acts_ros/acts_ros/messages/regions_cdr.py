@@ -12,7 +12,7 @@ from acts_core.skin import RegionContact
 from acts_ros.messages.cdr import ENCAPSULATION_BYTES, header_bytes, header_parts, padded
 
 # Of acts_msgs/RegionContact after its two names: each field as struct calls it, and its size.
-_FIELDS = [(kind, struct.calcsize(f"<{kind}")) for kind in "Hfddddddffffdddf?"]
+_FIELDS = [(kind, struct.calcsize(f"<{kind}")) for kind in "Hfddddddfffffdddf?"]
 _LENGTHS = {order: struct.Struct(f"{order}I") for order in "<>"}
 _COUNTS = {order: struct.Struct(f"{order}II") for order in "<>"}
 # One for every skin whose regions are written.
@@ -42,11 +42,11 @@ def write_regions(stamp_ns: int, frame_id: str, sequence: int, regions: Sequence
     head = header_bytes(stamp_ns, frame_id)
     values: list[bytes | float] = []
     lengths = []
-    for name, link, active, force, centre, normal, area, peak, spread, share, motion, slip, slipping in regions:
+    for name, link, active, force, centre, normal, area, peak, spread, share, sharp, motion, slip, slipping in regions:
         name_bytes, link_bytes = name.encode(), link.encode()
         lengths.append((len(name_bytes) + 1, len(link_bytes) + 1))
         values += (len(name_bytes) + 1, name_bytes, len(link_bytes) + 1, link_bytes, active, force)
-        values += (*centre, *normal, area, peak, spread, share, *motion, slip, slipping)
+        values += (*centre, *normal, area, peak, spread, share, sharp, *motion, slip, slipping)
     try:
         return head + _whole(len(head) - ENCAPSULATION_BYTES, tuple(lengths)).pack(sequence, len(regions), *values)
     except (struct.error, OverflowError) as error:
@@ -71,14 +71,14 @@ def read_regions(data: bytes) -> RegionsFields:
             name, at = _string(data, at, order)
             link, at = _string(data, at, order)
             numbers = _numbers(order, at % 8)
-            active, force, x, y, z, nx, ny, nz, area, peak, spread, share, vx, vy, vz, slip, slipping = (
+            active, force, x, y, z, nx, ny, nz, area, peak, spread, share, sharp, vx, vy, vz, slip, slipping = (
                 numbers.unpack_from(data, ENCAPSULATION_BYTES + at)
             )
             at += numbers.size
             centre, normal, motion = (x, y, z), (nx, ny, nz), (vx, vy, vz)
             regions.append(
                 RegionContact(
-                    name, link, active, force, centre, normal, area, peak, spread, share, motion, slip, slipping
+                    name, link, active, force, centre, normal, area, peak, spread, share, sharp, motion, slip, slipping
                 )
             )
     except (struct.error, UnicodeDecodeError) as error:

@@ -62,11 +62,11 @@ def _gap(
         scale = 1.0 / max(distance, 1e-12)
         return distance - size[s, 0], x * scale, y * scale, z * scale
     if kind == TIP:
-        # A paraboloid that travels along its z axis, its end at the origin: what is pressed is pressed along its way.
-        across = x * x + y * y
-        if across > size[s, 0] * size[s, 0] or z < -size[s, 1]:
+        # A hemisphere that travels along its z axis, its end at the origin: what is pressed is pressed along its way.
+        across = size[s, 0] * size[s, 0] - x * x - y * y
+        if across < 0.0 or z < -size[s, 1]:
             return 1.0, 0.0, 0.0, 0.0
-        return z + across / (2.0 * size[s, 0]), 0.0, 0.0, 1.0
+        return z + size[s, 0] - math.sqrt(across), 0.0, 0.0, 1.0
     if kind == CYLINDER:
         square = x * x + y * y
         if abs(z) > size[s, 1] + within or square > (size[s, 0] + within) ** 2:

@@ -286,7 +286,8 @@ class HandSupervisor:
 
 def _is_finite(region: RegionContact) -> bool:
     numbers = (
-        *(region.force_n, region.area_m2, region.peak_n, region.spread_m, region.concentration, region.slip_m),
+        *(region.force_n, region.area_m2, region.peak_n, region.spread_m, region.concentration),
+        *(region.sharpness, region.slip_m),
         *region.centre_m,
         *region.normal,
         *region.motion_m_s,

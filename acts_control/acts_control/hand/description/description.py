@@ -136,8 +136,6 @@ class Region:
     centre_m, normal : tuple of float
         Its middle [m] and the unit vector out of the skin there, in the link's frame; of a palm, where an object is
         brought to. Zeros where nobody asks.
-    reach_m : float
-        Contacts farther than this from `centre_m` lie at the border of the patch, which cuts them; 0: none does [m].
     """
 
     name: str
@@ -146,7 +144,6 @@ class Region:
     role: Role
     centre_m: Vector = (0.0, 0.0, 0.0)
     normal: Vector = (0.0, 0.0, 0.0)
-    reach_m: float = 0.0
 
 
 @dataclass(frozen=True)

@@ -97,7 +97,7 @@ def _finger(one: Section, name: str, links: set[str], joints: set[str]) -> Finge
 
 
 def _region(one: Section, name: str, links: set[str], fingers: dict[str, Finger]) -> Region:
-    one.check_keys(("link", "finger", "role", "centre_m", "normal", "reach_m"))
+    one.check_keys(("link", "finger", "role", "centre_m", "normal"))
     finger = one.text("finger", "") or ""
     role = next(known for known in ROLES if known == _one_of(one, "role", ROLES))
     if bool(finger) == (role == "palm") or (finger and finger not in fingers):
@@ -107,11 +107,8 @@ def _region(one: Section, name: str, links: set[str], fingers: dict[str, Finger]
             if needed not in one.values:
                 raise one.error(f"{needed} is missing; a palm has it")
     normal = _unit(one, "normal") if "normal" in one.values else (0.0, 0.0, 0.0)
-    reach_m = _number(one, "reach_m", 0.0)
-    if reach_m and "centre_m" not in one.values:
-        raise one.error("centre_m is missing; reach_m is counted from there", "reach_m")
     centre_m = _vector(one, "centre_m", (0.0, 0.0, 0.0))
-    return Region(name, _one_of(one, "link", links), finger, role, centre_m, normal, reach_m)
+    return Region(name, _one_of(one, "link", links), finger, role, centre_m, normal)
 
 
 def _posture(one: Section, joints: tuple[Joint, ...]) -> tuple[float, ...]:

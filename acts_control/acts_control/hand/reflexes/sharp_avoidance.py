@@ -1,39 +1,29 @@
 """Sharp-object avoidance: the finger that feels a tip opens at once, its neighbours keep holding.
 
-A tip presses one taxel or two, however hard it presses; what is blunt spreads over more the harder it presses. So a
-contact is sharp where the peak is large and the area small, both at once: a blunt object that has only just touched
-has a small area, too, but no large peak yet. Where the border of a patch cuts a contact, nothing is told.
+How much likelier a tip is than something blunt is told by the skin (`RegionContact.sharpness`).
 """
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from acts_control.hand.reflexes.reflex import HandState, Reflex, Sensed, Wish
 from acts_core.settings import setting, validate
-from acts_core.skin import RegionContact
 
 
 @dataclass(frozen=True)
 class SharpAvoidanceConfig:
     """What counts as sharp, and how the finger gives way."""
 
-    sharp_min_peak_n: float = setting(
-        0.09, "what the most pressed taxel has to feel before a tip is told [N]", minimum=0.001, maximum=10.0
-    )
-    sharp_min_concentration: float = setting(
-        0.8,
-        "a tip: the most pressed taxel has this part of the force, at sharp_min_peak_n; of more, the cube root less",
+    sharp_min_sharpness: float = setting(
+        3.0,
+        "a region feels a tip where its sharpness is larger: how much likelier a tip is than something blunt, as a "
+        "natural logarithm",
         minimum=0.0,
-        maximum=1.0,
+        maximum=100.0,
     )
-    sharp_min_peak_per_area_n_m2: float = setting(
-        2.9e3, "or its force over the pressed area is larger [N/m^2]", minimum=1.0, maximum=1e7
-    )
-    sharp_max_taxels: int = setting(4, "with no more taxels pressed than these", minimum=1, maximum=1024)
     sharp_touches: int = setting(1, "so many times in succession", minimum=1, maximum=100)
     sharp_open_steps: float = setting(20.0, "steps by which the finger opens", minimum=0.1, maximum=100.0)
     sharp_open_rad: float = setting(
@@ -79,15 +69,6 @@ class SharpAvoidance(Reflex):
         """Forget what was."""
         self.state = SharpAvoidanceState()
 
-    def is_sharp(self, region: RegionContact) -> bool:
-        """Whether what touches a region is a tip."""
-        config = self.config
-        if not 0 < region.active_taxels <= config.sharp_max_taxels or region.peak_n < config.sharp_min_peak_n:
-            return False
-        # What is blunt spreads over more taxels the harder it presses.
-        least = config.sharp_min_concentration * (config.sharp_min_peak_n / region.peak_n) ** (1.0 / 3.0)
-        return region.concentration >= least or region.peak_n >= config.sharp_min_peak_per_area_n_m2 * region.area_m2
-
     def step(self, sensed: Sensed) -> Wish | None:
         """Open the fingers concerned, and keep them for a while from whatever else asks for them."""
         state, config = self.state, self.config
@@ -111,10 +92,8 @@ class SharpAvoidance(Reflex):
     def _look(self, sensed: Sensed) -> None:
         state, config = self.state, self.config
         for name, region in sensed.regions.items():
-            where = sensed.hand.regions[name]
-            # What the border of a patch cuts off looks small.
-            is_whole = not where.reach_m or math.dist(region.centre_m, where.centre_m) <= where.reach_m
-            state.touches[name] = state.touches.get(name, 0) + 1 if is_whole and self.is_sharp(region) else 0
+            is_sharp = region.sharpness > config.sharp_min_sharpness
+            state.touches[name] = state.touches.get(name, 0) + 1 if is_sharp else 0
             if state.touches[name] < config.sharp_touches:
                 continue
             finger = sensed.finger(name)

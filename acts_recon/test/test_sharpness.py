@@ -1,0 +1,119 @@
+"""Sharpness of a contact: tips and blunt ends pressed into a foam of its own, and the kernel against NumPy."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from acts_core.skin import ForceResponse, force_table, layout
+from acts_recon.regions import sharpness_kernels as kernels
+from acts_recon.regions.sharpness import Sharpness, SharpnessConfig
+
+FINGER = replace(layout("leap_right").patches[2], first_row=0, end_row=8, first_col=0, end_col=8)
+RESPONSE = ForceResponse()
+NOISE_COUNTS = 1.5
+SHARPNESS = Sharpness((FINGER,), force_table(RESPONSE), 8.0, NOISE_COUNTS, SharpnessConfig())
+TOLD = 3.0  # as the reflex has it
+
+
+@lru_cache(1)
+def spread() -> NDArray[np.float64]:
+    """A matrix that spreads a column of points sideways by 1 mm."""
+    at_m = np.arange(8 * FINE) * FINGER.pitch_m / FINE
+    weights = np.exp(-0.5 * ((at_m[:, None] - at_m) / 0.001) ** 2)
+    return weights / weights.sum(axis=1).max()
+
+
+FINE = 8  # points along a taxel
+
+
+def felt(radius_m: float, depth_m: float, at: tuple[float, float]) -> NDArray[np.float32]:
+    """Counts of a bent finger of 8 x 8 taxels that a round end is pressed into, at a place from the middle of one."""
+    step_m = FINGER.pitch_m / FINE
+    grid = (np.arange(8 * FINE) + 0.5) * step_m
+    x, y = np.meshgrid(grid - (4.5 + at[0]) * FINGER.pitch_m, grid - (3.5 + at[1]) * FINGER.pitch_m)
+    inside = radius_m**2 - x**2 - y**2
+    deep = depth_m - radius_m + np.sqrt(np.maximum(inside, 0.0)) - 0.5 * x**2 / FINGER.radius_m
+    pressure = spread() @ np.where(inside > 0.0, 2.5e7 * np.maximum(deep, 0.0), 0.0) @ spread().T
+    forces_n = (pressure * step_m**2).reshape(8, FINE, 8, FINE).sum(axis=(1, 3))
+    return np.rint(RESPONSE.counts(forces_n)).astype(np.float32)
+
+
+def by_numpy(image: NDArray[np.float32]) -> float:
+    """The same number, plainly, with every place tried."""
+    table = force_table(RESPONSE)
+    row, col = np.unravel_index(image.argmax(), image.shape)
+    window = image[row - 2 : row + 3, col - 2 : col + 3].astype(int)
+    force = table[window]
+    variance = ((table[window + 1] - table[window]) * NOISE_COUNTS) ** 2
+    relative = 2.0 * SharpnessConfig().sharpness_gain_error ** 2 + variance[2, 2] / force[2, 2] ** 2
+    misfit = []
+    for shape in range(2):
+        levels = SHARPNESS._level_force_n[0, shape]
+        level = max(int(np.searchsorted(levels, force[window > 8].sum(), side="right")) - 1, 0)
+        share = SHARPNESS._share[0, shape, level].astype(float)
+        expected = np.maximum(share * (force[2, 2] / share[:, :, 2:3, 2:3]), table[0])
+        squares = (force - expected) ** 2 / (variance + relative * expected**2)
+        squares[:, :, 2, 2] = 0.0
+        misfit.append(squares.sum(axis=(2, 3)).min())
+    if misfit[0] >= kernels.MISFIT:
+        return 0.0
+    return max(0.5 * (min(misfit[1], kernels.MISFIT) - misfit[0]), 0.0)
+
+
+places = st.tuples(st.floats(-0.5, 0.5), st.floats(-0.5, 0.5))
+
+
+@settings(max_examples=60, deadline=None)
+@given(radius_m=st.floats(0.009, 0.05), depth_m=st.floats(0.0, 0.0025), at=places)
+def test_what_is_blunt_is_never_taken_for_a_tip(radius_m: float, depth_m: float, at: tuple[float, float]) -> None:
+    assert SHARPNESS.of(felt(radius_m, depth_m, at))[0] < TOLD
+
+
+@settings(max_examples=40, deadline=None)
+@given(at=st.tuples(st.floats(-0.2, 0.2), st.floats(-0.2, 0.2)))
+def test_a_tip_is_told_before_it_is_two_millimetres_deep(at: tuple[float, float]) -> None:
+    # Where four taxels meet it feels as something blunt does, and is told later.
+    assert any(SHARPNESS.of(felt(0.0015, depth_m, at))[0] > TOLD for depth_m in np.arange(0.0008, 0.002, 0.0002))
+
+
+@pytest.mark.parametrize("radius_m", [0.0015, 0.004, 0.009, 0.02])
+def test_the_search_finds_what_trying_every_place_finds(radius_m: float) -> None:
+    rng = np.random.default_rng(1)
+    for depth_m in (0.0004, 0.0007, 0.001, 0.0015):
+        exact = felt(radius_m, depth_m, tuple(rng.uniform(-0.5, 0.5, 2)))
+        noisy = np.maximum(np.rint(exact + NOISE_COUNTS * rng.standard_normal(exact.shape)), 0.0).astype(np.float32)
+        if (noisy > 8).sum() <= kernels.MOST_PRESSED:
+            assert SHARPNESS.of(noisy)[0] == pytest.approx(by_numpy(noisy), abs=0.3)
+
+
+def test_at_the_border_and_where_many_taxels_are_pressed_there_is_no_tip() -> None:
+    tip = felt(0.0015, 0.0015, (0.0, 0.0))
+    assert SHARPNESS.of(tip)[0] > TOLD
+    assert SHARPNESS.of(np.roll(tip, 3, axis=0))[0] > TOLD
+    assert SHARPNESS.of(np.roll(tip, 4, axis=0))[0] == 0.0
+    assert SHARPNESS.of(tip + 60.0)[0] == 0.0
+    assert SHARPNESS.of(np.zeros_like(tip))[0] == 0.0
+
+
+def test_a_line_is_no_tip() -> None:
+    edge = felt(0.0015, 0.0015, (0.0, 0.0))
+    edge[:] = edge[:, 4:5].max(axis=0, keepdims=True)
+    edge[:] = edge.max() * (np.arange(8) == 4)
+    assert SHARPNESS.of(edge)[0] == 0.0
+
+
+def test_footprints_are_forces_and_their_parts() -> None:
+    forces_n, share = SHARPNESS._level_force_n[0], SHARPNESS._share[0]
+    assert (np.diff(forces_n, axis=1) > 0.0).all()
+    assert (share >= 0.0).all()
+    total = share.sum(axis=(-2, -1))
+    assert (total < 1.0 + 1e-5).all()
+    # A tip stays within the window, also of the finger's last places.
+    assert (total[0] > 0.99).all()
