@@ -11,10 +11,12 @@ from hypothesis import strategies as st
 from acts_control.hand.control.step_rule import StepRule, StepRuleConfig
 from acts_control.hand.description import LEAP_RIGHT
 from acts_control.hand.reflexes import REFLEXES, HandToHandConfig, Wish, make_reflexes
+from acts_control.hand.reflexes.aiming import approaches, radius_on_palm, reach
 from acts_control.hand.reflexes.hand_to_hand import HandToHand
 from acts_control.hand.reflexes.sharp_avoidance import SharpAvoidance, SharpAvoidanceConfig
 from acts_control.hand.reflexes.slip_prevention import SlipPrevention, SlipPreventionConfig
 from acts_control.hand.reflexes.sphere_balancing import fitted_sphere
+from acts_control.hand.reflexes.trapping import Trapping, TrappingConfig
 from acts_core.errors import SettingsError
 from acts_core.skin import RegionContact
 
@@ -190,6 +192,84 @@ def test_contacts_that_say_nothing_of_the_size_leave_the_usual_one() -> None:
     normals = np.array([[0.0, 0.0, -1.0], [0.0, 0.0, -1.0]])
     _, size = fitted_sphere(np.zeros((2, 3)), normals, np.ones(2), 0.03)
     assert size == pytest.approx(0.03)
+
+
+@settings(max_examples=50, deadline=None)
+@given(
+    radius_m=st.floats(0.006, 0.045),
+    angles=st.lists(st.tuples(st.floats(-3.1, 3.1), st.floats(-0.5, 1.5)), min_size=1, max_size=4),
+)
+def test_the_palm_and_one_finger_tell_how_large_a_sphere_is(radius_m: float, angles: list[tuple]) -> None:
+    at, up = np.array([-0.04, -0.03, -0.0345]), np.array([0.0, 0.0, -1.0])
+    away = [np.array([np.cos(a) * np.cos(h), np.sin(a) * np.cos(h), -np.sin(h)]) for a, h in angles]
+    points = [at + radius_m * (up + direction) for direction in away]
+    assert radius_on_palm(at, up, points) == pytest.approx(radius_m, rel=1e-6)
+
+
+def test_a_finger_that_touches_the_palms_height_says_nothing_of_a_radius() -> None:
+    at, up = np.array([-0.04, -0.03, -0.0345]), np.array([0.0, 0.0, -1.0])
+    assert radius_on_palm(at, up, [at + np.array([0.03, 0.0, 0.0])]) is None
+
+
+@pytest.mark.parametrize("off_m", [-0.02, 0.0, 0.02])
+def test_the_side_on_which_the_palm_is_touched_tells_from_where_fingers_come(off_m: float) -> None:
+    at, up = np.array([-0.044, -0.037 + off_m, -0.0345]), np.array([0.0, 0.0, -1.0])
+    found = approaches(sensed(), at, up)
+    assert {finger: one.part for finger, one in found.items()} == {
+        "index": "beside",
+        "middle": "over",
+        "ring": "beside",
+        "thumb": "against",
+    }
+    for one in found.values():
+        assert one.side @ up == pytest.approx(0.0)
+        assert np.linalg.norm(one.on_sphere(up, 0.02)) == pytest.approx(1.0)
+    assert found["index"].side[1] > 0.0 > found["ring"].side[1]
+    assert found["thumb"].side @ found["middle"].side < -0.5
+    # The thumb turns to the side on which it lies.
+    assert found["thumb"].side[1] * off_m >= 0.0
+
+
+@pytest.mark.parametrize("finger", ["index", "middle", "thumb"])
+def test_a_fingertip_reaches_a_point_within_its_limits(finger: str) -> None:
+    q, up = np.array(LEAP_RIGHT.postures["cup"]), np.array([0.0, 0.0, -1.0])
+    at = np.array([-0.044, -0.035, -0.0345])
+    approach = approaches(sensed(), at, up)[finger]
+    away = approach.on_sphere(up, 0.035)
+    to = at + 0.035 * (up + away)
+    region_of = LEAP_RIGHT.regions[f"{finger}_distal"]
+    lower, upper = (
+        np.array([getattr(joint, name) for joint in LEAP_RIGHT.joints]) for name in ("lower_rad", "upper_rad")
+    )
+    for _ in range(1500):
+        now = sensed(q_rad=q)
+        q = np.clip(q + DT_S * reach(now, finger, to, -away, 0.15), lower, upper)
+    left = sensed(q_rad=q).pose.point(region_of.link, region_of.centre_m) - to
+    assert np.linalg.norm(left) < 0.006
+
+
+def test_a_small_sphere_is_pressed_where_it_is_and_slip_has_no_say() -> None:
+    reflex = Trapping(TrappingConfig())
+    pose = sensed().pose
+    tip = LEAP_RIGHT.regions["middle_distal"]
+    # The tip is 20 mm above where the palm is touched: on a sphere of 10 mm.
+    at = pose.point(tip.link, tip.centre_m)
+    held = region("middle_distal", 0.3, centre_m=tip.centre_m, normal=tip.normal)
+    palm = region("palm", 0.2, centre_m=(at[0], at[1], at[2] + 0.020), normal=(0.0, 0.0, -1.0))
+    wish = reflex.step(sensed(palm, held))
+    assert wish is not None
+    assert reflex.radius_m == pytest.approx(0.010, abs=1e-6)
+    assert {NAMES[k].split("_")[0] for k in np.flatnonzero(wish.steps)} == {"middle"}
+    assert wish.claimed is not None
+    assert wish.claimed.all()
+
+
+def test_what_is_larger_is_not_trapped() -> None:
+    reflex = Trapping(TrappingConfig())
+    tip = LEAP_RIGHT.regions["middle_distal"]
+    at = sensed().pose.point(tip.link, tip.centre_m)
+    palm = region("palm", 1.0, centre_m=(at[0], at[1], at[2] + 0.060), normal=(0.0, 0.0, -1.0))
+    assert reflex.step(sensed(palm, region("middle_distal", 0.3, centre_m=tip.centre_m, normal=tip.normal))) is None
 
 
 # --- hand to hand

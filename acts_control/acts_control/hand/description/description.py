@@ -111,12 +111,15 @@ class Finger:
     tip_link : str
     tip_m : tuple of float
         In the frame of `tip_link` [m].
+    opposes : bool
+        Whether it comes from the other side than most, as a thumb does.
     """
 
     name: str
     closes: Mapping[str, float]
     tip_link: str
     tip_m: Vector
+    opposes: bool = False
 
 
 @dataclass(frozen=True)
@@ -135,7 +138,7 @@ class Region:
         One of `ROLES`.
     centre_m, normal : tuple of float
         Its middle [m] and the unit vector out of the skin there, in the link's frame; of a palm, where an object is
-        brought to. Zeros where nobody asks.
+        brought to; of a finger's last region, what it touches small things with. Zeros where nobody asks.
     """
 
     name: str

@@ -85,7 +85,7 @@ def _link(one: Section, name: str, parents: list[str], joints: set[str]) -> Link
 
 
 def _finger(one: Section, name: str, links: set[str], joints: set[str]) -> Finger:
-    one.check_keys(("closes", "tip_link", "tip_m"))
+    one.check_keys(("closes", "tip_link", "tip_m", "opposes"))
     closes = one.section("closes", f"finger {name}")
     if not closes.values:
         raise one.error("closes: at least one joint is needed", "closes")
@@ -93,7 +93,11 @@ def _finger(one: Section, name: str, links: set[str], joints: set[str]) -> Finge
         if joint not in joints:
             raise closes.error(f"{joint!r} is no joint of this hand", joint)
     shares = {joint: _number(closes, joint) for joint in closes.values}
-    return Finger(name, shares, _one_of(one, "tip_link", links), _vector(one, "tip_m", (0.0, 0.0, 0.0)))
+    opposes = one.values.get("opposes", False)
+    if not isinstance(opposes, bool):
+        raise one.error(f"opposes is {shown(opposes)}; allowed is true or false", "opposes")
+    tip_m = _vector(one, "tip_m", (0.0, 0.0, 0.0))
+    return Finger(name, shares, _one_of(one, "tip_link", links), tip_m, opposes)
 
 
 def _region(one: Section, name: str, links: set[str], fingers: dict[str, Finger]) -> Region:

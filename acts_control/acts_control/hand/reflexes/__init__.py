@@ -3,8 +3,9 @@
 In comes `Sensed`, out comes a `Wish` or nothing. `registry` names them all; another one is a file and a line there.
 """
 
+from acts_control.hand.reflexes import aiming
 from acts_control.hand.reflexes.hand_to_hand import HandToHandConfig
 from acts_control.hand.reflexes.reflex import HandState, Reflex, Sensed, Wish
 from acts_control.hand.reflexes.registry import REFLEXES, make_reflexes
 
-__all__ = ["REFLEXES", "HandState", "HandToHandConfig", "Reflex", "Sensed", "Wish", "make_reflexes"]
+__all__ = ["REFLEXES", "HandState", "HandToHandConfig", "Reflex", "Sensed", "Wish", "aiming", "make_reflexes"]

@@ -9,6 +9,7 @@ from acts_control.hand.reflexes.reflex import Reflex
 from acts_control.hand.reflexes.sharp_avoidance import SharpAvoidance
 from acts_control.hand.reflexes.slip_prevention import SlipPrevention
 from acts_control.hand.reflexes.sphere_balancing import SphereBalancing
+from acts_control.hand.reflexes.trapping import Trapping
 from acts_core.errors import SettingsError
 from acts_core.settings import unknown_key_message
 
@@ -16,6 +17,7 @@ REFLEXES: dict[str, type[Reflex]] = {
     "sharp": SharpAvoidance,
     "slip": SlipPrevention,
     "sphere": SphereBalancing,
+    "trap": Trapping,
     "hand_to_hand": HandToHand,
 }
 

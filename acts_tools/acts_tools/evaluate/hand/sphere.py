@@ -12,6 +12,8 @@ from acts_sim.hand import HandWorldConfig
 from acts_tools.evaluate.hand.rig import HandRig, RigOptions
 from acts_tools.evaluate.hand.scenario import Outcome, Run
 
+# Around what is large the thumb closes from above; for what is small it waits at the side.
+_POSTURES = {"sphere": "round", "small_sphere": "cup"}
 _OFF_M = 0.020
 _NEAR_M = 0.005
 _SHAPED_S = 0.6
@@ -43,8 +45,8 @@ def _run(one: Run, radius_m: float, name: str) -> Outcome:
         object_x_m=-0.1,
         object_y_m=-0.1,
     )
-    reflexes = ("slip", "sphere") if one.reflex else ("slip",)
-    settings = {"grasp_posture": "round", "grip_force_n": 0.3, **one.settings}
+    reflexes = ("slip", "sphere", "trap") if one.reflex else ("slip",)
+    settings = {"grasp_posture": _POSTURES[name], "grip_force_n": 0.3, **one.settings}
     rig = one.rig(world, RigOptions(one.rate_hz, reflexes, settings=settings))
     outcome = Outcome(details={"radius_mm": 1e3 * radius_m, "angle_deg": math.degrees(angle)})
     rig.run(0.02)
