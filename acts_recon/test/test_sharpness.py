@@ -12,8 +12,9 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from acts_core.skin import ForceResponse, force_table, layout
+from acts_recon.regions import SharpnessConfig
 from acts_recon.regions import sharpness_kernels as kernels
-from acts_recon.regions.sharpness import Sharpness, SharpnessConfig
+from acts_recon.regions.sharpness import Sharpness
 
 FINGER = replace(layout("leap_right").patches[2], first_row=0, end_row=8, first_col=0, end_col=8)
 RESPONSE = ForceResponse()
