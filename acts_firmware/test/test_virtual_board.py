@@ -148,7 +148,7 @@ def test_what_the_host_sends_is_taken_and_disturbs_nothing(tmp_path: Path) -> No
         (["--cols", "3x"], "--cols 3x"),
         (["--m", "0"], "--m 0"),
         (["--rows", "5", "--cols", "5"], "--m 55: an array of 5 x 5 has 25 taxels"),
-        (["--scheme", "spiral"], "adaptive, tracking, hybrid, uniform, random, raster"),
+        (["--scheme", "spiral"], "adaptive, hybrid, random, raster, tracking, uniform"),
         (["--scheme", "uniform", "--m", "53"], "--m 53: no uniform frame"),
         (["--search-share", "0"], "--search-share 0: allowed is a number from 0.0001 to 1"),
         (["--search-share", "1.01"], "--search-share 1.01"),
