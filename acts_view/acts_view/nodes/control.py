@@ -18,7 +18,7 @@ from std_srvs.srv import Trigger
 
 from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import ViewRequestError
-from acts_core.sampling import SCHEMES
+from acts_core.sampling import SCHEME_NUMBERS
 from acts_view.web.requests import Answer, Request
 
 TRIGGERS = {
@@ -121,7 +121,7 @@ class Control:
         return {
             "offers": [*offers, *(["set", driver] for driver in drivers)],
             "settings": {driver: values for driver, values in self._settings.items() if values},
-            "schemes": list(SCHEMES),
+            "schemes": list(SCHEME_NUMBERS),
         }
 
     def _begin(self, request: Request, answer: Answer) -> None:
@@ -179,7 +179,7 @@ class Control:
 
 def _parameter(request: Request) -> Parameter:
     name, value = request.name, request.value
-    if name == "scheme" and isinstance(value, str) and value in ("", *SCHEMES):
+    if name == "scheme" and isinstance(value, str) and value in ("", *SCHEME_NUMBERS):
         return Parameter(name=name, value=ParameterValue(type=ParameterType.PARAMETER_STRING, string_value=value))
     if name in _RANGES and isinstance(value, int | float) and math.floor(value) == value:
         lowest, highest = _RANGES[name]
@@ -187,7 +187,7 @@ def _parameter(request: Request) -> Parameter:
             number = ParameterValue(type=ParameterType.PARAMETER_INTEGER, integer_value=int(value))
             return Parameter(name=name, value=number)
     raise ViewRequestError(
-        f"{name or 'nothing'} = {value!r}: what can be set is scheme ({', '.join(SCHEMES)}, or empty for the "
+        f"{name or 'nothing'} = {value!r}: what can be set is scheme ({', '.join(SCHEME_NUMBERS)}, or empty for the "
         f"board's own), m (0 to {MAX_SIDE**2}) and threshold_counts (-1 to {COUNT_MAX})"
     )
 
