@@ -46,12 +46,13 @@ SKINS = "base_frame: base\nskins: {plate: {pose: {parent: base}}}\n"
 class NoRobot:
     """Never there: the control loop goes on trying."""
 
+    address = "nowhere"
     is_busy = False
 
     def connect(self, is_wanted: Callable[[], bool]) -> None:
         raise RobotError("no robot")
 
-    def end_program(self) -> None:
+    def release(self) -> None:
         pass
 
     def disconnect(self) -> None:

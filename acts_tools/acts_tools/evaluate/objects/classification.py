@@ -152,7 +152,7 @@ class Registered:
         self._method.reset()
         self._recogniser.reset()
 
-    def take(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float) -> None:
+    def update(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float) -> None:
         """See `Contender`."""
         self._method.step(indices, counts, end_s, duration_s)
         self._recogniser.update(indices, counts, end_s, duration_s)
