@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
 from hand_motors import AROUND_SPHERE, close, switch_on
 
+from acts_core.errors import ActsError
 from acts_sim.hand import HandWorld, HandWorldConfig
 
 
@@ -24,6 +26,17 @@ def test_a_sphere_lies_on_the_palm_with_its_weight() -> None:
     elsewhere = world.layout.picture(world.forces_n.reshape(32, 32))
     palm.of(elsewhere)[...] = 0.0
     assert not elsewhere.any()
+
+
+def test_physics_that_has_become_unstable_is_told_and_leaves_no_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    world = HandWorld()
+    world.data.qvel[:] = 1e12
+    with pytest.raises(ActsError, match="unstable after"):
+        world.step()
+    assert not list(tmp_path.iterdir())
 
 
 def test_the_closed_hand_holds_a_sphere_and_feels_what_it_holds_it_with() -> None:

@@ -59,6 +59,8 @@ def build(thing: HeldObject | None, timestep_s: float) -> mujoco.MjModel:
     mujoco.MjModel
         Joints have the names of `kinematics.LINKS`, bodies those of the links; the tip is the mocap body ``tip``.
     """
+    # Otherwise MuJoCo writes them to a file in the working folder; the world reads their counters, and tells.
+    mujoco.set_mju_user_warning(lambda _warning: None)
     return mujoco.MjModel.from_xml_string(ElementTree.tostring(_document(thing, timestep_s), encoding="unicode"))
 
 
