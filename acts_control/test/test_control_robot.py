@@ -30,7 +30,6 @@ SETTINGS = """
     lever_arm_m: 0.0
     rolling_resistance: 0.0
     touch_stale_after_s: 0.3
-    touch_stop_after_s: 1.0
     ball_lost_after_s: 0.3
     robot_stale_after_s: 1.0
     connect_retry_s: 0.2
@@ -39,9 +38,11 @@ SETTINGS = """
 """
 
 
-def balancing_process(tmp_path: Path, robot: SimulatedRobot, domain: int, trajectory: str = "hold") -> Process:
+def balancing_process(
+    tmp_path: Path, robot: SimulatedRobot, domain: int, trajectory: str = "hold", touch_stop_after_s: float = 1.0
+) -> Process:
     path = tmp_path / "params.yaml"
-    path.write_text(SETTINGS)
+    path.write_text(SETTINGS + f"    touch_stop_after_s: {touch_stop_after_s}\n")
     command = node_command(
         "ball_balancing",
         "--set",
@@ -60,22 +61,27 @@ def tilt(robot: SimulatedRobot) -> float:
 def test_a_ball_is_held_and_led_and_a_signal_stops_the_robot_in_order(tmp_path: Path) -> None:
     with SimulatedRobot("127.0.2.1") as robot, Bench(64) as bench, RollingBall(bench) as ball:
         bench.start()
-        with balancing_process(tmp_path, robot, 64, "hold,circle,") as process:
+        with balancing_process(tmp_path, robot, 64, "hold,circle,", touch_stop_after_s=20.0) as process:
             bench.await_phase(BALANCING)
             wait_for(lambda: tilt(robot) > 0.005, "a tilt of the robot")
             wait_for(lambda: math.hypot(ball.x, ball.y) < 0.003, "the ball at the centre")
             wait_for(lambda: bench.references[-1].segment == "circle", "the circle")
             wait_for(lambda: bench.references[-1].segment_time > 1.0, "the ball on its way")
-            reference = bench.references[-1].position
-            assert math.hypot(ball.x - reference.x, ball.y - reference.y) < 0.01
+
+            def is_led() -> bool:
+                reference, error = bench.references[-1], bench.statuses[-1].error
+                x, y = reference.position.x, reference.position.y
+                near = math.hypot(ball.x - x, ball.y - y) < 0.01 and math.hypot(error.x, error.y) < 0.01
+                return reference.segment == "circle" and near and bench.statuses[-1].touch_age < 0.3
+
+            # This process publishes the touch, and may be held up: the ball is led anew then.
+            wait_for(is_led, "the ball near its reference")
             status = bench.statuses[-1]
             assert status.header.frame_id == "plate"
-            assert math.hypot(status.error.x, status.error.y) < 0.01
             assert list(status.joints_commanded[:3]) == pytest.approx(ur5e.LEVEL_Q_RAD[:3], abs=1e-6)
             assert ur5e.tilt_of(status.joints_commanded) == pytest.approx(
                 (status.tilt_commanded.x, status.tilt_commanded.y), abs=1e-9
             )
-            assert status.touch_age < 0.3
             assert status.steps > 0
             assert process.stop(signal.SIGINT) == 0, process.text()
             assert "Traceback" not in process.text()

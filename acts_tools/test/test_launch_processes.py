@@ -142,8 +142,12 @@ def test_respawn_starts_again_after_the_delay_and_deaths_are_forgiven(prefix: Pr
 
 
 def test_a_node_that_refuses_what_it_was_given_ends_the_launch(prefix: Prefix) -> None:
-    prefix.python("patient", PATIENT)
-    prefix.script("choosy", "#!/bin/sh\necho 'rate = 0: allowed is 1' >&2\nexit 2\n")
+    # A signal while Python itself starts would count as a death.
+    patient = prefix.python(
+        "patient", PATIENT.replace("while True:", "open(__file__ + '.up', 'w').close()\nwhile True:")
+    )
+    refusal = "echo 'rate = 0: allowed is 1' >&2\nexit 2\n"
+    prefix.script("choosy", f"#!/bin/sh\nuntil [ -e {patient}.up ]; do sleep 0.02; done\n{refusal}")
     body = '<node pkg="fake" exec="patient"/><node pkg="fake" exec="choosy" respawn="true" respawn_delay="0.01"/>'
     with launch(prefix, body) as run:
         assert run.wait() == 1
