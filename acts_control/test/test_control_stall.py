@@ -58,8 +58,10 @@ class Arm(UrRobot):
 class Rig:
     """A simulated robot, and a control loop that balances a ball that never comes to rest."""
 
-    def __init__(self, host: str, stack: ExitStack, stale_after_s: float = 0.8) -> None:
-        self.simulated = stack.enter_context(SimulatedRobot(host))
+    def __init__(
+        self, host: str, stack: ExitStack, stale_after_s: float = 0.8, simulated: SimulatedRobot | None = None
+    ) -> None:
+        self.simulated = simulated or stack.enter_context(SimulatedRobot(host))
         config = with_robots(LoopConfig)(
             robot_ip=host,
             robot_stale_after_s=stale_after_s,
@@ -186,23 +188,25 @@ def began_anew(rig: Rig, ended_s: float) -> None:
 
 def test_a_stall_while_connecting_holds_up_nobody(monkeypatch: pytest.MonkeyPatch) -> None:
     with ExitStack() as stack:
-        asked: list[bool] = []
+        host = "127.0.17.10"
+        simulated = stack.enter_context(SimulatedRobot(host))
         probe = acts_control.robots.ur.robot.probe
+        timeout_s = acts_control.robots.ur.robot._CONNECT_TIMEOUT_S
         monkeypatch.setattr(acts_control.robots.ur.robot, "_CONNECT_TIMEOUT_S", 0.5)
 
         def probe_and_pause(host: str) -> None:
             probe(host)
-            asked.append(True)
             # At the worst moment: the library connects next, and waits for an answer with Python's lock in its hand.
-            rig.pause()
+            simulated.process.send_signal(signal.SIGSTOP)
 
         monkeypatch.setattr(acts_control.robots.ur.robot, "probe", probe_and_pause)
-        rig = Rig("127.0.17.10", stack)
+        rig = Rig(host, stack, simulated=simulated)
         wait_for(lambda: "watch: no answer" in rig.loop.status.reason, f"the reason, {rig.loop.status}")
         assert rig.loop.status.phase is Phase.CONNECTING
         assert rig.arm.is_over
         monkeypatch.setattr(acts_control.robots.ur.robot, "probe", probe)
         wait_for(lambda: "does it stand still?" in rig.loop.status.reason, f"the reason, {rig.loop.status}")
+        monkeypatch.setattr(acts_control.robots.ur.robot, "_CONNECT_TIMEOUT_S", timeout_s)
         rig.resume()
         rig.balance()
 
