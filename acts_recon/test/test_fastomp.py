@@ -6,8 +6,7 @@ from numpy.typing import NDArray
 from recon_samples import bump, sample
 
 from acts_core.array import ArrayGeometry
-from acts_recon.images import OK
-from acts_recon.sparse import Dictionary, PatchLayout, PatchModel, Workspace, fast_omp, patch_layout, sparsity
+from acts_recon.sparse import Dictionary, PatchLayout, PatchModel, fast_omp, patch_layout, sparsity, workspace
 from acts_recon.sparse import fastomp_kernels as kernels
 from acts_recon.sparse.fastomp_reference import recover_image
 
@@ -61,7 +60,7 @@ def recover_by_kernel(
     ratio: float = 0.25,
 ) -> NDArray[np.float32]:
     image = np.zeros(layout.rows * layout.cols, dtype=np.float32)
-    code = kernels.recover_image(
+    kernels.recover_image(
         *PatchModel(layout, atoms).arguments(),
         indices,
         counts,
@@ -69,10 +68,9 @@ def recover_by_kernel(
         1023,
         ratio,
         keep,
-        *Workspace(layout, ratio).arrays(),
+        *workspace(layout, ratio).arrays(),
         image,
     )
-    assert code == OK
     return image.reshape(layout.rows, layout.cols)
 
 

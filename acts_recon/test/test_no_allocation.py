@@ -14,7 +14,7 @@ from acts_core.skin import ForceResponse
 from acts_recon.contacts import BlobTracker, ContactFinder
 from acts_recon.fusion import FusionEstimator
 from acts_recon.fusion.fusion_state import Memory
-from acts_recon.sparse import Dictionary, PatchModel, Workspace, fastomp_kernels, patch_layout
+from acts_recon.sparse import Dictionary, PatchModel, fastomp_kernels, patch_layout, workspace
 
 GEOMETRY = ArrayGeometry()
 FRAMES = 20
@@ -73,7 +73,7 @@ def test_finding_and_following_contacts_allocates_nothing(allocations: Count) ->
 def test_recovering_a_frame_alone_allocates_nothing(dictionary: Dictionary, allocations: Count, m: int) -> None:
     layout = patch_layout(GEOMETRY.rows, GEOMETRY.cols)
     image = np.zeros(GEOMETRY.size, dtype=np.float32)
-    model, buffers = PatchModel(layout, dictionary.atoms).arguments(), Workspace(layout).arrays()
+    model, buffers = PatchModel(layout, dictionary.atoms).arguments(), workspace(layout).arrays()
     frame = sample(bump(GEOMETRY, 12, 14), m)
     given = sum(isinstance(value, np.ndarray) for value in (*model, *frame, *buffers, image))
     recover = fastomp_kernels.recover_image

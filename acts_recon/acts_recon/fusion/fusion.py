@@ -37,7 +37,7 @@ from acts_core.settings import setting, validate
 from acts_core.skin import Layout
 from acts_recon.fusion import fusion_kernels as kernels
 from acts_recon.fusion.fusion_state import Tuning, forget, new_memory, state_of
-from acts_recon.images import OK, borders_of, check_frame, place_table, require_samples, skin_table, why_refused
+from acts_recon.images import PlacedSamples, borders_of
 
 
 @dataclass(frozen=True)
@@ -103,13 +103,7 @@ class FusionEstimator:
         self.geometry = geometry
         self.config = config or FusionConfig()
         self._tuning = self.config.tuning
-        self._matrix_size = (geometry.rows, geometry.cols)
-        self._places: NDArray[np.uint16] | None = None
-        self._skin: NDArray[np.uint16] | None = None
-        if layout is not None:
-            self._places = place_table(layout, geometry)
-            self._skin = skin_table(layout)
-            self._matrix_size = (layout.matrix_rows, layout.matrix_cols)
+        self._samples = PlacedSamples(geometry, layout)
         self.borders = borders_of(geometry.rows, geometry.cols, layout)
         self._memory = new_memory(geometry.rows, geometry.cols, self.borders)
         self._state = state_of(self._memory)
@@ -163,15 +157,9 @@ class FusionEstimator:
         ArrayError
             When the frame does not fit the array or holds impossible values. Everything is left as it was.
         """
-        require_samples(indices, counts)
         if not (math.isfinite(end_s) and 0 <= duration_s < math.inf):
             raise ArrayError(f"end {end_s} s and duration {duration_s} s: needed are finite times, none negative")
-        places = indices if self._places is None else self._places[indices]
-        code = check_frame(places, counts, self._state.seen)
-        if code != OK:
-            raise ArrayError(why_refused(code, indices, counts, *self._matrix_size))
-        if self._skin is not None:
-            counts = counts * self._skin[indices]
+        places, counts = self._samples.of(indices, counts)
         period_s = duration_s
         if self._end_s is not None:
             period_s = end_s - self._end_s

@@ -61,7 +61,7 @@ class State(NamedTuple):
     patch_of : np.ndarray [shape=(taxels,), dtype=uint16]
     nis_excess : np.ndarray [shape=(patches,), dtype=float32]
         Sum of the normalised innovations squared of a frame, less their number.
-    scale, compared, before, elapsed, rate, innovation, total, process_noise_total, weight, in_row, around, seen
+    scale, compared, before, elapsed, rate, innovation, total, process_noise_total, weight, in_row, around
         Scratch.
     """
 
@@ -92,7 +92,6 @@ class State(NamedTuple):
     weight: NDArray[np.float32]
     in_row: NDArray[np.float32]
     around: NDArray[np.float32]
-    seen: NDArray[np.bool_]
 
 
 class Memory(NamedTuple):
@@ -101,7 +100,7 @@ class Memory(NamedTuple):
     Attributes
     ----------
     taxels : np.ndarray [shape=(16, taxels), dtype=float32]
-    flags : np.ndarray [shape=(2, taxels), dtype=bool]
+    fresh : np.ndarray [shape=(taxels,), dtype=bool]
     tiles : np.ndarray [shape=(2, tiles, 6), dtype=float32]
     velocity : np.ndarray [shape=(tiles, 3), dtype=float32]
     scales : np.ndarray [shape=(5, patches), dtype=float32]
@@ -110,7 +109,7 @@ class Memory(NamedTuple):
     """
 
     taxels: NDArray[np.float32]
-    flags: NDArray[np.bool_]
+    fresh: NDArray[np.bool_]
     tiles: NDArray[np.float32]
     velocity: NDArray[np.float32]
     scales: NDArray[np.float32]
@@ -124,7 +123,7 @@ def new_memory(rows: int, cols: int, borders: Borders) -> Memory:
     tiles = int((patches[:, 5] * patches[:, 6]).sum())
     memory = Memory(
         taxels=np.zeros((16, rows * cols), dtype=np.float32),
-        flags=np.zeros((2, rows * cols), dtype=np.bool_),
+        fresh=np.zeros(rows * cols, dtype=np.bool_),
         tiles=np.zeros((2, tiles, 6), dtype=np.float32),
         velocity=np.zeros((tiles, 3), dtype=np.float32),
         scales=np.zeros((5, len(patches)), dtype=np.float32),
@@ -145,7 +144,7 @@ def _with_tiles(rectangles: NDArray[np.int32]) -> NDArray[np.int64]:
 
 def state_of(memory: Memory) -> State:
     """The state in a memory; also compiled, see `acts_recon.fusion.fusion_kernels`."""
-    taxels, flags, tiles, scales = memory.taxels, memory.flags, memory.tiles, memory.scales
+    taxels, tiles, scales = memory.taxels, memory.tiles, memory.scales
     return State(
         image=taxels[0],
         sigma=taxels[1],
@@ -154,7 +153,7 @@ def state_of(memory: Memory) -> State:
         age=taxels[4],
         process_noise=taxels[5],
         fade=taxels[6],
-        fresh=flags[0],
+        fresh=memory.fresh,
         normal_sums=tiles[0],
         row_sums=tiles[1],
         velocity=memory.velocity,
@@ -174,13 +173,12 @@ def state_of(memory: Memory) -> State:
         weight=taxels[13],
         in_row=taxels[14],
         around=taxels[15],
-        seen=flags[1],
     )
 
 
 def forget(memory: Memory) -> None:
     """Reset a memory to the state of an array that was never measured."""
-    for array in (memory.taxels, memory.flags, memory.tiles, memory.velocity, memory.scales):
+    for array in (memory.taxels, memory.fresh, memory.tiles, memory.velocity, memory.scales):
         array.fill(0)
     state = state_of(memory)
     state.age.fill(np.inf)

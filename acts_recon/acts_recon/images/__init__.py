@@ -5,8 +5,6 @@ In come frames and layouts; out come tables and checks by which the methods of r
 
 from acts_recon.images.baseline import BaselineSubtraction
 from acts_recon.images.borders import Borders, borders_of, grown
-from acts_recon.images.frame_check import place_table, require_samples, skin_table, why_refused
-from acts_recon.images.frame_check_kernels import OK, check_frame
 from acts_recon.images.image import mono16, rgb8
 from acts_recon.images.placed_samples import PlacedSamples
 from acts_recon.images.uncertainty import (
@@ -24,23 +22,17 @@ __all__ = [
     "ERR_TOGETHER",
     "FAR",
     "NOISE_COUNTS",
-    "OK",
     "BaselineSubtraction",
     "Borders",
     "PlacedSamples",
     "Variances",
     "borders_of",
-    "check_frame",
     "force_of",
     "grown",
     "mono16",
-    "place_table",
-    "require_samples",
     "rgb8",
     "root_deviation",
-    "skin_table",
     "slope_table",
     "taxel_variances",
     "variances",
-    "why_refused",
 ]

@@ -18,8 +18,8 @@ from acts_recon.sparse.fastomp_model import (
     Y_ROWS,
     PatchModel,
     Problems,
-    Workspace,
     in_blocks,
+    workspace,
 )
 from acts_recon.sparse.fastomp_reference import REGULARISATION, SPARSITY_RATIO, fast_omp, sparsity
 from acts_recon.sparse.patches import PatchLayout, patch_layout, patch_starts
@@ -43,7 +43,6 @@ __all__ = [
     "Problems",
     "Reconstructor",
     "ReconstructorConfig",
-    "Workspace",
     "fast_omp",
     "fastomp_kernels",
     "in_blocks",
@@ -55,4 +54,5 @@ __all__ = [
     "shipped_dictionary_path",
     "solve",
     "sparsity",
+    "workspace",
 ]

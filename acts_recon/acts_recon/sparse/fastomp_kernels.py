@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.kernels import kernel
-from acts_recon.images import OK, check_frame
 from acts_recon.sparse.fastomp_model import (
     ALLOWED,
     BEST,
@@ -222,7 +221,6 @@ def recover_image(
     count_max: int,
     ratio: float,
     keep_measured: bool,
-    seen: NDArray[np.bool_],
     pixels: NDArray[np.uint32],
     table: NDArray[np.int32],
     rows: NDArray[np.float32],
@@ -230,19 +228,14 @@ def recover_image(
     sums: NDArray[np.float32],
     largest: NDArray[np.float32],
     image: NDArray[np.float32],
-) -> int:
-    """Check one frame and recover its image into `image`.
+) -> None:
+    """Recover the image of one frame, which `acts_recon.images.PlacedSamples` has accepted, into `image`.
 
     First what `acts_recon.sparse.fastomp_model.PatchModel` is made of, then the frame, the settings, and the buffers of
-    `acts_recon.sparse.fastomp_model.Workspace`. `image` is flat. Values are clipped to 0 to `count_max`.
-    Returns a code; unless it is `OK` the image is left as it was.
+    `acts_recon.sparse.fastomp_model.workspace`. `image` is flat. Values are clipped to 0 to `count_max`.
     """
     size = image.shape[0]
     m = indices.shape[0]
-    code = check_frame(indices, counts, seen)
-    if code != OK:
-        return code
-
     n_patches = corners.shape[0]
     measured, pressed, order, y = table[MEASURED], table[PRESSED], table[ORDER], rows[Y_ROWS]
     for patch in range(n_patches):
@@ -279,7 +272,6 @@ def recover_image(
     if keep_measured:
         for i in range(m):
             image[indices[i]] = np.float32(counts[i]) if counts[i] > touch_counts else np.float32(0.0)
-    return OK
 
 
 @kernel(fastmath=_FASTMATH)

@@ -111,30 +111,14 @@ class Problems:
         self.largest = np.zeros(n, dtype=np.float32)
 
     def arrays(self) -> tuple[NDArray, ...]:
-        """In the order in which `pursue` takes them."""
+        """In the order in which `pursue` and `recover_image` take them."""
         return (self.pixels, self.table, self.rows, self.systems, self.sums, self.largest)
 
 
-class Workspace:
-    """The buffers that `recover_image` works in, allocated once.
-
-    Parameters
-    ----------
-    layout : PatchLayout
-    ratio : float
-        Atoms per measured pixel.
-    """
-
-    def __init__(self, layout: PatchLayout, ratio: float = SPARSITY_RATIO) -> None:
-        n_pixels = layout.size**2
-        self._arrays = (
-            np.zeros(layout.rows * layout.cols, dtype=np.bool_),
-            *Problems(layout.n_patches, n_pixels, sparsity(n_pixels, ratio)).arrays(),
-        )
-
-    def arrays(self) -> tuple[NDArray, ...]:
-        """In the order in which `recover_image` takes them."""
-        return self._arrays
+def workspace(layout: PatchLayout, ratio: float = SPARSITY_RATIO) -> Problems:
+    """The buffers that `recover_image` works in, with `ratio` atoms per measured pixel."""
+    n_pixels = layout.size**2
+    return Problems(layout.n_patches, n_pixels, sparsity(n_pixels, ratio))
 
 
 def _holders(layout: PatchLayout, pixel_of: NDArray[np.integer]) -> NDArray[np.uint32]:

@@ -8,14 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX, ArrayGeometry
-from acts_core.errors import ArrayError
 from acts_core.settings import setting, validate
 from acts_core.skin import ForceResponse, Layout, MeasuredForceResponse
 from acts_recon.contacts import Contact, ContactFinder
-from acts_recon.images import OK, borders_of, place_table, require_samples, skin_table, why_refused
+from acts_recon.images import PlacedSamples, borders_of
 from acts_recon.sparse import fastomp_kernels as kernels
 from acts_recon.sparse.dictionary import Dictionary
-from acts_recon.sparse.fastomp_model import PatchModel, Workspace
+from acts_recon.sparse.fastomp_model import PatchModel, workspace
 from acts_recon.sparse.fastomp_reference import SPARSITY_RATIO
 from acts_recon.sparse.patches import patch_layout
 
@@ -65,20 +64,14 @@ class Reconstructor:
         self.geometry = geometry
         self.config = config or ReconstructorConfig()
         self.response = response or ForceResponse()
-        self._matrix_size = (geometry.rows, geometry.cols)
-        self._places: NDArray[np.uint16] | None = None
-        self._skin: NDArray[np.uint16] | None = None
-        if layout is not None:
-            self._places = place_table(layout, geometry)
-            self._skin = skin_table(layout)
-            self._matrix_size = (layout.matrix_rows, layout.matrix_cols)
+        self._samples = PlacedSamples(geometry, layout)
         self.borders = borders_of(geometry.rows, geometry.cols, layout)
         self._finder = ContactFinder(geometry, self.response, float(self.config.touch_counts), borders=self.borders)
         patches = patch_layout(
             geometry.rows, geometry.cols, size=dictionary.patch_size, step=self.config.patch_step, borders=self.borders
         )
         self._model = PatchModel(patches, dictionary.atoms).arguments()
-        self._workspace = Workspace(patches, self.config.sparsity_ratio).arrays()
+        self._workspace = workspace(patches, self.config.sparsity_ratio).arrays()
         self._flat = np.zeros(geometry.size, dtype=np.float32)
         self.image: NDArray[np.float32] = self._flat.reshape(geometry.rows, geometry.cols)
         """The image of the last frame [counts, 0 to 1023]; np.ndarray [shape=(rows, cols), dtype=float32].
@@ -107,13 +100,10 @@ class Reconstructor:
         ArrayError
             When the frame does not fit the array or holds impossible values. `image` then is still the previous one.
         """
-        require_samples(indices, counts)
         config = self.config
-        code = kernels.recover_image(
+        kernels.recover_image(
             *self._model,
-            indices if self._places is None else self._places[indices],
-            # What is out of range stays so, to be refused.
-            counts if self._skin is None else np.where(counts > COUNT_MAX, counts, counts * self._skin[indices]),
+            *self._samples.of(indices, counts),
             config.touch_counts,
             COUNT_MAX,
             config.sparsity_ratio,
@@ -121,8 +111,6 @@ class Reconstructor:
             *self._workspace,
             self._flat,
         )
-        if code != OK:
-            raise ArrayError(why_refused(code, indices, counts, *self._matrix_size))
         return self.image
 
     def _warm_up(self) -> None:
