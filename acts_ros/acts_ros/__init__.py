@@ -1,1 +1,1 @@
-"""What ACTS nodes share: parameters, quality of service, executors, diagnostics."""
+"""What all ACTS nodes share: parameters, quality of service, executors, diagnostics, processes."""

@@ -1,4 +1,4 @@
-"""The clocks of nodes: timers that no clock holds up, and nodes that must not run on simulated time."""
+"""Clocks of nodes: timers that a change of the clock does not stop, and nodes that refuse simulated time."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ _USE_SIM_TIME = "use_sim_time"
 
 
 def steady_timer(node: Node, period_s: float, callback: Callable[[], Any]) -> Timer:
-    """A timer by the steady clock.
+    """Create a timer on the steady clock.
 
-    Others of rclpy go by the node's clock. Where that is set back by an hour they rest for an hour, and with simulated
-    time for as long as nobody publishes `/clock`.
+    Other timers of rclpy use the node's clock. They stop for an hour where that is set back by an hour, and with
+    simulated time for as long as nobody publishes `/clock`.
 
     Parameters
     ----------
     node : rclpy.node.Node
         On whose executor it runs.
     period_s : float
-        [s]
+        Time between two calls [s].
     callback : callable
         Called without arguments.
     """
@@ -34,16 +34,16 @@ def steady_timer(node: Node, period_s: float, callback: Callable[[], Any]) -> Ti
 
 
 def keep_system_clock(node: Node, reason: str) -> None:
-    """Let a node go on with the system's clock where `use_sim_time` asks for simulated time, and say so.
+    """Keep a node on the system's clock even if `use_sim_time` is true, and log that.
 
-    To be called before the node's clock is used. The parameter is false then, and cannot be made true.
+    To be called before the node's clock is used. The parameter becomes false and cannot be set to true.
 
     Parameters
     ----------
     node : rclpy.node.Node
-        Runs something that does not wait for simulated time, or compares stamps with such a thing.
+        Its device does not follow simulated time, or its stamps come from such a device.
     reason : str
-        Why, for a person.
+        Why simulated time is refused, for the log.
     """
 
     def refuse(parameters: list[Parameter[Any]]) -> SetParametersResult:

@@ -1,7 +1,7 @@
-"""Parameters of the nodes of a process from its own command line: ``--set NODE.PARAMETER=VALUE``.
+"""Parameters of single nodes of a process from its command line: ``--set NODE.PARAMETER=VALUE``.
 
-A ROS parameter on the command line (``-p name:=value``) goes to all nodes of a process, and those that do not have it
-refuse it. And a launch argument, which goes before a params file, cannot say there that it was not given.
+A ROS parameter on the command line (``-p name:=value``) goes to all nodes of a process, and nodes without it refuse it.
+Also, a launch argument always overrides the params file, even with its default; here `IN_PARAMS_FILE` sets nothing.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from acts_ros.middleware import telling_wrong_arguments
 from acts_ros.parameters import ros_value
 
 IN_PARAMS_FILE = "params_file"
-"""Value that sets nothing: what a params file says holds, or the default."""
+"""Value that sets nothing: the parameter comes from the params file, or is the default."""
 
 
 def parameters_from(words: Sequence[str], nodes: Mapping[str, type]) -> dict[str, list[Parameter]]:
@@ -27,14 +27,14 @@ def parameters_from(words: Sequence[str], nodes: Mapping[str, type]) -> dict[str
     Parameters
     ----------
     words : sequence of str
-        The command line, the program's name first; what ROS takes of it is left out.
+        The command line, the program's name first; ROS arguments are ignored.
     nodes : mapping of str to type
-        Name of each node, and the settings class its parameters are declared from.
+        Settings class of each node, by the node's name.
 
     Returns
     -------
     dict of str to list of Parameter
-        For each node, to be passed as ``parameter_overrides``; they go before params files.
+        For each node, to be passed as ``parameter_overrides``; they override params files.
 
     Raises
     ------
@@ -61,6 +61,6 @@ def parameters_from(words: Sequence[str], nodes: Mapping[str, type]) -> dict[str
             raise SettingsError(unknown_key_message(parameter, list(describe(settings_class)), f"parameters of {node}"))
         if value == IN_PARAMS_FILE:
             continue
-        # Given again, the last one holds.
+        # Given twice, the last one is used.
         given[node][parameter] = Parameter(parameter, value=ros_value(from_text(settings_class, parameter, value)))
     return {node: list(parameters.values()) for node, parameters in given.items()}

@@ -1,4 +1,4 @@
-"""Publish diagnostics in the standard form: one status a component on /diagnostics, once a second."""
+"""Publish diagnostics in the standard form: one status per component on /diagnostics, once a second."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Run nodes until the process is told to stop, on the executor that fits 1 kHz, and leave nothing behind."""
+"""Run nodes until the process is told to stop, on an executor that is fast enough for 1 kHz, and clean up."""
 
 from __future__ import annotations
 
@@ -30,13 +30,13 @@ _SWITCH_INTERVAL_S = 2e-4
 
 
 def make_executor() -> Executor:
-    """The fastest executor of this ROS distribution that keeps the order of callbacks (never the multi-threaded)."""
+    """Create the fastest executor of this ROS distribution that keeps the order of callbacks (single-threaded)."""
     return SingleThreadedExecutor() if EventsExecutor is None else EventsExecutor()
 
 
 def settle() -> None:
-    """What a process does before it works a thousand times a second."""
-    # Imports and the compiler leave some 100,000 objects behind; a full collection of them stops the stream for 30 ms.
+    """Prepare a process for work at 1 kHz: exempt present objects from garbage collection, switch threads sooner."""
+    # Imports and the compiler leave some 100,000 objects; a full collection of them would stop the stream for 30 ms.
     gc.collect()
     gc.freeze()
     gc.enable()
@@ -46,27 +46,25 @@ def settle() -> None:
 def run(
     factories: Sequence[Callable[[], Node]], args: Sequence[str] | None = None, signals: StopSignals | None = None
 ) -> int:
-    """The `main` of every ACTS node: start, spin, shut down, and tell an `ActsError` in one line.
+    """The `main` of every ACTS node: start, spin, shut down, and print an `ActsError` in one line.
 
-    The first SIGINT, SIGTERM or SIGHUP ends it; further ones change nothing. The context lives until every node has
-    been destroyed, so that whatever runs meanwhile may publish, log and end motion as at any time.
+    The first SIGINT, SIGTERM or SIGHUP ends it; further ones have no effect. The ROS context lives until every node has
+    been destroyed, so that nodes can still publish, log and end motion while they are closed.
 
     Parameters
     ----------
     factories : sequence of callables
-        Each makes one node; all of them run in this process on one executor. A node that sets something in motion
-        defines ``begin()``, which is called when all nodes are there; one that has to end things in order defines
-        ``close()``, which is called before it is destroyed.
+        Each makes one node; all of them run in this process on one executor. A node may define ``begin()``, called
+        when all nodes have been made, and ``close()``, called before it is destroyed.
     args : sequence of str or None
         Command line; None for ``sys.argv``.
     signals : StopSignals or None
-        Where the process has taken its signals before; None: they are taken now.
+        Signal handlers that the process has installed already; None: they are installed now.
 
     Returns
     -------
     int
-        Exit code: 0 after an orderly stop; when a node could not start or failed with an `ActsError`, 2 where the cause
-        is what it was given and 1 otherwise.
+        Exit code: 0 after an orderly stop; after an `ActsError` 2 where the settings are the cause, and 1 otherwise.
     """
     signals = StopSignals() if signals is None else signals
     middleware.init(
@@ -106,10 +104,10 @@ def run(
 
 
 def spin_for(executor: Executor, seconds: float) -> None:
-    """Run callbacks for a while [s], and end then also where there is always one more to run.
+    """Run callbacks for a while [s], and end then even if there is always one more to run.
 
-    The events executor looks at the time only when it has nothing to do. Where more comes in than the process has CPU
-    for, a time limit alone would never end it.
+    The events executor checks its time limit only when it is idle. Where more messages arrive than the process has CPU
+    time for, the limit alone would never end it.
     """
     ended: Future[None] = Future()
     overtime = threading.Timer(seconds + _OVERTIME_S, ended.set_result, (None,))

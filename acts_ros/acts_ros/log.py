@@ -1,4 +1,4 @@
-"""The logger of a node for code that knows no ROS."""
+"""The logger of a node, for code that does not depend on ROS."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from acts_core.runtime import LogCallback
 
 
 def log_of(node: Node) -> LogCallback:
-    """A function that takes a level ("info", "warning" or "error") and a sentence, from any thread."""
+    """Return a function that logs a sentence at a level ("info", "warning" or "error"), from any thread."""
 
     def log(level: str, sentence: str) -> None:
         # A line each: rclpy refuses a line that changes its severity.

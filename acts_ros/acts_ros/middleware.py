@@ -1,10 +1,10 @@
-"""How ACTS enters the middleware: without shared memory, and bound to this machine where it is to keep to it.
+"""Initialise ROS without shared memory, and bound to this machine if only this machine is to be reached.
 
-A publisher of Fast DDS looks into the shared memory of each subscriber from within ``publish()``. One that joins,
-leaves or stands still holds it up there, for 0.33 s at a time and up to a second, and all other subscribers with it.
+In ``publish()``, Fast DDS accesses the shared memory of each subscriber. A subscriber that joins, leaves or stands
+still blocks it for 0.33 s at a time and up to a second, which delays all other subscribers.
 
-``ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST`` by itself only keeps nodes from looking further. Their sockets are open on
-all interfaces, and another machine that names this one as its peer gets and sends everything.
+``ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST`` only keeps nodes from searching other machines. Their sockets are open on
+all interfaces, and another machine that names this one as its peer can receive and send everything.
 """
 
 from __future__ import annotations
@@ -24,23 +24,23 @@ from acts_core.errors import SettingsError
 from acts_ros.processes import packages
 
 _RANGE, _LOCALHOST_ONLY = "ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_LOCALHOST_ONLY"
-# What it becomes where the profile says where to look.
+# Value of _RANGE where a profile limits discovery.
 _BOUND = "SYSTEM_DEFAULT"
 _TRANSPORTS = "FASTDDS_BUILTIN_TRANSPORTS"
-# Jazzy's Fast DDS knows the older name only; newer ones complain about it.
+# Fast DDS of Jazzy knows only the older name; newer versions warn about it.
 _PROFILE, _JAZZY_PROFILE = "FASTDDS_DEFAULT_PROFILES_FILE", "FASTRTPS_DEFAULT_PROFILES_FILE"
-# With any of these somebody has chosen a network of their own.
+# If any of these is set, the user has configured the network.
 _CHOICES = (_PROFILE, _JAZZY_PROFILE, "ROS_STATIC_PEERS", "ROS_DISCOVERY_SERVER")
-# Fast DDS reads them where a process starts.
+# Fast DDS reads these files in the working directory of a process.
 _FILES = ("DEFAULT_FASTDDS_PROFILES.xml", "DEFAULT_FASTRTPS_PROFILES.xml")
 
 
-# Where in its own source ROS found that something is wrong.
+# The place in the source of ROS that its error messages contain.
 _SOURCE_PLACE = re.compile(r", at \S+:\d+")
 
 
 def init(**options: Any) -> None:
-    """`rclpy.init`, before which `choose_transports` is called; what stands against that is logged.
+    """Call `choose_transports` and then `rclpy.init`; log why nodes cannot be bound to this machine.
 
     Raises
     ------
@@ -58,7 +58,7 @@ def init(**options: Any) -> None:
 
 @contextmanager
 def telling_wrong_arguments() -> Iterator[None]:
-    """What ROS refuses of a command line, such as a params file that is no YAML, is raised as `SettingsError`."""
+    """Raise `SettingsError` where ROS refuses a command line, for example a params file that is not YAML."""
     try:
         yield
     except rclpy_implementation.RCLInvalidROSArgsError as error:
@@ -66,9 +66,9 @@ def telling_wrong_arguments() -> Iterator[None]:
 
 
 def choose_transports(environment: MutableMapping[str, str], rmw: str, folder: Path) -> str | None:
-    """Have Fast DDS do without shared memory and, where this machine only is asked for, open sockets on 127.0.0.1 only.
+    """Disable the shared memory of Fast DDS and, if only this machine is to be reached, bind it to 127.0.0.1.
 
-    What the user has set stays. Processes that are started from this one inherit it.
+    Settings of the user are kept. Child processes inherit the environment.
 
     Parameters
     ----------
@@ -77,12 +77,12 @@ def choose_transports(environment: MutableMapping[str, str], rmw: str, folder: P
     rmw : str
         Name of the middleware.
     folder : Path
-        Where the process runs.
+        Working directory of the process.
 
     Returns
     -------
     str or None
-        What stands against keeping to this machine; None where it is done or not asked for.
+        Why nodes cannot be bound to this machine; None where they are, or need not be.
 
     Raises
     ------
@@ -94,16 +94,16 @@ def choose_transports(environment: MutableMapping[str, str], rmw: str, folder: P
         return f"ACTS cannot bind {rmw}" if only_here else None
     profile = str(packages.share("acts_config", environment) / "network" / "loopback.xml")
     if environment.get(_RANGE) != _BOUND:
-        # Inherited from a process that was bound; what is asked for here is another matter.
+        # Inherited from a process that was bound; this one need not be.
         for name in (_PROFILE, _JAZZY_PROFILE):
             if environment.get(name) == profile:
                 del environment[name]
     if not only_here:
-        # Where there is a profile it says which transports there are.
+        # A profile defines the transports.
         environment.setdefault(_TRANSPORTS, "UDPv4")
         return None
     if environment.get("ROS_DISTRO") == "humble":
-        # It does not know the range; this one does bind to the loopback there.
+        # Humble does not know the range, but binds to the loopback by this variable.
         environment[_LOCALHOST_ONLY] = "1"
         return None
     chosen = [name for name in _CHOICES if environment.get(name)]

@@ -1,4 +1,4 @@
-"""Settings dataclasses as ROS parameters: declared with description and range, checked when they change."""
+"""Settings dataclasses as ROS parameters, with description and range, and checked when they change."""
 
 from __future__ import annotations
 
@@ -33,8 +33,8 @@ _ROS_OWN_PREFIXES = ("qos_overrides.",)
 def node_options() -> dict[str, Any]:
     """Keyword arguments that a node using `declare` passes to ``Node.__init__``.
 
-    Overrides are declared first, so that `declare` sees also the ones that nobody asked for; without that, ROS drops a
-    misspelt parameter silently.
+    All given parameters are declared, so that `declare` finds unknown ones; otherwise ROS drops a misspelt parameter
+    silently.
     """
     return {"automatically_declare_parameters_from_overrides": True}
 
@@ -47,10 +47,10 @@ def declare(
     is_unconfigured: Callable[[], bool] = lambda: False,
     words: Sequence[str] | None = None,
 ) -> T:
-    """Declare every setting of a dataclass as a parameter of `node` and return the values given to them.
+    """Declare every setting of a dataclass as a parameter of `node`, and return the settings with the given values.
 
-    Call it once a node. Values come from the params file, the command line or the defaults. What a section of a params
-    file for several nodes (``/**``) holds beside them is left out, and said.
+    Call it once per node. Values come from the command line, the params file or the defaults. Unknown parameters in a
+    section of a params file for several nodes (``/**``) are ignored and logged.
 
     Parameters
     ----------
@@ -59,13 +59,13 @@ def declare(
     settings_class : type
         Dataclass of `acts_core.settings.setting` fields.
     on_change : callable or None
-        Takes settings with the changes, after they were checked, and returns why they cannot be; empty where they
-        are in force now. What is set together is checked like the first values, and as a whole. None: all parameters
-        are fixed, also those whose setting says that they may be changed.
+        Called with the changed settings, after they were checked as a whole, like the first values. Returns "" where
+        they are in force now, else why they are refused. None: all parameters are fixed, also those whose setting
+        says that they may be changed.
     is_unconfigured : callable
-        Whether the node now is, for what is `Changeable.UNCONFIGURED`.
+        Whether the node is unconfigured now; only then may settings with `Changeable.UNCONFIGURED` change.
     words : sequence of str or None
-        The command line, to look up which section a value came from; None for that of the process.
+        Command line, to find the section that a value came from; None for that of the process.
 
     Raises
     ------
@@ -100,7 +100,7 @@ def declare(
 
 
 def _judge_unknown(node: Node, unknown: Sequence[str], known: Sequence[str], words: Sequence[str]) -> None:
-    """Refuse what was meant for this node; say what came from a section for several nodes."""
+    """Refuse unknown parameters that were given to this node; log those from a section for several nodes."""
     where = node.get_fully_qualified_name()
     if not unknown:
         return
@@ -110,18 +110,18 @@ def _judge_unknown(node: Node, unknown: Sequence[str], known: Sequence[str], wor
             raise SettingsError(unknown_key_message(name, known, f"parameters of {where}"))
     sections = ", ".join(dict.fromkeys(shared[name] for name in unknown))
     node.get_logger().warning(
-        f"left out, for {where} has no such parameters: {', '.join(map(repr, unknown))} "
+        f"ignored, because {where} has no such parameters: {', '.join(map(repr, unknown))} "
         f"(given for several nodes, by {sections})"
     )
 
 
 def ros_value(value: Any) -> Any:
-    """A value of a setting as the value of a ROS parameter."""
+    """Convert the value of a setting to the value of a ROS parameter."""
     return list(value) if isinstance(value, tuple) else value
 
 
 def set_rate(timer: Timer, rate_hz: float) -> None:
-    """Let a node's timer be due so often, from the next time on."""
+    """Set the rate of a timer [Hz], from its next call on."""
     timer.timer_period_ns = round(1e9 / rate_hz)
 
 
@@ -130,7 +130,7 @@ def _descriptor(default: Any, info: SettingInfo, read_only: bool) -> ParameterDe
         description=info.description, additional_constraints=info.allowed, read_only=read_only
     )
     lowest, highest = info.minimum, info.maximum
-    # ROS ranges have two ends; a one-sided one is told in words and checked by `checked`.
+    # ROS ranges have two ends; a one-sided limit is in the description, and `checked` enforces it.
     if isinstance(default, bool) or lowest is None or highest is None:
         return descriptor
     if isinstance(default, int):
@@ -142,7 +142,7 @@ def _descriptor(default: Any, info: SettingInfo, read_only: bool) -> ParameterDe
 
 
 class _Changes:
-    """Checks changed parameters and hands them on; remembers those in force."""
+    """Checks changed parameters and passes them to `on_change`; holds those in force."""
 
     def __init__(
         self, where: str, settings: Any, on_change: Callable[[Any], str], is_unconfigured: Callable[[], bool]
@@ -174,7 +174,7 @@ class _Changes:
         return SetParametersResult(successful=True)
 
     def _too_late(self, changed: Any) -> str:
-        """Why a change cannot be made in this state of the node, or nothing."""
+        """Why a change is not allowed in this state of the node; empty where it is."""
         if self._is_unconfigured():
             return ""
         for name, info in describe(type(changed)).items():

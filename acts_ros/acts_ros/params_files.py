@@ -1,4 +1,4 @@
-"""Which section of a params file a parameter came from. ROS hands a node only what all sections come to."""
+"""Which section of a params file a parameter came from. ROS gives a node only the merged result of all sections."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _PARAMETERS = "ros__parameters"
 
 
 def shared_keys(node: str, words: Sequence[str]) -> dict[str, str]:
-    """Parameters that a node is given only because a section of a params file is for several nodes.
+    """Parameters that a node gets only from sections of params files that are for several nodes.
 
     Such a section has a name that ends in a wildcard, as in ``/**`` and ``/plate/*``. ``/**/driver`` names its node.
 
@@ -26,7 +26,8 @@ def shared_keys(node: str, words: Sequence[str]) -> dict[str, str]:
     Returns
     -------
     dict of str to str
-        File and section by the parameter's name; without those that are given by name as well, or on the command line.
+        File and section by the parameter's name; without parameters that a section of this node only, or the command
+        line, gives as well.
     """
     shared: dict[str, str] = {}
     own: set[str] = set()
@@ -45,7 +46,7 @@ def shared_keys(node: str, words: Sequence[str]) -> dict[str, str]:
 
 
 def _ros_options(words: Sequence[str]) -> Iterator[tuple[str, str]]:
-    """What ROS is told about parameters: option and value."""
+    """Options of ROS about parameters, each with its value."""
     is_ros = False
     for word, following in zip(words, [*words[1:], ""], strict=True):
         if word in ("--ros-args", "--"):
@@ -55,15 +56,15 @@ def _ros_options(words: Sequence[str]) -> Iterator[tuple[str, str]]:
 
 
 def _pattern(section: str) -> str:
-    """A section's name as a regular expression, as ROS understands it."""
+    """Regular expression of a section's name, with the wildcards of ROS."""
     escaped = re.escape(section).replace(r"/\*\*", r"(/\w+)*")
     return escaped.replace(r"/\*", r"/\w+")
 
 
 def _keys_of_file(path: Path) -> Iterator[tuple[str, str]]:
-    """Name of a section and of a parameter in it, for all in a params file; none where it cannot be read as such.
+    """Section and parameter name of every parameter in a params file; none where the file is not valid.
 
-    Values are not looked at: what a parameter may be, ROS has judged.
+    Values are not checked: ROS has done that.
     """
     try:
         root = yaml.compose(path.read_text(encoding="utf-8"), Loader=yaml.SafeLoader)
@@ -77,7 +78,7 @@ def _keys_of_file(path: Path) -> Iterator[tuple[str, str]]:
 
 
 def _entries(node: yaml.Node | None, names: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], yaml.Node]]:
-    """Every entry of nested mappings, with the keys that lead to it."""
+    """Every entry of nested mappings, with its path of keys."""
     if not isinstance(node, yaml.MappingNode):
         return
     for key, value in node.value:

@@ -1,7 +1,7 @@
-"""Subscriptions that are read when their reader is due, instead of calling back for every message.
+"""Subscriptions that are polled, instead of a callback for every message.
 
-A callback a message costs a wake-up, and a reader that is held up gets to the newest message only behind all older
-ones. A polled subscription wakes nobody: the middleware keeps the last messages, and the reader takes all of them at
+A callback per message wakes the process each time, and after a delay it reaches the newest message only after all
+older ones. With a polled subscription the middleware queues the last messages, and the reader takes all of them at
 once when its own cycle begins.
 """
 
@@ -33,13 +33,13 @@ class PolledSubscription(Generic[M]):
         return str(self._subscription.topic_name)
 
     def take_all(self) -> list[tuple[M, int]]:
-        """What has arrived since the last call, oldest first; from any thread, one at a time.
+        """Messages that have arrived since the last call, oldest first; from any thread, one at a time.
 
         Returns
         -------
         list of (message, int)
-            With the time at which the middleware received the message, or else the present, by the system's clock
-            [ns].
+            Each with the time at which the middleware received it, or the present where that is unknown, by the
+            system's clock [ns].
         """
         taken: list[tuple[M, int]] = []
         subscription = self._subscription
@@ -51,13 +51,13 @@ class PolledSubscription(Generic[M]):
                 if found is None:
                     break
                 message, info = found
-                # Not every middleware notes it.
+                # Not every middleware records the time of reception.
                 taken.append((message, info["received_timestamp"] or time.time_ns()))
         return taken
 
 
 class PollingNode(Node):
-    """A node with subscriptions that no executor knows of."""
+    """A node with subscriptions that are hidden from executors."""
 
     def __init__(self, *arguments: Any, **options: Any) -> None:
         self._polled: set[Subscription] = set()
@@ -65,7 +65,7 @@ class PollingNode(Node):
 
     @property
     def subscriptions(self) -> Iterator[Subscription]:
-        """What executors look at: all but the polled ones."""
+        """Subscriptions that executors serve: all but the polled ones."""
         return (subscription for subscription in super().subscriptions if subscription not in self._polled)
 
     def create_polled_subscription(
@@ -82,18 +82,18 @@ class PollingNode(Node):
         profile : QoSProfile
             Quality of service, which a params file may override.
         depth : int or None
-            How many messages are kept between two readings; None: as the profile says. Of more the oldest are lost.
+            Length of the queue between two calls; None: as the profile says. If it is full, the oldest message is lost.
         """
         return PolledSubscription(self._subscribe(kind, topic, profile, depth, raw=False))
 
     def create_raw_polled_subscription(
         self, kind: type, topic: str, profile: QoSProfile, *, depth: int | None = None
     ) -> PolledSubscription[bytes]:
-        """As `create_polled_subscription`; messages are the bytes that were sent, for who needs only some of them."""
+        """Like `create_polled_subscription`, but messages stay serialised bytes, for readers that skip some of them."""
         return PolledSubscription(self._subscribe(kind, topic, profile, depth, raw=True))
 
     def destroy_polled_subscription(self, polled: PolledSubscription[Any]) -> None:
-        """Subscribe no longer; nobody may be reading it meanwhile."""
+        """Destroy a subscription that no thread is reading."""
         self.destroy_subscription(polled._subscription)
         self._polled.discard(polled._subscription)
 

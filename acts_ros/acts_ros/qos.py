@@ -1,7 +1,7 @@
 """Quality of service of the ACTS topics.
 
-1 kHz topics are best effort, what a viewer shows is reliable, what describes a skin is kept for late joiners. Where a
-publisher or subscription is made with `overridable`, a params file changes that by the standard ``qos_overrides``.
+1 kHz topics are best effort, topics for viewers are reliable, and descriptions of a skin are kept for late joiners.
+For publishers and subscriptions made with `overridable`, ``qos_overrides`` in a params file can change this.
 """
 
 from copy import copy
@@ -14,7 +14,7 @@ STREAM = QoSProfile(
     reliability=ReliabilityPolicy.BEST_EFFORT,
     durability=DurabilityPolicy.VOLATILE,
     history=HistoryPolicy.KEEP_LAST,
-    # A quarter of a second at 1 kHz: a subscriber that was not scheduled for that long still loses nothing.
+    # A quarter of a second at 1 kHz: a subscriber that is delayed by less loses nothing.
     depth=256,
 )
 """1 kHz topics: samples, contact, cop, image_raw."""
@@ -25,7 +25,7 @@ VIEW = QoSProfile(
     history=HistoryPolicy.KEEP_LAST,
     depth=5,
 )
-"""What viewers show, at most 30 Hz: image."""
+"""Topics for viewers, at most 30 Hz: image."""
 
 STATE = QoSProfile(
     reliability=ReliabilityPolicy.RELIABLE,
@@ -41,12 +41,12 @@ LATCHED = QoSProfile(
     history=HistoryPolicy.KEEP_LAST,
     depth=1,
 )
-"""Settings and baselines: the last one reaches late joiners."""
+"""Settings and baselines: late joiners get the last one."""
 
 
 def overridable(profile: QoSProfile) -> dict[str, Any]:
     """Keyword arguments for a publisher or subscription whose quality of service a params file may override.
 
-    The profile is copied: rclpy writes the overrides into the one it is given, and so into every later user's.
+    The profile is copied, because rclpy writes the overrides into the profile that it is given.
     """
     return {"qos_profile": copy(profile), "qos_overriding_options": QoSOverridingOptions.with_default_policies()}

@@ -1,4 +1,4 @@
-"""Reading bags, whoever recorded them. Importing this imports neither ROS nor rosbags; `reading` imports rosbags."""
+"""Reading bags of any recorder. Importing this imports neither ROS nor rosbags; `reading` imports rosbags."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from acts_core.errors import RecordingError
 
 
 def require_rosbags() -> None:
-    """Say what to do where the library for bags is not installed; ROS installations do not come with it.
+    """Refuse to go on without the library that reads bags, which is no part of a ROS installation.
 
     Raises
     ------

@@ -70,8 +70,8 @@ class Definitions:
     def check(self, recorded: Connection) -> None:
         """Refuse a topic that was recorded with another definition of its type than the one installed here.
 
-        Messages say nothing of their type: read with another one they are refused at best, and other numbers at worst.
-        A recording without a definition and a type whose ``.msg`` file is not installed are taken as they are.
+        A message does not contain its type: decoded with another definition it is refused, or gives wrong numbers.
+        Recordings without a definition, and types whose ``.msg`` file is not installed, are not checked.
 
         Parameters
         ----------
@@ -112,13 +112,13 @@ class Definitions:
 
 
 def _hash(name: str, definition: str, kind: MessageDefinitionFormat) -> str:
-    """Hash of a definition; for comparison only, since rosbags has another one for types with ``char`` fields."""
+    """Hash of a definition, for comparison only: for types with ``char`` fields it differs from that of ROS."""
     store = get_typestore(Stores.EMPTY)
     try:
         is_msg = kind == MessageDefinitionFormat.MSG
         store.register(get_types_from_msg(definition, name) if is_msg else get_types_from_idl(definition))
         return store.hash_rihs01(name)
-    except Exception as error:  # rosbags fails in as many ways as a text can be wrong
+    except Exception as error:  # rosbags raises errors of many types on an invalid text
         raise RecordingError(f"the recorded definition of {name} cannot be read: {error}") from error
 
 
@@ -141,9 +141,9 @@ def _message_file(name: str) -> Path:
 
 
 def _installed_hash(name: str) -> str | None:
-    """The hash that was computed when the package was built; None before ROS 2 Iron.
+    """Hash that was computed when the package was built; None before ROS 2 Iron.
 
-    The one that rosbags computes is another for types with ``char`` fields.
+    For types with ``char`` fields it differs from the one that rosbags computes.
     """
     path = _message_file(name).with_suffix(".json")
     if not path.is_file():

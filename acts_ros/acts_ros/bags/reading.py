@@ -17,7 +17,7 @@ from acts_core.files import TEXT_BYTES_MAX, require_regular
 from acts_ros.bags.message_types import Definitions
 from acts_ros.bags.salvage import WholeRecords, largest_chunk
 
-# Recorders close a chunk after some megabytes; it is unpacked whole.
+# Recorders close a chunk after some megabytes. It is unpacked as a whole, so a larger one could fill the memory.
 _CHUNK_BYTES_MAX = 1 << 28
 
 
@@ -30,7 +30,7 @@ class Bag:
     connections : list of Connection
         Its topics.
     note : str or None
-        What the user should know about its state.
+        For the user: what is wrong with the bag; None where it is whole.
     """
 
     connections: list[Connection]
@@ -44,7 +44,7 @@ class Bag:
         return {connection.topic: connection.msgtype for connection in self.connections}
 
     def check_definition(self, topic: str) -> None:
-        """Refuse a topic whose messages are of another definition than the one installed; see `Definitions.check`.
+        """Refuse a topic whose recorded definition differs from the installed one; see `Definitions.check`.
 
         Raises
         ------
@@ -56,7 +56,7 @@ class Bag:
                 self._definitions.check(connection)
 
     def recorded_qos(self, topic: str) -> list[Qos]:
-        """What the publishers of a topic offered."""
+        """Quality of service that the publishers of a topic offered."""
         return [
             profile
             for connection in self.connections
@@ -65,7 +65,7 @@ class Bag:
         ]
 
     def span_ns(self, topic: str) -> tuple[int, int]:
-        """Stamps of the first and the last message [ns]: of the bag where it tells, else of the topic.
+        """Stamps of the first and the last message [ns]: of the bag where its metadata say it, else of the topic.
 
         Raises
         ------
@@ -104,7 +104,7 @@ class Bag:
             for connection, stamp_ns, data in messages:
                 yield connection.topic, stamp_ns, bytes(data)
                 count += 1
-        except Exception as error:  # damage shows in whatever way the reader stumbles over it
+        except Exception as error:  # rosbags raises errors of many types on damaged bags
             raise RecordingError(f"the bag '{self._path}' is damaged after {count} messages: {error}") from error
         expected = sum(connection.msgcount for connection in wanted)
         if count < expected and from_ns is None:
@@ -138,7 +138,7 @@ def open_bag(path: Path) -> Iterator[Bag]:
 
 
 def _check_files(path: Path) -> None:
-    """Refuse what may have no end or never begin, and chunks that unpack to more than any recorder puts in one."""
+    """Refuse files that are not regular or too large, and chunks that unpack to more than `_CHUNK_BYTES_MAX`."""
     for file in path.iterdir() if path.is_dir() else [path]:
         size = require_regular(file, error=RecordingError)
         if file.name == "metadata.yaml" and size > TEXT_BYTES_MAX:
@@ -155,12 +155,12 @@ def _check_files(path: Path) -> None:
 def _open_reader(path: Path) -> tuple[Reader | McapReader, str | None]:
     if path.is_dir() and not (path / "metadata.yaml").exists():
         return _salvage(path, "no metadata.yaml"), (
-            f"the bag '{path}' was never closed (recorder killed, or disk full); what is whole of it is read"
+            f"the bag '{path}' was never closed (recorder killed, or disk full); its complete records are read"
         )
     try:
         return _open_complete(path), None
     except RecordingError as error:
-        return _salvage(path, str(error)), f"the bag '{path}' is damaged ({error}); what is whole of it is read"
+        return _salvage(path, str(error)), f"the bag '{path}' is damaged ({error}); its complete records are read"
 
 
 def _open_complete(path: Path) -> Reader:
@@ -173,12 +173,12 @@ def _open_complete(path: Path) -> Reader:
 
 
 def _salvage(path: Path, reason: str) -> McapReader:
-    """Read the whole records of an MCAP file that has no index."""
+    """Read the complete records of an MCAP file that has no index."""
     files = sorted(path.glob("*.mcap")) if path.is_dir() else [path]
     if not files:
         raise RecordingError(f"'{path}' holds no bag that can be read: {reason}, no MCAP file")
     try:
-        # rosbags asks of a path only that it opens.
+        # Of a path, rosbags uses only `open`.
         reader = McapReader(cast(Any, WholeRecords(files[0])))
         reader.open()
     except Exception as damage:

@@ -1,7 +1,7 @@
-"""An MCAP file that ends anywhere, seen as one that ends after its last whole record.
+"""Read an MCAP file that was cut off anywhere, up to its last complete record.
 
-MCAP is a magic number and then records: one byte of kind, eight of length, the content. Readers look for a footer at
-the end, which a killed recorder has not written. Nothing on the disk is changed.
+An MCAP file is a magic number and then records: one byte of kind, eight of length, the content. Readers look for a
+footer at the end, which a killed recorder has not written; it is added in memory. Nothing on the disk is changed.
 """
 
 from __future__ import annotations
@@ -17,14 +17,14 @@ from acts_core.errors import RecordingError
 MAGIC = b"\x89MCAP0\r\n"
 _HEADER = struct.Struct("<BQ")
 _FOOTER, _CHUNK, _DATA_END = 0x02, 0x06, 0x0F
-# Times of the first and the last message, size once unpacked.
+# Times of the first and the last message, size when unpacked.
 _CHUNK_HEAD = struct.Struct("<QQQ")
-# A footer without summary: readers then go through the records.
+# A footer without summary: readers then read all records.
 _NO_SUMMARY = _HEADER.pack(_FOOTER, 20) + bytes(20) + MAGIC
 
 
 def end_of_whole_records(stream: BinaryIO) -> int:
-    """Offset after the last whole record of the data section [bytes].
+    """Offset after the last complete record of the data section [bytes].
 
     Raises
     ------
@@ -38,7 +38,7 @@ def end_of_whole_records(stream: BinaryIO) -> int:
 
 
 def largest_chunk(stream: BinaryIO) -> int:
-    """Size of the largest chunk of the data section once it is unpacked, as the file says it [bytes].
+    """Size of the largest chunk of the data section when unpacked, as its head says [bytes].
 
     Raises
     ------
@@ -55,7 +55,7 @@ def largest_chunk(stream: BinaryIO) -> int:
 
 
 def _whole_records(stream: BinaryIO) -> Iterator[tuple[int, int, int]]:
-    """Kind, offset of the content and its length, of the whole records of the data section."""
+    """Kind, offset of the content and its length [bytes], of each complete record of the data section."""
     size = stream.seek(0, io.SEEK_END)
     stream.seek(0)
     if stream.read(len(MAGIC)) != MAGIC:
@@ -75,7 +75,7 @@ def _whole_records(stream: BinaryIO) -> Iterator[tuple[int, int, int]]:
 
 
 class WholeRecords:
-    """Opens an MCAP file up to its last whole record, with a footer after it.
+    """Opens an MCAP file up to its last complete record, with a footer after it.
 
     Parameters
     ----------

@@ -1,1 +1,1 @@
-"""What every executable begins with: signals, then imports, then nodes."""
+"""The start of every executable: signal handlers first, then imports, then nodes."""

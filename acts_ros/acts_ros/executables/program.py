@@ -1,4 +1,4 @@
-"""The executables of the packages: signals first, then the imports, then the nodes."""
+"""Entry points of the executables: signal handlers first, then imports, then nodes."""
 
 from __future__ import annotations
 
@@ -20,16 +20,16 @@ class Program:
     Parameters
     ----------
     module : str
-        Name of the module; it has a function ``main(signals: StopSignals) -> int``. Where it has ``SETTINGS``, the
-        settings class of each of its nodes by the node's name, ``--help`` prints what it does and its parameters; else
-        ``main`` answers that itself.
+        Name of the module, with a function ``main(signals: StopSignals) -> int``. If it has ``SETTINGS``, the settings
+        class of each of its nodes by the node's name, ``--help`` prints its docstring and parameters; else ``main``
+        handles ``--help``.
     """
 
     def __init__(self, module: str) -> None:
         self._module = module
 
     def __call__(self) -> int:
-        """Run it; the exit code."""
+        """Run the program and return its exit code."""
         stays = take_stay_word(sys.argv)
         code = self._run()
         if code == REFUSED_EXIT_CODE and stays:
@@ -40,9 +40,9 @@ class Program:
         signals = StopSignals()
         try:
             with signals.interrupting():
-                # Matrices of nodes are small. A second thread for them is of no use, and spins for a tenth of a second.
+                # The nodes' matrices are small: a second thread gains nothing, and busy-waits for a tenth of a second.
                 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-                # What is imported stays: to look for garbage in it again and again takes a tenth of the start.
+                # Imported modules stay: searching them for garbage again and again takes a tenth of the start-up.
                 gc.disable()
                 module = import_module(self._module)
                 gc.freeze()
@@ -56,14 +56,14 @@ class Program:
             print(f"error: {error}", file=sys.stderr, flush=True)
             return exit_code(error)
         except KeyboardInterrupt:
-            # Asked to end before anything had begun.
+            # Stopped before the program had started.
             return 0
         finally:
             signals.ended()
 
 
 def _asks_for_help(words: Sequence[str]) -> bool:
-    """Whether the words of a command line ask for help; what is ROS's is not looked at."""
+    """Whether the words of a command line ask for help; ROS arguments are ignored."""
     own = words[: words.index("--ros-args")] if "--ros-args" in words else words
     return "-h" in own or "--help" in own
 

@@ -1,4 +1,4 @@
-"""What ``--help`` of an executable prints; no part of ROS is started for it."""
+"""The text of an executable's ``--help``; ROS is not initialised for it."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _CHANGE = {
 
 
 def program_help(program: str, description: str, nodes: Mapping[str, type]) -> str:
-    """The text.
+    """Text of ``--help``.
 
     Parameters
     ----------
@@ -28,7 +28,7 @@ def program_help(program: str, description: str, nodes: Mapping[str, type]) -> s
     description : str
         What it does.
     nodes : mapping of str to type
-        Name of each of its nodes, and the settings class its parameters are declared from.
+        Settings class of each of its nodes, by the node's name.
     """
     first, *_ = nodes
     example = next(iter(describe(nodes[first])), "name")

@@ -1,7 +1,7 @@
-"""What becomes of a process that refuses what it was given, where its launch file lets it be started again.
+"""A process that refuses its settings waits instead of ending, where it would be started again for ever.
 
-`acts launch` never starts it again (`acts_core.errors.REFUSED_EXIT_CODE`). `ros2 launch` starts it again whatever its
-exit code, for ever; so that it does not, the process stays, does nothing, and says so until it is told to end.
+`acts launch` never restarts such a process (`acts_core.errors.REFUSED_EXIT_CODE`). `ros2 launch` restarts it for ever,
+whatever its exit code. To prevent that, the process stays, does nothing, and repeats a message until it is stopped.
 """
 
 from __future__ import annotations
@@ -15,16 +15,16 @@ from pathlib import Path
 from acts_core.stop_signals import StopSignals
 
 STAY_WORD = "--stay-if-refused"
-"""On the command line of what a launch file lets be started again."""
+"""Argument of processes that a launch file respawns."""
 
 LAUNCHER_VARIABLE = "ACTS_LAUNCHER_KNOWS_REFUSAL"
-"""In the environment of what a launcher started that does not start such a process again; it need not stay there."""
+"""Set in the environment by a launcher that does not restart such a process; it need not stay then."""
 
 _SAID_EVERY_S = 30.0
 
 
 def take_stay_word(words: MutableSequence[str]) -> bool:
-    """Take the word out of a command line; whether this process is to stay."""
+    """Remove `STAY_WORD` from a command line; whether this process is to stay after a refusal."""
     if STAY_WORD not in words:
         return False
     words.remove(STAY_WORD)
@@ -32,15 +32,15 @@ def take_stay_word(words: MutableSequence[str]) -> bool:
 
 
 def stay() -> None:
-    """Say what is the matter, again and again, until a signal comes."""
+    """Print an error every `_SAID_EVERY_S` until a signal comes."""
     told = threading.Event()
     signals = StopSignals()
     signals.on_stop(told.set)
     name = Path(sys.argv[0]).name
     while not told.is_set():
         print(
-            f"error: {name} refuses what it was given, see its error before, and does nothing: started again it would "
-            "refuse it again. End the launch (Ctrl-C), mend that, and launch again.",
+            f"error: {name} refuses what it was given (see its error above) and does nothing: a restart would fail the "
+            "same way. End the launch (Ctrl-C), correct the error, and launch again.",
             file=sys.stderr,
             flush=True,
         )

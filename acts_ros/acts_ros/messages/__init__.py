@@ -1,6 +1,6 @@
-"""Messages as bytes and as our own types.
+"""Conversion of messages to and from serialised bytes and the types of acts_core.
 
-In come frames, contacts and regions; out come the bytes in which they travel, and back.
+In come frames, contacts and regions; out come messages or their bytes, and back.
 """
 
 from acts_ros.messages.cdr import ContactFields, header_of, read_contact, write_contact

@@ -1,9 +1,8 @@
-"""Messages as the bytes in which they travel: the header of any, and all of acts_msgs/Contact.
+"""Serialised messages read and written directly: the header of any message, and all of acts_msgs/Contact.
 
-A thousand times a second, making a message with all its parts and taking it apart again costs several times as much as
-what is done with its numbers; rclpy sends and receives bytes as well. They are CDR (OMG DDS-XTypes 1.3, 7.4.3): four
-bytes of which the second tells the order of bytes, then the fields in their order, each at a multiple of its own size
-counted from there.
+At 1 kHz, building and reading message objects costs several times as much as the work on their numbers; rclpy also
+sends and receives bytes. These are CDR (OMG DDS-XTypes 1.3, 7.4.3): four bytes of encapsulation, of which the second
+gives the byte order, then the fields in order. Each is aligned to a multiple of its size, counted from the fifth byte.
 """
 
 from __future__ import annotations
@@ -18,14 +17,14 @@ from acts_core.errors import PacketError
 _NS_PER_S = 1_000_000_000
 _ORDERS = {b"\x00\x00": ">", b"\x00\x01": "<"}
 ENCAPSULATION_BYTES = 4
-"""Before the first field; places are counted from behind them."""
+"""Length of the encapsulation [bytes]; offsets are counted from its end."""
 _STAMP = "iII"
-"""Seconds, nanoseconds, and the length of frame_id with its closing zero."""
+"""Seconds, nanoseconds, and the length of frame_id with its terminating zero."""
 _STAMP_BYTES = struct.calcsize(f"<{_STAMP}")
 _STAMPS = {order: struct.Struct(order + _STAMP) for order in _ORDERS.values()}
-# Of acts_msgs/Contact, after frame_id: each field as struct calls it, and its size.
+# Of acts_msgs/Contact, after frame_id: each field's `struct` format and size [bytes].
 _CONTACT_FIELDS = [(kind, struct.calcsize(f"<{kind}")) for kind in "I?dddfffHfdddfff"]
-# One for every length of a frame_id that occurs.
+# Cached layouts: one for each length of frame_id.
 _LAYOUTS_KEPT = 64
 
 
@@ -117,7 +116,7 @@ def header_bytes(stamp_ns: int, frame_id: str) -> bytes:
 
 
 def header_parts(data: bytes) -> tuple[int, str, str, int]:
-    """Stamp [ns], frame_id, order of bytes as struct calls it, and where the header ends behind the encapsulation.
+    """Stamp [ns], frame_id, byte order as a `struct` format, and the offset of the header's end.
 
     Raises
     ------
@@ -141,21 +140,21 @@ def header_parts(data: bytes) -> tuple[int, str, str, int]:
 
 
 def padded(at: int, fields: Sequence[tuple[str, int]]) -> tuple[str, int]:
-    """Lay out numbers, each at a multiple of its own size.
+    """Lay out numbers in CDR: each at a multiple of its own size.
 
     Parameters
     ----------
     at : int
-        Where they begin, counted from behind the encapsulation.
+        Offset of the first [bytes].
     fields : sequence of (str, int)
-        Each as struct calls it, and its size.
+        `struct` format and size [bytes] of each.
 
     Returns
     -------
     str
-        The layout as struct calls it, without the order of bytes.
+        `struct` format of all, without the byte order.
     int
-        Where they end.
+        Offset of their end [bytes].
     """
     layout = ""
     for kind, size in fields:
@@ -167,5 +166,5 @@ def padded(at: int, fields: Sequence[tuple[str, int]]) -> tuple[str, int]:
 
 @lru_cache(_LAYOUTS_KEPT)
 def _contact(order: str, at: int) -> struct.Struct:
-    """Layout of what follows a header that ends there."""
+    """Layout of the fields after a header that ends at offset `at`."""
     return struct.Struct(order + padded(at, _CONTACT_FIELDS)[0])

@@ -1,4 +1,4 @@
-"""acts_msgs/RegionContacts as the bytes in which it travels; why, and how CDR is made: `acts_ros.messages.cdr`."""
+"""Serialised acts_msgs/RegionContacts read and written directly; see `acts_ros.messages.cdr`."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from acts_core.errors import PacketError
 from acts_core.skin import RegionContact
 from acts_ros.messages.cdr import ENCAPSULATION_BYTES, header_bytes, header_parts, padded
 
-# Of acts_msgs/RegionContact after its two names: each field as struct calls it, and its size.
+# Of acts_msgs/RegionContact, after its two names: each field's `struct` format and size [bytes].
 _FIELDS = [(kind, struct.calcsize(f"<{kind}")) for kind in "Hfddddddfffffdddf?"]
 _LENGTHS = {order: struct.Struct(f"{order}I") for order in "<>"}
 _COUNTS = {order: struct.Struct(f"{order}II") for order in "<>"}
-# One for every skin whose regions are written.
+# Cached layouts: one for each skin whose regions are written.
 _SKINS_KEPT = 64
 
 
@@ -32,7 +32,7 @@ class RegionsFields(NamedTuple):
 
 
 def write_regions(stamp_ns: int, frame_id: str, sequence: int, regions: Sequence[RegionContact]) -> bytes:
-    """Serialise what the patches of a skin feel, as rclpy does it on a little-endian machine.
+    """Serialise the contacts on the patches of a skin, as rclpy does it on a little-endian machine.
 
     Raises
     ------
@@ -87,7 +87,7 @@ def read_regions(data: bytes) -> RegionsFields:
 
 
 def _string(data: bytes, at: int, order: str) -> tuple[str, int]:
-    """A string and where it ends, both counted from behind the encapsulation."""
+    """The string at an offset, and the offset of its end."""
     at += -at % 4
     (length,) = _LENGTHS[order].unpack_from(data, ENCAPSULATION_BYTES + at)
     begin = ENCAPSULATION_BYTES + at + 4
@@ -98,13 +98,13 @@ def _string(data: bytes, at: int, order: str) -> tuple[str, int]:
 
 @lru_cache(16)
 def _numbers(order: str, at: int) -> struct.Struct:
-    """The numbers of a region that begin at a place, modulo 8."""
+    """Layout of the numbers of a region that begin at offset `at`, modulo 8."""
     return struct.Struct(order + padded(at, _FIELDS)[0])
 
 
 @lru_cache(_SKINS_KEPT)
 def _whole(at: int, lengths: tuple[tuple[int, int], ...]) -> struct.Struct:
-    """All behind the header, which ends at `at`; lengths of name and link of each region with their closing zeros."""
+    """Layout after a header that ends at `at`; `lengths` of name and link of each region include the final zero."""
     layout, at = padded(at, [("I", 4), ("I", 4)])
     for both in lengths:
         for length in both:

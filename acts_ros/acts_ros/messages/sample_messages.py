@@ -1,4 +1,4 @@
-"""Frames of samples as messages, and back."""
+"""Conversion of frames of samples to acts_msgs/TactileSamples and back."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _SCHEMES = {int(scheme): scheme for scheme in Scheme}
 
 
 class SamplesMessage:
-    """Fills one message again and again: building its nested parts anew takes longer than all the rest.
+    """Reuses one message for all frames: building its nested parts takes longer than all the rest.
 
     Parameters
     ----------
@@ -29,7 +29,7 @@ class SamplesMessage:
         self._message.header.frame_id = frame_id
 
     def fill(self, frame: SampleFrame, stamp_ns: int) -> TactileSamples:
-        """The message of a frame; valid until the next call.
+        """Return the message of a frame; valid until the next call.
 
         Parameters
         ----------
@@ -68,7 +68,7 @@ def stamp_ns_of(message: TactileSamples) -> int:
 
 
 def frame_of(message: TactileSamples) -> SampleFrame:
-    """The frame of a message; its stamp becomes `board_us`, a scheme that does not exist UNKNOWN."""
+    """The frame of a message; its stamp becomes `board_us`, and an unknown scheme becomes UNKNOWN."""
     return SampleFrame(
         sequence=int(message.sequence),
         board_us=stamp_ns_of(message) // 1000,

@@ -1,4 +1,4 @@
-"""The one name that the frame of a skin has in all messages."""
+"""The tf2 frame of a skin, which has the same name in all messages."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ _LEGAL = re.compile(r"[^\s/][^\s]*")
 
 
 def skin_frame(node: Node, frame_id: str) -> str:
-    """Frame of a node's skin.
+    """Name of the tf2 frame of a node's skin.
 
     Parameters
     ----------
     node : rclpy.node.Node
         In the skin's namespace.
     frame_id : str
-        What the parameter says; where it is empty or ``none`` the frame is named as the namespace, with _ for /.
+        The parameter; where it is empty or ``none``, the frame has the name of the namespace, with _ for /.
 
     Raises
     ------

@@ -1,1 +1,1 @@
-"""Processes and their programs: find the executables of packages, run them, end them in order. Imports no ROS."""
+"""Find the executables of packages, run them as processes, and stop them in order. Does not import ROS."""

@@ -1,4 +1,4 @@
-"""Where the words of a launch and the output of its processes go: the screen and a log file, as in the real launch."""
+"""Output of a launch and its processes to the screen and a log file, in the format of `ros2 launch`."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from acts_core.errors import LaunchError
 
 
 def make_log_folder() -> Path:
-    """Make a folder for the logs of one launch, below ``ROS_LOG_DIR``, ``ROS_HOME/log`` or ``~/.ros/log``.
+    """Make a folder for the logs of one launch in ``ROS_LOG_DIR``, ``ROS_HOME/log`` or ``~/.ros/log``.
 
     Raises
     ------
@@ -37,7 +37,7 @@ class Console:
     Parameters
     ----------
     folder : Path or None
-        Where the log file goes; None: there is none.
+        Folder of the log file; None: no log file.
     screen : TextIO
         Standard output unless told otherwise.
     """
@@ -53,11 +53,11 @@ class Console:
             self._log.close()
 
     def say(self, level: str, who: str, text: str) -> None:
-        """A message of the launch itself; `level` is INFO, WARNING or ERROR."""
+        """Write a message of the launch itself; `level` is INFO, WARNING or ERROR."""
         self.write(f"[{level}] [{who}]: {text}", to_screen=True, to_log=True)
 
     def write(self, line: str, to_screen: bool, to_log: bool) -> None:
-        """One line; what goes to neither is dropped."""
+        """Write one line to the screen, the log file, both or neither."""
         if to_log and self._log is not None:
             self._log.write(f"{time.time():.7f} {line}\n")
         if to_screen and not self.screen_lost:
@@ -65,5 +65,5 @@ class Console:
                 self._screen.write(f"{line}\n")
                 self._screen.flush()
             except BrokenPipeError:
-                # The reader went away; the launcher sees this and stops its processes in order.
+                # The reader of our output has ended; the launcher notices and stops its processes in order.
                 self.screen_lost = True

@@ -1,6 +1,7 @@
-"""Run processes: start, watch, respawn, and stop them so that none is left behind.
+"""Run processes: start, watch, respawn, and stop all of them.
 
-One thread only: a child is told when its parent's thread ends (`leave_with_parent`), and that must be the main one.
+One thread only: a child gets SIGTERM when the thread that started it ends (`leave_with_parent`), so that must be the
+main thread.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from acts_ros.processes.process import Process
 from acts_ros.processes.respawn import RespawnWait
 
 _STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT)
-# How a process may end once it has been asked to; shells report a signal as 128 + its number.
+# Exit codes after a request to stop that are no failure; shells report a signal as 128 + its number.
 _STOPPED_CODES = (0, -signal.SIGINT, -signal.SIGTERM, 128 + signal.SIGINT, 128 + signal.SIGTERM)
 _DRAIN_S = 0.5
 _PR_SET_PDEATHSIG = 1
@@ -31,7 +32,7 @@ _PR_SET_PDEATHSIG = 1
 
 @dataclass
 class _Child:
-    """One process of the plan and the program that runs for it now, if any."""
+    """One planned process, and its running instance, if any."""
 
     process: Process
     popen: subprocess.Popen[bytes] | None = None
@@ -52,7 +53,7 @@ class _Child:
 
 @dataclass
 class _Stream:
-    """One output pipe and the line that is not complete yet."""
+    """One output pipe, and the line that is not complete yet."""
 
     child: _Child
     pipe: IO[bytes]
@@ -66,13 +67,13 @@ class Launcher:
     Parameters
     ----------
     console : Console
-        Takes their output and our messages.
+        Receives the output of the processes and the launcher's messages.
     sigterm_timeout_s, sigkill_timeout_s : float
-        A process that has not ended this long after SIGINT gets SIGTERM, and this long after that SIGKILL [s].
+        Time after SIGINT at which a process gets SIGTERM, and time after that at which it gets SIGKILL [s].
     name : str
-        Who speaks in our messages.
+        Name of the launcher in its messages.
     ends_on_refusal : bool
-        Whether all end when one ends with `REFUSED_EXIT_CODE`. Such a process is never respawned.
+        Whether all processes are stopped when one ends with `REFUSED_EXIT_CODE`. Such a process is never respawned.
     """
 
     def __init__(
@@ -96,7 +97,7 @@ class Launcher:
         self._stopping = False
 
     def run(self, processes: list[Process]) -> int:
-        """Start the processes and stay until the last one has ended.
+        """Start the processes, and return when the last one has ended.
 
         Parameters
         ----------
@@ -128,9 +129,9 @@ class Launcher:
 
     @contextmanager
     def _signal_wakeup(self) -> Iterator[None]:
-        """Signals only set a note and wake the loop, so that nothing is interrupted half-way."""
+        """Let signals only wake the loop, which handles them; they interrupt nothing else."""
         read_end, write_end = os.pipe2(os.O_NONBLOCK | os.O_CLOEXEC)
-        # Under nohup the end of the terminal is none of our business.
+        # Under nohup, the end of the terminal is to be ignored.
         nohup = signal.getsignal(signal.SIGHUP) is signal.SIG_IGN
         stop_signals = [number for number in _STOP_SIGNALS if not (nohup and number is signal.SIGHUP)]
         handlers = {number: signal.getsignal(number) for number in (*stop_signals, signal.SIGCHLD)}
@@ -150,7 +151,7 @@ class Launcher:
             os.close(write_end)
 
     def _turn(self, timeout_s: float | None) -> None:
-        """Wait for something to happen and see to it."""
+        """Wait for output, a signal, the end of a process or a deadline, and handle it."""
         for key, _ in self._selector.select(timeout_s):
             if key.data is None:
                 with suppress(BlockingIOError):
@@ -161,7 +162,7 @@ class Launcher:
         while self._signals:
             self._on_stop_signal(signal.Signals(self._signals.pop(0)))
         if self._console.screen_lost and not self._stopping:
-            self._stop("the screen went away")
+            self._stop("the output can no longer be written")
         now_s = time.monotonic()
         for child in self._children:
             self._reap(child, now_s)
@@ -186,7 +187,7 @@ class Launcher:
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.PIPE,
-                # A session of its own: the terminal's Ctrl-C must not reach it besides the signal that we send.
+                # In a session of its own it does not get the terminal's Ctrl-C in addition to our signal.
                 start_new_session=True,
                 preexec_fn=leave_with_parent(os.getpid()),
             )
@@ -203,7 +204,7 @@ class Launcher:
             self._selector.register(pipe, selectors.EVENT_READ, _Stream(child, pipe, is_error))
 
     def _read(self, stream: _Stream) -> None:
-        """Pass on what there is; at its end close the pipe."""
+        """Pass on the available output; close the pipe at its end."""
         while True:
             try:
                 data = os.read(stream.pipe.fileno(), 65536)
@@ -234,16 +235,16 @@ class Launcher:
         popen = child.popen
         if popen is None:
             return
-        # Looked at before it is collected: as long as it is not, its process group cannot be anyone else's.
+        # Before it is reaped, its number, which is also that of its process group, cannot be given to another process.
         if os.waitid(os.P_PID, popen.pid, os.WEXITED | os.WNOHANG | os.WNOWAIT) is None:
             return
         with suppress(ProcessLookupError):
-            os.killpg(popen.pid, signal.SIGTERM)  # what it has started itself and left behind
+            os.killpg(popen.pid, signal.SIGTERM)  # processes that it has started and left behind
         code = popen.wait()
         try:
             os.killpg(popen.pid, 0)
         except ProcessLookupError:
-            self._groups.discard(popen.pid)  # from now on the number may become anyone's
+            self._groups.discard(popen.pid)  # the group is empty; its number may be given to another process
         for stream in self._streams():
             if stream.child is child:
                 self._read(stream)
@@ -282,7 +283,7 @@ class Launcher:
             self._stop(words)
 
     def _stop(self, why: str) -> None:
-        """Ask every process to end, once; what does not is escalated by `_turn`."""
+        """Send SIGINT to every process, once; `_turn` escalates for those that do not end."""
         self._stopping = True
         self._console.say("WARNING", self._name, why)
         now_s = time.monotonic()
@@ -307,18 +308,18 @@ class Launcher:
         label = child.process.label
         self._console.say("INFO", label, f"sending signal '{number.name}' to process[{label}]")
         child.killed = number is signal.SIGKILL
-        # The whole group, as a terminal does it: a wrapper script ends together with what it runs.
+        # To the whole group, as a terminal does it: a wrapper script ends together with its program.
         with suppress(ProcessLookupError):
             os.killpg(child.popen.pid, number)
 
     def _drain(self) -> None:
-        """Read what descendants of ended processes still write, for a moment."""
+        """Read the output that descendants of ended processes still write, for `_DRAIN_S`."""
         deadline_s = time.monotonic() + _DRAIN_S
         while self._streams() and time.monotonic() < deadline_s:
             self._turn(timeout_s=0.05)
 
     def _kill_rest(self) -> None:
-        """Whatever is left of any process group, also after an error of our own."""
+        """Kill all that is left of any process group, also after an error of the launcher."""
         for group in self._groups:
             with suppress(ProcessLookupError, PermissionError):
                 os.killpg(group, signal.SIGKILL)
@@ -338,12 +339,12 @@ def _describe_code(code: int) -> str:
 
 
 def leave_with_parent(parent_pid: int) -> Callable[[], None]:
-    """What a child runs before its program: it gets SIGTERM should the parent be killed."""
+    """Return a function for a child to call before its program, so that it gets SIGTERM if its parent is killed."""
     libc = ctypes.CDLL(None, use_errno=True)
 
     def prepare() -> None:
         libc.prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
         if os.getppid() != parent_pid:
-            os._exit(1)  # it was killed before the line above
+            os._exit(1)  # the parent was killed before the line above
 
     return prepare

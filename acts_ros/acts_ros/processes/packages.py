@@ -1,4 +1,4 @@
-"""Find packages and their executables through the ament index, without importing ROS."""
+"""Find packages and their executables in the ament index, without importing ROS."""
 
 from __future__ import annotations
 

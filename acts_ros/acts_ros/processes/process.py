@@ -1,4 +1,4 @@
-"""What is to be started: one process."""
+"""Description of one process to start."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ class Process:
     respawn : bool
         Start it again whenever it ends.
     respawn_delay_s : float
-        Pause before that [s]; longer where it ends again and again (`acts_ros.processes.respawn`).
+        Wait before that [s]; longer where it ends again and again (`acts_ros.processes.respawn`).
     parameter_files : tuple of Path
-        Files among the arguments that were written for it.
+        Temporary params files among its arguments.
     """
 
     label: str

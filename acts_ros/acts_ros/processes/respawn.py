@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 SOON_S = 2.0
-"""A process that ends within this time of its start has ended soon [s]."""
+"""A process that ran for less than this has failed early [s]."""
 
 LONGEST_WAIT_S = 5.0
-"""Waits are doubled up to this [s]."""
+"""Upper limit of the doubled wait [s]."""
 
 
 class RespawnWait:
-    """Waits of one process: short after a crash, longer and longer where it cannot live.
+    """Waits before the restarts of one process: exponential backoff while it fails early.
 
     Parameters
     ----------
     first_s : float
-        The wait after the first end, and after every end that was not soon; also the longest one where it is longer
-        than `LONGEST_WAIT_S` [s].
+        The wait after the first end, and after every end that was not early [s]. If it exceeds `LONGEST_WAIT_S`, it is
+        also the longest wait.
     """
 
     def __init__(self, first_s: float) -> None:
@@ -24,7 +24,7 @@ class RespawnWait:
         self._last_s: float | None = None
 
     def next_s(self, ran_s: float) -> float:
-        """The wait before the next start, where the process has ended after `ran_s` [s]."""
+        """The wait before the next start [s], after the process ran for `ran_s` [s]."""
         if self._last_s is None or ran_s > SOON_S:
             self._last_s = self._first_s
         else:
