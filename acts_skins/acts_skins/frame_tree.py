@@ -1,4 +1,4 @@
-"""Frames that lie fixed in one another, and the way from one to another of them."""
+"""A tree of fixed frames, and the transform between any two of them."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from acts_core.transforms import Transform
 
 @dataclass(frozen=True)
 class Pose:
-    """Where a frame lies in its parent frame."""
+    """Pose of a frame in its parent frame."""
 
     parent: str
     transform: Transform
@@ -28,7 +28,7 @@ class FrameTree:
     Raises
     ------
     SettingsError
-        For frames that are, over others, their own parents.
+        When frames form a cycle.
     """
 
     def __init__(self, poses: Mapping[str, Pose]) -> None:
@@ -37,7 +37,7 @@ class FrameTree:
             self._way_to_root(name)
 
     def between(self, base: str, frame: str) -> Transform:
-        """Where `frame` lies in `base`.
+        """Transform from `frame` to `base`.
 
         Raises
         ------
@@ -49,12 +49,12 @@ class FrameTree:
         if base_root != frame_root:
             raise SettingsError(
                 f"the frame {frame} is fixed to {frame_root}, and {base} to {base_root}: nothing in this file says "
-                f"how these two lie to one another; give {frame_root} a pose under frames, or another base_frame"
+                f"how {frame_root} lies in {base_root}; give {frame_root} a pose under frames, or another base_frame"
             )
         return to_base.inverse() @ to_frame
 
     def _way_to_root(self, frame: str) -> tuple[str, Transform]:
-        """The frame that has no parent, and the place of `frame` in it."""
+        """The root above `frame`, and the transform from `frame` to it."""
         transform, seen = Transform(), [frame]
         while frame in self._poses:
             pose = self._poses[frame]

@@ -1,4 +1,4 @@
-"""The processes that a file of skins comes to. Nothing is started here."""
+"""Plan the processes for a file of skins, without starting them."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ class SkinProcesses:
     simulated : bool
         Whether skins without a recording to replay get a simulated board instead of the one at their port.
     run_dir : Path
-        For what simulated processes share: each skin has a folder of its name in it.
+        Folder for the ports and shared files of simulated boards: each skin has a subfolder of its name.
     namespace : str
-        What the skins' namespaces begin with; empty or like ``/robot``.
+        Prefix of the skins' namespaces; empty or like ``/robot``.
     environment : mapping of str to str
-        Of the processes.
+        Environment of the processes.
     """
 
     def __init__(
@@ -48,7 +48,7 @@ class SkinProcesses:
         Raises
         ------
         SettingsError
-            For what is wrong in the file, with file, line and skin.
+            For an error in the file, with file, line and skin.
         LaunchError
             When a package is not installed.
         """
@@ -82,7 +82,7 @@ class SkinProcesses:
         if parameters.reconstruction.pitch_m:
             world["pitch_m"] = parameters.reconstruction.pitch_m
         pushes = packages.share("acts_config", self._environment) / "params" / "tactile.yaml"
-        # Not as ROS parameters: there a folder's name is read as YAML.
+        # Not as ROS parameters, which are parsed as YAML: a path might be read as a number.
         given = [word for name, value in world.items() for word in ("--set", f"ball_world.{name}={value}")]
         ball_words = [*given, "--ros-args", *self._remaps(skin), "--params-file", f"{pushes}"]
         return [
@@ -106,7 +106,7 @@ class SkinProcesses:
 
 
 def _board_options(driver: DriverSettings) -> list[str]:
-    """What a simulated board is to be like, so that the driver finds it as it wants it."""
+    """Options of a simulated board that match the driver's parameters."""
     words = ["--rows", f"{driver.rows}", "--cols", f"{driver.cols}", "--protocol", driver.protocol]
     words += ["--rate-hz", f"{driver.rate_cap_hz or _BOARD_RATE_HZ}"]
     if driver.scheme:

@@ -1,6 +1,6 @@
-"""`skins`: a process `tactile` for every skin of a file, in simulation with a board to it; one that dies comes again.
+"""`skins`: run a process `tactile` for every skin of a file, and in simulation also its board; restart those that die.
 
-What happens to one skin leaves the others alone. The processes end with this one, also where it is killed.
+A failure of one skin does not affect the others. The processes end with this one, even if it is killed.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from acts_sim.shared import default_run_dir, make_private
 from acts_skins.skin_processes import SkinProcesses
 from acts_skins.skins_file import read_skins
 
-# Together less than the 5 s after which a launch takes further steps.
+# Together less than the 5 s after which a launch sends SIGTERM to this process.
 _SIGTERM_AFTER_S = 3.0
 _SIGKILL_AFTER_S = 1.5
 
@@ -27,9 +27,9 @@ _TRUTHS = {"true": True, "1": True, "false": False, "0": False}
 
 
 def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
-    """Run the skins until told to stop; the exit code."""
+    """Run the skins until told to stop, and return the exit code."""
     signals = StopSignals() if signals is None else signals
-    # The launcher takes the signals over when it begins; until then one breaks off the start.
+    # The launcher installs its own signal handlers; until then, a signal aborts the start.
     with signals.interrupting():
         words = list(sys.argv if args is None else args)[1:]
         own, ros_words = _split(words)
@@ -49,15 +49,17 @@ def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) 
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="skins", description="A process for every skin of a file (docs/skins.md).")
+    parser = argparse.ArgumentParser(
+        prog="skins", description="Run a process for every skin of a file (docs/skins.md)."
+    )
     parser.add_argument("--skins-file", type=Path, required=True, help="YAML file that describes the skins")
     parser.add_argument("--sim", choices=_TRUTHS, default="true", help="whether boards are simulated")
-    parser.add_argument("--run-dir", type=Path, default=default_run_dir(), help="for what simulated boards share")
+    parser.add_argument("--run-dir", type=Path, default=default_run_dir(), help="folder for files of simulated boards")
     return parser
 
 
 def _split(words: list[str]) -> tuple[list[str], list[str]]:
-    """Our words, and those that stand between ``--ros-args`` and ``--``."""
+    """Our arguments, and those between ``--ros-args`` and ``--``."""
     own: list[str] = []
     ros: list[str] = []
     target = own
@@ -72,7 +74,7 @@ def _split(words: list[str]) -> tuple[list[str], list[str]]:
 
 
 def _namespace(ros_words: list[str]) -> str:
-    """The namespace that a launch file pushed; empty for none."""
+    """The namespace that a launch file has set; empty for none."""
     rules = [word.removeprefix("__ns:=") for word in ros_words if word.startswith("__ns:=")]
     namespace = rules[-1].rstrip("/") if rules else ""
     if namespace and not namespace.startswith("/"):

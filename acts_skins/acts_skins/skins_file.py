@@ -1,7 +1,7 @@
-"""The file that describes the skins of a robot: where their samples come from, and where they are. Knows no ROS.
+"""Read the file that describes the skins of a robot: the sources of their samples, and their poses. No ROS.
 
-`docs/skins.md` describes it key by key. The parameters of driver and reconstruction are only gathered here;
-`acts_skins.tactile_parameters` checks them, for who starts the processes.
+`docs/skins.md` describes each key. The parameters of driver and reconstruction are only collected here;
+`acts_skins.tactile_parameters` checks them when processes are planned.
 """
 
 from __future__ import annotations
@@ -31,9 +31,9 @@ _NODES_OF: dict[str, tuple[str, ...]] = {
     "pitch_m": ("reconstruction",),
     "row_pitch_m": ("reconstruction",),
 }
-"""Parameters with a key of their own, and the nodes they go to."""
+"""Parameters with a key of their own, and the nodes that get them."""
 
-# As of the params file of tactile.launch.xml: the board's own are for the paper's scheme.
+# As in the params file of tactile.launch.xml; the defaults of a board are for the paper's scheme.
 _DEFAULTS: dict[str, Any] = {"scheme": "tracking", "m": 55, "threshold_counts": 60}
 
 _FILE_KEYS = ("base_frame", "frames", "skins")
@@ -51,19 +51,19 @@ class Skin:
     name : str
         Its namespace and its frame.
     pose : Pose
-        Where its frame lies.
+        Pose of its frame.
     port : str or None
-        Of its board, as the driver's parameter.
+        Port of its board, as in the driver's parameter.
     replay : Path or None
         Recording that the driver replays in place of a board.
     recording : Path or None
-        What a simulated board feels.
+        Recording that a simulated board plays, or None.
     recording_rate_hz : float
-        Frames per second of that.
+        Frames per second of `recording` [Hz].
     driver, reconstruction : mapping
         Parameters that the file gives to the two nodes, not yet checked.
     section : Section
-        Where the skin stands in the file.
+        Section of the file, for messages.
     """
 
     name: str
@@ -99,16 +99,16 @@ class SkinsFile:
     frames: Mapping[str, Pose]
 
     def poses(self) -> dict[str, Pose]:
-        """Every frame that the file places: its own, then the skins."""
+        """Pose of every frame of the file: its further frames, then the skins."""
         return {**self.frames, **{skin.name: skin.pose for skin in self.skins}}
 
     def in_base(self, base_frame: str = "") -> dict[str, Transform]:
-        """Where each skin lies in `base_frame`, or in the file's.
+        """Transform from each skin to `base_frame`, or to that of the file.
 
         Raises
         ------
         SettingsError
-            When one is not fixed to it.
+            When a skin is not fixed to it.
         """
         tree = FrameTree(self.poses())
         placed = {}
@@ -126,7 +126,7 @@ def read_skins(path: Path) -> SkinsFile:
     Raises
     ------
     SettingsError
-        For anything wrong in it, with file, line, skin and key, and what is allowed.
+        For any error in the file, with file, line, skin and key, and what is allowed.
     """
     path = path.expanduser()
     top = read_yaml(path)
@@ -193,13 +193,13 @@ def _skin(name: str, section: Section) -> Skin:
 
 
 def _file(section: Section, key: str) -> Path | None:
-    """A path, which if relative begins at the file's folder."""
+    """A path; relative ones start at the file's folder."""
     text = section.text(key)
     return None if text is None else section.path.absolute().parent / Path(text).expanduser()
 
 
 def _layout(section: Section) -> str:
-    """A known name, or the path of a file, which begins as other paths do."""
+    """A known name, or the path of a file; relative ones start at the file's folder."""
     text = section.text("layout", "") or ""
     try:
         path = layout_path(text)
@@ -238,13 +238,13 @@ def _check_ports(skins: tuple[Skin, ...]) -> None:
     for skin in skins:
         if skin.port is None:
             continue
-        # Two names of one device, such as those in /dev/serial/by-id, are one port.
+        # Symbolic links, such as those in /dev/serial/by-id, are resolved to the device.
         port = str(Path(skin.port).resolve()) if skin.port.startswith("/") else skin.port
         if port in users:
             raise skin.section.error(f"port = {skin.port}: skin {users[port].name} has this port already", "port")
         users[port] = skin
     if len(users) > 1 and "auto" in users:
         raise users["auto"].section.error(
-            f"port = auto: the only board there is, but {len(users)} skins have one; give serial:NUMBER or a path",
+            f"port = auto works with a single board only, but {len(users)} skins have one; give serial:NUMBER or a path",
             "port",
         )

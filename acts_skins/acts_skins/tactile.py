@@ -1,7 +1,7 @@
-"""`tactile`: driver and reconstruction of one skin in one process, frames handed over in memory.
+"""`tactile`: driver and reconstruction of one skin in one process, which pass frames in memory.
 
-A frame is worked on where it was read, on the reader's thread: from the port to the contact it meets no other thread,
-no executor and no middleware. The message `samples` is sent only while somebody listens.
+The thread that reads a frame from the port also computes its contact, without another thread, executor or middleware
+in between. The message `samples` is published only while it has subscribers.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ SETTINGS: dict[str, type] = {"driver": DriverSettings, "reconstruction": Reconst
 
 
 def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
-    """Run both nodes; the exit code."""
+    """Run both nodes and return the exit code."""
     skip_extras()
     words = list(sys.argv if args is None else args)
     given = parameters_from(words, SETTINGS)
@@ -38,5 +38,5 @@ def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) 
         driver.consumers.append(reconstructions[0].take)
         return driver
 
-    # The driver last: it is destroyed first, and its frames end before the node that takes them.
+    # The driver last, so that it is destroyed first: its frames end before the node that processes them.
     return run([make_reconstruction, make_driver], words, signals)

@@ -1,4 +1,4 @@
-"""The parameters that a file of skins gives to driver and reconstruction, checked by their own settings classes."""
+"""Check the parameters of driver and reconstruction in a file of skins, by their settings classes."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class TactileParameters:
-    """What the two nodes of a skin are given.
+    """Settings of the two nodes of a skin.
 
     Attributes
     ----------
     driver, reconstruction
-        Their settings as they will be.
+        Checked settings.
     words : tuple of str
-        Command line of `tactile` that makes them so.
+        Arguments of `tactile` that result in these settings.
     """
 
     driver: DriverSettings
@@ -37,14 +37,14 @@ class TactileParameters:
 
 
 def tactile_parameters(skin: Skin, port: str) -> TactileParameters:
-    """Check what the file gives.
+    """Check the parameters that the file gives to a skin.
 
     Parameters
     ----------
     skin : Skin
-        Of the file.
+        Skin of the file.
     port : str
-        Of its board, real or simulated; of no effect where the skin has a recording to replay.
+        Port of its board, real or simulated; unused where the skin has a recording to replay.
 
     Raises
     ------
@@ -71,7 +71,7 @@ def tactile_parameters(skin: Skin, port: str) -> TactileParameters:
 
 
 def _settings(settings_class: type[T], skin: Skin, node: str, values: Mapping[str, Any]) -> T:
-    """As `acts_core.settings.from_mapping`, with the place in the file of what is wrong."""
+    """Like `acts_core.settings.from_mapping`, but errors name the place in the file."""
     infos = describe(settings_class)
     arguments = {}
     for name, value in values.items():
@@ -94,8 +94,8 @@ def _place(skin: Skin, node: str, name: str) -> tuple[Section, str]:
 
 
 def _text(value: object) -> str:
-    """A value as `acts_core.settings.from_text` reads it: text as it stands, everything else as in YAML."""
+    """Text that `acts_core.settings.from_text` reads as `value`: strings unchanged, everything else as YAML."""
     if isinstance(value, str):
         return value
-    # In a list, since YAML ends a lone value with a line of its own.
+    # In a list, because PyYAML appends a line "..." to a single value.
     return yaml.safe_dump([value], default_flow_style=True, width=math.inf).strip()[1:-1]

@@ -197,7 +197,7 @@ def test_what_cannot_be_is_dropped_and_told(robot: Robot, tmp_path: Path) -> Non
         return any(words in status.message for array in reports for status in array.status)
 
     with running(tmp_path, 164) as process:
-        robot.until(lambda: told("contacts of left with numbers that are none dropped"), press)
+        robot.until(lambda: told("contacts of left with NaN or infinite values dropped"), press)
         robot.until(lambda: told("contacts of left in the frame 'elsewhere' dropped"), press)
         robot.until(lambda: told("right is lost: no contacts yet, stamps lie 100 s ahead of this clock"), press)
         robot.until(lambda: bool(robot.merged[-1].contacts), press)

@@ -163,7 +163,7 @@ def test_a_wrong_pose_is_told_with_its_place(tmp_path: Path, pose: str, words: l
         (f"skins: {{a: {{{POSE}}}}}\nframes: {{a: {{parent: b}}}}", "same name"),
         (f"base_frame: '/x'\nskins: {{a: {{{POSE}}}}}", "base_frame = '/x'"),
         (f"skins: {{a: {{port: COM1, {POSE}}}, b: {{port: COM1, {POSE}}}}}", "skin a has this port already"),
-        (f"skins: {{a: {{port: auto, {POSE}}}, b: {{port: COM1, {POSE}}}}}", "the only board there is"),
+        (f"skins: {{a: {{port: auto, {POSE}}}, b: {{port: COM1, {POSE}}}}}", "works with a single board only"),
         ("x: &a [*a]", "not valid YAML"),
     ],
 )

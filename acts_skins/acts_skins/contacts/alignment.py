@@ -1,4 +1,4 @@
-"""Which frame of each skin belongs to one common time, and which skins have fallen silent. Knows no ROS."""
+"""Frames of several skins at one common time, and which skins are stale or lost. Does not depend on ROS."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from acts_core.settings import setting, validate
 F = TypeVar("F")
 
 _NS_PER_S = 1_000_000_000
-# Frames of a skin that wait for the others: more than any alignment asks for at 1 kHz.
+# Limit of frames that wait for other skins: more than any `align_s` needs at 1 kHz.
 _MAX_WAITING = 1024
 
 
 @dataclass(frozen=True)
 class AlignmentConfig:
-    """How long is waited for skins."""
+    """Time limits for skins that are slow, stale or lost."""
 
     align_s: float = setting(
         0.02,
@@ -33,7 +33,7 @@ class AlignmentConfig:
     )
     lost_after_s: float = setting(
         0.5,
-        "a skin is lost, and its contacts no longer given, when they are older than this [s]",
+        "a skin is lost, and its contacts are no longer published, when they are older than this [s]",
         minimum=0.001,
         maximum=60.0,
     )
@@ -53,7 +53,7 @@ class AlignmentConfig:
 
 
 class SkinState(Enum):
-    """How a skin is heard of; see acts_msgs/SkinState."""
+    """Age of a skin's newest data, in three levels; see acts_msgs/SkinState."""
 
     FRESH = 0
     STALE = 1
@@ -71,7 +71,7 @@ class AlignedSkin(Generic[F]):
     stamp_ns : int or None
         Of `frame`.
     age_s : float
-        How old that is at present [s].
+        Present age of `stamp_ns` [s].
     frame : object or None
         The newest frame at or before the common time; None where there is none, or the skin is lost.
     silent_s : float or None
@@ -96,7 +96,7 @@ class Aligned(Generic[F]):
 
 @dataclass
 class Counters:
-    """What was received of a skin, and dropped."""
+    """Numbers of frames of a skin that were received, and that were dropped."""
 
     frames: int = 0
     future: int = 0
@@ -112,10 +112,10 @@ class _Skin(Generic[F]):
 
 
 class Aligner(Generic[F]):
-    """Takes frames of several skins, each with its time of measurement, and gives all of them at a common time.
+    """Aligns frames of several skins, each with its time of measurement, to a common time.
 
-    The common time is the newest for which every fresh skin has a frame at or before it that is its newest, as far as
-    `align_s` allows. It never goes back, unless the clock was set back.
+    Of the newest stamps t of all fresh skins, the common time is max(min t, max t - `align_s`). It never decreases,
+    unless the clock was set back.
 
     Parameters
     ----------
@@ -137,7 +137,7 @@ class Aligner(Generic[F]):
         self.counters = {name: Counters() for name in names}
 
     def take(self, name: str, stamp_ns: int, frame: F, now_ns: int) -> None:
-        """Take a frame.
+        """Queue a frame.
 
         Parameters
         ----------
@@ -146,7 +146,7 @@ class Aligner(Generic[F]):
         stamp_ns : int
             When it was measured [ns].
         frame : object
-            Handed back by `step`.
+            Returned by `step`.
         now_ns : int
             The present, by the same clock [ns].
         """
@@ -163,14 +163,14 @@ class Aligner(Generic[F]):
             skin.waiting.append((stamp_ns, frame))
 
     def step(self, now_ns: int) -> Aligned[F]:
-        """All skins at the common time, which is not after `now_ns` by more than stamps may be."""
+        """All skins at the common time, which is later than `now_ns` by at most `future_s`."""
         self._look_at_clock(now_ns)
         fresh = [
             skin.newest_ns
             for skin in self._skins.values()
             if skin.newest_ns is not None and now_ns - skin.newest_ns <= self._stale_ns
         ]
-        # Where there is nothing fresh, what is still held is told at the present.
+        # Without a fresh skin, the remaining frames are returned with the present time.
         time_ns = max(min(fresh), max(fresh) - self._align_ns) if fresh else now_ns
         self._time_ns = max(self._time_ns, time_ns)
         return Aligned(self._time_ns, tuple(self._aligned(name, skin, now_ns) for name, skin in self._skins.items()))
@@ -192,7 +192,7 @@ class Aligner(Generic[F]):
         return AlignedSkin(name, state, stamp_ns, max(now_ns - stamp_ns, 0) / _NS_PER_S, frame, silent_s)
 
     def _look_at_clock(self, now_ns: int) -> None:
-        """Forget everything where the clock was set back: all stamps would lie in the future."""
+        """Reset where the clock was set back, since all stamps would lie in the future."""
         if self._now_ns is not None and now_ns < self._now_ns - self._future_ns:
             self._skins = {name: _Skin() for name in self._skins}
             self._time_ns = 0

@@ -1,4 +1,4 @@
-"""Something done at a fixed rate in a thread of its own: a timer of rclpy does not keep 1 kHz."""
+"""A function called at a fixed rate in a thread of its own, because a timer of rclpy does not keep 1 kHz."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from collections.abc import Callable
 
 
 class Cycle:
-    """Calls `work` at absolute deadlines; those that were missed are left out.
+    """Calls `work` at absolute deadlines; missed deadlines are skipped.
 
     Parameters
     ----------
     rate_hz : float
-        How often.
+        Calls per second [Hz].
     work : callable
-        One that raises ends the cycle.
+        Called without arguments; an exception ends the cycle and is kept in `failure`.
     """
 
     def __init__(self, rate_hz: float, work: Callable[[], None]) -> None:
@@ -32,7 +32,7 @@ class Cycle:
         self._thread.start()
 
     def stop(self) -> None:
-        """End, and wait until the last call has returned."""
+        """Stop, and wait until the last call has returned."""
         self._stopped.set()
         if self._thread.is_alive():
             self._thread.join()
@@ -42,7 +42,7 @@ class Cycle:
         while not self._stopped.wait(max(0.0, due_s - time.monotonic())):
             try:
                 self._work()
-            except Exception as error:  # noqa: BLE001 - told by whoever looks at `failure`
+            except Exception as error:  # noqa: BLE001 - the owner reports `failure`
                 self.failure = error
                 return
             self.cycles += 1

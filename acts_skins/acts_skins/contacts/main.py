@@ -1,7 +1,7 @@
-"""`skin_contacts`: the contacts of the skins of a file merged.
+"""`skin_contacts`: merge the contacts of all skins of a file.
 
-The node of this name, and those of `skin_overview` (where the skins are, and an aggregate of their diagnostics), in one
-process.
+One process with the node of this name and those of `skin_overview` (frames of the skins, and an aggregate of their
+diagnostics).
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ SETTINGS: dict[str, type] = {**overview.SETTINGS, "skin_contacts": SkinContactsS
 
 
 def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
-    """Run the nodes; the exit code."""
+    """Run the nodes and return the exit code."""
     words = list(sys.argv if args is None else args)
     given = parameters_from(words, SETTINGS)
     return run(

@@ -1,4 +1,4 @@
-"""Contacts as messages: those of a skin in, those of all skins out."""
+"""Conversion of messages: contacts of one skin in, contacts of all skins out."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from acts_msgs.msg import Contact, Contacts, SkinContact, TrackedContact
 from acts_skins.contacts.placing import PlacedTouch, Touch
 
 CONTACT_TYPES = {"contacts": Contacts, "contact": Contact}
-"""Topics of a skin that contacts can be taken from: told apart and numbered, or all that presses as one."""
+"""Topics of a skin that can be merged: tracked contacts with numbers, or all pressure as one contact."""
 
 
 def touches(message: Contacts | Contact) -> list[Touch]:
-    """The contacts of a skin's message, also those with numbers that are none."""
+    """The contacts of a skin's message, including those with NaN or infinite values."""
     if isinstance(message, Contacts):
         return [_tracked(contact) for contact in message.contacts]
     return [_whole(message)] if message.in_contact else []

@@ -1,4 +1,4 @@
-"""The node `skin_contacts`: the contacts of every skin of a file in; all of them in one frame and one message out."""
+"""The node `skin_contacts`: merges the contacts of all skins of a file, in one frame, into one message."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from acts_skins.skins_file import read_skins
 
 _NS_PER_S = 1_000_000_000
 _FRAMES_HZ = 1000.0
-# How many cycles the node may be held up before frames of a skin are lost; at least so many frames are kept.
+# Queues hold the frames of this many cycles, and at least this many frames, in case the node is delayed.
 _CYCLES_KEPT = 4
 _FRAMES_KEPT = 64
 
@@ -42,13 +42,13 @@ class SkinContactsSettings(AlignmentConfig):
     rate_hz: float = setting(100.0, "how often the merged contacts are published [Hz]", minimum=1.0, maximum=1000.0)
     topic: str = setting(
         "contacts",
-        "topic of each skin that is merged: contacts, told apart and numbered, or contact, all that presses as one",
+        "topic of each skin that is merged: contacts (tracked, with numbers), or contact (all pressure as one)",
         choices=tuple(CONTACT_TYPES),
     )
 
 
 class SkinContactsNode(PollingNode):
-    """Translates between topics, `Aligner` and `Placement`.
+    """Connects topics with `Aligner` and `Placement`.
 
     Reads ``SKIN/contacts`` (acts_msgs/Contacts) of every skin when a cycle is due, and publishes ``skin_contacts``
     (acts_msgs/SkinContacts).
@@ -85,7 +85,7 @@ class SkinContactsNode(PollingNode):
         self._cycle.start()
 
     def close(self) -> None:
-        """End it."""
+        """Stop merging."""
         self._cycle.stop()
 
     def _step(self) -> None:
@@ -98,7 +98,7 @@ class SkinContactsNode(PollingNode):
                     self._refused[name, "without a header"] += 1
                     continue
                 if frame_id != name:
-                    # Its pose is not in the file.
+                    # The file does not give the pose of this frame.
                     self._refused[name, f"in the frame {frame_id!r}"] += 1
                     continue
                 self._aligner.take(name, stamp_ns, data, now_ns)
@@ -119,7 +119,7 @@ class SkinContactsNode(PollingNode):
                 state.stamp.sec, state.stamp.nanosec = divmod(skin.stamp_ns, _NS_PER_S)
                 for touch in touches(deserialize_message(skin.frame, self._kind)):
                     if not touch.is_finite():
-                        self._refused[skin.name, "with numbers that are none"] += 1
+                        self._refused[skin.name, "with NaN or infinite values"] += 1
                         continue
                     placed = self._placements[skin.name].place(touch)
                     contacts.append(skin_contact(skin.name, self._links[skin.name], placed))

@@ -1,4 +1,4 @@
-"""Contacts of a skin, from the skin's frame into the robot's. Knows no ROS."""
+"""Transform contacts from a skin's frame to the robot's. Does not depend on ROS."""
 
 from __future__ import annotations
 
@@ -38,20 +38,20 @@ class Touch:
 
 @dataclass(frozen=True)
 class PlacedTouch:
-    """Where and how a contact acts on the robot.
+    """A contact in the robot's frame.
 
     Attributes
     ----------
     position_m, velocity_m_s : tuple of float
         Centre of pressure and its velocity along the skin, in the robot's frame.
     normal : tuple of float
-        Out of the skin, of length 1.
+        Unit vector out of the skin.
     force_n : tuple of float
-        Of what presses on the robot [N].
+        Force on the robot [N].
     position_sd_m, velocity_sd_m_s : tuple of float
         Standard deviations along the axes of the robot's frame.
     touch : Touch
-        The rest.
+        The contact in the skin's frame.
     """
 
     position_m: Vector
@@ -64,7 +64,7 @@ class PlacedTouch:
 
 
 class Placement:
-    """Where a skin is on the robot.
+    """Position and orientation of a skin on the robot.
 
     Parameters
     ----------
@@ -79,8 +79,8 @@ class Placement:
         self.normal = _vector(self._rotation[:, 2])
 
     def place(self, touch: Touch) -> PlacedTouch:
-        """A contact of the skin in the robot's frame."""
-        # Errors along the skin's axes are independent, so their variances add up along others.
+        """Transform a contact of the skin to the robot's frame."""
+        # Errors along the skin's axes are independent: the variances are diag(R S R') with S diagonal.
         deviations = np.sqrt(np.array([touch.position_sd_m, touch.velocity_sd_m_s]) ** 2 @ self._squares.T)
         return PlacedTouch(
             position_m=_vector(self._rotation @ np.asarray(touch.position_m) + self._origin_m),

@@ -1,1 +1,1 @@
-"""What is to be known of all skins together: where they are, and whether all is well."""
+"""All skins together: their frames, and an aggregate of their diagnostics."""

@@ -1,4 +1,4 @@
-"""The diagnostics of all skins as one tree, in the manner of ROS's diagnostic_aggregator. Knows no ROS."""
+"""The diagnostics of all skins as one tree, like ROS's diagnostic_aggregator. Does not depend on ROS."""
 
 from __future__ import annotations
 
@@ -31,13 +31,13 @@ class Aggregate:
     skins : sequence of str
         Their names.
     prefix : str
-        What the skins' namespaces begin with, such as ``robot/``; or empty.
+        Common prefix of the skins' namespaces, such as ``robot/``; or empty.
     root : str
-        Name of the whole.
+        Name of the tree's root.
     stale_after_s : float
-        A node that was not heard of for so long is stale [s].
+        A node whose last status is older than this is stale [s].
     others : sequence of str
-        Nodes beside the skins that belong to the whole once they were heard of.
+        Nodes of no skin that are part of the tree from their first status on.
     """
 
     def __init__(
@@ -56,7 +56,7 @@ class Aggregate:
         self._heard: dict[str, tuple[float, Status]] = {}
 
     def take(self, status: Status, now_s: float) -> None:
-        """Take a status by a node's full name without the first slash; others than the skins' are left out."""
+        """Store a status, whose name is a node's full name without the first slash; ignore nodes of no skin."""
         if not status.name.startswith(self._prefix):
             return
         name = status.name.removeprefix(self._prefix)
@@ -64,7 +64,7 @@ class Aggregate:
             self._heard[name] = (now_s, status)
 
     def step(self, now_s: float) -> list[Status]:
-        """The whole first, then every skin, each followed by its nodes."""
+        """The status of the root, then of every skin, each followed by its nodes."""
         parts = [self._skin(skin, now_s) for skin in self._skins]
         parts += [[self._node(name, now_s)] for name in self._others if name in self._heard]
         heads = [part[0] for part in parts]
@@ -107,7 +107,7 @@ class Aggregate:
 
 
 def _worst(levels: Sequence[int]) -> int:
-    """The worst level; what is stale beside others that are not is an error."""
+    """The worst level; STALE only if all are stale, for a stale part beside others is an error."""
     if all(level == STALE for level in levels):
         return STALE
     return min(max(levels), ERROR)

@@ -1,4 +1,4 @@
-"""The node `skin_diagnostics`: one aggregate of what the nodes of all skins say on /diagnostics."""
+"""The node `skin_diagnostics`: aggregates what the nodes of all skins publish on /diagnostics."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class SkinDiagnosticsSettings:
 
     skins_file: str = setting("", "YAML file that describes the skins; needed")
     stale_after_s: float = setting(
-        3.0, "a node that has not been heard of for so long is stale [s]", minimum=1.0, maximum=60.0
+        3.0, "a node whose last status is older than this is stale [s]", minimum=1.0, maximum=60.0
     )
 
     def __post_init__(self) -> None:
@@ -67,7 +67,7 @@ class SkinDiagnosticsNode(Node):
 
 
 def status_of(message: DiagnosticStatus) -> Status:
-    """A status as it came in a message."""
+    """Convert a status from its message."""
     values = {value.key: value.value for value in message.values}
     return Status(message.name, int.from_bytes(message.level, "little"), message.message, message.hardware_id, values)
 

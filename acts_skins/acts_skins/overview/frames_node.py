@@ -1,4 +1,4 @@
-"""The node `skin_frames`: where the skins are, for everybody who has to know."""
+"""The node `skin_frames`: publishes the frames of the skins."""
 
 from __future__ import annotations
 
@@ -31,9 +31,9 @@ class SkinFramesSettings:
 
 
 class SkinFramesNode(Node):
-    """Publishes once, kept for late joiners: ``/tf_static`` with all frames, and ``SKIN/pose`` for every skin.
+    """Publishes once, also for late joiners: ``/tf_static`` with all frames, and ``SKIN/pose`` for every skin.
 
-    Where tf2_msgs is not installed (it is no Python package) there are only the latter.
+    Without tf2_msgs (ROS installations have it, Python's package index does not) it publishes only the poses.
     """
 
     def __init__(self, **options: Any) -> None:
@@ -43,7 +43,7 @@ class SkinFramesNode(Node):
             raise SettingsError("skins_file is missing: the YAML file that describes the skins (docs/skins.md)")
         skins_file = read_skins(Path(settings.skins_file))
         transforms = static_transforms(skins_file.poses(), self.get_clock().now().to_msg())
-        # Kept: with a publisher its last message would go.
+        # Kept: late joiners get the last message only while its publisher exists.
         self._pose_publishers = []
         for skin in skins_file.skins:
             publisher = self.create_publisher(TransformStamped, f"{skin.name}/pose", qos.LATCHED)
@@ -58,7 +58,7 @@ class SkinFramesNode(Node):
 
 
 def static_transforms(poses: Mapping[str, Pose], stamp: Time) -> dict[str, TransformStamped]:
-    """The transforms of frames, by the frames' names, as tf2 has them: from the frame into its parent."""
+    """Transforms as tf2 defines them, from a frame to its parent, by the frame's name."""
     transforms = {}
     for name, pose in poses.items():
         message = TransformStamped(child_frame_id=name)

@@ -1,6 +1,6 @@
-"""`skin_overview`: where the skins of a file are, and one aggregate of their diagnostics.
+"""`skin_overview`: publish the frames of the skins of a file, and an aggregate of their diagnostics.
 
-The nodes `skin_frames` and `skin_diagnostics` in one process.
+One process with the nodes `skin_frames` and `skin_diagnostics`.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ SETTINGS: dict[str, type] = {"skin_frames": SkinFramesSettings, "skin_diagnostic
 
 
 def factories(given: Mapping[str, list[Parameter]]) -> list[Callable[[], Node]]:
-    """What makes the two nodes with their parameters."""
+    """Functions that make the two nodes with their parameters."""
     return [
         lambda: SkinFramesNode(parameter_overrides=given["skin_frames"]),
         lambda: SkinDiagnosticsNode(parameter_overrides=given["skin_diagnostics"]),
@@ -30,6 +30,6 @@ def factories(given: Mapping[str, list[Parameter]]) -> list[Callable[[], Node]]:
 
 
 def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
-    """Run both nodes; the exit code."""
+    """Run both nodes and return the exit code."""
     words = list(sys.argv if args is None else args)
     return run(factories(parameters_from(words, SETTINGS)), words, signals)
