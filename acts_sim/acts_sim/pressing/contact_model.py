@@ -8,6 +8,7 @@ it into counts through the array's force response, with its own sensitivity and 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,6 +18,7 @@ from acts_core.array import COUNT_MAX, ArrayGeometry
 from acts_core.settings import setting, validate
 from acts_core.skin import ForceResponse
 from acts_sim.pressing.objects import ContactObject
+from acts_sim.pressing.outlines import Field
 
 _MARGIN_TAXELS = 2
 """How far beyond the array's edge foam is modelled: pressure there still spreads onto it."""
@@ -105,9 +107,26 @@ class ContactModel:
         dx, dy = (self._x - press.x_m) / press.scale, (self._y - press.y_m) / press.scale
         gap = item.gap_m(c * dx + s * dy, -s * dx + c * dy) * press.scale
         gap += press.tilt_x * (self._x - press.x_m) + press.tilt_y * (self._y - press.y_m)
-        pressure = self.config.stiffness_n_per_m3 * np.maximum(press.depth_m - gap, 0.0)
+        return self._carried_n(self.config.stiffness_n_per_m3 * np.maximum(press.depth_m - gap, 0.0))
+
+    def forces_under(self, pressure_pa: Callable[[Field, Field], Field]) -> NDArray[np.float64]:
+        """Force on every taxel [N] under a pressure that comes from elsewhere, as from a ball that deforms itself.
+
+        Parameters
+        ----------
+        pressure_pa : callable
+            ``pressure_pa(x_m, y_m)``: pressure on the foam [Pa] at points of the skin's frame, also up to two taxels
+            beyond the array's edge; same shape as the arguments.
+
+        Returns
+        -------
+        np.ndarray [shape=(rows, cols), dtype=float64]
+        """
+        return self._carried_n(pressure_pa(self._x, self._y))
+
+    def _carried_n(self, pressure_pa: Field) -> NDArray[np.float64]:
         point_area_m2 = (self.geometry.pitch_m / self.config.subsamples) ** 2
-        return self._to_rows @ pressure @ self._to_cols.T * point_area_m2
+        return self._to_rows @ pressure_pa @ self._to_cols.T * point_area_m2
 
     def counts(self, forces_n: NDArray[np.float64]) -> NDArray[np.uint16]:
         """One reading of every taxel under these forces, with noise.

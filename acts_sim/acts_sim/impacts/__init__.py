@@ -1,0 +1,25 @@
+"""Balls that are dropped and thrown on a skin: flight, contact, footprint, and the frames that a board would read.
+
+In come a ball and how it is thrown; out come full frames at a high rate, and what really happened: force, centre, time.
+"""
+
+from acts_sim.impacts.balls import BALLS, DROP_HEIGHT_M, Ball, ball_named
+from acts_sim.impacts.scene import SCENE_RATE_HZ, Scene, footprint_n, scene, skin_of
+from acts_sim.impacts.throw import Collision, Throw, collide, dropped, thrown
+
+__all__ = [
+    "BALLS",
+    "DROP_HEIGHT_M",
+    "SCENE_RATE_HZ",
+    "Ball",
+    "Collision",
+    "Scene",
+    "Throw",
+    "ball_named",
+    "collide",
+    "dropped",
+    "footprint_n",
+    "scene",
+    "skin_of",
+    "thrown",
+]
