@@ -1,4 +1,4 @@
-"""The executables of this package, see setup.py. Nothing else is imported here: signals come first."""
+"""The executables of this package, see setup.py. Imports nothing else, so that signal handlers come first."""
 
 from acts_ros.executables.program import Program
 

@@ -245,6 +245,7 @@ def _check_ports(skins: tuple[Skin, ...]) -> None:
         users[port] = skin
     if len(users) > 1 and "auto" in users:
         raise users["auto"].section.error(
-            f"port = auto works with a single board only, but {len(users)} skins have one; give serial:NUMBER or a path",
+            f"port = auto works with a single board only, but {len(users)} skins have one; "
+            "give serial:NUMBER or a path",
             "port",
         )

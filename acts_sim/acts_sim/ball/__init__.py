@@ -1,4 +1,5 @@
-"""The simulated plate with its ball, between the robot's joints and the board's taxels.
+"""The simulated plate with its ball, from the robot's joints to the board's taxels.
 
-In come joint angles; out come the counts of every taxel and the ball's true place. The physics knows no process.
+In come joint angles; out come the counts of every taxel and the ball's true position. The physics depends on no clock
+and no process.
 """

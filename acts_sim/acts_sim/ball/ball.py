@@ -12,10 +12,10 @@ from acts_sim.ball.ball_plate import PlateMotion
 
 @dataclass(frozen=True)
 class BallConfig:
-    """The ball. The default is of steel, 0.51 kg.
+    """The ball; by default of steel, 0.51 kg.
 
-    The coefficient of rolling resistance is assumed: between a steel wheel on a rail (about 0.001) and a car's tyre on
-    asphalt (about 0.01 to 0.015), as foam is soft but the ball sits in it only a few millimetres deep.
+    The coefficient of rolling resistance is an assumption between those of a steel wheel on a rail (about 0.001) and of
+    a car's tyre on asphalt (about 0.01 to 0.015): foam is soft, but the ball sinks in only a few millimetres.
     """
 
     diameter_m: float = setting(0.050, "diameter of the ball [m]", minimum=0.005, maximum=0.2)
@@ -40,14 +40,14 @@ class BallConfig:
 
 @dataclass(frozen=True)
 class BallState:
-    """Where the ball is, in the skin's frame.
+    """State of the ball in the skin's frame.
 
     Attributes
     ----------
     x_m, y_m : float
         Position of its centre over the skin [m].
     vx_m_s, vy_m_s : float
-        Velocity against the plate [m/s].
+        Velocity relative to the plate [m/s].
     load_n : float
         Normal force on the plate during the last step [N].
     """
@@ -60,22 +60,22 @@ class BallState:
 
 
 def step(config: BallConfig, state: BallState, plate: PlateMotion, dt_s: float) -> BallState:
-    """Let the ball roll for a short time.
+    """Advance the ball by one time step.
 
     Parameters
     ----------
     config : BallConfig
     state : BallState
     plate : PlateMotion
-        How the plate moves meanwhile.
+        Motion of the plate during the step.
     dt_s : float
-        [s]
+        Length of the step [s].
 
     Returns
     -------
     BallState
-        The ball is held to the plate's plane: where the plate drops away faster than the ball would fall, the load is 0
-        and the flight itself is left out.
+        The ball stays in the plate's plane: where the plate accelerates downwards faster than the ball would fall, the
+        load is 0, and the flight is not simulated.
     """
     x_m, y_m, vx_m_s, vy_m_s, load = roll(
         state.x_m,

@@ -1,9 +1,9 @@
-"""What a ball lying on the skin presses: a sphere in foam over the array, in counts of every taxel.
+"""Counts of all taxels under a ball: a sphere pressed into foam over the array.
 
-The foam is an elastic foundation: its pressure is its stiffness times how deep the sphere sits in it, so that inside
-the contact circle ``p(r) = k (depth - r^2 / (2 R))``. The force of all of it, ``pi k R depth^2``, balances the load,
-which gives the depth. On its way through the foam the pressure spreads as a Gaussian; each taxel carries the mean over
-its square and turns it into counts through the force response.
+The foam is an elastic (Winkler) foundation: pressure is stiffness times depth, so inside the contact circle
+``p(r) = k (depth - r^2 / (2 R))``. The total force ``pi k R depth^2`` equals the load, which gives the depth. In the
+foam, the pressure spreads sideways as a Gaussian. Each taxel carries the mean over its square, and the force response
+gives its counts.
 """
 
 from __future__ import annotations
@@ -24,17 +24,14 @@ from acts_sim.ball.ball_kernels import SPREAD_OFFSETS, SPREAD_WEIGHTS, SUBPOINTS
 class ContactConfig:
     """The foam over the array.
 
-    The default stiffness is that of 8 mm of soft neoprene sponge: its grade 2A1 of ASTM D1056 takes 14 to 34 kPa at
-    25 % compression, so 0.7e7 to 1.7e7 N/m^3. A steel ball of 50 mm then sits 2.8 mm deep on a circle of 24 mm, 5
-    taxels of the paper's array. The paper names neoprene foam (S11) but neither its thickness nor its stiffness: an
-    assumption.
+    The default stiffness is an assumption: that of 8 mm of soft neoprene sponge. Its grade 2A1 of ASTM D1056 needs 14
+    to 34 kPa for 25 % compression, so 0.7e7 to 1.7e7 N/m^3. A steel ball of 50 mm then sinks 2.8 mm deep, on a circle
+    of 24 mm or 5 taxels of the paper's array. The paper names neoprene foam (S11), but not its thickness or stiffness.
     """
 
-    foam_stiffness_n_per_m3: float = setting(
-        8.0e6, "pressure of the foam over the depth pressed into it [N/m^3]", minimum=1e5, maximum=1e10
-    )
+    foam_stiffness_n_per_m3: float = setting(8.0e6, "pressure of the foam per depth [N/m^3]", minimum=1e5, maximum=1e10)
     foam_spread_m: float = setting(
-        0.0020, "standard deviation of how the foam spreads pressure sideways [m]", minimum=0.0, maximum=0.02
+        0.0020, "standard deviation of the sideways spread of pressure in the foam [m]", minimum=0.0, maximum=0.02
     )
 
     def __post_init__(self) -> None:
@@ -42,14 +39,14 @@ class ContactConfig:
 
 
 def depth_m(config: ContactConfig, radius_m: float, load_n: float) -> float:
-    """How deep a sphere sits in the foam under a load [m]; 0 without load."""
+    """Depth of a sphere in the foam under a load [m]; 0 without load."""
     return math.sqrt(max(load_n, 0.0) / (math.pi * config.foam_stiffness_n_per_m3 * radius_m))
 
 
 def forces_n(
     config: ContactConfig, geometry: ArrayGeometry, radius_m: float, x_m: float, y_m: float, load_n: float
 ) -> NDArray[np.float64]:
-    """Force on every taxel, written plainly; `BallContact` computes the same much faster.
+    """Force on every taxel; reference implementation of the kernel that `BallContact` uses.
 
     Parameters
     ----------
@@ -58,14 +55,14 @@ def forces_n(
     radius_m : float
         Of the ball.
     x_m, y_m : float
-        Where the ball is, in the skin's frame.
+        Position of the ball in the skin's frame [m].
     load_n : float
-        Normal force between ball and skin.
+        Normal force between ball and skin [N].
 
     Returns
     -------
     np.ndarray [shape=(rows, cols), dtype=float64]
-        [N]
+        Forces [N].
     """
     depth = depth_m(config, radius_m, load_n)
     total = np.zeros((geometry.rows, geometry.cols))
@@ -81,12 +78,12 @@ def forces_n(
 
 
 class BallContact:
-    """The field of counts under a ball, computed in place a thousand times a second.
+    """Counts of all taxels under a ball, computed in place for speed.
 
     Attributes
     ----------
     counts : np.ndarray [shape=(rows, cols), dtype=float64]
-        What the last `press` left: ADC counts before noise and rounding.
+        ADC counts of the last `press`, before noise and rounding.
     """
 
     def __init__(
@@ -99,7 +96,7 @@ class BallContact:
         self.counts = np.zeros((geometry.rows, geometry.cols))
 
     def press(self, x_m: float, y_m: float, load_n: float) -> None:
-        """Press a ball at a place of the skin [m] with a normal force [N]; 0 N leaves the skin untouched."""
+        """Press a ball on the skin at a position [m] with a normal force [N]; 0 N leaves the skin untouched."""
         press(
             self.counts,
             self._geometry.pitch_m,

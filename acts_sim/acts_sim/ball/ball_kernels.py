@@ -1,4 +1,4 @@
-"""Hot loops of the ball's world, compiled: the plate's motion, a step of the rolling ball, and the field it presses.
+"""Kernels of the ball's world: the plate's motion, a step of the rolling ball, and the counts under it.
 
 `ball_contact.forces_n` is the reference implementation of `press`; the other two are checked against closed solutions.
 """
@@ -15,7 +15,7 @@ from acts_core.kernels import kernel
 STANDARD_GRAVITY_M_S2 = 9.80665
 
 SUBPOINTS = 4
-"""Points along a taxel's side at which the pressure is taken."""
+"""Points along a taxel's side at which the pressure is evaluated."""
 
 # Three-point Gauss-Hermite rule of a Gaussian with standard deviation 1: exact for polynomials up to the fifth degree.
 SPREAD_OFFSETS = (-math.sqrt(3.0), 0.0, math.sqrt(3.0))
@@ -34,7 +34,7 @@ def plate_pose(
     dh : np.ndarray [shape=(n, 3), dtype=float64]
         Denavit-Hartenberg parameters a [m], d [m], alpha [rad] of every joint.
     yaw_rad, height_m : float
-        Turn of the plate about the flange's z axis, and its surface's distance from the flange.
+        Angle of the plate about the flange's z axis, and distance of its surface from the flange.
 
     Returns
     -------
@@ -128,7 +128,7 @@ def roll(
 
         7/5 r'' = (g - a_P - 2 W x r' - W' x r - W x (W x r)) + 2/5 radius n x W' - 2/5 W_z n x r'     (in the plane)
 
-    The spin about the normal is taken as zero relative to the plate.
+    The spin about the normal is assumed to be zero relative to the plate.
 
     Parameters
     ----------
@@ -161,7 +161,7 @@ def roll(
     rx = (fx + 0.4 * (-radius * ay + wz * vy)) / 1.4
     ry = (fy + 0.4 * (radius * ax - wz * vx)) / 1.4
     new_vx, new_vy = vx + rx * dt, vy + ry * dt
-    # Rolling resistance slows the ball and never turns it back: at rest it holds against a pull smaller than itself.
+    # Rolling resistance never reverses the motion: at rest it balances any smaller force.
     speed = math.hypot(new_vx, new_vy)
     loss = resistance * load / 1.4 * dt
     share = 0.0 if speed <= loss else 1.0 - loss / speed
@@ -184,7 +184,7 @@ def press(
     dead: float,
     half: float,
 ) -> None:
-    """Fill the counts of every taxel under a sphere pressed into foam; see `ball_contact.forces_n` for the model.
+    """Compute the counts of every taxel under a sphere in foam; see `ball_contact` for the model.
 
     Parameters
     ----------
@@ -195,7 +195,7 @@ def press(
     stiffness : float
         [N/m^3]
     full_scale, dead, half : float
-        The force response: counts, N, N.
+        Parameters of the force response [counts, N, N].
     """
     rows, cols = counts.shape
     counts[:] = 0.0

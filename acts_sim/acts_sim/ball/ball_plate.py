@@ -1,4 +1,4 @@
-"""The plate under the ball: how the skin moves when the arm that carries it moves its joints."""
+"""The plate under the ball: its motion from the motion of the arm's joints."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from acts_sim.ball.ball_kernels import plate_motion, plate_pose
 
 _DH = np.column_stack([ur5e.DH_A_M, ur5e.DH_D_M, ur5e.DH_ALPHA_RAD])
 
-# Short against anything the arm does, long against rounding: 1e-16 m over (1 ms)^2 is 1e-10 m/s^2.
+# Short relative to the arm's motion, long relative to rounding: 1e-16 m / (1 ms)^2 is 1e-10 m/s^2.
 _DIFFERENCE_S = 0.001
 
-# A UR5e turns its joints by 2 pi to either side at up to pi rad/s; far beyond that is a mistake, not a motion.
+# Joints of a UR5e turn by 2 pi to either side at up to pi rad/s; values far beyond that are errors.
 _LARGEST_ANGLE_RAD = 100.0
 _LARGEST_VELOCITY_RAD_S = 100.0
 _LARGEST_ACCELERATION_RAD_S2 = 1e5
@@ -27,7 +27,7 @@ class PlateConfig:
     """How the plate is mounted on the UR5e's flange."""
 
     mount_yaw_rad: float = setting(
-        0.0, "turn of the skin against the flange about its z axis [rad]", minimum=-7.0, maximum=7.0
+        0.0, "angle of the skin relative to the flange about its z axis [rad]", minimum=-7.0, maximum=7.0
     )
     surface_height_m: float = setting(
         0.020, "distance of the skin's surface from the flange [m]", minimum=0.0, maximum=0.5
@@ -39,7 +39,7 @@ class PlateConfig:
 
 @dataclass(frozen=True)
 class JointMotion:
-    """What the arm's joints do at an instant.
+    """State of the arm's joints at one time.
 
     Attributes
     ----------
@@ -57,7 +57,7 @@ class JointMotion:
         return cls(np.asarray(q_rad, dtype=np.float64), np.zeros(6), np.zeros(6))
 
     def is_plausible(self) -> bool:
-        """Whether every number is finite and within what any arm could do."""
+        """Whether every number is finite and possible for an arm."""
         # A comparison with NaN is false.
         return bool(
             np.abs(self.q_rad).max() <= _LARGEST_ANGLE_RAD
@@ -68,7 +68,7 @@ class JointMotion:
 
 @dataclass(frozen=True)
 class PlateMotion:
-    """What the ball feels of the plate, in the skin's frame.
+    """Motion of the plate, in the skin's frame.
 
     Attributes
     ----------
@@ -81,13 +81,13 @@ class PlateMotion:
 
     @property
     def slope(self) -> float:
-        """Sine of the angle between the plate and the level; 2 where it is upside down."""
+        """Sine of the plate's tilt from horizontal; 2 where it is upside down."""
         x, y, z = self.rows[3].tolist()
         return float((x * x + y * y) ** 0.5) if z > 0 else 2.0
 
     @property
     def turn_rate_rad_s(self) -> float:
-        """How fast the plate turns."""
+        """Angular speed of the plate [rad/s]."""
         x, y, z = self.rows[1].tolist()
         return float((x * x + y * y + z * z) ** 0.5)
 
@@ -111,7 +111,7 @@ def pose(config: PlateConfig, q_rad: NDArray[np.float64]) -> tuple[NDArray[np.fl
 
 
 def motion(config: PlateConfig, joints: JointMotion) -> PlateMotion:
-    """How the plate moves when the joints do so."""
+    """Motion of the plate for a motion of the joints."""
     rows = plate_motion(
         joints.q_rad,
         joints.qd_rad_s,

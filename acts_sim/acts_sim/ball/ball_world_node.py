@@ -1,7 +1,6 @@
-"""The node `ball_world`: the simulated plate with its ball, between the robot's joints and the board's taxels.
+"""The node `ball_world`: the simulated plate with its ball, from the robot's joints to the board's taxels.
 
-Publishes the ball's true position on ``ball/truth``, so that what controls it can be scored. Nothing that controls it
-subscribes to that.
+Publishes the ball's true position on ``ball/truth``, for evaluation only: no controller subscribes to it.
 """
 
 from __future__ import annotations
@@ -39,7 +38,7 @@ _NS_PER_S = 1_000_000_000
 
 @dataclass(frozen=True)
 class BallWorldSettings(RealtimeConfig, WorldConfig):
-    """Parameters of the node: the world's, and what it is connected to."""
+    """Parameters of the node: the world's, and its connections to robot and board."""
 
     field_ring: str = setting(
         "", "shared file the pressure field is written to; empty: field.ring in the folder /dev/shm/acts-USER"
@@ -51,7 +50,7 @@ class BallWorldSettings(RealtimeConfig, WorldConfig):
     )
     frame_id: str = setting("", "frame of the skin; empty or none: the name of the namespace, with _ for /")
     truth_every: int = setting(
-        8, "the ball's true position is published every so many milliseconds, even ones", minimum=2, maximum=1000
+        8, "milliseconds between publications of the ball's true position, an even number", minimum=2, maximum=1000
     )
 
     def __post_init__(self) -> None:
@@ -61,7 +60,7 @@ class BallWorldSettings(RealtimeConfig, WorldConfig):
 
 
 class BallWorld(Node):
-    """Translates between ROS and the world; the world itself runs in a thread of its own."""
+    """Connects ROS with the world, which runs in a thread of its own."""
 
     def __init__(self, **node_arguments: Any) -> None:
         super().__init__("ball_world", **node_options(), **node_arguments)
@@ -89,7 +88,7 @@ class BallWorld(Node):
         )
 
     def begin(self) -> None:
-        """Let the world go."""
+        """Start the world."""
         self._loop.start()
 
     def close(self) -> None:
@@ -139,10 +138,10 @@ class BallWorld(Node):
             "falls": state.falls,
         }
         if refused:
-            return ERROR, f"{refused} joint states were NaN or beyond reason; the plate keeps its last pose", values
+            return ERROR, f"{refused} joint states were NaN or impossible; the plate keeps its last pose", values
         if source not in (JointSource.NONE, JointSource.FOLLOWED):
             why = f" ({self._joints.problem})" if self._joints.problem else ""
-            return WARN, f"{source.value}{why}; the plate rests", values
+            return WARN, f"{source.value}{why}; the plate is at rest", values
         if loop.skipped > before.skipped:
             stood_ms = (loop.skipped - before.skipped) * STEP_NS // _NS_PER_MS
             return WARN, f"the world stood still for {stood_ms} ms", values
@@ -156,7 +155,7 @@ SETTINGS: dict[str, type] = {"ball_world": BallWorldSettings}
 
 
 def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
-    """Run the node; the exit code."""
+    """Run the node and return the exit code."""
     words = list(sys.argv if args is None else args)
     given = parameters_from(words, SETTINGS)
     return run([lambda: BallWorld(parameter_overrides=given["ball_world"])], words, signals)

@@ -1,4 +1,4 @@
-"""What the arm's joints do at any instant, from the ring that the simulated robot writes."""
+"""The arm's joints at any time, interpolated from the ring that the simulated robot writes."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ JOINT_RING_WIDTH = 12
 """Values in a slot of the joint ring: six angles [rad], then six velocities [rad/s]."""
 
 _RETRY_NS = 100_000_000
-# A robot that misses a few of its 2 ms still moves on; one that is silent for longer has stopped.
+# A robot that misses a few of its 2 ms cycles is extrapolated; one that is silent for longer has stopped.
 _LONGEST_EXTRAPOLATION_NS = 20_000_000
-# Two slots further apart than this tell nothing about an acceleration.
+# Two slots further apart than this give no acceleration.
 _LONGEST_SLOT_NS = 50_000_000
 _ACCELERATION_LAG_S = 0.004
-# A UR5e reaches about 40 rad/s^2; a jump of the velocity is no acceleration.
+# A UR5e reaches about 40 rad/s^2; larger values come from a jump of the velocity, not from a motion.
 _LARGEST_ACCELERATION_RAD_S2 = 200.0
 
 
 class JointSource(Enum):
-    """Where the joints come from at the moment."""
+    """Present source of the joints."""
 
     NONE = "there is no robot"
     MISSING = "there is no joint ring"
@@ -36,7 +36,7 @@ class JointSource(Enum):
 
 
 class JointFollower:
-    """Reads the joint ring, interpolates and extrapolates, and waits for it where it is missing.
+    """Reads the joint ring, interpolates and extrapolates, and retries while the ring is missing.
 
     Parameters
     ----------
@@ -48,9 +48,9 @@ class JointFollower:
     Attributes
     ----------
     source : JointSource
-        As of the last `at`.
+        At the last call of `at`.
     problem : str
-        Why there is no ring, in words; empty where there is one.
+        Why there is no ring, for messages; empty where there is one.
     """
 
     def __init__(self, path: Path | None, stale_after_s: float = 0.1) -> None:
@@ -67,20 +67,20 @@ class JointFollower:
         self._acceleration = np.zeros(6)
 
     def at(self, time_ns: int) -> JointMotion | None:
-        """What the joints do at a time.
+        """State of the joints at a time.
 
-        Between slots positions and velocities are linear; after the newest, velocities are constant for at most 20 ms,
-        then the joints rest. The acceleration is the change of velocity between the newest two slots, smoothed.
+        Between slots, positions and velocities are linear. After the newest slot, velocities are constant for at most
+        20 ms, then the joints rest. The acceleration is the smoothed difference of velocity of the newest two slots.
 
         Parameters
         ----------
         time_ns : int
-            CLOCK_MONOTONIC [ns], growing from call to call.
+            CLOCK_MONOTONIC [ns], increasing from call to call.
 
         Returns
         -------
         JointMotion or None
-            None where there is no robot, no ring, or nothing in it yet. May hold NaN where the ring does.
+            None where there is no robot, no ring, or nothing in it yet. May contain NaN if the ring does.
         """
         if self.path is None:
             return None
@@ -123,7 +123,7 @@ class JointFollower:
         return None if now is None else (newest[0], newest[1], now)
 
     def _smooth(self, slot_ns: int, slot: NDArray[np.float64], dt_s: float) -> None:
-        # A slot of NaN goes to the caller, who refuses it, but not into what is kept here.
+        # The caller refuses a slot of NaN; here it must not enter the filter.
         if self._slot_ns != slot_ns and np.isfinite(slot).all():
             between_ns = 0 if self._slot_ns is None else slot_ns - self._slot_ns
             if 0 < between_ns <= _LONGEST_SLOT_NS:

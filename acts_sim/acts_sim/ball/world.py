@@ -1,7 +1,7 @@
-"""The simulated world of the ball-balancing task: arm, plate, ball, and what the ball presses on the skin.
+"""The simulated world of the ball-balancing task: arm, plate, ball and skin.
 
-One step: the joints move the plate, the plate moves the ball, the ball presses the taxels. No clock and no process
-inside; the same seed and the same joints give the same world.
+In each step, the joints move the plate, the plate moves the ball, and the ball presses the taxels. It depends on no
+clock and no process: the same seed and joints give the same states.
 """
 
 from __future__ import annotations
@@ -32,25 +32,31 @@ class Phase(Enum):
 
 @dataclass(frozen=True)
 class WorldConfig(BallConfig, ContactConfig, PlateConfig):
-    """Everything that can be set about the world."""
+    """All settings of the world."""
 
     rows: int = setting(32, "rows of the array", minimum=1, maximum=64)
     cols: int = setting(32, "columns of the array", minimum=1, maximum=64)
     pitch_m: float = setting(0.140 / 32, "distance between neighbouring taxels [m]", minimum=1e-4, maximum=0.1)
-    start_x_m: float = setting(0.020, "where the ball is put, x in the skin's frame [m]", minimum=-3.0, maximum=3.0)
-    start_y_m: float = setting(-0.015, "where the ball is put, y in the skin's frame [m]", minimum=-3.0, maximum=3.0)
+    start_x_m: float = setting(
+        0.020, "start position of the ball, x in the skin's frame [m]", minimum=-3.0, maximum=3.0
+    )
+    start_y_m: float = setting(
+        -0.015, "start position of the ball, y in the skin's frame [m]", minimum=-3.0, maximum=3.0
+    )
     start_after_s: float = setting(
-        3.0, "the ball is put on the plate this long after the start [s]", minimum=0.0, maximum=1e6
+        3.0, "earliest time after the start at which the ball is put on the plate [s]", minimum=0.0, maximum=1e6
     )
     start_slope: float = setting(
-        0.03, "and then as soon as the plate is flatter than this (sine of its tilt)", minimum=0.0, maximum=2.0
+        0.03, "the ball is put on once the plate is flatter than this (sine of its tilt)", minimum=0.0, maximum=2.0
     )
-    start_turn_rate_rad_s: float = setting(0.05, "and turns more slowly than this [rad/s]", minimum=0.0, maximum=100.0)
+    start_turn_rate_rad_s: float = setting(
+        0.05, "the ball is put on once the plate turns more slowly than this [rad/s]", minimum=0.0, maximum=100.0
+    )
     replace_after_s: float = setting(
-        0.0, "a ball that has fallen off is put back after this long [s]; 0: never", minimum=0.0, maximum=1e6
+        0.0, "time after which a ball that fell off is put back [s]; 0: never", minimum=0.0, maximum=1e6
     )
     push_speed_m_s: float = setting(
-        0.0, "every push changes the ball's velocity by this much [m/s]; 0: no pushes", minimum=0.0, maximum=5.0
+        0.0, "change of the ball's velocity by each push [m/s]; 0: no pushes", minimum=0.0, maximum=5.0
     )
     push_period_s: float = setting(
         5.0, "time between pushes, each in a random direction [s]", minimum=0.001, maximum=1e6
@@ -68,23 +74,23 @@ class WorldConfig(BallConfig, ContactConfig, PlateConfig):
 
 @dataclass(frozen=True)
 class WorldState:
-    """The world at an instant.
+    """State of the world at one time.
 
     Attributes
     ----------
     time_s : float
-        Since the start.
+        Time since the start [s].
     phase : Phase
     phase_time_s : float
-        Since `phase` began.
+        Time since `phase` began [s].
     ball : BallState
-        Only means something in phase ROLLING.
+        Valid in phase ROLLING only.
     joints : JointMotion
-        Of the arm.
+        Joints of the arm.
     pushes, falls : int
-        How often the ball was pushed, and fell off.
+        How often the ball was pushed, and how often it fell off.
     joints_refused : int
-        Steps whose joints were NaN or beyond reason; the plate kept its last pose.
+        Number of steps whose joints were NaN or impossible; the plate kept its last pose.
     """
 
     time_s: float
@@ -98,7 +104,7 @@ class WorldState:
 
 
 class World:
-    """Steps the world.
+    """Simulates the world step by step.
 
     Attributes
     ----------
@@ -112,30 +118,30 @@ class World:
         self._rng = np.random.default_rng(config.seed)
         self._half_x_m = config.cols * config.pitch_m / 2
         self._half_y_m = config.rows * config.pitch_m / 2
-        # Compiles now what would otherwise hold up the step that puts the ball on.
+        # Compile the kernel now; otherwise that would delay the step that puts the ball on.
         ball.step(config, BallState(), ball_plate.motion(config, self.state.joints), 0.0)
         self._contact.press(0.0, 0.0, 0.0)
 
     @property
     def counts(self) -> NDArray[np.float64]:
-        """What the skin reads, before noise and rounding; shape (rows * cols,), overwritten by the next step."""
+        """Counts of the skin before noise and rounding; shape (rows * cols,), overwritten by the next step."""
         return self._contact.counts.reshape(-1)
 
     def step(self, joints: JointMotion | None, dt_s: float) -> WorldState:
-        """Let time pass.
+        """Advance the world by one time step.
 
         Parameters
         ----------
         joints : JointMotion or None
-            What the arm does meanwhile; None where nobody knows: it then rests in the last pose, which at the start is
-            the level one.
+            Motion of the arm during the step. None where it is unknown: the arm then rests in its last pose, at the
+            start in the level one.
         dt_s : float
-            A millisecond or so [s].
+            Length of the step, about a millisecond [s].
 
         Returns
         -------
         WorldState
-            At the end of the step, to which also `counts` belongs.
+            State at the end of the step, as are `counts`.
         """
         state = self.state
         refused = joints is not None and not joints.is_plausible()
@@ -159,7 +165,7 @@ class World:
                 state = replace(state, phase=Phase.FALLEN, phase_time_s=0.0, ball=BallState(), falls=state.falls + 1)
         elif self._is_put_on(state, plate):
             start = BallState(self.config.start_x_m, self.config.start_y_m)
-            # A step of no time: the load is known at once.
+            # A step of length 0, to compute the load.
             state = replace(
                 state, phase=Phase.ROLLING, phase_time_s=0.0, ball=ball.step(self.config, start, plate, 0.0)
             )

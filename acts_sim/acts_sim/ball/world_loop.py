@@ -1,4 +1,4 @@
-"""Runs a world in step with the host's clock, a little ahead of it, and shares the pressure field."""
+"""Runs a world in real time, a little ahead of the host's clock, and writes the field of counts to a ring."""
 
 from __future__ import annotations
 
@@ -12,35 +12,35 @@ from acts_sim.ball.world import World, WorldState
 from acts_sim.shared import TimedRingWriter
 
 STEP_NS = 2_000_000
-"""As long as the simulated robot's own cycle; between two steps the board interpolates the field."""
+"""Length of a step [ns], as the simulated robot's cycle; between two steps the board interpolates the field."""
 
 WAKE_NS = 2 * STEP_NS
-"""How often the process wakes [ns]: to be woken takes several times as long as a step."""
+"""Time between wake-ups of the process [ns]: a wake-up costs several times as much as a step."""
 
 LEAD_NS = WAKE_NS + STEP_NS
-"""How far the world is ahead of the clock after it was woken [ns]: until it is woken again, and two milliseconds more,
-so that the board still finds a field beyond its own time when that is late."""
+"""How far the world is ahead of the clock after a wake-up [ns]: until the next wake-up and two milliseconds more, so
+that the board finds a field for its own time even if that wake-up is late."""
 
 LONGEST_CATCH_UP_STEPS = 25
-"""A world that is further behind than this leaves out the rest: the ball stands still meanwhile."""
+"""A world that is more steps behind the clock than this skips the missed time, in which the ball stands still."""
 
 _LATE_NS = 1_000_000
 
 
 @dataclass(frozen=True)
 class LoopStatistics:
-    """What a loop has done since its start.
+    """Counters of a loop since its start.
 
     Attributes
     ----------
     steps : int
         Steps of the world, 2 ms each.
     late : int
-        Wake-ups more than 1 ms after their time.
+        Wake-ups that were more than 1 ms late.
     latest_s : float
-        The worst of them [s].
+        Largest lateness of a wake-up [s].
     skipped : int
-        Steps left out because the process did not run for too long.
+        Steps skipped because the process did not run for too long.
     """
 
     steps: int = 0
@@ -50,14 +50,14 @@ class LoopStatistics:
 
 
 class WorldLoop:
-    """Steps a world at 500 Hz and writes its field, each with the time it is for, which is in the near future.
+    """Steps a world at 500 Hz and writes each field with its time, which is in the near future.
 
     Parameters
     ----------
     world : World
     joints : JointFollower
     ring : TimedRingWriter
-        Of the field; as wide as the array has taxels.
+        Ring for the field, with one value per taxel.
     on_step : callable
         Called after every step, in the loop's thread, with the step's CLOCK_MONOTONIC time [ns] and the state.
     start_ns : int or None
@@ -88,12 +88,12 @@ class WorldLoop:
 
     @property
     def statistics(self) -> LoopStatistics:
-        """Of everything since the start."""
+        """Counters since the start."""
         return self._statistics
 
     @property
     def failure(self) -> BaseException | None:
-        """What ended the thread, None while all is well."""
+        """Error that ended the thread; None while it runs."""
         return self._failure
 
     def advance(self, now_ns: int) -> int:
@@ -107,7 +107,7 @@ class WorldLoop:
         Returns
         -------
         int
-            When to call again [ns].
+            When to call again, CLOCK_MONOTONIC [ns].
         """
         before = self._statistics
         late_ns = now_ns - self._due_ns()
@@ -132,11 +132,11 @@ class WorldLoop:
         return self._world_ns + WAKE_NS - LEAD_NS
 
     def start(self) -> None:
-        """Begin, in a thread of its own."""
+        """Start a thread that steps the world."""
         self._thread.start()
 
     def stop(self) -> None:
-        """End the thread and wait for it."""
+        """Stop the thread and wait for its end."""
         self._stop.set()
         if self._thread.is_alive():
             self._thread.join()
@@ -149,6 +149,6 @@ class WorldLoop:
                 next_ns = self.advance(time.monotonic_ns())
                 time.sleep(max(next_ns - time.monotonic_ns(), 0) / 1e9)
         except BaseException as error:
-            # Whoever owns the loop asks for `failure`; the thread's own words go to the log.
+            # The owner of the loop reports `failure`; the traceback goes to standard error.
             self._failure = error
             raise

@@ -1,4 +1,4 @@
-"""Simulated Dynamixel motors on a bus: registers, packets and faults, for the unmodified SDK.
+"""Simulated Dynamixel motors on a bus, for the unmodified SDK: registers, packets and faults.
 
 In come packets on a pseudo-terminal; out come replies. A drive moves each motor, or a world does.
 """

@@ -1,4 +1,4 @@
-"""The motors on one line: whom an instruction is for, what they answer, and how long that takes on the wire."""
+"""The motors on one bus: which of them an instruction addresses, their replies, and the delay of these."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ _FAST_READS = (Instruction.FAST_SYNC_READ, Instruction.FAST_BULK_READ)
 
 
 class Answer(NamedTuple):
-    """What comes back.
+    """Reply of the bus.
 
     Attributes
     ----------
     data : bytes
         All status packets; may be empty.
     delay_s : float
-        How long the motors wait before they send, together [s].
+        Sum of the motors' return delays [s].
     """
 
     data: bytes = b""
@@ -39,7 +39,7 @@ class Answer(NamedTuple):
 
 
 class Bus:
-    """Motors that share a line.
+    """Motors that share a bus.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ class Bus:
     Attributes
     ----------
     lost : set of int
-        IDs of motors that are cut off: they hear nothing and say nothing.
+        IDs of disconnected motors, which neither receive nor reply.
     """
 
     def __init__(self, motors: Iterable[Motor]) -> None:
@@ -57,14 +57,14 @@ class Bus:
         self.lost: set[int] = set()
 
     def find(self, motor_id: int) -> Motor | None:
-        """The motor with an ID, unless it is cut off."""
+        """The motor with an ID; None where there is none or it is disconnected."""
         for motor in self.motors:
             if motor.motor_id == motor_id and motor_id not in self.lost:
                 return motor
         return None
 
     def handle(self, packet: Packet) -> Answer:
-        """Carry out an instruction."""
+        """Execute an instruction and return the reply."""
         connected = [motor for motor in self.motors if motor.motor_id not in self.lost]
         for motor in connected:
             motor.heard()
@@ -79,16 +79,16 @@ class Bus:
         if packet.motor_id != BROADCAST_ID:
             called = self.find(packet.motor_id)
             return Answer() if called is None else _answer_of(called, packet)
-        # To a broadcast only a ping is answered, one motor after the other.
+        # Of all broadcasts only a ping is answered, by one motor after the other.
         answers = [_answer_of(motor, packet) for motor in sorted(connected, key=lambda one: one.motor_id)]
         if packet.instruction != Instruction.PING:
             return Answer()
         return Answer(b"".join(one.data for one in answers), sum(one.delay_s for one in answers))
 
     def _read_many(self, packet: Packet) -> Answer:
-        """Sync and bulk reads: the motors answer in the order in which they are named.
+        """Sync and bulk reads: the motors reply in the order of the instruction.
 
-        Each waits for the one before it; behind a motor that is silent, nobody answers.
+        Each waits for the one before it, so after a motor that does not reply no other does.
         """
         if packet.instruction in _SYNC_READS:
             address, size = _word(packet.parameters, 0), _word(packet.parameters, 2)
@@ -105,7 +105,7 @@ class Bus:
                 break
             error, data = motor.read(address, size)
             if fast and error:
-                break  # its part has the length that was asked for, or does not come
+                break  # a part has the requested length, or is missing
             replies.append((motor_id, error | motor.alert, data))
             delay_s += motor.return_delay_s
         if not fast:
@@ -113,7 +113,7 @@ class Bus:
         first = self.find(asked[0][0]) if replies else None
         if first is None:
             return Answer()
-        # The first motor announces the length for all of them, also where its end then never comes. Only it waits.
+        # The first motor sends the length of the whole packet, even if later parts never come. Only it has a delay.
         announced = sum(fast_status_bytes(size) for _, _, size in asked)
         return Answer(encode_fast_status(replies, announced), first.return_delay_s)
 
@@ -138,7 +138,7 @@ def _word(data: bytes, at: int) -> int:
 
 
 def _answer_of(motor: Motor, packet: Packet) -> Answer:
-    """What one motor does and says."""
+    """Reply of one motor to an instruction."""
     level = motor["status_return_level"]
     error, data = _carry_out(motor, packet)
     if packet.instruction == Instruction.PING or level == 2 or (level == 1 and packet.instruction == Instruction.READ):

@@ -1,4 +1,4 @@
-"""A socket that takes commands in lines while the simulation runs, and answers each with a line."""
+"""A socket for text commands while the simulation runs: one line in, one line of reply."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ class ControlSocket:
     Parameters
     ----------
     path : Path
-        Name of the socket; one that nobody serves any more is replaced.
+        Path of the socket; a stale one is replaced.
     answer : callable
-        Takes a line without its end, gives the line of answer.
+        Function from a line without its end to the line of reply.
 
     Raises
     ------
@@ -48,18 +48,18 @@ class ControlSocket:
         self._listener.setblocking(False)
 
     def descriptors(self) -> list[int]:
-        """What to wait for."""
+        """File descriptors to wait for."""
         return [self._listener.fileno(), *self._clients]
 
     def serve(self, descriptor: int) -> None:
-        """Something has come in on one of the descriptors."""
+        """Read from a descriptor that has input."""
         if descriptor == self._listener.fileno():
             self._accept()
         elif descriptor in self._clients:
             self._read(descriptor)
 
     def close(self) -> None:
-        """Close everything and remove the name."""
+        """Close all descriptors and remove the socket's file."""
         for client, _ in self._clients.values():
             client.close()
         self._clients.clear()
@@ -82,7 +82,7 @@ class ControlSocket:
             data = client.recv(_READ_BYTES)
             client.sendall(session.receive(data))
         except OSError:
-            data = b""  # gone, or it does not read its answers
+            data = b""  # disconnected, or it does not read its replies
         if not data:
             client.close()
             del self._clients[descriptor]

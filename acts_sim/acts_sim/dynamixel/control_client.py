@@ -1,4 +1,4 @@
-"""The other end of a `ControlSocket`: whoever tells a simulation what is to happen."""
+"""Client of a `ControlSocket`, to control a simulation."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ class ControlClient:
     Parameters
     ----------
     path : Path
-        Of the socket.
+        Path of the socket.
 
     Raises
     ------
     ActsError
-        When nobody serves it.
+        When no simulation serves it.
     """
 
     def __init__(self, path: Path) -> None:
@@ -44,12 +44,12 @@ class ControlClient:
         self.close()
 
     def ask(self, line: str) -> str:
-        """The line of answer: ``ok``, a JSON object, or ``error: ...``.
+        """Send a line and return the reply: ``ok``, a JSON object, or ``error: ...``.
 
         Raises
         ------
         ActsError
-            When there is none within 10 s.
+            When there is no reply within 10 s.
         """
         answer = b""
         try:
@@ -64,19 +64,19 @@ class ControlClient:
         return answer.decode().strip()
 
     def do(self, line: str) -> None:
-        """Let something happen.
+        """Send a command and check its reply.
 
         Raises
         ------
         ActsError
-            When the simulation refuses, or does not answer.
+            When the simulation refuses the command or does not reply.
         """
         answer = self.ask(line)
         if answer != "ok":
             raise ActsError(f"{line}: {answer.removeprefix('error: ')}")
 
     def state(self) -> dict[str, Any]:
-        """What the simulation says of itself."""
+        """The reply to ``state``."""
         return dict(json.loads(self.ask("state")))
 
     def close(self) -> None:
@@ -85,6 +85,6 @@ class ControlClient:
 
 
 def ask_once(path: Path, line: str) -> str:
-    """Ask over a connection of its own; see `ControlClient.ask`."""
+    """Send one line over a new connection; see `ControlClient.ask`."""
     with ControlClient(path) as client:
         return client.ask(line)

@@ -1,7 +1,7 @@
-"""The control table of the XC330-M288-T and XL330-M288-T: what stands at which address.
+"""The control table of the XC330-M288-T and XL330-M288-T: registers and their addresses.
 
-After the e-manual (https://emanual.robotis.com/docs/en/dxl/x/xc330-m288/ and .../xl330-m288/), as the LEAP hand
-has them. Both have the same addresses; they differ in model number, current limit, gains and shutdown.
+These motors are those of the LEAP hand. Source: https://emanual.robotis.com/docs/en/dxl/x/xc330-m288/ and
+.../xl330-m288/. Both have the same addresses; they differ in model number, current limit, gains and shutdown.
 """
 
 from __future__ import annotations
@@ -29,11 +29,11 @@ class Register:
     ----------
     name : str
     address, size : int
-        Where it stands, and how many bytes it has, lowest first.
+        First address, and number of bytes, lowest first.
     initial : int
         Value after power-on.
     minimum, maximum : int or None
-        What may be written; None for both: it cannot be written.
+        Range of values that may be written; None for both: read-only.
     """
 
     name: str
@@ -106,7 +106,7 @@ _REGISTERS = (
     Register("position_p_gain", 84, 2, 1100, 0, 16383),
     Register("feedforward_2nd_gain", 88, 2, 0, 0, 16383),
     Register("feedforward_1st_gain", 90, 2, 0, 0, 16383),
-    # Units of 20 ms. What reads 255 has run out.
+    # Units of 20 ms; 255 reads as expired.
     Register("bus_watchdog", 98, 1, 0, 0, 127),
     Register("goal_pwm", 100, 2, 885, -885, 885),
     Register("goal_current", 102, 2, 2352, -2352, 2352),
@@ -160,7 +160,7 @@ def _changed(registers: Iterable[Register], **initial: int) -> dict[str, Registe
 
 
 def _limited(registers: dict[str, Register], limit_ma: int) -> dict[str, Register]:
-    """With another largest current."""
+    """Registers with another current limit."""
     limit = replace(registers["current_limit"], initial=limit_ma, maximum=limit_ma)
     goal = replace(registers["goal_current"], initial=limit_ma, minimum=-limit_ma, maximum=limit_ma)
     return {**registers, "current_limit": limit, "goal_current": goal}

@@ -1,7 +1,7 @@
-"""What a motor does with its goal: position control with a cap on the current, and the torque that comes of it.
+"""Position control of a motor with a limit on the current, and the resulting torque.
 
-Gains act as the e-manual says: KP = P / 128, KI = I / 65536, KD = D / 16, on the error in pulses. In which unit their
-sum is, the manual does not say; here it is mA with time in ms, so that P = 600 reaches a cap of 350 mA at 75 pulses,
+Gains are as in the e-manual: KP = P / 128, KI = I / 65536, KD = D / 16, on the error in pulses. The manual does not
+give the unit of the sum; here it is mA, with time in ms, so that P = 600 reaches a limit of 350 mA at 75 pulses or
 6.6 degrees.
 """
 
@@ -21,25 +21,25 @@ _TICKS_S_PER_VELOCITY_UNIT = RAD_S_PER_VELOCITY_UNIT / RAD_PER_TICK
 
 @dataclass
 class Shaft:
-    """Where the motor is, as the mechanics say [rad, rad/s]; 0 rad is pulse 0."""
+    """Angle and velocity of the motor, set by the mechanics [rad, rad/s]; 0 rad is pulse 0."""
 
     position_rad: float = math.pi
     velocity_rad_s: float = 0.0
 
 
 class Trajectory:
-    """The way from one goal to the next, at the speed and acceleration of the profile (0: at once)."""
+    """Profile from one goal to the next, limited in velocity and acceleration (0: no limit)."""
 
     def __init__(self, ticks: float) -> None:
         self.ticks = ticks
         self.ticks_s = 0.0
 
     def reset(self, ticks: float) -> None:
-        """Begin from standing at a place."""
+        """Start at rest at a position [pulses]."""
         self.ticks, self.ticks_s = ticks, 0.0
 
     def advance(self, goal_ticks: float, profile_velocity: int, profile_acceleration: int, dt_s: float) -> float:
-        """Where the way has come to after `dt_s` [pulses]."""
+        """Advance by `dt_s` and return the position of the profile [pulses]."""
         distance = goal_ticks - self.ticks
         if profile_velocity == 0 or distance == 0.0:
             self.reset(goal_ticks)
@@ -47,7 +47,7 @@ class Trajectory:
         speed = profile_velocity * _TICKS_S_PER_VELOCITY_UNIT
         if profile_acceleration:
             rate = profile_acceleration * _TICKS_S2_PER_ACCELERATION_UNIT
-            # No faster than from where it can still stop at the goal.
+            # At most the speed from which it can still stop at the goal.
             speed = min(speed, abs(self.ticks_s) + rate * dt_s, math.sqrt(2.0 * rate * abs(distance)) + rate * dt_s)
         step = min(speed * dt_s, abs(distance))
         self.ticks_s = math.copysign(speed, distance)
@@ -56,30 +56,30 @@ class Trajectory:
 
 
 class PositionControl:
-    """PID on the position error, in mA, held within the cap."""
+    """PID control of the position, in mA, with a limit on the current."""
 
     def __init__(self) -> None:
         self._integral = 0.0
         self._last_error: float | None = None
 
     def reset(self) -> None:
-        """Forget what was."""
+        """Clear the integral and the last error."""
         self._integral, self._last_error = 0.0, None
 
     def current_ma(self, error_ticks: float, gains: tuple[int, int, int], cap_ma: float, dt_s: float) -> float:
-        """The current wanted, with `gains` P, I and D as in the control table."""
+        """Desired current [mA], with `gains` P, I and D as in the control table."""
         p, i, d = gains
         change = 0.0 if self._last_error is None else (error_ticks - self._last_error) / (1e3 * dt_s)
         self._last_error = error_ticks
         integral = self._integral + error_ticks * dt_s * 1e3
         wanted = p / 128.0 * error_ticks + i / 65536.0 * integral + d / 16.0 * change
         if abs(wanted) < cap_ma or wanted * error_ticks < 0.0:
-            self._integral = integral  # not wound up against the cap
+            self._integral = integral  # anti-windup: only while the current is below its limit
         return min(max(wanted, -cap_ma), cap_ma)
 
 
 def torque_nm(model: Model, current_ma: float, velocity_rad_s: float) -> tuple[float, float]:
-    """The current that flows [mA] and its torque [N m]: the faster it turns, the less can be driven."""
+    """Actual current [mA] and its torque [N m]; the back-EMF limits the current at speed."""
     room = 1.0 - math.copysign(1.0, current_ma) * velocity_rad_s / model.no_load_speed_rad_s
     largest = model.stall_current_ma * min(max(room, 0.0), 1.0)
     flowing = math.copysign(min(abs(current_ma), largest), current_ma)

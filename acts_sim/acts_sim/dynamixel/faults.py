@@ -1,4 +1,4 @@
-"""What can happen to a bus while it runs, in lines of text."""
+"""Faults of a bus and its motors, as text commands while it runs."""
 
 from __future__ import annotations
 
@@ -11,25 +11,25 @@ from acts_sim.dynamixel.motor import HardwareError, Motor
 from acts_sim.dynamixel.port import BusPort
 
 MOTOR_FAULTS = ("lose", "find", "overload", "overheat", "block", "release")
-"""What can happen to one motor: words that are followed by its ID."""
+"""Faults of one motor: words that are followed by its ID."""
 
 _KNOWN = ", ".join((*(f"{word} ID" for word in MOTOR_FAULTS), "unplug", "plug_in", "state"))
 
 
 class Mechanics(Protocol):
-    """What is behind the motors.
+    """The mechanics that the motors drive.
 
     Attributes
     ----------
     blocked : set of int
-        Indices of joints that something holds where they are.
+        Indices of blocked joints.
     """
 
     blocked: set[int]
 
 
 class Faults:
-    """Carries out commands on a bus and its joints.
+    """Executes commands on a bus and its joints.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ class Faults:
         self._port = port
 
     def answer(self, line: str) -> str:
-        """Carry out a line; ``ok``, a JSON object for ``state``, or ``error: ...``."""
+        """Execute a line and return ``ok``, a JSON object for ``state``, or ``error: ...``."""
         word, _, rest = line.partition(" ")
         if word == "unplug":
             self._port.unplug()
@@ -64,7 +64,7 @@ class Faults:
 
 
 def do_to_motor(bus: Bus, joints: Mechanics, word: str, motor_id: str) -> None:
-    """Let one of `MOTOR_FAULTS` happen.
+    """Cause one of `MOTOR_FAULTS`.
 
     Raises
     ------
@@ -90,7 +90,7 @@ def do_to_motor(bus: Bus, joints: Mechanics, word: str, motor_id: str) -> None:
 
 
 def state(motor: Motor) -> dict[str, float]:
-    """What a motor does, for JSON."""
+    """State of a motor, for JSON."""
     return {
         "id": motor.motor_id,
         "position_rad": motor.shaft.position_rad,

@@ -1,4 +1,4 @@
-"""Joints that move freely between stops: the mechanics behind the motors when nothing is touched."""
+"""Joints that move freely between stops: the mechanics of motors that touch nothing."""
 
 from __future__ import annotations
 
@@ -9,20 +9,20 @@ from acts_sim.dynamixel.motor import Motor
 
 
 class FreeJoints:
-    """One joint a motor, each with inertia, friction and two stops.
+    """One joint per motor, each with inertia, friction and two stops.
 
     Parameters
     ----------
     motors : sequence of Motor
     limits_rad : sequence of (float, float)
-        Where the stops are, in the motor's own angle [rad].
+        Stops of each joint, in the motor's angle [rad].
     inertia_kg_m2, damping_nm_s, friction_nm : float
-        Of every joint: a finger of the LEAP hand about its root, with the gearbox.
+        Values of every joint; by default of a finger of the LEAP hand about its root, with the gearbox.
 
     Attributes
     ----------
     blocked : set of int
-        Indices of joints that something holds where they are.
+        Indices of blocked joints.
     """
 
     def __init__(
@@ -43,14 +43,14 @@ class FreeJoints:
             motor.shaft.position_rad = min(max(math.pi, low), high)
 
     def step(self, dt_s: float) -> None:
-        """Let motors and joints go on by `dt_s`."""
+        """Advance motors and joints by `dt_s`."""
         for index, motor in enumerate(self._motors):
             torque = motor.step(dt_s)
             shaft = motor.shaft
             if index in self.blocked:
                 shaft.velocity_rad_s = 0.0
                 continue
-            # Implicit in both kinds of friction, so that no step is too long for them.
+            # Implicit Euler for both kinds of friction, which is stable for any step.
             speed = (shaft.velocity_rad_s * self._inertia + torque * dt_s) / (self._inertia + self._damping * dt_s)
             brake = self._friction * dt_s / self._inertia
             speed = math.copysign(max(abs(speed) - brake, 0.0), speed)

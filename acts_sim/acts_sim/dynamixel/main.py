@@ -24,18 +24,20 @@ _STEP_S = 0.002
 
 
 def parse(arguments: Sequence[str]) -> argparse.Namespace:
-    """The command line; what stands from ``--ros-args`` on is ROS's and is left out."""
+    """Parse the command line; arguments from ``--ros-args`` on are ignored."""
     parser = argparse.ArgumentParser(
         prog="dynamixel_bus", description="Simulated Dynamixel motors, Protocol 2.0, behind a pseudo-terminal."
     )
     parser.add_argument("--link", type=Path, help="symbolic link to the port")
-    parser.add_argument("--motors", type=int, default=16, help="how many, with IDs from 0 on (1 to 100)")
+    parser.add_argument("--motors", type=int, default=16, help="number of motors, with IDs from 0 on (1 to 100)")
     parser.add_argument("--model", choices=sorted(MODELS), default="xc330", help="kind of motor")
-    parser.add_argument("--return-delay", type=int, default=250, help="in the EEPROM, in units of 2 us (0 to 254)")
-    parser.add_argument("--baud", type=int, default=4_000_000, help="for the time that packets take; 0: none")
-    parser.add_argument("--range-rad", type=float, default=math.pi, help="how far each joint turns to both sides of pi")
-    parser.add_argument("--control", type=Path, help="Unix socket that takes faults in lines: lose 3, unplug ...")
-    parser.add_argument("--realtime-priority", type=int, default=0, help="under SCHED_FIFO; 0: the ordinary scheduler")
+    parser.add_argument("--return-delay", type=int, default=250, help="initial return delay time [2 us] (0 to 254)")
+    parser.add_argument("--baud", type=int, default=4_000_000, help="simulated baud rate; 0: packets take no time")
+    parser.add_argument(
+        "--range-rad", type=float, default=math.pi, help="range of each joint to both sides of pi [rad]"
+    )
+    parser.add_argument("--control", type=Path, help="Unix socket for faults, one per line: lose 3, unplug ...")
+    parser.add_argument("--realtime-priority", type=int, default=0, help="SCHED_FIFO priority; 0: ordinary scheduling")
     parser.add_argument("--cpu-affinity", default="", help="cores to run on, as in 0,2-3")
     own = list(arguments)
     if "--ros-args" in own:

@@ -1,4 +1,4 @@
-"""One motor: its control table and the rules for reading and writing it, its errors, its torque."""
+"""One motor: its control table with the rules for reads and writes, its errors, its torque."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ BASE_DELAY_S = 2e-6
 _WATCHDOG_UNIT_S = 0.02
 _WATCHDOG_EXPIRED = 255
 
-# While the bus watchdog has run out, these cannot be written.
+# Read-only while the bus watchdog has expired.
 _GOALS = {"goal_pwm", "goal_current", "goal_velocity", "goal_position"}
 
-# Worked out when somebody asks.
+# Computed when they are read.
 _MEASURED = {"present_position", "present_velocity", "moving", "position_trajectory", "realtime_tick"}
 
 _MOVING_RAD_S = 10 * RAD_S_PER_VELOCITY_UNIT
@@ -33,7 +33,7 @@ _STILL_RAD_S = 0.05
 
 
 class StatusError(IntEnum):
-    """The error number of a status packet; `ALERT` is a bit that is set besides while `hardware_error_status` is."""
+    """Error number of a status packet; the bit `ALERT` is added while `hardware_error_status` is not 0."""
 
     NONE = 0
     RESULT_FAIL = 1
@@ -57,7 +57,7 @@ class HardwareError(IntFlag):
 
 
 class OperatingMode(IntEnum):
-    """What the goal means. Velocity and PWM control are not simulated and are refused as out of range."""
+    """Control mode. Velocity and PWM control are not simulated, and are refused as out of range."""
 
     CURRENT = 0
     POSITION = 3
@@ -65,20 +65,20 @@ class OperatingMode(IntEnum):
     CURRENT_BASED_POSITION = 5
 
 
-# Plain numbers: comparing with the members themselves takes several times as long.
+# Plain integers: comparing enum members takes several times as long.
 _CURRENT, _CURRENT_BASED_POSITION = int(OperatingMode.CURRENT), int(OperatingMode.CURRENT_BASED_POSITION)
 
 
 @dataclass(frozen=True)
 class OverloadLaw:
-    """When a motor takes itself for overloaded: an assumption, the manual does not say.
+    """Condition of the overload error; an assumption, since the manual does not say.
 
     Attributes
     ----------
     after_s : float
-        It has stood still for so long [s]; 0: never.
+        Time without motion after which the error occurs [s]; 0: never.
     current_ma : float
-        With at least this current all the while [mA].
+        Current that must flow during all of that time, at least [mA].
     """
 
     after_s: float = 0.0
@@ -94,17 +94,17 @@ class Motor:
     motor_id : int
         0 to 252.
     return_delay_time : int
-        In the EEPROM at the start, in units of 2 us.
+        Initial value in the EEPROM, in units of 2 us.
     operating_mode : OperatingMode
-        Likewise.
+        Initial value in the EEPROM.
     overload : OverloadLaw
 
     Attributes
     ----------
     shaft : Shaft
-        To be set by the mechanics.
+        Set by the mechanics.
     torque_nm : float
-        What it turns with now [N m].
+        Present torque [N m].
     """
 
     def __init__(
@@ -119,7 +119,7 @@ class Motor:
         self.shaft = Shaft()
         self.torque_nm = 0.0
         self._values = {one.name: one.initial for one in model.registers.values()}
-        # Register and place in it of every address that has one.
+        # Register, and index of the byte in it, of every address in use.
         self._at = {one.address + k: (one, k) for one in model.registers.values() for k in range(one.size)}
         self._control = PositionControl()
         self._trajectory = Trajectory(0.0)
@@ -142,32 +142,32 @@ class Motor:
 
     @property
     def motor_id(self) -> int:
-        """Its number on the bus."""
+        """Its ID on the bus."""
         return self["id"]
 
     @property
     def return_delay_s(self) -> float:
-        """How long it waits before it answers [s]."""
+        """Delay of its replies [s]."""
         return self["return_delay_time"] * BASE_DELAY_S
 
     @property
     def alert(self) -> int:
-        """Bit of the status packet's error that says: look at ``hardware_error_status``."""
+        """`ALERT` bit of the status packet's error: set while ``hardware_error_status`` is not 0."""
         return StatusError.ALERT if self["hardware_error_status"] else 0
 
     def heard(self) -> None:
-        """An instruction has come; the bus watchdog counts anew."""
+        """Restart the bus watchdog: an instruction has arrived."""
         self._silent_s = 0.0
 
     def read(self, address: int, size: int) -> tuple[int, bytes]:
-        """Error and data of a read; what stands nowhere reads as 0."""
+        """Error and data of a read; unused addresses read as 0."""
         if size == 0 or address + size > SIZE:
             return StatusError.DATA_RANGE, b""
         self._sense()
         return StatusError.NONE, bytes(self._byte(self._direct(where)) for where in range(address, address + size))
 
     def write(self, address: int, data: bytes) -> int:
-        """Write what is allowed, all of it or nothing; the error number."""
+        """Write all bytes, or none where one is not allowed; return the error number."""
         if not data or address + len(data) > SIZE:
             return StatusError.DATA_RANGE
         places = [self._direct(address + k) for k in range(len(data))]
@@ -192,7 +192,7 @@ class Motor:
         return StatusError.NONE
 
     def register_write(self, parameters: bytes) -> int:
-        """Keep a write until `action`."""
+        """Store a write until `action`; return the error number."""
         if len(parameters) < 3:
             return StatusError.DATA_LENGTH
         self._registered = (int.from_bytes(parameters[:2], "little"), parameters[2:])
@@ -200,7 +200,7 @@ class Motor:
         return StatusError.NONE
 
     def action(self) -> int:
-        """Carry out what was kept."""
+        """Execute the stored write; return the error number."""
         if self._registered is None:
             return StatusError.NONE
         address, data = self._registered
@@ -209,7 +209,7 @@ class Motor:
         return self.write(address, data)
 
     def _direct(self, address: int) -> int:
-        """Where an address of the indirect data leads."""
+        """Address that an address of the indirect data refers to."""
         if not INDIRECT_DATA <= address < INDIRECT_DATA + INDIRECT_COUNT:
             return address
         return self._values[f"indirect_address_{address - INDIRECT_DATA + 1}"]
@@ -221,7 +221,7 @@ class Motor:
         return self._values[register.name] >> 8 * k & 0xFF
 
     def _objection(self, name: str, value: int) -> int:
-        """Why a value may not be written."""
+        """Error number of a write of a value, 0 if it is allowed."""
         register = self.model.registers[name]
         assert register.minimum is not None
         assert register.maximum is not None
@@ -244,7 +244,7 @@ class Motor:
         ):
             return StatusError.DATA_LIMIT
         if name == "torque_enable" and value and self["hardware_error_status"] & self["shutdown"]:
-            return StatusError.RESULT_FAIL  # only a reboot helps
+            return StatusError.RESULT_FAIL  # until a reboot
         return StatusError.NONE
 
     def _write(self, name: str, value: int) -> None:
@@ -256,7 +256,7 @@ class Motor:
         self._values[name] = value
 
     def _hold_still(self) -> None:
-        """As the torque comes or goes: the goal is where the motor is."""
+        """Set the goal to the present position, when the torque is switched on or off."""
         ticks = round(self.shaft.position_rad / RAD_PER_TICK)
         self._values["goal_position"] = ticks
         self._trajectory.reset(ticks)
@@ -265,13 +265,13 @@ class Motor:
     # --- errors
 
     def fail(self, error: HardwareError) -> None:
-        """A hardware error happens; with its bit in the shutdown mask the torque goes off."""
+        """Cause a hardware error; if its bit is in the shutdown mask, the torque is switched off."""
         self._values["hardware_error_status"] = self["hardware_error_status"] | error
         if error & self["shutdown"]:
             self._values["torque_enable"] = 0
 
     def reboot(self) -> None:
-        """Start anew: RAM as after power-on, errors forgotten, EEPROM kept."""
+        """Reboot: reset the RAM and all errors, keep the EEPROM."""
         for register in self.model.registers.values():
             if register.address >= EEPROM_END:
                 self._values[register.name] = register.initial
@@ -282,12 +282,12 @@ class Motor:
     # --- time
 
     def step(self, dt_s: float) -> float:
-        """Let time pass, with the shaft where the mechanics have put it.
+        """Advance by `dt_s`, with the shaft as the mechanics have set it.
 
         Returns
         -------
         float
-            The torque until the next step [N m].
+            Torque until the next step [N m].
         """
         self._since_start_s += dt_s
         self._watch_bus(dt_s)
@@ -300,7 +300,7 @@ class Motor:
         return self.torque_nm
 
     def _wanted_current_ma(self, dt_s: float) -> float:
-        # Not by name from outside: this is done for every motor at every step.
+        # Reads `_values` directly for speed: this runs for every motor at every step.
         values = self._values
         mode = values["operating_mode"]
         limit = float(values["current_limit"])
@@ -333,7 +333,7 @@ class Motor:
             self._hold_still()
 
     def _sense(self) -> None:
-        """What is measured, as it stands in the control table."""
+        """Write the measured values to the control table."""
         shaft, values = self.shaft, self._values
         values["present_position"] = math.floor(shaft.position_rad / RAD_PER_TICK)
         values["present_velocity"] = round(shaft.velocity_rad_s / RAD_S_PER_VELOCITY_UNIT)

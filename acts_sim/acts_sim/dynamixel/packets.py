@@ -14,17 +14,17 @@ HEADER = b"\xff\xff\xfd\x00"
 BROADCAST_ID = 0xFE
 
 MAX_LENGTH = 1024
-"""Longest length field that is believed; a longer one is taken for noise."""
+"""Largest valid value of a length field; a larger one is treated as noise."""
 
 _MARK = b"\xff\xff\xfd"
-# Header, ID and length come before what the length counts.
+# Header, ID and length are not included in the length.
 _PREFIX_BYTES = 7
 _CRC_BYTES = 2
 _CRC_POLYNOMIAL = 0x8005
 
 
 class Instruction(IntEnum):
-    """What a packet asks for."""
+    """Instructions of packets."""
 
     PING = 0x01
     READ = 0x02
@@ -44,14 +44,14 @@ class Instruction(IntEnum):
 
 
 class Packet(NamedTuple):
-    """A packet that has come in.
+    """A received packet.
 
     Attributes
     ----------
     motor_id : int
-        Whom it is for.
+        ID of the addressee.
     instruction : int
-        A number of `Instruction`, or one that nobody knows.
+        A number of `Instruction`, or an unknown one.
     parameters : bytes
         Without stuffing.
     """
@@ -72,14 +72,14 @@ _CRC_TABLE = [_crc_entry(byte) for byte in range(256)]
 
 
 def crc16(data: bytes, crc: int = 0) -> int:
-    """Sum of the protocol: polynomial 0x8005, highest bit first, from 0 or from the CRC of what came before."""
+    """CRC-16 with polynomial 0x8005, highest bit first, starting at 0 or at the CRC of preceding data."""
     for byte in data:
         crc = (crc << 8 & 0xFFFF) ^ _CRC_TABLE[crc >> 8 ^ byte]
     return crc
 
 
 def stuff(body: bytes) -> bytes:
-    """Instruction and parameters as they go over the wire."""
+    """Stuff instruction and parameters for the wire."""
     return body.replace(_MARK, _MARK + b"\xfd")
 
 
@@ -89,7 +89,7 @@ def unstuff(body: bytes) -> bytes:
 
 
 def encode(motor_id: int, instruction: int, parameters: bytes = b"", *, stuffed: bool = True) -> bytes:
-    """A whole packet; without `stuffed` its bytes are taken as they are, as in replies to fast reads."""
+    """A whole packet; with `stuffed` False its bytes are not stuffed, as in replies to fast reads."""
     body = bytes([instruction]) + parameters
     if stuffed:
         body = stuff(body)
@@ -98,12 +98,12 @@ def encode(motor_id: int, instruction: int, parameters: bytes = b"", *, stuffed:
 
 
 def encode_status(motor_id: int, error: int, parameters: bytes = b"") -> bytes:
-    """The reply of one motor."""
+    """Status packet: the reply of one motor."""
     return encode(motor_id, Instruction.STATUS, bytes([error]) + parameters)
 
 
 def fast_status_bytes(size: int) -> int:
-    """Bytes of a motor's part of the reply to a fast read of `size` bytes: error, ID, data, CRC."""
+    """Length of a motor's part of the reply to a fast read of `size` bytes: error, ID, data, CRC."""
     return 2 + size + _CRC_BYTES
 
 
@@ -115,7 +115,7 @@ def encode_fast_status(replies: list[tuple[int, int, bytes]], announced_bytes: i
     replies : list of (ID, error, data)
         In the order of the request.
     announced_bytes : int
-        Of all parts, also of those that do not come.
+        Length of all parts, including missing ones.
 
     Returns
     -------
@@ -144,12 +144,12 @@ class PacketReader:
         self._buffer = b""
 
     def feed(self, data: bytes) -> list[Packet]:
-        """Packets that the new bytes complete, without those that answer (status packets)."""
+        """Packets that the new bytes complete, except status packets."""
         self._buffer += data
         packets: list[Packet] = []
         while True:
             start = self._buffer.find(HEADER)
-            # The beginning of a header may be all there is of it yet.
+            # Keep what may be the start of a header.
             self._buffer = self._buffer[start:] if start >= 0 else self._buffer[-len(HEADER) + 1 :]
             if start < 0 or len(self._buffer) < _PREFIX_BYTES:
                 return packets
@@ -161,7 +161,7 @@ class PacketReader:
             elif len(self._buffer) < end:
                 return packets
             elif crc16(self._buffer[: end - _CRC_BYTES]) != int.from_bytes(crc, "little"):
-                # A packet that was cut may have swallowed the next one: look for a header inside.
+                # A packet that was cut off may contain the start of the next one: search it for a header.
                 self.damaged += 1
                 self._buffer = self._buffer[1:]
             else:
@@ -171,5 +171,5 @@ class PacketReader:
                 self._buffer = self._buffer[end:]
 
     def forget(self) -> None:
-        """Give up a packet that has begun: nothing more has come for long."""
+        """Drop an incomplete packet after a timeout."""
         self._buffer = b""

@@ -1,4 +1,4 @@
-"""The bus behind a pseudo-terminal, as behind a USB adapter: bytes in and out, at the time they take on the wire."""
+"""A bus behind a pseudo-terminal, as behind a USB adapter, with the delays of a real wire."""
 
 from __future__ import annotations
 
@@ -16,27 +16,27 @@ from acts_sim.dynamixel.bus import BITS_PER_BYTE, Bus
 from acts_sim.dynamixel.control import ControlSocket
 from acts_sim.dynamixel.packets import PacketReader
 
-# A packet that stops half-way is given up after this; at 1 Mb/s the longest takes 10 ms.
+# Timeout of an incomplete packet; at 1 Mb/s the longest packet takes 10 ms.
 _PACKET_TIMEOUT_S = 0.05
 
-# After a longer pause of the process the missed steps are not made up for: the motors' time stood still.
+# After a longer pause of the process the missed steps are skipped: the motors' time has stood still.
 _MAX_CATCH_UP_S = 0.1
 
 
 class BusPort:
-    """Owns a pseudo-terminal and lets a `Bus` live behind it.
+    """Serves a `Bus` on a pseudo-terminal of its own.
 
     Parameters
     ----------
     bus : Bus
     step : callable
-        Called for each step of time with its length [s]: motors and mechanics.
+        Advances motors and mechanics by a time step [s].
     step_s : float
         Length of a step [s].
     link : Path or None
         Symbolic link to the port; a stale one is replaced.
     baud : int
-        Bits a second on the simulated wire, for the time that packets take; 0 for none.
+        Baud rate of the simulated wire [bit/s]; with 0 packets take no time.
 
     Raises
     ------
@@ -54,7 +54,7 @@ class BusPort:
         self._s_per_byte = BITS_PER_BYTE / baud if baud else 0.0
         self._reader = PacketReader()
         self._heard_s = 0.0
-        # Answers on the wire: when each has come through, oldest first.
+        # Replies on the wire with their times of arrival, oldest first.
         self._answers: deque[tuple[float, bytes]] = deque()
         self._stopping = False
         self._master = self._slave = -1
@@ -71,7 +71,7 @@ class BusPort:
         if self._master >= 0:
             return
         self._master, self._slave = os.openpty()
-        # Our own descriptor of the slave stays open: reading from a terminal that nobody has open is an error.
+        # Our own descriptor of the slave stays open: reads of the master fail while no process has the slave open.
         tty.setraw(self._slave)
         os.set_blocking(self._master, False)
         self._reader.forget()
@@ -88,7 +88,7 @@ class BusPort:
                 raise RobotError(f"{self._link}: the link to the port cannot be made ({error.strerror})") from error
 
     def unplug(self) -> None:
-        """Tear the adapter off: whoever has the port open gets errors, and its name is gone."""
+        """Unplug the adapter: programs that have the port open get errors, and the link is removed."""
         for descriptor in (self._master, self._slave):
             if descriptor >= 0:
                 os.close(descriptor)
@@ -98,7 +98,7 @@ class BusPort:
             self._link.unlink()
 
     def close(self) -> None:
-        """Give everything back."""
+        """Close the port and remove the link."""
         self.unplug()
 
     def stop(self) -> None:
@@ -117,7 +117,7 @@ class BusPort:
                 due_s += self._step_s
             self._send_due()
             next_s = min(due_s, self._answers[0][0]) if self._answers else due_s
-            # Looked at after every step: whoever waits for an answer must not wait until time has been made up for.
+            # Checked after every step, so that a reply need not wait until missed steps are made up.
             waiting = control.descriptors() if control is not None else []
             if self._master >= 0:
                 waiting.append(self._master)
@@ -147,6 +147,6 @@ class BusPort:
     def _send_due(self) -> None:
         while self._answers and self._answers[0][0] <= time.monotonic():
             _, data = self._answers.popleft()
-            # What does not fit into the terminal's buffer is lost, as where nobody reads a serial port.
+            # Bytes that do not fit into the terminal's buffer are lost, as on a serial port that is not read.
             with suppress(BlockingIOError):
                 os.write(self._master, data)

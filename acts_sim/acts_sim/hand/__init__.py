@@ -1,7 +1,7 @@
-"""The simulated LEAP hand, what it holds, and its skin.
+"""The simulated LEAP hand, the object in it, and its skin.
 
-In come goals of motors and commands; out come angles, currents, pressures of 1024 taxels, and the truth to judge by.
-The world has no clock and no process of its own: the same seed gives the same bits.
+In come goals of motors and commands; out come angles, currents, counts of 1024 taxels, and the truth for evaluation.
+The world depends on no clock and no process: the same seed gives the same bits.
 """
 
 from acts_sim.hand.commands import carry_out

@@ -1,4 +1,4 @@
-"""What can be done to hand and object while the world runs, in lines of text."""
+"""Text commands that act on hand and object while the world runs."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _MM = 1e-3
 _MS = 1e-3
 _AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 
-# Largest numbers that make sense, by what they are.
+# Largest allowed values, by unit.
 _MOST_MM = 200.0
 _MOST_DEG = 180.0
 _MOST_N = 100.0
@@ -24,7 +24,7 @@ _MOST_S = 600.0
 
 
 def carry_out(world: HandWorld, line: str) -> None:
-    """Do what a line says.
+    """Execute a command.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ def carry_out(world: HandWorld, line: str) -> None:
     Raises
     ------
     SettingsError
-        For a word or an argument that is not allowed; nothing has happened then.
+        For a word or an argument that is not allowed; the command then has no effect.
     """
     words = line.split()
     if not words or words[0] not in _KNOWN:
@@ -43,7 +43,7 @@ def carry_out(world: HandWorld, line: str) -> None:
     usage, least, act = _KNOWN[words[0]]
     most = len(usage.split()) - 1
     if not least <= len(words) - 1 <= most:
-        raise SettingsError(f"{line.strip()!r}: wrong number of arguments; needed is {usage}, of that {least} at least")
+        raise SettingsError(f"{line.strip()!r}: wrong number of arguments; usage: {usage}, with {least} or more")
     act(world, words[1:])
 
 
@@ -147,4 +147,4 @@ _KNOWN: dict[str, tuple[str, int, Callable[[HandWorld, list[str]], None]]] = {
 }
 
 COMMANDS = tuple(usage for usage, _, _ in _KNOWN.values())
-"""What `carry_out` knows: words with their arguments, of which the last may be left out."""
+"""Commands of `carry_out` with their arguments, of which the last ones are optional."""

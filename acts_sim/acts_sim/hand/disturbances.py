@@ -1,4 +1,4 @@
-"""What happens to the hand and its object from outside: the object is pulled, the hand is shaken."""
+"""Disturbances: forces on the object, and shaking of the hand."""
 
 from __future__ import annotations
 
@@ -9,19 +9,19 @@ from numpy.typing import NDArray
 
 
 class Disturbances:
-    """Pulls at the object and shakes the hand.
+    """Pulls the object and shakes the hand.
 
     Parameters
     ----------
     weight_n : float
-        Of the object.
+        Weight of the object [N].
     down : np.ndarray [shape=(3,)]
-        In the palm's frame.
+        Direction of gravity in the palm's frame, a unit vector.
 
     Attributes
     ----------
     load_n : np.ndarray [shape=(3,)]
-        What pulls at the object now, in the palm's frame [N].
+        Present force on the object, in the palm's frame [N].
     """
 
     def __init__(self, weight_n: float, down: NDArray[np.float64]) -> None:
@@ -35,22 +35,22 @@ class Disturbances:
         self._shaken_s = self._shake_s = 0.0
 
     def pull(self, force_n: NDArray[np.float64], ramp_s: float) -> None:
-        """Pull at the object with a force that is reached after `ramp_s` and stays."""
+        """Pull the object with a force that rises within `ramp_s` and then is constant."""
         self._goal_n = force_n.copy()
         self._rate_n_s = float(np.linalg.norm(self._goal_n - self.load_n)) / max(ramp_s, 1e-6)
 
     def pull_down(self, times_weight: float, ramp_s: float) -> None:
-        """Pull at the object downwards with a multiple of its weight, reached after `ramp_s`."""
+        """Pull the object downwards with a multiple of its weight, which rises within `ramp_s`."""
         self.pull(times_weight * self._weight_n * self._down, ramp_s)
 
     def shake(self, direction: NDArray[np.float64], amplitude_m: float, frequency_hz: float, duration_s: float) -> None:
-        """Move the whole hand to and fro along a direction."""
+        """Shake the whole hand along a direction (a sine)."""
         self._shake_direction = direction / np.linalg.norm(direction)
         self._amplitude_m, self._omega_rad_s = amplitude_m, math.tau * frequency_hz
         self._shaken_s, self._shake_s = 0.0, duration_s
 
     def load(self, dt_s: float) -> NDArray[np.float64]:
-        """Let time pass; the pull at the object [N], np.ndarray [shape=(3,)]."""
+        """Advance by `dt_s`; return the force on the object [N], np.ndarray [shape=(3,)]."""
         if self._rate_n_s:
             missing = self._goal_n - self.load_n
             distance = float(np.linalg.norm(missing))
@@ -67,9 +67,9 @@ class Disturbances:
         return self._shaken_s < self._shake_s
 
     def shaking(self, dt_s: float) -> NDArray[np.float64]:
-        """Let time pass; the acceleration of the hand [m/s^2], np.ndarray [shape=(3,)]."""
+        """Advance by `dt_s`; return the acceleration of the hand [m/s^2], np.ndarray [shape=(3,)]."""
         self._shaken_s += dt_s
-        # Its strength grows and fades over a tenth of a second, so that the hand ends where it was.
+        # The amplitude rises and falls within a tenth of a second, so that the hand ends where it started.
         left_s = self._shake_s - self._shaken_s
         strength = min(1.0, self._shaken_s / 0.1, max(left_s, 0.0) / 0.1)
         swing = -self._amplitude_m * self._omega_rad_s**2 * math.sin(self._omega_rad_s * self._shaken_s)

@@ -1,4 +1,4 @@
-"""What holds the object besides the hand: springs to a place, as of somebody's arm, which may move."""
+"""Springs and dampers that hold the object at a pose which can move, like a person's arm."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ from numpy.typing import NDArray
 
 _STIFFNESS_N_M = 800.0
 _TURN_STIFFNESS_NM = 3.0
-# What is light is held less stiffly, so that it swings no faster than this [rad/s]; steps of a millisecond follow that.
+# Largest natural frequency [rad/s], stable with steps of a millisecond: lighter objects are held less stiffly.
 _FASTEST_RAD_S = 300.0
 _LET_GO_S = 0.1
 
 
 class Holder:
-    """Springs and dampers between the object and a pose, and that pose on its way.
+    """Critically damped springs between the object and a moving pose.
 
     Parameters
     ----------
     mass_kg, inertia_kg_m2 : float
-        Of the object; the smallest of its moments of inertia.
+        Mass of the object, and its smallest moment of inertia.
     """
 
     def __init__(self, mass_kg: float, inertia_kg_m2: float) -> None:
@@ -31,7 +31,7 @@ class Holder:
         self._start = self._position = self._end = np.zeros(3)
         self._quaternion = self._start_quaternion = np.array([1.0, 0.0, 0.0, 0.0])
         self._turn = np.zeros(3)
-        # Of the pose, as share of the way [1/s].
+        # Speed of the pose relative to the length of its path [1/s].
         self._speed_s = 0.0
         self._elapsed_s = self._duration_s = 0.0
         self._strength = 0.0
@@ -39,12 +39,12 @@ class Holder:
 
     @property
     def holding(self) -> bool:
-        """Whether the object is held; until it has been let go wholly."""
+        """Whether the object is held, even by springs that are fading."""
         return self._strength > 0.0
 
     @property
     def strength(self) -> float:
-        """How much of the springs there is: 1, or less while it lets go."""
+        """Factor on the springs: 1, less while they fade after `let_go`, and 0 without."""
         return self._strength
 
     def hold(self, position_m: NDArray[np.float64], quaternion: NDArray[np.float64]) -> None:
@@ -56,15 +56,15 @@ class Holder:
         self._strength, self._letting_go = 1.0, False
 
     def let_go(self) -> None:
-        """Hold it no longer; the springs fade away within a tenth of a second."""
+        """Release the object; the springs fade within a tenth of a second."""
         self._letting_go = True
 
     def drop(self) -> None:
-        """Hold it no longer, at once."""
+        """Release the object at once."""
         self._strength = 0.0
 
     def move(self, by_m: NDArray[np.float64], turn_rad: NDArray[np.float64], duration_s: float) -> None:
-        """Move the pose by a way [m] and a turn about a vector [rad], smoothly within a time [s]."""
+        """Move the pose smoothly by a translation [m] and a rotation vector [rad] within a time [s]."""
         self._start, self._end = self._position, self._position + by_m
         self._start_quaternion, self._turn = self._quaternion, turn_rad.copy()
         self._elapsed_s, self._duration_s = 0.0, max(duration_s, 1e-3)
@@ -77,7 +77,7 @@ class Holder:
         turn_rad_s: NDArray[np.float64],
         dt_s: float,
     ) -> NDArray[np.float64]:
-        """Let time pass; force [N] and torque [N m] on the object, np.ndarray [shape=(6,)]."""
+        """Advance by `dt_s`; return force [N] and torque [N m] on the object, np.ndarray [shape=(6,)]."""
         if self._letting_go:
             self._strength = max(self._strength - dt_s / _LET_GO_S, 0.0)
         if self._duration_s:
@@ -95,7 +95,7 @@ class Holder:
     def _advance(self, dt_s: float) -> None:
         self._elapsed_s = min(self._elapsed_s + dt_s, self._duration_s)
         x = self._elapsed_s / self._duration_s
-        share = x * x * x * (10.0 - 15.0 * x + 6.0 * x * x)  # no jerk at its begin and end
+        share = x * x * x * (10.0 - 15.0 * x + 6.0 * x * x)  # minimum jerk: velocity and acceleration 0 at both ends
         self._speed_s = 30.0 * (x * (1.0 - x)) ** 2 / self._duration_s
         self._position = self._start + share * (self._end - self._start)
         self._quaternion = _product(_turned(share * self._turn), self._start_quaternion)

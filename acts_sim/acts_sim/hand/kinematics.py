@@ -1,8 +1,8 @@
-"""The right LEAP hand's links and joints, and the solids that they are made of here.
+"""Links, joints and solids of the right LEAP hand.
 
 Offsets and limits are those of its URDF (Shaw et al., 2023, doi:10.15607/RSS.2023.XIX.089). The palm's frame is that of
-the link ``palm_lower``: fingers point along x, the flat open thumb along y, the palm faces -z. The solids are our own:
-capsules and boxes around the middle lines of the links.
+the link ``palm_lower``: fingers point along x, the flat open thumb along y, and the palm faces -z. The solids are a
+model of ours: capsules and boxes around the centre lines of the links.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ Triple = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class Link:
-    """A link and the joint that moves it about (0, 0, -1) of its own frame.
+    """A link and its joint, which turns it about the axis (0, 0, -1) of its own frame.
 
     Attributes
     ----------
@@ -32,9 +32,9 @@ class Link:
     offset_m : tuple of float
         Its frame's origin in the parent's frame, with the joint at 0 [m].
     quaternion : tuple of float
-        Its frame's turn in the parent's frame: w, x, y, z.
+        Orientation of its frame in the parent's frame: w, x, y, z.
     limits_rad : (float, float)
-        Of the joint.
+        Limits of the joint [rad].
     mass_kg : float
     """
 
@@ -105,20 +105,20 @@ TIPS: dict[str, Triple] = {
     **{f"{finger}_distal": (0.0, -0.0480, 0.0150) for finger in FINGERS},
     "thumb_distal": (0.0, -0.0600, -0.0150),
 }
-"""The tips in their links' frames [m]."""
+"""Fingertips in their links' frames [m]."""
 
 
 @dataclass(frozen=True)
 class Solid:
-    """A part of a link, where it lies in the palm's frame while the hand is open and flat.
+    """A part of a link, in the palm's frame while the hand is open and flat.
 
     Attributes
     ----------
     link : str
     start_m, end_m : tuple of float
-        Ends of a capsule's middle line; corners of a box.
+        Ends of a capsule's centre line; corners of a box.
     radius_m : float
-        Of the capsule; 0 for a box.
+        Radius of a capsule; 0 for a box.
     """
 
     link: str
@@ -127,20 +127,20 @@ class Solid:
     radius_m: float = 0.0
 
 
-# Middle lines of the fingers and of the thumb.
+# Centre lines of the fingers and of the thumb.
 _FINGER_Y_M = {"index": 0.0081, "middle": -0.0373, "ring": -0.0827}
 _FINGER_Z_M = -0.0195
 _THUMB_X_M, _THUMB_Z_M = -0.0823, -0.0214
 _CORE_RADIUS_M = 0.010
 
 SKIN_THICKNESS_M = 0.003
-"""Of the foam between the solids and the surface of the skin [m]."""
+"""Thickness of the foam between the solids and the surface of the skin [m]."""
 
 PALM_SURFACE_Z_M = -0.0345
-"""Where the surface of the palm's skin is, in the palm's frame [m]."""
+"""z of the surface of the palm's skin, in the palm's frame [m]."""
 
 FINGER_SKIN_RADIUS_M = _CORE_RADIUS_M + SKIN_THICKNESS_M
-"""Of the skin around fingers and thumb, about their middle lines [m]."""
+"""Radius of the skin of fingers and thumb about their centre lines [m]."""
 
 
 def _finger_solids(name: str) -> tuple[Solid, ...]:
@@ -159,7 +159,7 @@ def _thumb_solid(link: str, start_m: float, end_m: float) -> Solid:
 _CORE_Z_M = PALM_SURFACE_Z_M + SKIN_THICKNESS_M
 
 SOLIDS: tuple[Solid, ...] = (
-    # The corner that is left out is where the thumb turns.
+    # Without the corner in which the thumb turns.
     Solid(PALM, (-0.070, -0.098, _CORE_Z_M), (-0.018, 0.028, 0.0115)),
     Solid(PALM, (-0.094, -0.098, _CORE_Z_M), (-0.070, -0.020, 0.0115)),
     *(solid for finger in FINGERS for solid in _finger_solids(finger)),

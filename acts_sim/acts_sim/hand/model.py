@@ -1,4 +1,4 @@
-"""Hand, object and tip as a MuJoCo model, whose world is the palm's frame: gravity turns, the hand does not."""
+"""Hand, object and tip as a MuJoCo model. Its world frame is the palm's: gravity turns instead of the hand."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ OBJECT = "object"
 TIP = "tip"
 
 PARKED_M = (0.0, 0.0, 2.0)
-"""Where the tip is while there is none, in the palm's frame [m]."""
+"""Position of an unused tip, out of reach, in the palm's frame [m]."""
 
-# Of every joint: a finger about its root, with the gearbox, as in acts_sim/dynamixel/joints.py.
+# For every joint: a finger about its root, with the gearbox, as in acts_sim/dynamixel/joints.py.
 _ARMATURE_KG_M2 = 1e-3
 _DAMPING_NM_S = 0.03
 _FRICTION_NM = 0.01
 
-# Who collides with whom: kinds of solids by pairs.
+# Pairs of kinds of solids that collide.
 _KINDS = ("object", "palm", "root", "finger", "thumb")
 _COLLIDING = {
     *(("object", kind) for kind in _KINDS[1:]),
@@ -46,20 +46,20 @@ _COLOURS = {
 
 
 def build(thing: HeldObject | None, timestep_s: float) -> mujoco.MjModel:
-    """The model.
+    """Build the model.
 
     Parameters
     ----------
     thing : HeldObject or None
-        What is in the hand: a free body ``object``.
+        Object in the hand, a free body ``object``.
     timestep_s : float
 
     Returns
     -------
     mujoco.MjModel
-        Joints have the names of `kinematics.LINKS`, bodies those of the links; the tip is the mocap body ``tip``.
+        Bodies and joints are named as links and joints of `kinematics.LINKS`; the tip is the mocap body ``tip``.
     """
-    # Otherwise MuJoCo writes them to a file in the working folder; the world reads their counters, and tells.
+    # Otherwise MuJoCo writes warnings to a file in the working directory; the world checks their counters instead.
     mujoco.set_mju_user_warning(lambda _warning: None)
     return mujoco.MjModel.from_xml_string(ElementTree.tostring(_document(thing, timestep_s), encoding="unicode"))
 
@@ -70,7 +70,7 @@ def _document(thing: HeldObject | None, timestep_s: float) -> ElementTree.Elemen
     option = ElementTree.SubElement(
         root, "option", timestep=str(timestep_s), integrator="implicitfast", cone="pyramidal", iterations="20"
     )
-    # What becomes unstable is told, and not begun anew in silence.
+    # No silent reset when the simulation becomes unstable: the world raises an error.
     ElementTree.SubElement(option, "flag", autoreset="disable")
     visual = ElementTree.SubElement(root, "visual")
     ElementTree.SubElement(visual, "global", offwidth="1280", offheight="960")
@@ -105,7 +105,7 @@ def _document(thing: HeldObject | None, timestep_s: float) -> ElementTree.Elemen
         _add_object(world, thing)
     contacts = ElementTree.SubElement(root, "contact")
     for digit in (*FINGERS, "thumb"):
-        # The links of a finger meet at its joints.
+        # The links of a finger overlap at its joints.
         for one, other in combinations([link.name for link in LINKS if link.name.startswith(digit)], 2):
             ElementTree.SubElement(contacts, "exclude", body1=one, body2=other)
     tip = ElementTree.SubElement(world, "body", name=TIP, mocap="true", pos=_text(PARKED_M))
@@ -133,7 +133,7 @@ def _kind_of(link: str) -> str:
 
 
 def _collision_of(kind: str) -> tuple[str, str]:
-    """A solid's own bit, and the bits of those that it collides with."""
+    """MuJoCo's contype and conaffinity: a solid's own bit, and the bits of those that it collides with."""
     takes = {one for pair in _COLLIDING if kind in pair for one in (pair if pair[0] == pair[1] else set(pair) - {kind})}
     return str(1 << _KINDS.index(kind)), str(sum(1 << _KINDS.index(one) for one in takes))
 

@@ -1,4 +1,4 @@
-"""What the hand is given to hold: each thing is made of a few solids."""
+"""Objects for the hand to hold, each made of a few solids."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from acts_sim.hand.kinematics import PALM_SURFACE_Z_M
 from acts_sim.hand.skin_kernels import BOX, CAPSULE, CYLINDER, SPHERE
 
-# Turns that bring the z axis to y and to x: quaternions w, x, y, z.
+# Rotations of the z axis to y and to x: quaternions w, x, y, z.
 _Z_TO_Y = (0.5**0.5, -(0.5**0.5), 0.0, 0.0)
 _Z_TO_X = (0.5**0.5, 0.0, 0.5**0.5, 0.0)
 _UPRIGHT = (1.0, 0.0, 0.0, 0.0)
@@ -18,7 +18,7 @@ _UPRIGHT = (1.0, 0.0, 0.0, 0.0)
 _EDGE_M = 0.003
 
 PALM_MIDDLE_M = (-0.044, -0.035)
-"""x and y of the middle of the palm's skin in the palm's frame [m]."""
+"""x and y of the centre of the palm's skin in the palm's frame [m]."""
 
 
 @dataclass(frozen=True)
@@ -28,11 +28,11 @@ class Piece:
     Attributes
     ----------
     kind : int
-        Of `skin_kernels`.
+        Kind of solid as in `skin_kernels`.
     size_m : tuple of float
-        As `skin_kernels` has it.
+        Dimensions as in `skin_kernels`.
     offset_m : tuple of float
-        Where it lies in the object's frame, turned by `quaternion` (w, x, y, z).
+        Position in the object's frame; `quaternion` (w, x, y, z) is the orientation.
     """
 
     kind: int
@@ -43,7 +43,7 @@ class Piece:
 
 @dataclass(frozen=True)
 class HeldObject:
-    """A thing that can be in the hand.
+    """An object that the hand can hold.
 
     Attributes
     ----------
@@ -51,9 +51,9 @@ class HeldObject:
     pieces : tuple of Piece
     mass_kg : float
     unevenness : float
-        Height of its bumps, relative to what is set; 0 for spheres, whose pattern moves anyway.
+        Factor on the setting `unevenness_m`; 0 for spheres, whose pressure pattern moves without it.
     height_m : float
-        How far its middle is above the palm when it lies there [m].
+        Height of its centre above the palm when it lies there [m].
     """
 
     name: str
@@ -63,11 +63,11 @@ class HeldObject:
     unevenness: float = 1.0
 
     def on_palm(self, dx_m: float, dy_m: float) -> NDArray[np.float64]:
-        """Where its middle is when it lies on the palm, off the palm's middle; np.ndarray [shape=(3,)] [m]."""
+        """Its centre when it lies on the palm, at an offset from the palm's centre; np.ndarray [shape=(3,)] [m]."""
         return np.array([PALM_MIDDLE_M[0] + dx_m, PALM_MIDDLE_M[1] + dy_m, PALM_SURFACE_Z_M - self.height_m])
 
 
-# Smallest and largest of each, and what it is unless told otherwise: radius, or half the width [m], and mass [kg].
+# Smallest and largest size of each, and the defaults: radius or half the width [m], and mass [kg].
 _SIZES_M = {
     "sphere": (0.015, 0.030, 0.045),
     "small_sphere": (0.005, 0.011, 0.020),
@@ -86,12 +86,12 @@ _FINGERS = 4
 
 
 def size_range_m(name: str) -> tuple[float, float, float]:
-    """Smallest, usual and largest size of an object [m]."""
+    """Smallest, default and largest size of an object [m]."""
     return _SIZES_M[name]
 
 
 def held_object(name: str, size_m: float = 0.0, mass_kg: float = 0.0) -> HeldObject:
-    """An object; sizes and masses of 0 are the usual ones.
+    """Make an object; size and mass of 0 mean the defaults.
 
     Parameters
     ----------
@@ -114,7 +114,7 @@ def held_object(name: str, size_m: float = 0.0, mass_kg: float = 0.0) -> HeldObj
 
 
 def _other_hand(radius_m: float) -> tuple[Piece, ...]:
-    """Four fingers with their bones in the palm side by side along y, and two across the back that hold them."""
+    """Four fingers and their metacarpals side by side along y, and two bars across the back that join them."""
     pitch_m = 1.8 * radius_m
     size = (radius_m, _FINGER_HALF_LENGTH_M)
     fingers = [Piece(CAPSULE, size, ((k - (_FINGERS - 1) / 2) * pitch_m, 0.0, 0.0), _Z_TO_Y) for k in range(_FINGERS)]

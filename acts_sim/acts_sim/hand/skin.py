@@ -1,4 +1,4 @@
-"""The hand's skin: foam over 13 patches, and what its 1024 taxels feel of what presses it."""
+"""The hand's skin: foam over 13 patches, and the forces on its 1024 taxels."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from acts_sim.hand.kinematics import SKIN_THICKNESS_M
 from acts_sim.hand.skin_kernels import PATCH_RESULTS, WAVES, press
 from acts_sim.hand.solids import Solids
 
-# Points of the foam along the side of a taxel: no further apart than this.
+# Largest distance between points of the foam along the side of a taxel.
 _POINT_SPACING_M = 0.0018
 
-# A point is felt by the taxel that it is in and its neighbours.
+# The force on a point acts on its own taxel and the neighbours.
 _NEIGHBOURS = (-1, 0, 1)
 
 
@@ -27,33 +27,29 @@ _NEIGHBOURS = (-1, 0, 1)
 class SkinConfig:
     """The foam and the taxels under it.
 
-    The default is a foam of 3 mm with a Young's modulus of 75 kPa, under a cover that rounds off what is sharper than
-    a millimetre.
+    The default is a foam of 3 mm with a Young's modulus of 75 kPa, under a cover of 1 mm that rounds off sharper
+    shapes.
     """
 
-    foam_stiffness_n_per_m3: float = setting(
-        2.5e7, "pressure of the foam over the depth pressed into it [N/m^3]", minimum=1e6, maximum=1e9
-    )
+    foam_stiffness_n_per_m3: float = setting(2.5e7, "pressure of the foam per depth [N/m^3]", minimum=1e6, maximum=1e9)
     foam_spread_m: float = setting(
-        0.0010, "standard deviation of how the foam spreads pressure sideways [m]", minimum=1e-4, maximum=0.01
+        0.0010, "standard deviation of the sideways spread of pressure in the foam [m]", minimum=1e-4, maximum=0.01
     )
     foam_damping_s_m: float = setting(
-        8.0, "how much more force while the depth grows, for each m/s", minimum=0.0, maximum=100.0
+        8.0, "damping: relative increase of the force per speed of indentation [s/m]", minimum=0.0, maximum=100.0
     )
     foam_shear_share: float = setting(
-        0.5, "stiffness of the foam along the surface, relative to that into it", minimum=0.05, maximum=2.0
+        0.5, "shear stiffness of the foam, relative to foam_stiffness_n_per_m3", minimum=0.05, maximum=2.0
     )
     cover_m: float = setting(
-        0.0010, "what is sharper than this radius feels as if it had it [m]", minimum=1e-4, maximum=0.002
+        0.0010, "shapes sharper than this radius are rounded to it by the cover [m]", minimum=1e-4, maximum=0.002
     )
     friction: float = setting(0.6, "coefficient of friction between skin and object", minimum=0.05, maximum=3.0)
     gain_spread: float = setting(0.05, "standard deviation of the taxels' sensitivities", minimum=0.0, maximum=0.5)
     unevenness_m: float = setting(
-        0.00015, "how uneven objects are: height of their bumps [m]", minimum=0.0, maximum=0.001
+        0.00015, "unevenness of objects: height of their bumps [m]", minimum=0.0, maximum=0.001
     )
-    unevenness_wavelength_m: float = setting(
-        0.010, "distance of these bumps from one another [m]", minimum=0.004, maximum=0.1
-    )
+    unevenness_wavelength_m: float = setting(0.010, "wavelength of the bumps [m]", minimum=0.004, maximum=0.1)
 
     def __post_init__(self) -> None:
         validate(self)
@@ -68,17 +64,17 @@ class Skin:
         With a body for each link of the layout.
     layout : Layout
     solids : Solids
-        What may press it.
+        The pieces of the object and the tip.
     config : SkinConfig
     rng : np.random.Generator
-        Draws sensitivities and unevenness.
+        Source of the random sensitivities and unevenness.
 
     Attributes
     ----------
     forces_n : np.ndarray [shape=(taxels,), dtype=float64]
-        Of every taxel in the order of the matrix [N]; they sum to the normal forces on the skin.
+        Force on every taxel in the order of the matrix [N]; their sum is the normal force on the skin.
     results : np.ndarray [shape=(patches, 4), dtype=float64]
-        What `skin_kernels.press` tells of each patch.
+        Results of `skin_kernels.press` for each patch.
     """
 
     def __init__(
@@ -124,10 +120,10 @@ class Skin:
             [
                 config.foam_stiffness_n_per_m3,
                 2.0 / 3.0 * SKIN_THICKNESS_M,
-                5.0,  # foam whose cells are closed
+                5.0,  # densified foam
                 config.foam_damping_s_m,
                 config.foam_shear_share * config.foam_stiffness_n_per_m3,
-                0.005,  # [s]: shear is damped, too
+                0.005,  # damping of the shear [s]
                 config.friction,
                 config.cover_m,
             ]
@@ -135,7 +131,7 @@ class Skin:
         self._wave = _waves(solids, config, rng)
 
     def press(self, data: mujoco.MjData, dt_s: float) -> None:
-        """Press what is where MuJoCo says; adds the forces of the skin to ``data.xfrc_applied``."""
+        """Compute the contact for the poses in `data`; adds the forces of the skin to ``data.xfrc_applied``."""
         solids = self._solids
         press(
             data.xpos,
@@ -175,7 +171,7 @@ class Skin:
         )
 
     def counts(self) -> NDArray[np.float64]:
-        """What the taxels read, before noise and rounding; shape (taxels,), overwritten by the next call."""
+        """Counts of the taxels before noise and rounding; shape (taxels,), overwritten by the next call."""
         response = self._response
         above = np.multiply(self.forces_n, self._gain, out=self._counts)
         above -= response.dead_n
@@ -186,7 +182,7 @@ class Skin:
 
 
 def _waves(solids: Solids, config: SkinConfig, rng: np.random.Generator) -> NDArray[np.float64]:
-    """The waves of the object's unevenness in the frame of each solid; see `skin_kernels.press`."""
+    """Plane waves of the object's unevenness in the frame of each solid; see `skin_kernels.press`."""
     direction = rng.standard_normal((WAVES, 3))
     direction /= config.unevenness_wavelength_m * np.linalg.norm(direction, axis=1, keepdims=True)
     phase = rng.uniform(0.0, 1.0, WAVES)
@@ -199,7 +195,7 @@ def _waves(solids: Solids, config: SkinConfig, rng: np.random.Generator) -> NDAr
 
 @dataclass(frozen=True)
 class _Foam:
-    """The foam of one patch, taxel by taxel; see `skin_kernels.press`."""
+    """Points of the foam of one patch, ordered by taxel; see `skin_kernels.press`."""
 
     point_m: NDArray[np.float64]
     normal: NDArray[np.float64]
@@ -222,7 +218,7 @@ def _foam_of(patch: SkinPatch, layout: Layout, config: SkinConfig) -> _Foam:
     )
 
     def by_taxel(fine_grid: NDArray[Any]) -> NDArray[Any]:
-        """What is of every point of the fine grid, taxel by taxel."""
+        """Reorder values of the fine grid's points by taxel."""
         whole = fine_grid.reshape(patch.rows, down, patch.cols, across, -1)
         return np.ascontiguousarray(whole.swapaxes(1, 2)).reshape(fine.rows * fine.cols, -1)
 
@@ -231,7 +227,7 @@ def _foam_of(patch: SkinPatch, layout: Layout, config: SkinConfig) -> _Foam:
     col, col_share = _spreading(patch.cols, across, patch.pitch_m, config.foam_spread_m)
     row, row_share = _spreading(patch.rows, down, patch.row_pitch_m, config.foam_spread_m)
     matrix = patch.of(layout.taxels).astype(np.int64)
-    # Of every point of the fine grid: three rows by three columns of taxels.
+    # For every point of the fine grid: three rows by three columns of taxels.
     taxel = matrix[row[:, None, :, None], col[None, :, None, :]]
     share = row_share[:, None, :, None] * col_share[None, :, None, :]
     area_m2 = np.full(len(point_m), fine.geometry.taxel_area_m2)
@@ -241,14 +237,14 @@ def _foam_of(patch: SkinPatch, layout: Layout, config: SkinConfig) -> _Foam:
 def _spreading(
     taxels: int, points: int, pitch_m: float, spread_m: float
 ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-    """Along one side: the three taxels that feel each point, and the share of each; together they feel all of it.
+    """Along one side: the three taxels on which each point acts, and their shares of its force, with sum 1.
 
     Parameters
     ----------
     taxels : int
-        In the patch.
+        Number of taxels in the patch.
     points : int
-        In a taxel.
+        Number of points in a taxel.
     pitch_m, spread_m : float
 
     Returns

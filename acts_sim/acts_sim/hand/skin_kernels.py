@@ -1,8 +1,8 @@
-"""The hot loop of the hand's skin, compiled: what presses it, how deep, with which force, and who feels it.
+"""Kernels of the hand's skin: depth and force at every point of the foam, and the forces on taxels and bodies.
 
-The foam is an elastic foundation of many points. The pressure at a point grows with the depth to which it is pressed,
-and along the surface each point is a bristle: it is drawn along by what presses it until friction is overcome. Points
-with little pressure, at the rim of a contact, slide first.
+The foam is an elastic (Winkler) foundation of many points: the pressure at a point grows with the depth there. Along
+the surface it is a brush model: each point is an elastic bristle that the object deflects until friction is overcome.
+Points with little pressure, at the rim of a contact, slide first.
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ from acts_core.kernels import kernel
 SPHERE, CAPSULE, CYLINDER, BOX, TIP = range(5)
 
 WAVES = 3
-"""How many plane waves the unevenness of an object is made of."""
+"""Number of plane waves in the unevenness of an object."""
 
-# Columns of what is told of each patch.
+# Columns of the results of each patch.
 FORCE, SLIDING_FORCE, SLIDING_SPEED, TIP_FORCE = range(4)
 PATCH_RESULTS = 4
 
-# Columns of the foam's properties.
+# Indices of the foam's properties.
 STIFFNESS, DENSE_DEPTH, DENSE_FACTOR, DAMPING, SHEAR, SHEAR_TIME, FRICTION, COVER = range(8)
 
 
@@ -31,7 +31,7 @@ STIFFNESS, DENSE_DEPTH, DENSE_FACTOR, DAMPING, SHEAR, SHEAR_TIME, FRICTION, COVE
 def _gap(
     kind: int, size: NDArray[np.float64], s: int, x: float, y: float, z: float, within: float
 ) -> tuple[float, float, float, float]:
-    """Signed distance of a point from a solid in the solid's frame [m], and the direction away from it.
+    """Signed distance of a point from a solid [m], and the unit vector away from it, in the solid's frame.
 
     Parameters
     ----------
@@ -40,11 +40,11 @@ def _gap(
         Sphere: radius. Capsule: radius, half length along z. Cylinder: radius, half length along z, rounding of the
         edges. Box: half lengths, rounding of the edges. Tip: radius, length along z. All [m].
     s : int
-        Which of the solids.
+        Index of the solid.
     x, y, z : float
         [m]
     within : float
-        Points that are surely further away than this need no exact answer: theirs may be 1 m [m].
+        Points that are certainly further away than this may get the distance 1 m [m].
     """
     if kind == SPHERE:
         square = x * x + y * y + z * z
@@ -62,7 +62,7 @@ def _gap(
         scale = 1.0 / max(distance, 1e-12)
         return distance - size[s, 0], x * scale, y * scale, z * scale
     if kind == TIP:
-        # A hemisphere that travels along its z axis, its end at the origin: what is pressed is pressed along its way.
+        # A hemisphere whose end is the origin; its distance is measured along z, the direction in which it moves.
         across = size[s, 0] * size[s, 0] - x * x - y * y
         if across < 0.0 or z < -size[s, 1]:
             return 1.0, 0.0, 0.0, 0.0
@@ -101,7 +101,7 @@ def _gap(
 
 @kernel(error_model="numpy")
 def _is_near(kind: int, size: NDArray[np.float64], s: int, x: float, y: float, z: float, within: float) -> bool:
-    """Whether a sphere of radius `within` about a point may meet a solid; arguments as of `_gap`."""
+    """Whether a sphere of radius `within` about a point may touch a solid; arguments as in `_gap`."""
     if kind == TIP:
         reach = size[s, 0] + within
         return x * x + y * y < reach * reach and -size[s, 1] - within < z < within
@@ -145,7 +145,7 @@ def press(
     patch_result: NDArray[np.float64],
     wrench: NDArray[np.float64],
 ) -> None:
-    """Fill the forces of the taxels and the wrenches on the bodies, and let the bristles follow for `dt`.
+    """Compute the forces on the taxels and the wrenches on the bodies, and advance the bristles by `dt`.
 
     Parameters
     ----------
@@ -154,40 +154,41 @@ def press(
     root_of : np.ndarray [shape=(bodies,), dtype=int64]
         MuJoCo's body_rootid.
     patch_body, patch_middle, patch_reach, patch_first : np.ndarray
-        Of each patch: body, middle in its frame [m], radius about it [m], first block (one more at the end).
+        Of each patch: body, centre in its frame [m], radius about it [m], first block (one more at the end).
     block_first, block_middle, block_reach : np.ndarray
-        Of each block, the points of one taxel: first point (one more at the end), middle in the link's frame [m],
+        Of each block, the points of one taxel: first point (one more at the end), centre in the link's frame [m],
         radius about it [m].
     point, normal, area : np.ndarray
-        Of each point of the foam: place in its link's frame [m] below the cover of the skin, direction out of the
-        skin, area [m^2].
+        Of each point of the foam: position below the cover in its link's frame [m], unit vector out of the skin,
+        area [m^2].
     taxel, share : np.ndarray [shape=(points, 9)]
-        Taxels that feel a point, and how much of it.
+        Taxels on which the force of a point acts, and their shares of it.
     bristle : np.ndarray [shape=(points, 3), dtype=float64]
-        State: how far each point is drawn along, in its link's frame [m].
+        State: deflection of each point along the surface, in its link's frame [m].
     block_touched : np.ndarray [shape=(blocks,), dtype=bool]
-        State: whether any bristle of the block may be drawn.
+        State: whether any bristle of the block may be deflected.
     foam : np.ndarray [shape=(8,), dtype=float64]
     solid_kind, solid_body, solid_pos, solid_mat, solid_size, solid_there, solid_travel, solid_uneven : np.ndarray
-        Of each solid that may press: its kind, body, pose in the body's frame, size, whether it is there at all,
-        velocity that MuJoCo does not know of [m/s], height of its unevenness [m].
+        Of each solid: kind, body, pose in the body's frame, size, whether it is present, velocity in addition to
+        MuJoCo's [m/s], height of its unevenness [m].
     wave : np.ndarray [shape=(solids, 3, 4), dtype=float64]
-        Of the waves that make the unevenness: wave vectors in the solid's frame [turns/m], and phases [turns].
+        Of the waves of the unevenness: wave vectors in the solid's frame [turns/m], and phases [turns].
     dt : float
         [s]
     forces : np.ndarray [shape=(taxels,), dtype=float64]
         Overwritten [N].
     patch_result : np.ndarray [shape=(patches, 4), dtype=float64]
-        Overwritten: normal force [N], that of points that slide [N], mean speed of sliding [m/s], force of tips [N].
+        Overwritten: normal force [N], normal force of sliding points [N], mean speed of sliding [m/s], force of the
+        tip [N].
     wrench : np.ndarray [shape=(bodies, 6), dtype=float64]
-        Added to: force [N] and torque about the body's centre of mass [N m].
+        Forces [N] and torques about the body's centre of mass [N m] are added.
     """
     forces[:] = 0.0
     patch_result[:] = 0.0
     solids = len(solid_kind)
     near, here = np.empty(solids, dtype=np.int64), np.empty(solids, dtype=np.int64)
     middle = np.empty((solids, 3))
-    # Of each solid that is near a patch, in the frame of its link: place, turn, motion, what the skin does to it.
+    # Of each solid near a patch, in the frame of its link: position, rotation, velocities, force and torque.
     at, turn = np.empty((solids, 3)), np.empty((solids, 3, 3))
     spin, drift = np.empty((solids, 3)), np.empty((solids, 3))
     push, twist = np.empty((solids, 3)), np.empty((solids, 3))
@@ -267,18 +268,18 @@ def press(
                         for w in range(WAVES):
                             turns = wave[s, w, 0] * x + wave[s, w, 1] * y + wave[s, w, 2] * z + wave[s, w, 3]
                             turns -= math.floor(turns + 0.5)
-                            height += turns * (8.0 - 16.0 * abs(turns))  # a sine of parabolas
+                            height += turns * (8.0 - 16.0 * abs(turns))  # parabolas in place of a sine
                         gap -= uneven * height / WAVES
                     if cover - gap > depth:
                         depth, by = cover - gap, k
                         nx = turn[k, 0, 0] * ax + turn[k, 0, 1] * ay + turn[k, 0, 2] * az
                         ny = turn[k, 1, 0] * ax + turn[k, 1, 1] * ay + turn[k, 1, 2] * az
                         nz = turn[k, 2, 0] * ax + turn[k, 2, 1] * ay + turn[k, 2, 2] * az
-                # Something at the back of the link does not press its skin.
+                # A solid at the back of the link does not press its skin.
                 if by < 0 or nx * normal[i, 0] + ny * normal[i, 1] + nz * normal[i, 2] > 0.0:
                     bristle[i, 0] = bristle[i, 1] = bristle[i, 2] = 0.0
                     continue
-                # How what presses moves against the skin at this point.
+                # Velocity of the solid relative to the skin at this point.
                 vx = drift[by, 0] + spin[by, 1] * pz - spin[by, 2] * py
                 vy = drift[by, 1] + spin[by, 2] * px - spin[by, 0] * pz
                 vz = drift[by, 2] + spin[by, 0] * py - spin[by, 1] * px
@@ -287,7 +288,7 @@ def press(
                 if depth > dense_depth:
                     depth += (dense_factor - 1.0) * (depth - dense_depth)
                 force = stiffness * area[i] * depth * min(max(1.0 + damping * deeper, 0.0), 2.0)
-                # The bristle, in the plane of the contact.
+                # Deflection of the bristle in the plane of the contact.
                 ux, uy, uz = bristle[i, 0] + vx * dt, bristle[i, 1] + vy * dt, bristle[i, 2] + vz * dt
                 along = ux * nx + uy * ny + uz * nz
                 ux, uy, uz = ux - along * nx, uy - along * ny, uz - along * nz
@@ -348,7 +349,7 @@ def _bring_near(
     drift: NDArray[np.float64],
     row: int,
 ) -> None:
-    """Place, turn and motion (spin, and drift at the link's origin) of solid `s` in the frame of a link."""
+    """Position, rotation, angular velocity (spin) and velocity at the origin (drift) of solid `s` in a link's frame."""
     for i in range(3):
         at[row, i] = drift[row, i] = spin[row, i] = 0.0
         for j in range(3):
@@ -356,7 +357,7 @@ def _bring_near(
     for i in range(3):
         j, k = (i + 1) % 3, (i + 2) % 3
         place = middle[s, i] - body_pos[link, i]
-        # At the link's origin, of body and link.
+        # Velocity of the body at the link's origin, relative to the link.
         velocity = body_velocity[body, 3 + i] - body_velocity[link, 3 + i] + travel[s, i]
         rj, rk = body_pos[link, j] - root_centre[root_of[body], j], body_pos[link, k] - root_centre[root_of[body], k]
         velocity += body_velocity[body, j] * rk - body_velocity[body, k] * rj

@@ -1,4 +1,4 @@
-"""What may press the skin, as arrays for the kernel: the pieces of the object and the tip."""
+"""The solids that press the skin, as arrays for the kernel: pieces of the object, and the tip."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from acts_sim.hand.skin_kernels import TIP
 
 
 class Solids:
-    """The pieces of an object and, as the last, the tip; see `skin_kernels.press` for the arrays.
+    """The pieces of an object, and last the tip; see `skin_kernels.press` for the arrays.
 
     Parameters
     ----------
@@ -48,10 +48,10 @@ class Solids:
         self._cover_m = cover_m
 
     def set_tip(self, radius_m: float, length_m: float) -> None:
-        """Let there be a tip of this radius [m] at the end of a rod of this length [m]."""
+        """Add a tip of a radius [m] at the end of a rod of a length [m]."""
         self.size[-1, :2] = radius_m + self._cover_m, length_m
         self.there[-1] = True
 
     def remove_tip(self) -> None:
-        """Let there be no tip."""
+        """Remove the tip."""
         self.there[-1] = False

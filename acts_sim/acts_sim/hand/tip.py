@@ -1,4 +1,4 @@
-"""What the skin is poked with: a rod with a round tip that moves straight onto a patch."""
+"""A rod with a round tip that pokes a patch of the skin in a straight line."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from acts_sim.hand import model as hand_model
 from acts_sim.hand.solids import Solids
 
 SHARP_RADIUS_M = 0.0005
-"""Of a tip of a millimetre."""
+"""Radius of a tip of 1 mm diameter [m]."""
 
 BLUNT_RADIUS_M = 0.008
 
@@ -21,14 +21,14 @@ _ROD_M = 0.04  # as in the model
 
 
 class Tip:
-    """Moves the tip and knows how deep it is in the skin.
+    """Moves the tip and measures its depth in the skin.
 
     Attributes
     ----------
     patch : str
-        The patch that it is pushed into; empty without a tip.
+        Name of the patch that it is pushed into; empty without a tip.
     depth_m : float
-        How far its end is below the untouched surface of that patch [m]; negative above it, NaN without a tip.
+        Depth of its end below the untouched surface of that patch [m]; negative above it, NaN without a tip.
     """
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, solids: Solids, layout: Layout) -> None:
@@ -53,22 +53,22 @@ class Tip:
         row: float | None = None,
         col: float | None = None,
     ) -> None:
-        """Push a tip into a patch, against its normal where it is now.
+        """Push a tip into a patch, against the patch's present normal.
 
         Parameters
         ----------
         patch : str
             Name of the patch.
         radius_m : float
-            Of the tip.
+            Radius of the tip [m].
         speed_m_s : float
-            It moves with, without yielding.
+            Constant speed, independent of the force [m/s].
         travel_m : float
-            How far it moves beyond the surface, where that was at the begin; then it stands.
+            Travel beyond the initial surface, after which it stops [m].
         start_m : float
-            How far above the surface it begins.
+            Height above the surface at which it starts [m].
         row, col : float, optional
-            Where on the patch, as fractional indices of its taxels; its middle unless told otherwise.
+            Position on the patch, as fractional indices of its taxels; by default its centre.
         """
         where = self._patches[patch]
         row = (where.rows - 1) / 2 if row is None else row
@@ -84,14 +84,14 @@ class Tip:
         self._place()
 
     def withdraw(self) -> None:
-        """Take the tip away."""
+        """Remove the tip."""
         self.patch, self.depth_m = "", math.nan
         self._end, self._left_m = np.array(hand_model.PARKED_M), 0.0
         self._solids.remove_tip()
         self._place()
 
     def advance(self, dt_s: float) -> None:
-        """Let time pass."""
+        """Advance by `dt_s`."""
         if not self.patch:
             return
         step_m = min(self._speed_m_s * dt_s, self._left_m)
@@ -101,7 +101,7 @@ class Tip:
         self._place()
 
     def measure(self) -> None:
-        """See how deep the tip is, where the links are now."""
+        """Update `depth_m` by the present poses of the links."""
         if self.patch:
             self.depth_m = self._depth(self._patches[self.patch])
 
@@ -110,7 +110,7 @@ class Tip:
         self._data.mocap_quat[self._mocap] = _quaternion_to(self._along)
 
     def _surface(self, patch: SkinPatch, row: float, col: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """A place on a patch and the normal there, in the palm's frame, both shape (3,)."""
+        """A position on a patch and the normal there, in the palm's frame, both shape (3,)."""
         origin, rotation = self._frame(patch)
         x_m = float(patch.geometry.x_m(col))
         y_m = float(patch.geometry.y_m(row))
@@ -129,14 +129,14 @@ class Tip:
         return float(patch.radius_m - math.hypot(x_m, z_m + patch.radius_m))
 
     def _frame(self, patch: SkinPatch) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Of a patch, in the palm's frame."""
+        """Position and rotation of a patch, in the palm's frame."""
         body = _id(self._model, mujoco.mjtObj.mjOBJ_BODY, patch.link)
         turn = self._data.xmat[body].reshape(3, 3)
         return self._data.xpos[body] + turn @ patch.origin_m, turn @ patch.rotation
 
 
 def _quaternion_to(direction: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Quaternion w, x, y, z that brings the z axis to a direction."""
+    """Quaternion w, x, y, z of a rotation of the z axis to a direction."""
     x, y, z = direction.tolist()
     if z < -0.999999:
         return np.array([0.0, 1.0, 0.0, 0.0])

@@ -1,7 +1,7 @@
-"""What is true in the hand's world, for those who judge; nothing that controls the hand may look at it.
+"""The true state of the hand's world, for evaluation only: no controller of the hand may read it.
 
-`hand_world` writes it as rows of numbers into a ring in shared memory, 500 times a second. Here is what stands where
-in a row, and who reads them.
+`hand_world` writes it as rows of numbers into a ring in shared memory, 500 times a second. This module defines the
+columns of a row, and reads rows.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from acts_sim.shared import TimedRingReader
 
 JOINTS = 16
 
-# Of a row: name, how many numbers.
+# Quantities of a row: name, and how many numbers.
 _HEAD = (
     ("time_s", 1),
     ("object_position_m", 3),
@@ -35,7 +35,7 @@ _HEAD = (
     ("q_rad", JOINTS),
 )
 PATCHES_FROM = sum(width for _, width in _HEAD)
-"""Where in a row the patches begin, `PATCH_COLUMNS` numbers each."""
+"""First column of the patches, which have `PATCH_COLUMNS` each."""
 
 PATCH_COLUMNS = ("force_n", "sliding_share", "sliding_m_s", "tip_force_n")
 
@@ -43,28 +43,28 @@ COLUMN = {
     name: slice(start, start + width)
     for (name, width), start in zip(_HEAD, np.cumsum([0, *(width for _, width in _HEAD)]).tolist(), strict=False)
 }
-"""Where in a row a quantity stands, by its name."""
+"""Columns of each quantity, by its name."""
 
 
 def row_width(patches: int) -> int:
-    """How many numbers a row has."""
+    """Number of columns of a row."""
     return PATCHES_FROM + len(PATCH_COLUMNS) * patches
 
 
 @dataclass(frozen=True)
 class PatchTruth:
-    """What touches one patch.
+    """True contact of one patch.
 
     Attributes
     ----------
     force_n : float
-        Normal force, the sum of its taxels' [N].
+        Normal force, the sum over its taxels [N].
     sliding_share : float
-        Share of that force at points that slide: between 0 and 1 while only the rim does.
+        Share of that force at sliding points; between 0 and 1 while only the rim slides.
     sliding_m_s : float
         Mean speed of sliding, weighted by force [m/s].
     tip_force_n : float
-        Of `force_n`, what a tip presses [N].
+        Part of `force_n` that the tip exerts [N].
     """
 
     force_n: float = 0.0
@@ -75,28 +75,28 @@ class PatchTruth:
 
 @dataclass(frozen=True)
 class HandTruth:
-    """The world at an instant; vectors are in the palm's frame.
+    """True state of the world at one time; vectors are in the palm's frame.
 
     Attributes
     ----------
     time_s : float
-        Since the start.
+        Time since the start [s].
     object_position_m, object_velocity_m_s, object_turn_rad_s : tuple of float
-        Of the object's middle; 0 without an object.
+        Of the object's centre [m, m/s, rad/s]; 0 without an object.
     object_quaternion : tuple of float
         Its orientation: w, x, y, z.
     object_held : bool
-        Something else than the hand holds it.
+        Whether the holder holds it.
     object_lost : bool
-        It has fallen out of the hand.
+        Whether it has fallen out of the hand.
     load_n : tuple of float
-        What pulls at it besides gravity [N].
+        Force on it besides gravity [N].
     gravity_m_s2 : tuple of float
-        What hand and object feel of gravity and of being shaken.
+        Gravity minus the acceleration of a shaken hand [m/s^2].
     tip_depth_m : float
-        How far the tip is below the untouched surface of the skin it is pushed into; negative above it, NaN without.
+        Depth of the tip below the untouched surface of the patch [m]; negative above it, NaN without a tip.
     tip_patch : str
-        Patch that the tip is pushed into; empty without.
+        Patch that the tip is pushed into; empty without a tip.
     q_rad : tuple of float
         Angles of the joints in the order of the motors.
     patches : dict of PatchTruth
@@ -119,7 +119,7 @@ class HandTruth:
 
     @classmethod
     def from_row(cls, row: NDArray[np.float64], patches: Sequence[str]) -> HandTruth:
-        """The truth out of a row.
+        """Make the truth from a row.
 
         Parameters
         ----------
@@ -147,7 +147,7 @@ class HandTruth:
         )
 
     def as_dict(self) -> dict[str, Any]:
-        """For JSON; what is NaN is None."""
+        """As a dictionary for JSON; NaN becomes None."""
         values = asdict(self)
         if math.isnan(self.tip_depth_m):
             values["tip_depth_m"] = None
@@ -155,14 +155,14 @@ class HandTruth:
 
 
 class TruthFollower:
-    """Takes the rows out of the ring that `hand_world` writes.
+    """Reads rows from the ring that `hand_world` writes.
 
     Parameters
     ----------
     path : Path
         The ring.
     patches : int
-        How many patches the layout has.
+        Number of patches of the layout.
 
     Raises
     ------
@@ -175,14 +175,14 @@ class TruthFollower:
         self._newest_ns = 0
 
     def new(self) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-        """What has come since the last call, oldest first; at most what the ring holds.
+        """Rows that were written since the last call, oldest first; at most those in the ring.
 
         Returns
         -------
         times_ns : np.ndarray [shape=(n,), dtype=int64]
-            CLOCK_MONOTONIC that each row is true at [ns].
+            Time of each row, CLOCK_MONOTONIC [ns].
         rows : np.ndarray [shape=(n, width), dtype=float64]
-            Columns as `COLUMN` and `PATCHES_FROM` say, or `HandTruth.from_row` for one of them.
+            Columns as in `COLUMN` and from `PATCHES_FROM` on; `HandTruth.from_row` converts one row.
         """
         times_ns, rows = self._ring.since(self._newest_ns)
         if len(times_ns):

@@ -1,6 +1,6 @@
-"""The hand's world: motors move joints, joints move links, links and object press on each other through the skin.
+"""The hand's world: motors move joints, joints move links, and links and object press each other through the skin.
 
-No clock and no process inside: the same seed and the same commands to motors and world give the same bits.
+It depends on no clock and no process: the same seed and the same commands to motors and world give the same bits.
 """
 
 from __future__ import annotations
@@ -29,13 +29,13 @@ from acts_sim.hand.truth import COLUMN, PATCH_COLUMNS, PATCHES_FROM, HandTruth, 
 STEP_S = 0.002
 """Length of a step [s]."""
 
-# Of physics in a step: foam on a light object is a stiff spring.
+# Substeps of the physics: foam on a light object is a stiff spring.
 _SUBSTEPS, _LIGHT_SUBSTEPS, _LIGHT_KG = 2, 4, 0.1
 _SMALLEST_KG = 0.01
 
 _GRAVITY_M_S2 = 9.81
 
-# Where down is in the palm's frame.
+# Direction of gravity in the palm's frame.
 _DOWN = {
     "palm_up": (0.0, 0.0, 1.0),
     "palm_down": (0.0, 0.0, -1.0),
@@ -52,37 +52,39 @@ _UNSTABLE = (
 )
 
 _LOST_M = 0.15
-"""An object further than this from where the hand can hold it has fallen out."""
+"""An object further than this from the hand has fallen out [m]."""
 
 _GRASP_MIDDLE_M = (-0.02, -0.037, -0.07)
 
 
 @dataclass(frozen=True)
 class HandWorldConfig(SkinConfig):
-    """Everything that can be set about the hand's world."""
+    """All settings of the hand's world."""
 
-    layout: str = setting("leap_right", "name or file of the layout that says where the taxels are")
-    pose: str = setting("palm_up", "how the hand is held", choices=tuple(_DOWN))
-    object: str = setting("sphere", "what is in the hand", choices=("none", *OBJECTS))
+    layout: str = setting("leap_right", "name or file of the layout of the skin")
+    pose: str = setting("palm_up", "orientation of the hand", choices=tuple(_DOWN))
+    object: str = setting("sphere", "object in the hand", choices=("none", *OBJECTS))
     object_size_m: float = setting(
-        0.0, "radius, or half the width of a box [m]; 0: as usual", minimum=0.0, maximum=0.045
+        0.0, "radius, or half the width of a box [m]; 0: default of the object", minimum=0.0, maximum=0.045
     )
-    object_mass_kg: float = setting(0.0, "mass of the object, 0.01 or more [kg]; 0: as usual", minimum=0.0, maximum=2.0)
+    object_mass_kg: float = setting(0.0, "mass of the object, 0.01 or more [kg]; 0: default", minimum=0.0, maximum=2.0)
     object_x_m: float = setting(
-        0.0, "where the object is put: off the palm's middle, towards the fingers [m]", minimum=-0.1, maximum=0.1
+        0.0, "start position of the object, from the palm's centre towards the fingers [m]", minimum=-0.1, maximum=0.1
     )
-    object_y_m: float = setting(0.0, "and towards the thumb's side [m]", minimum=-0.1, maximum=0.1)
-    object_height_m: float = setting(0.0, "and above the palm [m]", minimum=0.0, maximum=0.1)
-    object_held: bool = setting(False, "whether the object is held there until it is let go")
-    motor_model: str = setting("xc330", "kind of the motors", choices=tuple(sorted(MODELS)))
-    return_delay_time: int = setting(250, "of the motors, in their EEPROM at the start [2 us]", minimum=0, maximum=254)
+    object_y_m: float = setting(0.0, "start position towards the thumb's side [m]", minimum=-0.1, maximum=0.1)
+    object_height_m: float = setting(0.0, "start position above the palm [m]", minimum=0.0, maximum=0.1)
+    object_held: bool = setting(False, "whether the object is held there until the command let_go")
+    motor_model: str = setting("xc330", "model of the motors", choices=tuple(sorted(MODELS)))
+    return_delay_time: int = setting(250, "initial return delay time of the motors [2 us]", minimum=0, maximum=254)
     overload_after_s: float = setting(
-        0.0, "a motor that has stalled for so long switches itself off [s]; 0: never", minimum=0.0, maximum=1000.0
+        0.0, "a motor that has stalled for this long switches itself off [s]; 0: never", minimum=0.0, maximum=1000.0
     )
     overload_ma: float = setting(
-        300.0, "stalled is a motor that stands still with at least this current [mA]", minimum=1.0, maximum=2000.0
+        300.0, "a motor that stands still with at least this current is stalled [mA]", minimum=1.0, maximum=2000.0
     )
-    seed: int = setting(1, "of the taxels' sensitivities and the object's unevenness", minimum=0, maximum=2**31 - 1)
+    seed: int = setting(
+        1, "seed of the taxels' sensitivities and the object's unevenness", minimum=0, maximum=2**31 - 1
+    )
 
     def __post_init__(self) -> None:
         validate(self)
@@ -91,7 +93,7 @@ class HandWorldConfig(SkinConfig):
 
 
 class HandWorld:
-    """Steps the world.
+    """Simulates the hand step by step.
 
     Parameters
     ----------
@@ -100,17 +102,17 @@ class HandWorld:
     Attributes
     ----------
     motors : list of Motor
-        Sixteen, by their IDs.
+        Sixteen motors, ordered by ID.
     bus : Bus
-        With these motors.
+        Bus of these motors.
     blocked : set of int
-        Indices of joints that something holds where they are.
+        Indices of blocked joints.
     holder : Holder
-        What may hold the object besides the hand.
+        Springs that can hold the object besides the hand.
     tip : Tip
-        What the skin may be poked with.
+        The tip that can poke the skin.
     disturbances : Disturbances
-        What else may happen to hand and object.
+        Further forces on object and hand.
     """
 
     def __init__(self, config: HandWorldConfig | None = None) -> None:
@@ -133,7 +135,7 @@ class HandWorld:
         joints = [_joint(self._model, name) for _, name in sorted((link.motor_id, link.joint) for link in LINKS)]
         self._q = np.array([self._model.jnt_qposadr[joint] for joint in joints])
         self._dof = np.array([self._model.jnt_dofadr[joint] for joint in joints])
-        # The object's joint is the model's last one.
+        # The object's joint is the last one of the model.
         self._body = _body(self._model, hand_model.OBJECT)
         tip_body = _body(self._model, hand_model.TIP)
         solids = Solids(self._model, self._thing, max(self._body, 0), tip_body, config.cover_m, config.unevenness_m)
@@ -152,22 +154,22 @@ class HandWorld:
         self._gravity = _GRAVITY_M_S2 * self.down
         self._model.opt.gravity[:] = self._gravity
         mujoco.mj_step1(self._model, self._data)
-        # Compiles now what would otherwise hold up the first step.
+        # Compile the kernel now; otherwise that would delay the first step.
         self._skin.press(self._data, 0.0)
 
     @property
     def down(self) -> NDArray[np.float64]:
-        """Where down is in the palm's frame; np.ndarray [shape=(3,)], a unit vector."""
+        """Direction of gravity in the palm's frame; np.ndarray [shape=(3,)], a unit vector."""
         return np.array(_DOWN[self.config.pose])
 
     @property
     def weight_n(self) -> float:
-        """Of the object [N]; 0 without."""
+        """Weight of the object [N]; 0 without one."""
         return self._thing.mass_kg * _GRAVITY_M_S2 if self._thing else 0.0
 
     @property
     def counts(self) -> NDArray[np.float64]:
-        """What the skin reads, before noise and rounding; np.ndarray [shape=(1024,)] in the order of the matrix."""
+        """Counts of the skin before noise and rounding; np.ndarray [shape=(1024,)] in the order of the matrix."""
         return self._skin.counts()
 
     @property
@@ -177,26 +179,26 @@ class HandWorld:
 
     @property
     def model(self) -> mujoco.MjModel:
-        """For pictures."""
+        """MuJoCo's model, for pictures."""
         return self._model
 
     @property
     def data(self) -> mujoco.MjData:
-        """For pictures."""
+        """MuJoCo's state, for pictures."""
         return self._data
 
     @property
     def has_object(self) -> bool:
-        """Whether there is one."""
+        """Whether there is an object."""
         return self._thing is not None
 
     def hold(self) -> None:
-        """Let something hold the object where it is."""
+        """Hold the object at its present pose with springs."""
         if self._thing is not None:
             self.holder.hold(self._data.xpos[self._body], self._data.xquat[self._body])
 
     def put(self, x_m: float, y_m: float, height_m: float = 0.0, *, held: bool = False) -> None:
-        """Put the object on the palm, off its middle; held, or to lie there by itself."""
+        """Put the object on the palm, at an offset from its centre; held by springs, or free."""
         if self._thing is None:
             return
         where = self._thing.on_palm(x_m, y_m)
@@ -211,7 +213,7 @@ class HandWorld:
         mujoco.mj_step1(self._model, self._data)
 
     def show(self, truth: HandTruth) -> None:
-        """Stand as a truth has it, for a picture; what presses the skin and the motors are left as they were."""
+        """Set the poses of a truth, for a picture; motors and forces on the skin do not change."""
         data = self._data
         data.qpos[self._q] = truth.q_rad
         if self._thing is not None:
@@ -220,7 +222,7 @@ class HandWorld:
         mujoco.mj_kinematics(self._model, data)
 
     def step(self) -> None:
-        """Let `STEP_S` pass.
+        """Advance by `STEP_S`.
 
         Raises
         ------
@@ -266,7 +268,7 @@ class HandWorld:
             wrench += self.holder.wrench(data.xpos[body], data.xquat[body], data.qvel[-6:-3], turn_rad_s, dt_s)
             wrench[:3] -= self.holder.strength * mass_kg * self._model.opt.gravity
         if self._lost:
-            # It rests where it is, out of reach.
+            # It stays where it is, out of reach.
             data.qvel[-6:] = 0.0
             wrench[:3] = -mass_kg * self._model.opt.gravity
             wrench[3:] = 0.0
@@ -280,11 +282,11 @@ class HandWorld:
 
     @property
     def truth(self) -> HandTruth:
-        """What is true now."""
+        """The present true state."""
         return HandTruth.from_row(self.truth_row(), [patch.name for patch in self.layout.patches])
 
     def truth_row(self) -> NDArray[np.float64]:
-        """What is true now as a row of numbers, see `acts_sim.hand.truth`; overwritten by the next call."""
+        """The present true state as a row, see `acts_sim.hand.truth`; overwritten by the next call."""
         row, data, body = self._row, self._data, self._body
         row[COLUMN["time_s"]] = self.time_s
         if body >= 0:

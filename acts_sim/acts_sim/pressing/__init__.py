@@ -1,6 +1,6 @@
-"""Objects pressed into the skin: foam, force response, noise, and things that happen fast.
+"""Objects pressed into the skin: foam, force response, noise, and fast events.
 
-In come objects and motions; out come full frames as a board would read them.
+In come objects and motions; out come full frames of counts.
 """
 
 from acts_sim.pressing.contact_model import ContactModel, FoamConfig

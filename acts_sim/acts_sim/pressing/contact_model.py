@@ -1,8 +1,8 @@
-"""What the skin reads when an object is pressed into it: foam, force response and noise.
+"""Counts of the skin when an object is pressed into it: foam, force response and noise.
 
-The foam is an elastic foundation: its pressure at a point is proportional to how deep the object sits in it there. On
-the way to the sensing layer the pressure spreads as a Gaussian. Each taxel carries the force on its square, and turns
-it into counts through the array's force response, with its own sensitivity and noise.
+The foam is an elastic (Winkler) foundation: the pressure at a point is proportional to the object's depth there. In
+the foam, the pressure spreads sideways as a Gaussian. Each taxel carries the force on its square; the array's force
+response gives its counts, with a sensitivity of its own and noise.
 """
 
 from __future__ import annotations
@@ -21,10 +21,10 @@ from acts_sim.pressing.objects import ContactObject
 from acts_sim.pressing.outlines import Field
 
 _MARGIN_TAXELS = 2
-"""How far beyond the array's edge foam is modelled: pressure there still spreads onto it."""
+"""Width of the foam that is modelled beyond the array's edge, since pressure there spreads onto the array."""
 
 _TILT = 0.03
-"""Standard deviation of the slope of a random press: no arm holds an object quite parallel to the skin."""
+"""Standard deviation of the slope of a random press: an arm never holds an object exactly parallel to the skin."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,9 @@ class FoamConfig:
     """
 
     stiffness_n_per_m3: float = setting(1.7e7, "pressure per depth [N/m^3]", minimum=1e5, maximum=1e10)
-    spread_m: float = setting(0.0020, "standard deviation of the foam's spreading [m]", minimum=1e-4, maximum=0.05)
+    spread_m: float = setting(
+        0.0020, "standard deviation of the sideways spread of pressure in the foam [m]", minimum=1e-4, maximum=0.05
+    )
     subsamples: int = setting(4, "points of the height map along a taxel's side", minimum=1, maximum=16)
     noise_counts: float = setting(3.0, "standard deviation of the noise of one reading", minimum=0, maximum=100)
     gain_spread: float = setting(0.05, "standard deviation of the taxels' sensitivities", minimum=0, maximum=0.5)
@@ -46,20 +48,20 @@ class FoamConfig:
 
 @dataclass(frozen=True)
 class Press:
-    """Where and how an object sits in the skin.
+    """Pose of an object that is pressed into the skin.
 
     Attributes
     ----------
     x_m, y_m : float
-        Its middle in the skin's frame [m].
+        Its centre in the skin's frame [m].
     angle_rad : float
-        Its turn about z, counter-clockwise seen from outside [rad].
+        Its angle about z, counter-clockwise seen from outside [rad].
     depth_m : float
-        How far its lowest point is below the untouched surface [m].
+        Depth of its lowest point below the untouched surface [m].
     scale : float
         Its size relative to the registered one.
     tilt_x, tilt_y : float
-        Slope of its underside along x and y: at a distance d from its middle it sits ``tilt * d`` less deep.
+        Slope of its underside along x and y: at a distance d from its centre, its depth is less by ``tilt * d``.
     """
 
     x_m: float = 0.0
@@ -80,7 +82,7 @@ class ContactModel:
     config : FoamConfig
     response : ForceResponse
     seed : int
-        Of the taxels' sensitivities and of the noise: the same calls in the same order give the same counts.
+        Seed of the sensitivities and the noise: the same calls in the same order give the same counts.
     """
 
     def __init__(
@@ -145,7 +147,7 @@ class ContactModel:
         return np.clip(np.rint(noisy), 0, COUNT_MAX).astype(np.uint16)
 
     def random_press(self, item: ContactObject) -> Press:
-        """A press of `item` at a random place on the array, turn, depth, size and tilt."""
+        """A press of `item` with random position on the array, angle, depth, size and tilt."""
         draw = self._rng.random(5)
         tilt_x, tilt_y = _TILT * self._rng.standard_normal(2)
         half_x, half_y = self.geometry.x_m(self.geometry.cols - 1), self.geometry.y_m(0)
@@ -166,12 +168,12 @@ class ContactModel:
 
 
 def _spreading(taxels: int, pitch_m: float, config: FoamConfig) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the fine grid along one side, and the share of each of its points that every taxel carries.
+    """Return the fine grid along one side, and each taxel's share of the force at each of its points.
 
     Returns
     -------
     position : np.ndarray [shape=(n,), dtype=float64]
-        Fractional taxel.
+        Position as a fractional index of taxels.
     share : np.ndarray [shape=(taxels, n), dtype=float64]
     """
     n = (taxels + 2 * _MARGIN_TAXELS) * config.subsamples

@@ -1,4 +1,4 @@
-"""What slides over the skin and bounces on it in fast events (events.py): small, round and smooth things."""
+"""Objects that slide over the skin or bounce on it in fast events (events.py): small, round and smooth."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def _coin(x: Field, y: Field) -> Field:
 
 
 GOLF_BALL = ContactObject("golf_ball", _GROUP, (0.0008, 0.0040), _golf_ball)
-"""What bounces."""
+"""Objects that bounce."""
 
 SLIDING = (
     ContactObject("fingertip", _GROUP, (0.0006, 0.0030), _fingertip),
@@ -34,4 +34,4 @@ SLIDING = (
     ContactObject("coin", _GROUP, (0.0003, 0.0015), _coin),
     object_named("circle"),
 )
-"""What slides."""
+"""Objects that slide."""

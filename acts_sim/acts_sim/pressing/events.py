@@ -1,7 +1,7 @@
-"""Fast things that happen to a skin, as full frames at a high rate: bounces, slides, taps, one contact after another.
+"""Fast events on a skin, as full frames at a high rate: bounces, slides, taps, one contact after another.
 
-Frames are free of noise, so that whoever samples them can add what a reading has. To add a kind of event, write a
-function from a random generator to frames and register it.
+Frames contain no noise, so that it can be added to each sample. To add a kind of event, write a function from a random
+generator to frames and register it.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ EVENT_RATE_HZ = 4000.0
 """Frames per second of every event."""
 
 BOUNCE_S = 0.0087
-"""How long a bouncing ball touches the skin, in the paper's shortest recordings."""
+"""Duration of a contact of a bouncing ball, in the paper's shortest recordings [s]."""
 
 _SIDE = 32
 
@@ -38,9 +38,9 @@ class Event:
     ----------
     name : str
     recordings : int
-        How many are enough for steady figures.
+        Number of recordings that is enough for steady figures.
     make : callable
-        From a random generator to one recording (n, 32, 32) uint16 at `EVENT_RATE_HZ`.
+        Function from a random generator to one recording (n, 32, 32) uint16 at `EVENT_RATE_HZ`.
     """
 
     name: str
@@ -53,7 +53,7 @@ EVENTS: dict[str, Event] = {}
 
 
 def register(name: str, recordings: int) -> Callable[[Make], Make]:
-    """Enter the decorated function into `EVENTS`."""
+    """Register the decorated function in `EVENTS`."""
 
     def enter(make: Make) -> Make:
         EVENTS[name] = Event(name, recordings, make)
@@ -63,7 +63,7 @@ def register(name: str, recordings: int) -> Callable[[Make], Make]:
 
 
 def event_recordings(name: str, recordings: int, seed: int) -> list[Frames]:
-    """Recordings of one kind of event; the first are the same however many there are.
+    """Recordings of one kind of event; each depends on its index and the seed only, not on their number.
 
     Raises
     ------
@@ -77,7 +77,7 @@ def event_recordings(name: str, recordings: int, seed: int) -> list[Frames]:
 
 @register("bounce", 40)
 def _bounce(rng: np.random.Generator) -> Frames:
-    """A golf ball hits a random place three times for 8.7 ms, pressed in and out along a half sine."""
+    """A golf ball hits a random position three times for 8.7 ms; its depth is a half sine."""
     model = _model(rng)
     x_m, y_m = rng.uniform(-0.055, 0.055, 2)
     depth_m = rng.uniform(0.001, 0.003)
@@ -87,7 +87,7 @@ def _bounce(rng: np.random.Generator) -> Frames:
 
 
 def _slide(speed_m_s: float) -> Make:
-    """Something of random size comes down, stands for 20 ms and slides up to 100 mm or 400 ms straight on."""
+    """An object of random size comes down, rests for 20 ms, and slides straight for up to 100 mm or 400 ms."""
 
     def make(rng: np.random.Generator) -> Frames:
         model = _model(rng)
@@ -119,7 +119,7 @@ for _speed_m_s in (0.1, 0.5, 1.0, 2.0):
 
 
 def _tap(side: int) -> Make:
-    """Exactly `side` x `side` taxels at any place are pressed for 30 ms, within half a millisecond, at any time."""
+    """Exactly `side` x `side` taxels at a random position and time are pressed for 30 ms, rising in 0.5 ms."""
 
     def make(rng: np.random.Generator) -> Frames:
         return np.concatenate((_untouched(rng), _tapped(rng, side, 0.030), _untouched(rng)))
@@ -133,7 +133,7 @@ register("tap_4x4", 400)(_tap(4))
 
 @register("two_taps", 100)
 def _two_taps(rng: np.random.Generator) -> Frames:
-    """A tap of 4 x 4 taxels stays, one of 2 x 2 comes elsewhere."""
+    """A tap of 4 x 4 taxels stays, and another of 2 x 2 comes elsewhere."""
     while True:
         first, second = _tapped(rng, 4, 0.150), _tapped(rng, 2, 0.060)
         if not _near(first[-1] > 0, second[-1] > 0):
@@ -160,12 +160,12 @@ def _tapped(rng: np.random.Generator, side: int, duration_s: float) -> Frames:
 
 
 def _untouched(rng: np.random.Generator) -> Frames:
-    """10 to 50 ms without touch, so that events begin at any place of the search."""
+    """10 to 50 ms without touch, so that events begin at a random phase of the search."""
     return np.zeros((int(rng.integers(_n(0.010), _n(0.050))), _SIDE, _SIDE), dtype=np.uint16)
 
 
 def _model(rng: np.random.Generator) -> ContactModel:
-    # Two points along a taxel's side are enough for round and flat undersides, and four times as fast.
+    # Two points along a taxel's side are enough for round and flat undersides, and four times faster.
     return ContactModel(config=FoamConfig(noise_counts=0.0, subsamples=2), seed=int(rng.integers(2**31)))
 
 

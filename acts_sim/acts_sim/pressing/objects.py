@@ -1,9 +1,9 @@
-"""Objects to press into the skin: a register of small functions, each the underside of one object.
+"""Objects to press into the skin: a registry of small functions, each of the underside of one object.
 
-An object is described by its gap: how far each point of its underside lies above its lowest point, in the object's own
-frame (origin at its middle, z up). The 30 objects are those of the paper's list, in its order (8 printed shapes, "2
+An object is described by its gap: the height of each point of its underside above its lowest point, in the object's
+frame (origin at its centre, z up). The 30 objects are those of the paper's list, in its order (8 printed shapes, "2
 cylinders" to "X"; 22 daily objects, "computer mouse" to "tweezers", Fig. S13). The paper names them and shows a
-picture; shapes and sizes are ours, those of usual things of that name. To add one, write a function of x and y and
+picture; shapes and sizes are those of common objects of these names. To add one, write a function of x and y and
 register it::
 
     @register("coin", "daily", depth_m=(0.0003, 0.0015))
@@ -43,9 +43,9 @@ class ContactObject:
     ----------
     name : str
     group : str
-        "printed" or "daily"; "event" of those that only fast events use (event_contacts.py).
+        "printed" or "daily"; "event" for those of fast events only (event_contacts.py).
     depth_m : tuple of float
-        Least and greatest depth that it is usually pressed in [m].
+        Smallest and largest depth of a usual press [m].
     gap_m : callable
         ``gap_m(x_m, y_m)``: height of the underside above its lowest point [m]; same shape as the arguments.
     """
@@ -63,7 +63,7 @@ OBJECTS: dict[str, ContactObject] = {}
 def register(
     name: str, group: str, *, depth_m: tuple[float, float] = (0.0004, 0.0022)
 ) -> Callable[[Callable[[Field, Field], Field]], Callable[[Field, Field], Field]]:
-    """Enter the decorated gap function into `OBJECTS`.
+    """Register the decorated gap function in `OBJECTS`.
 
     Raises
     ------
@@ -81,12 +81,12 @@ def register(
 
 
 def object_named(name: str) -> ContactObject:
-    """Look an object up.
+    """Find an object by its name.
 
     Raises
     ------
     SettingsError
-        Naming those that exist.
+        When there is none; the message names those that exist.
     """
     try:
         return OBJECTS[name]
@@ -174,7 +174,7 @@ def _wristwatch(x: Field, y: Field) -> Field:
 
 @register("fidget_spinner", "daily", depth_m=(0.0006, 0.0028))
 def _fidget_spinner(x: Field, y: Field) -> Field:
-    """Three lobes around a cap that stands proud; a bearing in each lobe."""
+    """Three lobes with a bearing each, around a cap that protrudes."""
     turns = np.pi / 2 + 2 * np.pi * np.arange(3) / 3
     centres = [(0.027 * np.cos(turn), 0.027 * np.sin(turn)) for turn in turns]
     lobes = [disc(x - a, y - b, 0.0145) for a, b in centres]
@@ -225,7 +225,7 @@ def _soft_brain(x: Field, y: Field) -> Field:
     """A toy to squeeze, of two folded halves; it flattens where it is pressed."""
     cleft = 0.0030 * np.exp(-((y / 0.0022) ** 2))
     folds = 0.0007 * (1 + np.sin(np.abs(y) / 0.0026 + 1.6 * np.sin(x / 0.0050)) * np.cos(x / 0.0042))
-    # Its lowest point is beside the middle.
+    # Its lowest point is beside the centre.
     return ellipsoid(x, y, 0.036, 0.030, 0.012) + cleft + folds - 0.00076
 
 

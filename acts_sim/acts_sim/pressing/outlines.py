@@ -1,4 +1,4 @@
-"""Outlines and undersides that objects are made of: functions of a grid's points in an object's own frame [m]."""
+"""Outlines and undersides of objects: functions of a grid's points in an object's frame [m]."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Field = NDArray[np.float64]
-"""One number for every point of a grid."""
+"""A number for every point of a grid."""
 
 _EDGE_SLOPE = 4.0
 """Rise over run of the rounded edge of a printed or cut shape."""
@@ -32,12 +32,12 @@ def rounded_box(x: Field, y: Field, width: float, height: float, corner: float) 
 
 
 def ring(x: Field, y: Field, radius: float, width: float) -> Field:
-    """Ring around the origin; `radius` to the middle of its band."""
+    """Ring around the origin; `radius` is to the middle of its band."""
     return np.abs(np.hypot(x, y) - radius) - width / 2
 
 
 def convex_polygon(x: Field, y: Field, corners: int, radius: float) -> Field:
-    """Regular polygon around the origin; `radius` to its corners, the first of them at the top."""
+    """Regular polygon around the origin; `radius` is to its corners, the first of which is at the top."""
     angles = np.pi / 2 + np.pi / corners + 2 * np.pi * np.arange(corners) / corners
     apothem = radius * np.cos(np.pi / corners)
     sides = np.stack([x * np.cos(a) + y * np.sin(a) for a in angles])
@@ -51,12 +51,12 @@ def bar(x: Field, y: Field, length: float, width: float, angle: float = 0.0) -> 
 
 
 def without(distance: Field, *holes: Field) -> Field:
-    """What of an outline is in none of the others."""
+    """An outline minus others."""
     return np.maximum.reduce([distance, *(-hole for hole in holes)])
 
 
 def union(*distances: Field) -> Field:
-    """Everything that is in one of several outlines."""
+    """Union of outlines."""
     return np.minimum.reduce(distances)
 
 
@@ -64,7 +64,7 @@ def union(*distances: Field) -> Field:
 
 
 def prism(distance: Field) -> Field:
-    """Gap of a flat underside with that outline and a steep, rounded edge."""
+    """Gap of a flat underside with an outline and a steep, rounded edge."""
     return np.maximum(distance, 0.0) * _EDGE_SLOPE
 
 

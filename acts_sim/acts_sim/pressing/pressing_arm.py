@@ -1,8 +1,8 @@
-"""Objects pressed again and again by an arm, as in the paper's trials: the same spot, nearly.
+"""Objects pressed repeatedly by an arm at nearly the same spot, as in the paper's trials.
 
 "The robot repeatedly moved the object into the sensor at a repetitive spot and speed for each object" (paper, methods).
-Every object is held straight and has a spot near the middle of the skin. Each press misses spot and turn a little,
-tilts anew, and goes down at one speed to a depth of its own; there it stays.
+Every object is held straight and has a spot near the centre of the skin. Each press has small random errors of position
+and angle, and a random tilt. It goes down at constant speed to a random depth and stays there.
 """
 
 from __future__ import annotations
@@ -26,19 +26,21 @@ RATE_HZ = 1000.0
 class PressingConfig:
     """How an arm presses objects.
 
-    Nobody published how exactly the paper's arm and gripper met the same spot. `miss_taxels` and `miss_deg` are chosen
-    such that the paper's method comes out near its published accuracies (docs/recovery.md).
+    The precision of the paper's arm and gripper is not published. `miss_taxels` and `miss_deg` are chosen such that the
+    paper's method has about its published accuracies (docs/recovery.md).
     """
 
     spot_taxels: float = setting(
-        1.0, "an object's spot is at most so far from the middle, per axis", minimum=0, maximum=32
+        1.0, "largest distance of an object's spot from the centre, per axis [taxels]", minimum=0, maximum=32
     )
     miss_taxels: float = setting(
-        0.15, "standard deviation of a press from its spot, per axis [taxels]", minimum=0, maximum=32
+        0.15, "standard deviation of a press's position about its spot, per axis [taxels]", minimum=0, maximum=32
     )
-    miss_deg: float = setting(1.5, "standard deviation of the turn of a press [degrees]", minimum=0, maximum=180)
+    miss_deg: float = setting(1.5, "standard deviation of the angle of a press [degrees]", minimum=0, maximum=180)
     tilt: float = setting(0.015, "standard deviation of the slope of an object, per axis", minimum=0, maximum=1)
-    shallowest: float = setting(0.75, "least depth of a press, of the object's greatest", minimum=0.01, maximum=1)
+    shallowest: float = setting(
+        0.75, "smallest depth of a press, relative to the object's largest", minimum=0.01, maximum=1
+    )
     rise_min_s: float = setting(0.020, "shortest time to the full depth [s]", minimum=0.001, maximum=10)
     rise_max_s: float = setting(0.030, "longest time to the full depth [s]", minimum=0.001, maximum=10)
 
@@ -47,17 +49,17 @@ class PressingConfig:
 
 
 class PressingArm:
-    """One arm, one skin, and a spot for every object.
+    """An arm, a skin, and a spot for every object.
 
     Parameters
     ----------
     objects : sequence of ContactObject, optional
-        All registered ones by default.
+        By default all registered ones.
     config : PressingConfig, optional
     foam : FoamConfig, optional
     seed : int
-        Of the spots, the presses, the skin's sensitivities and its noise: the same calls in the same order give the
-        same frames.
+        Seed of the spots, the presses, the skin's sensitivities and its noise: the same calls in the same order give
+        the same frames.
     """
 
     def __init__(
@@ -75,7 +77,7 @@ class PressingArm:
         self._spots = (2 * self._rng.random((len(self.objects), 2)) - 1) * self.config.spot_taxels
 
     def press(self, number: int) -> Press:
-        """Another press of an object, by its number in `objects`."""
+        """A new press of an object, by its index in `objects`."""
         config, pitch_m = self.config, self.model.geometry.pitch_m
         place_m = (self._spots[number] + config.miss_taxels * self._rng.standard_normal(2)) * pitch_m
         turn, tilt_x, tilt_y = self._rng.standard_normal(3)
@@ -90,7 +92,7 @@ class PressingArm:
         )
 
     def held_frame(self, number: int) -> NDArray[np.uint16]:
-        """A full frame from the middle of another press; np.ndarray [shape=(rows, cols), dtype=uint16]."""
+        """A full frame from the middle of a new press; np.ndarray [shape=(rows, cols), dtype=uint16]."""
         return self.model.counts(self.model.forces_n(self.objects[number], self.press(number)))
 
     def held_frames(self, presses: int) -> tuple[NDArray[np.uint16], list[str]]:
@@ -99,14 +101,14 @@ class PressingArm:
         return np.stack(frames), [item.name for item in self.objects for _ in range(presses)]
 
     def recording(self, number: int, before_s: float, after_s: float) -> NDArray[np.uint16]:
-        """Record another press.
+        """Record a new press.
 
         Parameters
         ----------
         number : int
-            Of the object in `objects`.
+            Index of the object in `objects`.
         before_s, after_s : float
-            How long before and after the object meets the foam's surface [s].
+            Time before and after the object touches the foam [s].
 
         Returns
         -------

@@ -1,9 +1,9 @@
-"""Turns recordings of real arrays into the plain frames file that the virtual board replays.
+"""Convert recordings of real arrays to the plain frames file that the virtual board replays.
 
-Two kinds of npz files are read. Evaluation files hold ``frames`` (n, rows, cols) uint16 of 0 to 1023, ``rate_hz``, and
-optionally ``start`` and ``length`` (and ``label``) of the recordings that follow one another in them, and ``live``
-(rows, cols). Figure files hold single ``frames`` (n, rows, cols) of 0 to 1023, not all of them whole numbers, with
-``names``, ``kind`` and which taxels were ``measured``.
+Two kinds of npz files are read. Evaluation files have ``frames`` (n, rows, cols) uint16 of 0 to 1023, ``rate_hz``, and
+optionally ``start`` and ``length`` (and ``label``) of the consecutive recordings in them, and ``live`` (rows, cols).
+Figure files have single ``frames`` (n, rows, cols) of 0 to 1023, not all of them integers, with ``names``, ``kind``
+and which taxels were ``measured``.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from acts_core.files import half_of_memory_bytes, read_npz
 
 @dataclass(frozen=True)
 class ExportedRecording:
-    """What an export has written.
+    """Result of an export.
 
     Attributes
     ----------
@@ -45,7 +45,7 @@ class ExportedRecording:
 
 
 DEFAULT_RATE_HZ = 1.0
-"""Rate of single frames, which have none of their own: long enough to look at each."""
+"""Rate of single frames, which are recorded without one: slow enough to look at each [Hz]."""
 
 
 def export_recording(
@@ -65,17 +65,17 @@ def export_recording(
     npz_path : Path
         An evaluation file or a figure file.
     out_npy : Path
-        Replaced when it exists; never left half written.
+        Replaced if it exists; never left half written.
     recordings : sequence of int or None
-        Which recordings of an evaluation file, or which frames of a figure file, in this order; None for all.
+        Indices of recordings of an evaluation file, or of frames of a figure file, in this order; None for all.
     label : str or None
         Only recordings with this label, or frames with this name.
     kind : str or None
         Only frames of this kind of a figure file, for example "full_raster".
     max_frames : int or None
-        At most so many frames, from the first on, before repeating.
+        Largest number of frames before repetition, from the first on.
     repeat : int
-        How often every frame is written one after the other.
+        Number of copies of every frame, one after the other.
 
     Returns
     -------
@@ -84,8 +84,8 @@ def export_recording(
     Raises
     ------
     RecordingError
-        When the file cannot be read, lacks what is needed, holds anything that is not a count of a measured taxel, or
-        nothing in it is selected.
+        When the file cannot be read, lacks an array, contains anything but counts of measured taxels, or no frame is
+        selected.
     """
     if repeat < 1 or (max_frames is not None and max_frames < 1):
         raise RecordingError(f"repeat = {repeat}, max_frames = {max_frames}: allowed is 1 or more")

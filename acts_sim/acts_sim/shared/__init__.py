@@ -1,6 +1,6 @@
-"""What the simulated processes meet by: a folder of their own, rings in shared memory, lines over sockets.
+"""Communication of simulated processes: a private folder, rings in shared memory, lines of text over sockets.
 
-In come arrays with their time; out come those of any moment of the last 128 ms.
+In come arrays with their times; out come those of any time in the last 128 ms.
 """
 
 from acts_sim.shared.lines import LineSession

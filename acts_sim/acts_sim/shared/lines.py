@@ -1,4 +1,4 @@
-"""Lines in, one line of answer each: what dashboard, test hooks and control sockets share."""
+"""Line-based protocol of dashboard, test hooks and control sockets: one line of reply to each line."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ MAX_LINE_BYTES = 4096
 
 
 class LineSession:
-    """One client of a port that speaks in lines.
+    """One client of a line-based port.
 
     Parameters
     ----------
     answer : callable
-        Takes a line without its end, gives the line of answer.
+        Function from a line without its end to the line of reply.
     greeting : str
         Line sent to a new client; none when empty.
     """
@@ -26,7 +26,7 @@ class LineSession:
         self._buffer = b""
 
     def receive(self, data: bytes) -> bytes:
-        """Answers to the lines that have become whole. A line that is too long is dropped."""
+        """Replies to the lines that `data` completes. A line that is too long is dropped."""
         *lines, rest = (self._buffer + data).split(b"\n")
         self._buffer = rest if len(rest) <= MAX_LINE_BYTES else b""
         answers = []
@@ -36,8 +36,8 @@ class LineSession:
         return b"".join(answers)
 
     def tick(self) -> bytes:
-        """Nothing is ever due."""
+        """Nothing to send without a request."""
         return b""
 
     def close(self) -> None:
-        """Nothing is kept."""
+        """Nothing to release."""

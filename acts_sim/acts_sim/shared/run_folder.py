@@ -1,4 +1,4 @@
-"""The folder in which simulated processes meet: of one user alone, and each thing in it of one process alone.
+"""The folder that simulated processes share: it belongs to one user, and each file in it to one process.
 
 The virtual board does the same in C++ (acts_firmware/virtual_board/claim.cpp).
 """
@@ -19,18 +19,18 @@ _OTHER = "give another folder: run_dir:=/dev/shm/NAME, or run_dir:=/tmp/NAME whe
 
 
 def default_run_dir() -> Path:
-    """The folder that launch files take unless told otherwise: one for each user."""
+    """Default folder of the launch files, one for each user."""
     return Path(f"/dev/shm/acts-{os.environ.get('USER', 'user')}")
 
 
 def make_private(folder: Path) -> None:
-    """Make a folder that nobody else may look into, with those above it, or see whether one that exists will do.
+    """Make a folder that no other user may read, with its parents, or check an existing one.
 
     Raises
     ------
     SettingsError
-        It cannot be made, is a symbolic link, belongs to somebody else, or anybody may write to it. A folder like
-        ``/tmp``, in which everybody's files are safe from others, is allowed.
+        It cannot be made, is a symbolic link, belongs to another user, or is writable for everybody. Folders with the
+        sticky bit, like ``/tmp``, are allowed.
     """
     try:
         for path in (*reversed(folder.parents), folder):
@@ -52,17 +52,17 @@ def make_private(folder: Path) -> None:
 
 
 class Claim:
-    """A file in such a folder as this process's own, from now until `close` or the process's end, however it ends.
+    """Exclusive use of a file in such a folder, until `close` or the end of the process, however it ends.
 
     Parameters
     ----------
     path : Path
-        The file; the claim itself is a lock on a file beside it, with ``.lock`` at the end, that holds our number.
+        The file; the lock is on a file beside it, with the suffix ``.lock``, that contains our process id.
 
     Raises
     ------
     ActsError
-        Another process has it, which is named, or the folder will not do (`make_private`).
+        Another process uses it (the message names it), or the folder is not allowed (`make_private`).
     """
 
     def __init__(self, path: Path) -> None:
@@ -78,9 +78,9 @@ class Claim:
         os.pwrite(self._fd, f"{os.getpid()}\n".encode(), 0)
 
     def close(self) -> None:
-        """Give it up. May be called again."""
+        """Release it. May be called again."""
         if self._fd >= 0:
-            # While it is still locked: afterwards it may be another's.
+            # Remove it while it is still locked: afterwards it may belong to another process.
             self._path.unlink(missing_ok=True)
             os.close(self._fd)
             self._fd = -1
@@ -97,7 +97,7 @@ class Claim:
             except BaseException:
                 os.close(fd)
                 raise
-            # The one before us has just given it up, and the file with it.
+            # The previous owner has just removed the lock file; try again with a new one.
             os.close(fd)
 
     def _holder(self) -> str:

@@ -1,7 +1,7 @@
-"""A ring of timestamped arrays in a memory-mapped file: what simulated processes share a thousand times a second.
+"""A ring of timestamped arrays in a memory-mapped file, which simulated processes share at 1 kHz.
 
-One process writes, any number read, none ever waits. The world writes pressure fields that the virtual board (C++)
-reads, the simulated robot writes joint angles that the world reads.
+One process writes, any number read, and none ever waits (a seqlock per slot). The world writes fields of counts that
+the virtual board (C++) reads; the simulated robot writes joint angles that the world reads.
 
 Layout of the file, little-endian, natural alignment::
 
@@ -16,12 +16,12 @@ Layout of the file, little-endian, natural alignment::
     64      slot[slots]
 
     slot:
-    0       uint64      lock: even when the slot is whole, odd while it is being written; read before and after
+    0       uint64      lock: even when the slot is complete, odd while it is being written; read before and after
     8       int64       time [ns], CLOCK_MONOTONIC of the host
     16      float64[width]
 
-Times grow from slot to slot. A reader interpolates linearly between the two slots around the time it asks for, and
-holds the oldest or newest outside of them. A writer that knows the near future (the world runs ahead) may write it.
+Times increase from slot to slot. A reader interpolates linearly between the two slots around a time, and uses the
+oldest or newest slot outside of them. A writer that runs ahead of the clock, as the world does, writes future times.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ _HEADER = struct.Struct("<8sIIII")
 _HEADER_BYTES = 64
 _WRITTEN_OFFSET = 24
 _ONE = np.uint64(1)
-# A writer is inside a slot for about a microsecond; a reader that finds it there a hundred times has a stuck writer.
+# A write takes about a microsecond; if a slot is being written at a hundred reads in a row, the writer is stuck.
 _ATTEMPTS = 100
 
 
@@ -64,7 +64,7 @@ class TimedRingWriter:
     width : int
         Number of values in a slot.
     slots : int
-        How many slots are kept, at least 2; at 1 kHz, 128 hold an eighth of a second.
+        Number of slots, at least 2; at 1 kHz, 128 slots hold an eighth of a second.
 
     Raises
     ------
@@ -81,11 +81,11 @@ class TimedRingWriter:
         self.width = width
         dtype = _slot_dtype(width)
         total = _HEADER_BYTES + slots * dtype.itemsize
-        # A new file under the old name: a reader of the old one keeps a whole, if ageing, ring.
+        # A new file under the old name: readers of the old file keep an intact, if ageing, ring.
         temporary = path.with_name(f"{path.name}.{os.getpid()}.new")
         try:
             with temporary.open("w+b") as file:
-                # Space is taken now: a memory file system that is full later ends the process with a bus error.
+                # Allocate the space now: on a memory file system that is full later, a write causes a bus error.
                 os.posix_fallocate(file.fileno(), 0, total)
                 self._map = mmap.mmap(file.fileno(), total)
                 self._identity = _identity_of(os.fstat(file.fileno()))
@@ -114,12 +114,12 @@ class TimedRingWriter:
         time_ns : int
             CLOCK_MONOTONIC [ns], greater than in the slot before.
         values : np.ndarray [shape=(width,), dtype=float64]
-            What holds at that time.
+            Values at that time.
 
         Raises
         ------
         ActsError
-            For another shape, or a time that does not grow.
+            For another shape, or a time that does not increase.
         """
         if values.shape != (self.width,):
             raise ActsError(f"{self.path}: values of shape {values.shape}; a slot holds ({self.width},)")
@@ -127,7 +127,7 @@ class TimedRingWriter:
             raise ActsError(f"{self.path}: slot of {time_ns} ns after one of {self._newest_ns} ns; times must grow")
         self._newest_ns = time_ns
         index = self._count % len(self._slots)
-        # x86 keeps the order of stores; on other processors a torn slot is possible but is only simulated touch.
+        # x86 keeps the order of stores. On other processors a torn slot is possible, but affects simulated touch only.
         self._lock[index] += _ONE
         self._time_ns[index] = time_ns
         self._values[index] = values
@@ -136,7 +136,7 @@ class TimedRingWriter:
         self._written[0] = self._count
 
     def close(self) -> None:
-        """Remove the file, unless another writer has put its own in its place."""
+        """Remove the file, unless another writer has replaced it."""
         if _identity(self.path) == self._identity:
             self.path.unlink(missing_ok=True)
 
@@ -152,8 +152,8 @@ class TimedRingWriter:
 class TimedRingReader:
     """Reads a ring that another process writes.
 
-    A writer that starts anew puts a new file in the place of the old one. The reader looks for that whenever nothing
-    was written since its last read, and changes over; while there is no file, it keeps what it has.
+    A writer that restarts replaces the file. The reader checks for that whenever nothing was written since its last
+    read, and opens the new file; while there is none, it keeps the old one.
 
     Parameters
     ----------
@@ -165,8 +165,8 @@ class TimedRingReader:
     Raises
     ------
     ActsError
-        When the file is missing, is no ring, or has another width than asked for; from every read also when a new file
-        is so.
+        When the file is missing, is no ring, or has another width than `width`; every read raises it as well, for a new
+        file.
     """
 
     def __init__(self, path: Path, width: int) -> None:
@@ -206,7 +206,7 @@ class TimedRingReader:
 
     @property
     def written(self) -> int:
-        """Number of slots written so far, to the present file."""
+        """Number of slots written so far to the present file."""
         return int(self._written[0])
 
     def newest(self) -> tuple[int, NDArray[np.float64]] | None:
@@ -216,13 +216,14 @@ class TimedRingReader:
             if count == 0:
                 return None
             slot = self._read((count - 1) % len(self._slots))
-            # A reader that was overtaken may hold a slot that is not counted yet, and would next time get an older one.
+            # A reader that was overtaken may get a slot that is not counted yet; a later call could return an older one
+            # than that.
             if slot is not None and self.written < count + len(self._slots) - 1:
                 return slot
         raise self._stuck()
 
     def sample(self, time_ns: int) -> NDArray[np.float64] | None:
-        """What held at a time: linear between the slots around it, the oldest or newest slot outside of them.
+        """Values at a time: linear between the slots around it, the oldest or newest slot outside of them.
 
         Parameters
         ----------
@@ -239,7 +240,7 @@ class TimedRingReader:
             if count == 0:
                 return None
             slots = len(self._slots)
-            # The oldest slot is the one that is written next; a reader that was overtaken leaves more of them alone.
+            # The oldest slot is the next to be written; a reader that was overtaken skips more of them.
             first = min(max(count - slots + 1 + attempt, 0), count - 1)
             order = np.arange(first, count) % slots
             times_ns = self._time_ns[order]
@@ -250,7 +251,7 @@ class TimedRingReader:
             after = int(np.searchsorted(times_ns, time_ns))
             low, high = max(after - 1, 0), min(after, len(order) - 1)
             early, late = self._read(int(order[low])), self._read(int(order[high]))
-            # Both whole, and not overwritten by later slots since their times were looked up.
+            # Both are complete, and were not overwritten since their times were read.
             if early is None or late is None or early[0] != times_ns[low] or late[0] != times_ns[high]:
                 continue
             if low == high:
@@ -260,7 +261,7 @@ class TimedRingReader:
         raise self._stuck()
 
     def since(self, time_ns: int) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-        """All slots later than a time that are still there, oldest first.
+        """All slots later than a time that are still in the ring, oldest first.
 
         Parameters
         ----------
@@ -273,7 +274,7 @@ class TimedRingReader:
         values : np.ndarray [shape=(n, width), dtype=float64]
         """
         count, slots = self._follow(), len(self._slots)
-        # The oldest slot is the one that is written next.
+        # The oldest slot is the next to be written.
         numbers = np.arange(max(count - slots + 1, 0), count)
         later = numbers[np.searchsorted(self._time_ns[numbers % slots], time_ns, side="right") :]
         times_ns, values = self._time_ns[later % slots], self._values[later % slots]
@@ -281,12 +282,12 @@ class TimedRingReader:
         return times_ns[whole], values[whole]
 
     def age_s(self) -> float:
-        """Time since the newest slot [s], negative for one in the future; infinite before the first."""
+        """Age of the newest slot [s], negative for one in the future; infinite before the first."""
         newest = self.newest()
         return float("inf") if newest is None else (time.monotonic_ns() - newest[0]) / 1e9
 
     def _follow(self) -> int:
-        """Number of slots written, after changing over to a new file where there is one."""
+        """Number of slots written, after a new file was opened if there is one."""
         count = self.written
         if count == self._seen:
             identity = _identity(self.path)

@@ -1,6 +1,6 @@
-"""A simulated UR5e behind its controller; `ports` has what programs such as the unmodified ur_rtde reach it by.
+"""A simulated UR5e with its controller; `ports` serves clients such as the unmodified ur_rtde.
 
-In come commands and programs; out come the robot's state, cycle by cycle, and its joints in a ring.
+In come commands and programs; out come the robot's state in every cycle, and its joints in a ring.
 """
 
 from acts_sim.ur.commands import COMMANDS, MOTION_COMMANDS

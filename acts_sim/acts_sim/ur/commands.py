@@ -1,7 +1,7 @@
-"""The commands of the control script that are simulated, by code: what each reads, does and answers.
+"""The simulated commands of the control script, by code: arguments, effect and result.
 
-Arguments lie in the input registers, in the order of the client's function; results go to output integer register 1 or
-output double registers 0 to 5.
+Arguments are in the input registers, in the order of the client's function. Results are written to output integer
+register 1 or output double registers 0 to 5.
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ from acts_sim.ur.program import Command, ControlProgram
 MOVE_J, SPEED_J, SERVO_J = 1, 9, 11
 
 MOTION_COMMANDS = frozenset({MOVE_J, SPEED_J, SERVO_J})
-"""Commands whose arguments must be whole: a missing value would move a joint to the wrong place."""
+"""Commands whose arguments must be complete: a missing value would move a joint to a wrong position."""
 
-# servoj accepts this range.
+# Range of servoj's lookahead time [s].
 _LOOKAHEAD_RANGE_S = (0.03, 0.2)
 
 _LARGEST = 1e6
@@ -37,7 +37,7 @@ def _in_range(q_rad: Sequence[float]) -> bool:
 
 
 def _sensible(values: Sequence[float]) -> bool:
-    # Poses in metres and radians; larger numbers lose all meaning in sines before they overflow.
+    # Poses in metres and radians; the sine of larger numbers is meaningless before they overflow.
     return all(abs(value) <= _LARGEST for value in values)
 
 
@@ -110,7 +110,7 @@ def _set_tcp(program: ControlProgram, controller: Controller) -> None:
 
 
 def _accept(program: ControlProgram, controller: Controller) -> None:
-    """Settings of what is not simulated: forces and gravity."""
+    """Accept settings of forces and gravity, which are not simulated."""
 
 
 def _answer_six(program: ControlProgram, controller: Controller, values: Sequence[float]) -> None:
@@ -193,4 +193,4 @@ COMMANDS: dict[int, Command] = {
     58: Command(_get_flange_pose, is_streamed=True),
     59: Command(_accept),  # setGravity
 }
-"""What is simulated, by code."""
+"""The simulated commands, by code."""

@@ -1,4 +1,4 @@
-"""Settings of the simulated controller, and the figures of the robot it stands for."""
+"""Settings of the simulated controller, and data of the UR5e."""
 
 from __future__ import annotations
 
@@ -9,21 +9,21 @@ from acts_core.robots import ur5e
 from acts_core.settings import setting, validate
 
 CYCLE_HZ = 500
-"""Cycles a second of an e-Series controller."""
+"""Cycles per second of an e-Series controller."""
 
 CYCLE_S = 1.0 / CYCLE_HZ
 
 VERSION = (5, 11, 1, 108318)
-"""Reported PolyScope version. From 5.23 on ``ur_rtde`` asks for other registers."""
+"""Reported PolyScope version. From 5.23 on, ``ur_rtde`` uses other registers."""
 
 POSITION_LIMIT_RAD = 2.0 * math.pi
 """Joint range of the UR5e: +-360 degrees (data sheet)."""
 
 SPEED_LIMIT_RAD_S = math.pi
-"""Largest joint speed of the UR5e: 180 degrees a second (data sheet)."""
+"""Largest joint speed of the UR5e: 180 degrees/s (data sheet)."""
 
 ACCELERATION_LIMIT_RAD_S2 = 40.0
-"""Largest joint acceleration a motion command may ask for. The robot itself limits torque, not acceleration."""
+"""Largest joint acceleration of a motion command. The robot itself limits torque, not acceleration."""
 
 
 @dataclass(frozen=True)

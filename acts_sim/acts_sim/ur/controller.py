@@ -1,4 +1,4 @@
-"""The simulated controller: joints, safety, program, registers. One `tick` is a 2 ms cycle; no clock is known here."""
+"""The simulated controller: joints, safety, program, registers. One `tick` is a 2 ms cycle; it reads no clock."""
 
 from __future__ import annotations
 
@@ -18,26 +18,26 @@ from acts_sim.ur.pose import Rows, pose_from_rows, speed_between, transform_from
 from acts_sim.ur.rtde import INPUT_TYPES, OutputImage, Value
 
 COMMAND_REGISTERS = ("input_int_register_0", "input_int_register_24")
-"""The registers in which a client may write its commands, depending on the offset of its script."""
+"""Registers for the commands of a client, depending on the offset of its script."""
 
 HISTORY = 1000
-"""Number of past cycles whose joint angles are kept."""
+"""Number of past cycles whose joint angles are stored."""
 
 RECORD = 5000
-"""Number of orders that are kept."""
+"""Number of orders that are stored."""
 
 
 class Order(NamedTuple):
-    """Something that a client has told the robot to do.
+    """A request of a client to the robot.
 
     Attributes
     ----------
     time_s : float
         The controller's time [s].
     port : str
-        Over which port it came: rtde, script or dashboard.
+        Port on which it came: rtde, script or dashboard.
     words : str
-        What was asked for.
+        The request.
     """
 
     time_s: float
@@ -46,7 +46,7 @@ class Order(NamedTuple):
 
 
 class RuntimeState(IntEnum):
-    """What the program does."""
+    """State of the program."""
 
     STOPPING = 0
     STOPPED = 1
@@ -57,7 +57,7 @@ class RuntimeState(IntEnum):
 
 
 class SafetyMode(IntEnum):
-    """Why the robot may not move."""
+    """Reason why the robot may not move."""
 
     NORMAL = 1
     PROTECTIVE_STOP = 3
@@ -65,7 +65,7 @@ class SafetyMode(IntEnum):
 
 
 class RobotMode(IntEnum):
-    """Power and brakes."""
+    """State of power and brakes."""
 
     POWER_OFF = 3
     IDLE = 5
@@ -84,18 +84,18 @@ _JOINT_MODES = {RobotMode.POWER_OFF: 239, RobotMode.IDLE: 255, RobotMode.RUNNING
 
 
 class ProgramEnded(Exception):  # noqa: N818 - an end, not always an error
-    """The program comes to its end; the text says why where that is not the client's wish."""
+    """The program ends; the text is the reason, or empty where the client has ended it."""
 
 
 class Program(Protocol):
-    """What the controller runs once a cycle while it plays."""
+    """A program, which the controller runs once per cycle while it plays."""
 
     @property
     def name(self) -> str:
-        """What the program is called, for messages."""
+        """Name of the program, for messages."""
 
     def cycle(self, controller: Controller) -> None:
-        """Do what the program does in one cycle.
+        """Execute one cycle.
 
         Raises
         ------
@@ -104,18 +104,18 @@ class Program(Protocol):
         """
 
     def resume(self, controller: Controller) -> None:
-        """Take up the motion again after a pause."""
+        """Resume the motion after a pause."""
 
 
 class Controller:
-    """State of the robot.
+    """The simulated controller of one robot.
 
     Parameters
     ----------
     config : ControllerConfig
-        Settings.
+        Settings of the robot.
     log : callable
-        Takes a line of text about something the user should know of.
+        Called with a line of text for the user.
     """
 
     def __init__(self, config: ControllerConfig, log: Callable[[str], None]) -> None:
@@ -153,7 +153,7 @@ class Controller:
     # --- one cycle
 
     def tick(self) -> None:
-        """Let one cycle pass."""
+        """Execute one cycle."""
         self.cycles += 1
         self.time_s = self.cycles * CYCLE_S
         if self.time_s >= self._starts_at_s:
@@ -181,7 +181,7 @@ class Controller:
     # --- inputs
 
     def write_inputs(self, values: dict[str, Value]) -> None:
-        """Take over input variables from a client."""
+        """Set input variables that a client has sent."""
         self.registers.update(values)
         for name in COMMAND_REGISTERS:
             if name in values:
@@ -189,17 +189,17 @@ class Controller:
                 self.note("rtde", f"command {values[name]}")
 
     def note(self, port: str, words: str) -> None:
-        """Record what a client has told the robot to do."""
+        """Record a request of a client."""
         self.orders.append(Order(self.time_s, port, words))
 
     def since_command_s(self, register: str) -> float:
-        """Time since a command register was last written [s]; infinite when it never was."""
+        """Time since a command register was last written [s]; infinite if it never was."""
         return self.time_s - self._command_written_s[register]
 
     # --- motion
 
     def move(self, motion: Motion) -> None:
-        """Begin to move in another way."""
+        """Start another motion."""
         self.motion = motion
         self.motion_done = False
 
@@ -212,7 +212,7 @@ class Controller:
     # --- program
 
     def load_program(self, program: Program) -> None:
-        """Start an uploaded program in place of the one that runs."""
+        """Start an uploaded program, in place of the running one."""
         if self.safety != SafetyMode.NORMAL or self.robot_mode != RobotMode.RUNNING:
             self.log(f"program {program.name!r} not started: {self.safety.name}, {self.robot_mode.name}")
             return
@@ -222,14 +222,14 @@ class Controller:
         self._starts_at_s = self.time_s + self.config.start_delay_s
 
     def stop_program(self) -> None:
-        """End the program; the arm comes to rest."""
+        """Stop the program; the arm comes to rest."""
         self.program = None
         self._starts_at_s = math.inf
         self._set_runtime(RuntimeState.STOPPED)
         self._brake()
 
     def pause_program(self) -> bool:
-        """Hold the program and the arm; whether there was one running."""
+        """Pause the program and the arm; return whether a program was running."""
         if self.runtime != RuntimeState.PLAYING:
             return False
         self._set_runtime(RuntimeState.PAUSED)
@@ -237,7 +237,7 @@ class Controller:
         return True
 
     def play_program(self) -> bool:
-        """Go on with a paused program; whether there was one and the robot is able to move."""
+        """Resume a paused program; return whether there was one and the robot can move."""
         able = self.safety == SafetyMode.NORMAL and self.robot_mode == RobotMode.RUNNING
         if not able or self.runtime != RuntimeState.PAUSED or self.program is None:
             return False
@@ -249,11 +249,11 @@ class Controller:
 
     @property
     def stopped_for_safety(self) -> bool:
-        """Whether a protective or emergency stop holds the robot."""
+        """Whether a protective or emergency stop is active."""
         return self.safety != SafetyMode.NORMAL
 
     def protective_stop(self, reason: str) -> None:
-        """Stop at once and pause the program, as after a collision or a target the robot refuses."""
+        """Stop at once and pause the program, as after a collision or an invalid target."""
         if self.safety != SafetyMode.NORMAL:
             return
         self.log(f"protective stop: {reason}")
@@ -265,7 +265,7 @@ class Controller:
         self._publish_states()
 
     def unlock_protective_stop(self) -> bool:
-        """Release a protective stop; whether enough time has passed since it happened (or there was none)."""
+        """Release a protective stop; return whether enough time has passed since it happened (or there was none)."""
         if self.safety == SafetyMode.PROTECTIVE_STOP:
             if self.time_s - self._stopped_at_s < self.config.unlock_after_s:
                 return False
@@ -274,7 +274,7 @@ class Controller:
         return True
 
     def emergency_stop(self) -> None:
-        """Stop, end the program and switch the arm off, as by the red button."""
+        """Stop, end the program and switch the arm off, as by the emergency stop button."""
         if self.safety == SafetyMode.ROBOT_EMERGENCY_STOP:
             return
         self.log("emergency stop")
@@ -283,14 +283,14 @@ class Controller:
         self.stop_program()
 
     def clear_stops(self) -> None:
-        """Release every stop and switch the arm on, as a person at the robot would; no program runs afterwards."""
+        """Release all stops and switch the arm on, as a person at the robot would; no program runs afterwards."""
         if self.safety != SafetyMode.NORMAL or self.robot_mode != RobotMode.RUNNING:
             self.stop_program()
         self.safety = SafetyMode.NORMAL
         self.set_power(RobotMode.RUNNING)
 
     def set_power(self, mode: RobotMode) -> bool:
-        """Switch power and brakes; whether the safety state allows it."""
+        """Switch power and brakes; return whether the safety state allows it."""
         if self.safety != SafetyMode.NORMAL and mode != RobotMode.POWER_OFF:
             return False
         self.robot_mode = mode
@@ -313,7 +313,7 @@ class Controller:
         self._tcp_speed_known = False
 
     def publish_tcp(self) -> None:
-        """Bring the pose and speed of the tool centre point up to date in the outputs."""
+        """Update pose and speed of the tool centre point in the outputs."""
         now = tuple(self.joints.q)
         speed: Sequence[float] = (0.0,) * ur5e.JOINTS
         if now != self._tcp_of:

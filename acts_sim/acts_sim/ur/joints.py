@@ -1,6 +1,6 @@
-"""How the joints move: at most as fast and as hard as the limits allow, whatever is asked.
+"""Motion of the joints, always within their limits of speed and acceleration.
 
-Plain floats instead of arrays: six values a cycle are too few for NumPy to pay.
+Floats instead of arrays: for six values per cycle NumPy is slower.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from acts_core.robots import ur5e
 
 Joint6 = list[float]
 
-# Speeds below this count as standing still [rad/s].
+# A joint is at rest below this speed [rad/s].
 _STANDSTILL_RAD_S = 1e-9
 
 
@@ -37,15 +37,15 @@ class JointState:
         return max(abs(speed) for speed in self.qd)
 
     def advance(self, index: int, speed: float, dt_s: float, angle: float | None = None) -> None:
-        """Bring one joint to the speed wanted after `dt_s`, within the limits.
+        """Bring one joint to a speed after `dt_s`, within the limits.
 
-        `angle` is where the joint then is when no limit interferes; by default that of a constant acceleration.
+        `angle` is its angle after that, unless a limit interferes; by default that of a constant acceleration.
         """
         before = self.qd[index]
         step = self.acceleration_limit_rad_s2 * dt_s
         limited = min(max(speed, before - step), before + step)
         limited = min(max(limited, -self.speed_limit_rad_s), self.speed_limit_rad_s)
-        # A speed may also pass its limit between the ends of a cycle.
+        # The speed may exceed its limit within a cycle as well.
         furthest = self.speed_limit_rad_s * dt_s
         if angle is None or limited != speed or abs(angle - self.q[index]) > furthest:
             angle = self.q[index] + 0.5 * (before + limited) * dt_s
@@ -55,14 +55,14 @@ class JointState:
 
 
 class Motion(Protocol):
-    """One way of moving."""
+    """A motion of the arm."""
 
     def step(self, joints: JointState, dt_s: float) -> bool:
-        """Move on by `dt_s`; whether the motion has come to its end."""
+        """Advance by `dt_s`; return whether the motion has ended."""
 
 
 class Rest:
-    """Stand still."""
+    """No motion."""
 
     def step(self, joints: JointState, dt_s: float) -> bool:
         """Stay."""
@@ -71,13 +71,13 @@ class Rest:
 
 
 class Brake:
-    """Come to rest along the direction of motion, the fastest joint at the given deceleration."""
+    """Brake without a change of direction; the fastest joint has the given deceleration."""
 
     def __init__(self, deceleration_rad_s2: float) -> None:
         self.deceleration_rad_s2 = deceleration_rad_s2
 
     def step(self, joints: JointState, dt_s: float) -> bool:
-        """Slow down; ends at rest."""
+        """Brake; ends at rest."""
         fastest = joints.fastest_rad_s()
         deceleration = min(self.deceleration_rad_s2, joints.acceleration_limit_rad_s2)
         remaining = max(fastest - deceleration * dt_s, 0.0)
@@ -90,9 +90,9 @@ class Brake:
 class Servo:
     """``servoj``: follow a target that changes every cycle, critically damped with ``w = 2 / lookahead``.
 
-    A steadily moving target is followed at a distance of lookahead times its speed. The law is a speed towards the
-    target, ``w / 2 * error``, reached with a time constant of ``1 / (2 w)``. For errors from which the arm could not
-    brake in time, that speed grows only with the square root of the error: a far target is reached without overshoot.
+    At constant speed of the target, the arm lags by lookahead times that speed. The desired speed is ``w / 2 * error``,
+    reached with a time constant of ``1 / (2 w)``. For errors from which the arm could not brake in time, the desired
+    speed grows only with the square root of the error, so that a far target is reached without overshoot.
     """
 
     def __init__(self) -> None:
@@ -100,12 +100,12 @@ class Servo:
         self.lookahead_s = 0.1
 
     def set(self, target_rad: Sequence[float], lookahead_s: float) -> None:
-        """Follow another target."""
+        """Set the target."""
         self.target[:] = target_rad
         self.lookahead_s = lookahead_s
 
     def step(self, joints: JointState, dt_s: float) -> bool:
-        """Follow the target; never ends."""
+        """Move towards the target; never ends."""
         w = 2.0 / self.lookahead_s
         decay = math.exp(-w * dt_s)
         acceleration = joints.acceleration_limit_rad_s2
@@ -125,14 +125,14 @@ class Servo:
 
 
 class Speed:
-    """``speedj``: reach joint speeds with the fastest change at the given acceleration, and keep them."""
+    """``speedj``: reach joint speeds, the largest change at the given acceleration, and keep them."""
 
     def __init__(self) -> None:
         self.target: Joint6 = [0.0] * ur5e.JOINTS
         self.acceleration_rad_s2 = 1.0
 
     def set(self, target_rad_s: Sequence[float], acceleration_rad_s2: float) -> None:
-        """Go at other speeds."""
+        """Set the speeds."""
         self.target[:] = target_rad_s
         self.acceleration_rad_s2 = acceleration_rad_s2
 
@@ -149,7 +149,7 @@ class Speed:
 
 
 class Move:
-    """``movej``: all joints together to a target, speed a trapezoid; an arm still moving is brought to rest first."""
+    """``movej``: all joints in step to a target with a trapezoidal speed; a moving arm is first brought to rest."""
 
     def __init__(self, target_rad: Sequence[float], speed_rad_s: float, acceleration_rad_s2: float) -> None:
         self._target = list(target_rad)
@@ -159,12 +159,12 @@ class Move:
         self._elapsed_s = 0.0
 
     def restart(self) -> None:
-        """Begin again from where the arm is."""
+        """Restart from the present angles."""
         self._start = []
         self._elapsed_s = 0.0
 
     def step(self, joints: JointState, dt_s: float) -> bool:
-        """Go on along the trapezoid; ends at the target."""
+        """Move along the trapezoid; ends at the target."""
         if not self._start:
             if not joints.at_rest:
                 Brake(self._acceleration).step(joints, dt_s)
@@ -186,7 +186,7 @@ class Move:
 
 
 def _trapezoid(distance: float, speed: float, acceleration: float, time_s: float) -> tuple[float, float, bool]:
-    """Distance gone, speed, and whether at the end, `time_s` after the start of a move of `distance` >= 0."""
+    """Distance covered, speed, and whether the end is reached, `time_s` into a move of `distance` >= 0."""
     peak = min(speed, math.sqrt(distance * acceleration))
     if peak <= 0.0:
         return distance, 0.0, True

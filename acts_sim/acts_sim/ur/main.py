@@ -29,14 +29,14 @@ JOINT_RING_WIDTH = 12
 
 @dataclass(frozen=True)
 class ControllerSettings(RealtimeConfig, ControllerConfig):
-    """Options of the command line: the robot's, and how its process is scheduled."""
+    """Options of the command line: settings of the robot, and of the scheduling of its process."""
 
     def __post_init__(self) -> None:
         RealtimeConfig.__post_init__(self)
 
 
 class _Log:
-    """Lines to standard error: the same one at most once a second, and not more than 20 a second."""
+    """Writes lines to standard error: the same line at most once a second, and at most 20 lines a second."""
 
     def __init__(self, host: str) -> None:
         self._prefix = f"ur_controller {host}:"
@@ -56,10 +56,10 @@ class _Log:
 
 
 def parse(arguments: Sequence[str]) -> argparse.Namespace:
-    """The command line; what stands from ``--ros-args`` on is ROS's and is left out."""
+    """Parse the command line; arguments from ``--ros-args`` on are ignored."""
     parser = argparse.ArgumentParser(prog="ur_controller", description="Simulated UR5e controller for ur_rtde.")
-    parser.add_argument("--host", default="127.0.0.1", help="address to listen on; another robot takes 127.0.0.2 ...")
-    parser.add_argument("--joint-ring", type=Path, help="file to write q(6), qd(6) to every cycle as a shared ring")
+    parser.add_argument("--host", default="127.0.0.1", help="address to listen on; for a second robot 127.0.0.2 ...")
+    parser.add_argument("--joint-ring", type=Path, help="file of the shared ring with q(6), qd(6) of every cycle")
     parser.add_argument(
         "--hook-port", type=int, default=0, help="port of the test hooks; 0: none. Lines: protective_stop, state ..."
     )
@@ -130,7 +130,7 @@ def run(options: argparse.Namespace, signals: StopSignals) -> None:
         if options.joint_ring is not None:
             stack.enter_context(contextlib.closing(Claim(options.joint_ring)))
             ring = stack.enter_context(TimedRingWriter(options.joint_ring, JOINT_RING_WIDTH))
-        # What exists by now lives as long as the process; there is no use in going through it again and again.
+        # All present objects live as long as the process: exempt them from garbage collection.
         gc.freeze()
         enter_realtime(config, "all of it", lambda _level, sentence: log(sentence))
         print("ready", flush=True)

@@ -1,4 +1,4 @@
-"""Poses as Universal Robots write them, x, y, z [m] and a rotation vector [rad], and as transforms."""
+"""Conversion of poses of Universal Robots, x, y, z [m] and a rotation vector [rad], to transforms and back."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 Pose = tuple[float, float, float, float, float, float]
 
 Rows = list[list[float]]
-"""Rows of a homogeneous transform as plain floats, for what is computed every cycle."""
+"""Rows of a homogeneous transform as floats, for computations in every cycle."""
 
 _TINY = 1e-12
 
@@ -37,7 +37,7 @@ def pose_from_transform(transform: NDArray[np.float64]) -> Pose:
 def pose_from_rows(rows: Rows) -> Pose:
     """Pose of a homogeneous transform given as its rows."""
     (r00, r01, r02, x), (r10, r11, r12, y), (r20, r21, r22, z) = rows[:3]
-    # Twice the sine of the angle times the axis, and the angle from both sine and cosine: good at every angle.
+    # The axis times twice the sine; the angle from sine and cosine is accurate everywhere.
     ax, ay, az = r21 - r12, r02 - r20, r10 - r01
     twice_sine = math.sqrt(ax * ax + ay * ay + az * az)
     trace = r00 + r11 + r22
@@ -47,7 +47,7 @@ def pose_from_rows(rows: Rows) -> Pose:
         return x, y, z, factor * ax, factor * ay, factor * az
     if trace > 0.0:
         return x, y, z, 0.5 * ax, 0.5 * ay, 0.5 * az
-    # Half a turn: R + I = 2 n n^T; the column of the largest component is the best known one.
+    # Half a turn: R + I = 2 n n^T; the column of the largest component is the most accurate.
     columns = ((r00 + 1.0, r10, r20), (r01, r11 + 1.0, r21), (r02, r12, r22 + 1.0))
     largest = max(range(3), key=lambda index: columns[index][index])
     column = columns[largest]

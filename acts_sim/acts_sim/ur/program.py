@@ -1,9 +1,9 @@
-"""The control script that ``ur_rtde`` uploads, emulated: the handshake over registers, once a cycle.
+"""Emulation of the control script that ``ur_rtde`` uploads: its handshake over registers, once per cycle.
 
-The client writes a command to input integer register 0 and reads the answer from output integer register 0: 1 is ready,
-2 is done. A done answer stays until the client clears the command to 0. Commands meant for streaming are
-carried out again every cycle for as long as their code stands in the register, and are always answered with ready; any
-other is carried out once, and answered when it has come to its end. Register numbers count from an offset, 0 or 24.
+The client writes a command to input integer register 0 and reads the reply from output integer register 0: 1 is ready,
+2 is done. The reply "done" stays until the client clears the command to 0. A streamed command is executed in every
+cycle while its code is in the register, and the reply is always "ready". Any other command is executed once, and the
+reply comes when it has ended. An offset of 0 or 24 is added to all register numbers.
 """
 
 from __future__ import annotations
@@ -23,14 +23,14 @@ STOP_SCRIPT_COMMAND = 255
 
 
 class Command(NamedTuple):
-    """What the script does for a code in the command register.
+    """Function of the script for one code in the command register.
 
     Attributes
     ----------
     carry_out : callable
-        Takes the program and the controller; reads the arguments from the input registers.
+        Called with the program and the controller; reads the arguments from the input registers.
     is_streamed : bool
-        Whether it is carried out every cycle and never answered with done.
+        Whether it is executed in every cycle, and the reply is never "done".
     """
 
     carry_out: Callable[[ControlProgram, Controller], None]
@@ -43,9 +43,9 @@ class ControlProgram:
     Parameters
     ----------
     commands : mapping of int to Command
-        The commands that it knows, by code.
+        Known commands, by code.
     name : str
-        Its name.
+        Name of the program.
     register_offset : int
         Added to every register number.
     """
@@ -70,7 +70,7 @@ class ControlProgram:
     # --- one cycle
 
     def cycle(self, controller: Controller) -> None:
-        """Do what the script does in one cycle.
+        """Execute one cycle of the script.
 
         Raises
         ------
@@ -100,7 +100,7 @@ class ControlProgram:
                 self._answer(controller, DONE)
 
     def _execute(self, command: int, controller: Controller) -> bool:
-        """Carry out a command; False when it has led to a safety stop: a paused script answers no more."""
+        """Execute a command; False after a safety stop, when the paused script no longer replies."""
         if command == STOP_SCRIPT_COMMAND:
             raise ProgramEnded
         known = self._commands.get(command)
@@ -110,7 +110,7 @@ class ControlProgram:
         return not controller.stopped_for_safety
 
     def _motion_ended(self, controller: Controller) -> bool:
-        """Follow a motion to its end; whether the script still waits for it."""
+        """Handle the end of a motion; return whether the script still waits for it."""
         if not controller.motion_done:
             return self._blocking
         if self._blocking:
@@ -123,7 +123,7 @@ class ControlProgram:
         return False
 
     def resume(self, controller: Controller) -> None:
-        """Take up the motion again after a pause."""
+        """Resume the motion after a pause."""
         if self._motion is not None:
             if isinstance(self._motion, Move):
                 self._motion.restart()
@@ -132,7 +132,7 @@ class ControlProgram:
     # --- for the commands: registers
 
     def command(self, controller: Controller) -> int:
-        """Command that the client has written."""
+        """The command that the client has written."""
         return self.integer(controller, 0)
 
     def integer(self, controller: Controller, index: int) -> int:
@@ -160,30 +160,30 @@ class ControlProgram:
     # --- for the commands: motion
 
     def servo(self, controller: Controller, target_rad: list[float], lookahead_s: float) -> None:
-        """Follow a target from now on."""
+        """Follow a target."""
         self._require_free(self._servo, "servoJ")
         self._servo.set(target_rad, lookahead_s)
         self._take(controller, self._servo)
 
     def speed(self, controller: Controller, target_rad_s: list[float], acceleration_rad_s2: float) -> None:
-        """Go at joint speeds from now on."""
+        """Move at joint speeds."""
         self._require_free(self._speed, "speedJ")
         self._speed.set(target_rad_s, acceleration_rad_s2)
         self._take(controller, self._speed)
 
     def move(self, controller: Controller, motion: Move, asynchronous: bool) -> None:
-        """Move to a target; the answer waits for the end of it, or goes out at once."""
+        """Move to a target; the reply comes at the end of the move, or at once if `asynchronous`."""
         self._require_no_stream("moveJ")
         self._start(controller, motion, asynchronous)
 
     def stop(self, controller: Controller, deceleration_rad_s2: float, stream: type[Servo] | type[Speed]) -> None:
-        """End the stream of targets, if there is one, and come to rest."""
+        """End the stream of targets, if there is one, and brake to rest."""
         if not isinstance(self._motion, stream):
             self._require_no_stream("a stop")
         self._start(controller, self._braking(controller, deceleration_rad_s2), False)
 
     def stop_move(self, controller: Controller, deceleration_rad_s2: float, asynchronous: bool) -> None:
-        """Break off a move and come to rest."""
+        """Abort a move and brake to rest."""
         self._require_no_stream("stopJ or stopL")
         self._start(controller, self._braking(controller, deceleration_rad_s2), asynchronous)
 
@@ -206,7 +206,7 @@ class ControlProgram:
             self._motion = motion
             controller.move(motion)
 
-    # In the script, streams and asynchronous moves are threads of their own, and only one may drive the arm.
+    # In the script, streams and asynchronous moves are separate threads, and only one may control the arm.
 
     def _require_no_stream(self, what: str) -> None:
         if isinstance(self._motion, Servo | Speed):

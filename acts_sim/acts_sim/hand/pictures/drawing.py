@@ -1,4 +1,4 @@
-"""A drawing of the hand from what is true of it: links as lines, taxels as dots, the object as a net of lines."""
+"""A drawing of the hand from its true state: links as lines, taxels as dots, the object as a wire frame."""
 
 from __future__ import annotations
 
@@ -30,14 +30,14 @@ def draw_hand(
     Parameters
     ----------
     axes : mpl_toolkits.mplot3d.Axes3D
-        Of matplotlib, with ``projection="3d"``; what is down for the object is down in the picture.
+        Axes of matplotlib with ``projection="3d"``; gravity points down in the picture.
     truth : HandTruth
     layout : Layout
-        Where the taxels are.
+        Positions of the taxels.
     thing : HeldObject, optional
-        What is held.
+        The object in the hand.
     counts : np.ndarray [shape=(taxels,), dtype=float64], optional
-        What the taxels read, in the order of the matrix.
+        Counts of the taxels, in the order of the matrix.
     """
     show = _upright(np.array(truth.gravity_m_s2))
     links, at_rest = frames(truth.q_rad), frames()
@@ -70,7 +70,7 @@ def draw_hand(
 
 
 def _upright(gravity: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Rotation of the palm's frame that turns gravity to -z."""
+    """Rotation that turns gravity in the palm's frame to -z."""
     up = -gravity / max(float(np.linalg.norm(gravity)), 1e-9)
     forward = np.array([1.0, 0.0, 0.0]) if abs(up[0]) < 0.9 else np.array([0.0, 0.0, -1.0])
     forward = forward - (forward @ up) * up
@@ -91,7 +91,7 @@ def _four(numbers: tuple[float, ...]) -> tuple[float, float, float, float]:
 
 
 def _box(low: NDArray[np.float64], high: NDArray[np.float64]) -> NDArray[np.float64]:
-    """All edges of a box as one line."""
+    """All edges of a box as one polyline."""
     corners = [0b000, 0b001, 0b011, 0b010, 0b000, 0b100, 0b101, 0b001, 0b101, 0b111, 0b011, 0b111, 0b110, 0b010, 0b110]
     path = [*corners, 0b100]
     return np.array([[(low, high)[corner >> axis & 1][axis] for axis in range(3)] for corner in path])

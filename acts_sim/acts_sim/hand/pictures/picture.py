@@ -1,4 +1,4 @@
-"""Pictures of the simulated hand: rendered without a display where the machine can (EGL)."""
+"""Rendered pictures of the simulated hand, without a display (EGL)."""
 
 from __future__ import annotations
 
@@ -24,47 +24,47 @@ class HandPicture:
     ----------
     world : HandWorld
     width, height : int
-        Of the pictures, up to 1280 x 960.
+        Size of the pictures [pixels], up to 1280 x 960.
 
     Raises
     ------
     ActsError
-        Where nothing can be rendered without a display.
+        When EGL is not available.
     """
 
     def __init__(self, world: HandWorld, width: int = 800, height: int = 600) -> None:
         self._world = world
         self._width, self._height = width, height
         try:
-            # Not before it is needed: it loads the machine's graphics library.
+            # Imported late, because it loads the graphics library.
             from mujoco.egl import GLContext
 
             self._gl = GLContext(width, height)
             self._gl.make_current()
             self._context = mujoco.MjrContext(world.model, mujoco.mjtFontScale.mjFONTSCALE_100)
         except (ImportError, AttributeError, RuntimeError, mujoco.FatalError) as error:
-            raise ActsError(f"nothing can be rendered here without a display ({error}); EGL is needed") from error
+            raise ActsError(f"cannot render without a display ({error}); EGL is needed") from error
         mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN, self._context)
         self._scene = mujoco.MjvScene(world.model, _MAX_GEOMS)
 
     def close(self) -> None:
-        """Give the graphics library's memory back."""
+        """Release the memory of the graphics library."""
         self._context.free()
         self._gl.free()
 
     def take(
         self, view: str = "above", counts: NDArray[np.float64] | None = None, distance_m: float = 0.36
     ) -> NDArray[np.uint8]:
-        """A picture of how things are, on white; np.ndarray [shape=(height, width, 3), dtype=uint8].
+        """Render the present state on white; np.ndarray [shape=(height, width, 3), dtype=uint8].
 
         Parameters
         ----------
         view : str
             One of `VIEWS`.
         counts : np.ndarray [shape=(taxels,), dtype=float64], optional
-            What the taxels read, in the order of the matrix; the world's own unless given.
+            Counts of the taxels, in the order of the matrix; by default those of the world.
         distance_m : float
-            Of the camera from the hand's middle [m].
+            Distance of the camera from the hand's centre [m].
         """
         world, scene = self._world, self._scene
         self._gl.make_current()
@@ -86,7 +86,7 @@ class HandPicture:
         return picture[::-1]
 
     def _turn_upright(self, camera: mujoco.MjvCamera) -> None:
-        """Let up be up: the model's frame is the palm's."""
+        """Rotate the camera so that gravity points down: the model's frame is the palm's."""
         up = -self._world.down
         forward_flat = np.array([1.0, 0.0, 0.0]) if abs(up[0]) < 0.9 else np.array([0.0, 0.0, -1.0])
         left_flat = np.cross(up, forward_flat)
@@ -105,7 +105,7 @@ class HandPicture:
             self._scene.lights[light].dir[:] = -outward
 
     def _add_taxels(self, counts: NDArray[np.float64]) -> None:
-        """Each taxel as a dot on its place, from grey to red by what it reads."""
+        """Add each taxel as a dot, from grey to red by its counts."""
         world, scene = self._world, self._scene
         turn = np.eye(3).ravel()
         for patch in world.layout.patches:

@@ -1,4 +1,4 @@
-"""Lets the hand's world keep up with the clock, a little ahead of it, and shares what skin and truth are."""
+"""Runs the hand's world in real time, a little ahead of the clock, and writes counts and truth to rings."""
 
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ from acts_sim.shared import TimedRingWriter
 STEP_NS = round(STEP_S * 1e9)
 
 LONGEST_BEHIND_NS = 100_000_000
-"""A world that is further behind than this leaves out the rest: everything stood still meanwhile."""
+"""A world that is further behind the clock than this skips the missed time, in which everything stands still [ns]."""
 
 _LATE_NS = 1_000_000
 
 
 @dataclass(frozen=True)
 class LoopStatistics:
-    """What a loop has done since its start.
+    """Counters of a loop since its start.
 
     Attributes
     ----------
     steps, late, skipped : int
-        Steps of the world, 2 ms each; those that began more than 1 ms late; those left out.
+        Steps of the world, 2 ms each; steps that began more than 1 ms late; skipped steps.
     work_s : float
         Time spent in steps [s].
     """
@@ -35,22 +35,22 @@ class LoopStatistics:
 
 
 class HandLoop:
-    """Steps a world as it is called, every 2 ms, and writes each step with the time it is for.
+    """Steps a world at each call, every 2 ms, and writes each step with its time.
 
     Parameters
     ----------
     world : HandWorld
     field : TimedRingWriter
-        Of the counts, for the board.
+        Ring for the counts, which the board reads.
     truth : TimedRingWriter
-        Of the rows of truth, see `acts_sim.hand.truth`.
+        Ring for the rows of truth, see `acts_sim.hand.truth`.
     lead_ns : int
         How far the world is ahead of the clock [ns].
 
     Attributes
     ----------
     statistics : LoopStatistics
-        Replaced as a whole.
+        Replaced by a new object after each step.
     """
 
     def __init__(self, world: HandWorld, field: TimedRingWriter, truth: TimedRingWriter, lead_ns: int) -> None:
@@ -62,7 +62,7 @@ class HandLoop:
         self._world_ns = 0
 
     def step(self, _dt_s: float) -> None:
-        """Let a step of the world happen: the one that is due now."""
+        """Execute the step of the world that is due now."""
         start_ns = time.monotonic_ns()
         before = self.statistics
         behind_ns = start_ns + self._lead_ns - (self._world_ns + STEP_NS)

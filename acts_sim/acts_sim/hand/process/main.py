@@ -1,4 +1,4 @@
-"""``hand_world``: the command line of the simulated LEAP hand with its skin, its motors and what it holds."""
+"""``hand_world``: the command line of the simulated LEAP hand with its skin, its motors and an object."""
 
 from __future__ import annotations
 
@@ -20,24 +20,24 @@ from acts_sim.hand.process.loop import HandLoop
 from acts_sim.shared import Claim, TimedRingWriter, default_run_dir
 
 TRUTH_SLOTS = 8192
-"""How many steps of truth are kept: 16 s."""
+"""Number of steps of truth in the ring: 16 s."""
 
 _OWN = ("link", "field_ring", "truth_ring", "control", "baud", "lead_ms", "realtime_priority", "cpu_affinity")
 
 
 def parse(arguments: Sequence[str]) -> tuple[argparse.Namespace, HandWorldConfig]:
-    """The command line; what stands from ``--ros-args`` on is ROS's and is left out."""
+    """Parse the command line; arguments from ``--ros-args`` on are ignored."""
     parser = argparse.ArgumentParser(
         prog="hand_world", description="A simulated LEAP hand: 16 Dynamixel motors on a port, 1024 taxels in a ring."
     )
-    folder = "in the folder /dev/shm/acts-USER unless told otherwise"
+    folder = "in the folder /dev/shm/acts-USER by default"
     parser.add_argument("--link", type=Path, help=f"symbolic link to the motors' port; hand {folder}")
-    parser.add_argument("--field-ring", type=Path, help=f"shared file with what the skin reads; field.ring {folder}")
-    parser.add_argument("--truth-ring", type=Path, help=f"shared file with what is true; truth.ring {folder}")
-    parser.add_argument("--control", type=Path, help=f"Unix socket that takes commands; hand.control {folder}")
-    parser.add_argument("--baud", type=int, default=4_000_000, help="for the time that packets take; 0: none")
+    parser.add_argument("--field-ring", type=Path, help=f"shared file with the skin's counts; field.ring {folder}")
+    parser.add_argument("--truth-ring", type=Path, help=f"shared file with the true state; truth.ring {folder}")
+    parser.add_argument("--control", type=Path, help=f"Unix socket for commands; hand.control {folder}")
+    parser.add_argument("--baud", type=int, default=4_000_000, help="simulated baud rate; 0: packets take no time")
     parser.add_argument("--lead-ms", type=float, default=4.0, help="how far the world is ahead of the clock (2 to 20)")
-    parser.add_argument("--realtime-priority", type=int, default=0, help="under SCHED_FIFO; 0: the ordinary scheduler")
+    parser.add_argument("--realtime-priority", type=int, default=0, help="SCHED_FIFO priority; 0: ordinary scheduling")
     parser.add_argument("--cpu-affinity", default="", help="cores to run on, as in 0,2-3")
     world = parser.add_argument_group("the world")
     for name, info in describe(HandWorldConfig).items():
@@ -68,12 +68,12 @@ def parse(arguments: Sequence[str]) -> tuple[argparse.Namespace, HandWorldConfig
 
 
 def run(options: argparse.Namespace, config: HandWorldConfig, signals: StopSignals) -> None:
-    """Let the world go on until a signal asks to stop.
+    """Run the world until a signal asks to stop.
 
     Raises
     ------
     ActsError
-        When a ring, the port or the control socket cannot be made, or another process has it.
+        When a ring, the port or the control socket cannot be made, or another process uses it.
     """
     scheduling = RealtimeConfig(realtime_priority=options.realtime_priority, cpu_affinity=options.cpu_affinity)
     with contextlib.ExitStack() as stack:
@@ -95,7 +95,7 @@ def run(options: argparse.Namespace, config: HandWorldConfig, signals: StopSigna
 
 
 def answer(world: HandWorld, loop: HandLoop, port: BusPort, line: str) -> str:
-    """Carry out a line of the control socket; ``ok``, a JSON object for ``state``, or ``error: ...``."""
+    """Execute a line of the control socket and return ``ok``, a JSON object for ``state``, or ``error: ...``."""
     if line == "unplug":
         port.unplug()
     elif line == "plug_in":

@@ -1,6 +1,6 @@
-"""The TCP ports of the simulated UR controller: RTDE, script, dashboard and test hooks, and the server of all of them.
+"""The TCP ports of the simulated UR controller (RTDE, script, dashboard and test hooks), and their server.
 
-In come bytes of clients; out come bytes for them, and calls of the controller.
+In come bytes from clients; out come bytes for clients, and calls of the controller.
 """
 
 from acts_sim.ur.ports import dashboard, hooks

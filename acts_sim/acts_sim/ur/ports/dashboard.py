@@ -1,4 +1,4 @@
-"""The dashboard server: one line of text asks, one line answers."""
+"""The dashboard server: one line of reply to each line of text."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _UNLOCK_TOO_EARLY = (
 
 
 def answer(controller: Controller, line: str) -> str:
-    """Carry out a line from the client and give the answer to it."""
+    """Execute a line of the client and return the reply."""
     fixed = {
         "PolyscopeVersion": "URSoftware {}.{}.{}.{} (Oct 14 2021)".format(*VERSION),
         "version": "URSoftware {}.{}.{}.{} (Oct 14 2021)".format(*VERSION),

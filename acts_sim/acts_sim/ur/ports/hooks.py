@@ -1,4 +1,4 @@
-"""Test hooks: what a person at the robot could do, over a port of its own, in lines."""
+"""Test hooks: actions of a person at the robot, as text commands on a port of their own."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ _KNOWN = "protective_stop [reason], emergency_stop, clear, state, orders"
 
 
 def answer(controller: Controller, line: str) -> str:
-    """Carry out a line; ``ok``, a JSON object for ``state``, or ``error: ...``."""
+    """Execute a line and return ``ok``, a JSON object for ``state``, or ``error: ...``."""
     word, _, rest = line.partition(" ")
     if word == "protective_stop":
         controller.protective_stop(rest or "test hook")

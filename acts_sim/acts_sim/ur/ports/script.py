@@ -1,4 +1,4 @@
-"""The script port: text of URScript programs in, programs out."""
+"""The script port, which receives URScript programs and starts them."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import re
 from acts_sim.ur import COMMANDS, Controller, ControlProgram
 
 MAX_PROGRAM_BYTES = 1_000_000
-"""The control script has about 42 kB."""
+"""Largest size of a program [bytes]; the control script has about 42 kB."""
 
 CONTROL_PROGRAM = "rtde_control"
 
@@ -17,13 +17,13 @@ _OFFSET = re.compile(rb"reg_offset_int[ \t]*=[ \t]*#[^\n]*\n[ \t]*(\d+)")
 
 
 class ScriptReader:
-    """Cuts a stream of text into programs: from a line ``def name():`` to a line ``end``; other text is dropped."""
+    """Splits a stream of text into programs: from a line ``def name():`` to a line ``end``; other text is dropped."""
 
     def __init__(self) -> None:
         self._buffer = bytearray()
 
     def feed(self, data: bytes) -> list[tuple[str, bytes]]:
-        """The programs that are whole once `data` has arrived, as (name, text)."""
+        """The programs that `data` completes, as (name, text)."""
         searched_from = max(len(self._buffer) - len(_END), 0)
         self._buffer += data
         programs = []
@@ -50,7 +50,7 @@ class ScriptSession:
         self._reader = ScriptReader()
 
     def receive(self, data: bytes) -> bytes:
-        """Start the programs that have become whole; there is no reply."""
+        """Start the programs that `data` completes; there is no reply."""
         for name, text in self._reader.feed(data):
             self._controller.note("script", f"program {name}")
             if name == CONTROL_PROGRAM:
@@ -67,8 +67,8 @@ class ScriptSession:
         return b""
 
     def tick(self) -> bytes:
-        """Nothing is ever due."""
+        """Nothing to send."""
         return b""
 
     def close(self) -> None:
-        """The program runs on without the connection."""
+        """Nothing to do: the program runs on without the connection."""

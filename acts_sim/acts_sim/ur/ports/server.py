@@ -17,45 +17,45 @@ from acts_core.errors import PacketError, RobotError
 from acts_sim.ur import CYCLE_HZ
 
 MAX_CONNECTIONS = 200
-"""Per port. `select` itself cannot watch descriptors from 1024 on."""
+"""Largest number of connections per port; `select` cannot watch descriptors from 1024 on."""
 
 _CYCLE_NS = 1_000_000_000 // CYCLE_HZ
 
-# After a longer pause of the process the missed cycles are not made up for: the robot's time stood still.
+# After a longer pause of the process the missed cycles are skipped: the robot's time has stood still.
 _MAX_CATCH_UP_CYCLES = 50
 
-# In one cycle, 680 servo commands: far more than a client that does not wait for anything can send.
+# Bytes read per cycle: 680 servo commands, far more than a client without pauses can send.
 _READ_BYTES = 65536
 
-# About a tenth of a second of data packages: a client that was held up soon sees the present again.
+# About a tenth of a second of data packages, so that a client that was delayed soon gets present data again.
 _SEND_BUFFER_BYTES = 65536
 
-# A client that lets so much pile up has stopped reading.
+# A client with more unsent data than this has stopped reading.
 _MAX_PENDING_BYTES = 1 << 20
 
 
 class Session(Protocol):
-    """What the server needs to know of one client."""
+    """Interface of one client's session to the server."""
 
     @property
     def greeting(self) -> bytes:
-        """Sent to begin with."""
+        """Bytes to send at the beginning."""
 
     @property
     def streaming(self) -> bool:
-        """Whether what the client sends counts from the next cycle on.
+        """Whether data of the client have an effect only from the next cycle on.
 
-        Then it is read once a cycle instead of waking the process.
+        They are then read once per cycle and do not wake the process.
         """
 
     def receive(self, data: bytes) -> bytes:
         """Replies to bytes from the client; raises `PacketError` when the connection is to be closed."""
 
     def tick(self) -> bytes:
-        """What is due to the client after a cycle."""
+        """Bytes to send after a cycle."""
 
     def close(self) -> None:
-        """The connection has gone."""
+        """Handle the end of the connection."""
 
 
 @dataclass(frozen=True)
@@ -67,7 +67,7 @@ class Port:
     number : int
         TCP port.
     name : str
-        What it is for, for messages.
+        Name for messages.
     session : callable
         Makes the session of a new client.
     """
@@ -78,7 +78,7 @@ class Port:
 
 
 class _Connection:
-    """A client: its socket, its session and what has not yet been sent."""
+    """A client: its socket, its session and unsent data."""
 
     def __init__(self, connected: socket.socket, port: Port, session: Session) -> None:
         self.socket = connected
@@ -90,7 +90,7 @@ class _Connection:
         return self.socket.fileno()
 
     def send(self, data: bytes) -> bool:
-        """Send, keeping what does not fit; False when the connection is lost."""
+        """Send data, and store what the socket does not accept; False when the connection is lost."""
         self.pending += data
         return self.flush()
 
@@ -115,11 +115,11 @@ class Server:
     host : str
         Address to bind to.
     ports : list of Port
-        What to listen on.
+        Ports to listen on.
     cycle : callable
-        Called once every 2 ms with the time the cycle stands for (CLOCK_MONOTONIC) [ns].
+        Called every 2 ms with the time of the cycle, CLOCK_MONOTONIC [ns].
     log : callable
-        Takes a line of text.
+        Called with a line of text for the user.
 
     Raises
     ------
@@ -141,7 +141,7 @@ class Server:
             raise
 
     def stop(self) -> None:
-        """Let `run` return; from any thread; it does so after the present cycle."""
+        """Let `run` return after the present cycle; from any thread."""
         self._stopping = True
 
     def close(self) -> None:
@@ -159,7 +159,9 @@ class Server:
             if now_ns >= due_ns:
                 missed = (now_ns - due_ns) // _CYCLE_NS
                 if missed > _MAX_CATCH_UP_CYCLES:
-                    self._log(f"the process stood still for {missed * _CYCLE_NS / 1e9:.2f} s; so did the robot")
+                    self._log(
+                        f"the process was not scheduled for {missed * _CYCLE_NS / 1e9:.2f} s; the robot stood still"
+                    )
                     due_ns = now_ns
                 for connection in list(self._connections):
                     if connection.session.streaming:
@@ -172,7 +174,7 @@ class Server:
             self._wait((due_ns - now_ns) / 1e9)
 
     def _wait(self, timeout_s: float) -> None:
-        """Serve the sockets until the next cycle is due or something has come in."""
+        """Serve the sockets until the next cycle is due or data have arrived."""
         writers = [connection for connection in self._connections if connection.pending]
         readers: list[socket.socket | _Connection] = list(self._listeners)
         readers += [connection for connection in self._connections if not connection.session.streaming]
@@ -190,7 +192,7 @@ class Server:
         try:
             connected, _ = listener.accept()
         except OSError:
-            return  # gone again before it was accepted, or no descriptor left
+            return  # closed before it was accepted, or no descriptor left
         port = self._listeners[listener]
         if sum(connection.port is port for connection in self._connections) >= MAX_CONNECTIONS:
             self._log(f"more than {MAX_CONNECTIONS} connections to the {port.name} port; refused one")
@@ -227,7 +229,7 @@ class Server:
 
     def _tick(self, connection: _Connection) -> None:
         data = connection.session.tick()
-        # To a client that does not keep up whole packages are skipped, never cut.
+        # For a client that does not keep up, whole packages are skipped, never parts of them.
         if data and not connection.pending and not connection.send(data):
             self._drop(connection)
 
@@ -248,8 +250,8 @@ def _listen(host: str, port: Port) -> socket.socket:
     except (OSError, OverflowError, UnicodeError) as error:
         listener.close()
         if isinstance(error, OSError) and error.errno == errno.EADDRINUSE:
-            advice = "Is another simulated robot already there? Several of them take --host 127.0.0.2, 127.0.0.3 ..."
+            advice = "Is another simulated robot running? Give a second one --host 127.0.0.2"
         else:
-            advice = "A simulated robot takes an address of this machine, such as --host 127.0.0.2"
+            advice = "Give an address of this machine, such as --host 127.0.0.2"
         raise RobotError(f"cannot listen on {host} port {port.number} ({port.name}): {error}. {advice}") from error
     return listener

@@ -1,4 +1,4 @@
-"""One client of the RTDE port: what it asks for, what it is sent. Bytes in, bytes out; the sockets are the server's."""
+"""One client of the RTDE port: its requests and their replies as bytes, without sockets."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ MAX_INPUT_RECIPES = 255
 
 
 class RtdePort:
-    """The clients of the RTDE port, and which of them writes which input variable: each has at most one writer.
+    """The clients of the RTDE port, and which of them writes each input variable, at most one.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ class RtdePort:
 
     @property
     def needs_tcp(self) -> bool:
-        """Whether any client is being sent the pose or speed of the tool."""
+        """Whether any client receives the pose or speed of the tool."""
         return any(session.needs_tcp for session in self._sessions)
 
     def writer(self, name: str) -> RtdeSession | None:
@@ -52,11 +52,11 @@ class RtdePort:
         return self._writers.get(name)
 
     def claim(self, names: tuple[str, ...], session: RtdeSession) -> None:
-        """Make a session the writer of variables."""
+        """Register a session as the writer of variables."""
         self._writers.update(dict.fromkeys(names, session))
 
     def release(self, session: RtdeSession) -> None:
-        """Forget a session that has gone."""
+        """Remove a session that has ended."""
         self._sessions = [other for other in self._sessions if other is not session]
         self._writers = {name: writer for name, writer in self._writers.items() if writer is not session}
 
@@ -85,12 +85,12 @@ class RtdeSession:
 
     @property
     def streaming(self) -> bool:
-        """Whether data packages are being sent; the client's then count from the next cycle on."""
+        """Whether data packages are being sent; those of the client then have an effect from the next cycle on."""
         return self._started
 
     @property
     def needs_tcp(self) -> bool:
-        """Whether what is being sent holds the pose or speed of the tool."""
+        """Whether the packages being sent contain the pose or speed of the tool."""
         return self._started and self._output is not None and self._output.needs_tcp
 
     def receive(self, data: bytes) -> bytes:
@@ -99,12 +99,12 @@ class RtdeSession:
         Raises
         ------
         PacketError
-            When they are not RTDE; the connection is to be closed.
+            When they are not RTDE; the connection must be closed.
         """
         replies = b""
         data_package: bytes | None = None
         for kind, payload in self._reader.feed(data):
-            # Registers are looked at once a cycle: of packages of the same inputs in a row only the last counts.
+            # Registers are read once per cycle, so of consecutive packages of the same inputs only the last matters.
             if data_package is not None and (
                 kind != PacketType.DATA_PACKAGE or payload[:1] != data_package[:1] or len(payload) != len(data_package)
             ):
@@ -119,7 +119,7 @@ class RtdeSession:
         return replies
 
     def tick(self) -> bytes:
-        """What is due to the client after a cycle: a data package, or nothing."""
+        """Bytes to send after a cycle: a data package, or nothing."""
         if not self._started or self._output is None:
             return b""
         self._phase += self._output.frequency_hz / CYCLE_HZ
@@ -129,7 +129,7 @@ class RtdeSession:
         return self._output.package()
 
     def close(self) -> None:
-        """The connection has gone."""
+        """Handle the end of the connection."""
         self._started = False
         self._port.release(self)
 
@@ -147,7 +147,7 @@ class RtdeSession:
         if kind == PacketType.PAUSE:
             self._started = False
             return encode(kind, b"\x01")
-        return b""  # a text message of the client's is for nobody
+        return b""  # text messages of the client are ignored
 
     def _setup_outputs(self, payload: bytes) -> bytes:
         if len(payload) < 8:
@@ -158,7 +158,7 @@ class RtdeSession:
         self._output = None
         number = 0
         if names and "NOT_FOUND" not in types:
-            # The range of a real controller; not a number means as often as possible.
+            # The range of a real controller; NaN means the highest frequency.
             in_range = min(max(frequency, 1.0), float(CYCLE_HZ)) if math.isfinite(frequency) else float(CYCLE_HZ)
             try:
                 self._output = OutputRecipe(self._controller.output, names, in_range)
@@ -189,7 +189,7 @@ class RtdeSession:
         if self._output.needs_tcp:
             self._controller.publish_tcp()
         self._phase = 0.0
-        # The client wants a first state before anything else.
+        # The client expects a state first.
         return reply + self._output.package()
 
     def _take_inputs(self, payload: bytes) -> None:

@@ -1,6 +1,6 @@
-"""The language of the RTDE port: packets, the variables that they carry, and recipes of variables.
+"""The protocol of the RTDE port: packets, variables, and recipes (lists) of variables.
 
-In come bytes and values; out come values and bytes. Nothing here knows a robot.
+In come bytes and values; out come values and bytes. It does not depend on the robot.
 """
 
 from acts_sim.ur.rtde.packets import PROTOCOL_VERSION, InputRecipe, PacketReader, PacketType, Value, encode, split_names

@@ -66,18 +66,18 @@ def encode(kind: PacketType, payload: bytes = b"") -> bytes:
 
 
 class PacketReader:
-    """Cuts a byte stream into packets, whatever pieces it arrives in."""
+    """Splits a byte stream, which arrives in pieces of any size, into packets."""
 
     def __init__(self) -> None:
         self._buffer = bytearray()
 
     def feed(self, data: bytes) -> list[tuple[PacketType, bytes]]:
-        """The packets that are whole once `data` has arrived, as (type, payload), oldest first.
+        """The packets that `data` completes, as (type, payload), oldest first.
 
         Raises
         ------
         PacketError
-            When a header is impossible. The stream has no mark to resynchronise on, so the connection is lost.
+            When a header is invalid. The stream has no mark to resynchronise on, so the connection must be closed.
         """
         self._buffer += data
         packets = []
@@ -96,18 +96,18 @@ class PacketReader:
 
 
 def split_names(payload: bytes) -> list[str]:
-    """Names of variables separated by commas; a comma after the last is usual."""
+    """Names of variables separated by commas; there may be one after the last."""
     return [name for name in payload.decode("ascii", errors="replace").split(",") if name]
 
 
 @dataclass(frozen=True)
 class DecodedInputs:
-    """What an input data package says.
+    """Content of an input data package.
 
     Attributes
     ----------
     values : dict
-        The fields that were there whole, by name.
+        Values of the complete fields, by name.
     whole : bool
         False when the payload was shorter than its recipe.
     """
@@ -134,11 +134,11 @@ class InputRecipe:
 
     @property
     def size(self) -> int:
-        """Bytes of a whole payload, without the byte of the recipe's number."""
+        """Length of a whole payload [bytes], without the byte of the recipe's number."""
         return self._struct.size
 
     def decode(self, payload: bytes) -> DecodedInputs:
-        """Fields of a payload. Of one that is too short, those that are whole; what is too long is cut."""
+        """Decode a payload. If it is too short, decode the complete fields; ignore bytes in excess."""
         if self._scalars and len(payload) >= self._struct.size:
             return DecodedInputs(dict(zip(self.names, self._struct.unpack_from(payload), strict=True)), True)
         values: dict[str, Value] = {}

@@ -1,7 +1,7 @@
-"""The variables of the RTDE interface, and the image of the outputs from which data packages are cut.
+"""The variables of the RTDE interface, and a packed buffer of the outputs from which data packages are made.
 
-All outputs lie packed in one buffer in the order in which ``ur_rtde`` asks for them by default, so that a package of
-all of them is a few slices of the buffer, and a tick costs only the packing of what has changed.
+The buffer has all outputs in the order in which ``ur_rtde`` requests them by default. So a package of all of them is a
+few slices of the buffer, and a cycle packs only what has changed.
 """
 
 from __future__ import annotations
@@ -77,7 +77,7 @@ INPUT_TYPES: dict[str, str] = {name: kind for kind, names in _INPUT_GROUPS for n
 TCP_VARIABLES = frozenset({"actual_TCP_pose", "actual_TCP_speed", "target_TCP_pose", "target_TCP_speed"})
 """The outputs that need forward kinematics."""
 
-# Of a robot that is switched on and idle; what is not simulated keeps these values.
+# Values of a robot that is switched on and idle; variables that are not simulated keep them.
 _INITIAL: dict[str, tuple[Number, ...]] = {
     "joint_temperatures": (25.0,) * 6,
     "actual_tool_accelerometer": (0.0, 0.0, 9.81),
@@ -91,7 +91,7 @@ _INITIAL: dict[str, tuple[Number, ...]] = {
 
 
 class OutputImage:
-    """The present values of all output variables, packed."""
+    """Packed present values of all output variables."""
 
     def __init__(self) -> None:
         self._structs: dict[str, struct.Struct] = {}
@@ -108,7 +108,7 @@ class OutputImage:
             self.set(name, *values)
 
     def set(self, name: str, *values: Number) -> None:
-        """Give a variable new values, as many as its type has."""
+        """Set the values of a variable, as many as its type has."""
         self._structs[name].pack_into(self._buffer, self._offsets[name], *values)
 
     def get(self, name: str) -> tuple[Number, ...]:
@@ -116,7 +116,7 @@ class OutputImage:
         return self._structs[name].unpack_from(self._buffer, self._offsets[name])
 
     def slices(self, names: Sequence[str]) -> list[memoryview]:
-        """Pieces of the image that, one after the other, are the packed values of `names`; they follow what is set."""
+        """Views of the buffer that together are the packed values of `names`, and change with them."""
         ranges: list[list[int]] = []
         for name in names:
             start = self._offsets[name]
@@ -134,11 +134,11 @@ class OutputRecipe:
     Parameters
     ----------
     image : OutputImage
-        Where the values come from.
+        Source of the values.
     names : sequence of str
         Names of known variables, in order.
     frequency_hz : float
-        Packages a second, at most that of the controller.
+        Packages per second, at most the controller's rate.
 
     Raises
     ------
