@@ -19,6 +19,7 @@ KEYS = {
     "matplotlib": "python3-matplotlib",
     "numba": "python3-numba",
     "numpy": "python3-numpy",
+    "PIL": "python3-pil",
     "psutil": "python3-psutil",
     "pytest": "python3-pytest",
     "scipy": "python3-scipy",
@@ -26,8 +27,9 @@ KEYS = {
     "tqdm": "python3-tqdm",
     "yaml": "python3-yaml",
 }
-# Without a key: they are in requirements-ros.txt.
-WITHOUT_KEY = {"dashboard_client", "mujoco", "playwright", "rosbags", "rtde_control", "rtde_receive", "websockets"}
+# Without a key: they are in requirements-ros.txt, or a command that needs one says how to install it.
+WITHOUT_KEY = {"dashboard_client", "mujoco", "playwright", "pyarrow", "rosbags", "rtde_control", "rtde_receive"}
+WITHOUT_KEY |= {"websockets"}
 EXECUTION = ("depend", "exec_depend")
 TESTS = (*EXECUTION, "test_depend")
 

@@ -16,6 +16,7 @@ COMMANDS = {
     "launch": ("acts_tools.launch.command", "start the nodes of a launch file"),
     "record": ("acts_tools.bags.record", "record topics to a bag"),
     "play": ("acts_tools.bags.play", "publish a bag's messages again"),
+    "export": ("acts_tools.export.command", "write touch of a bag as csv, npz, parquet or a LeRobot dataset"),
     "view": ("acts_tools.view_command", "show touch on a page in the browser"),
     "listen": ("acts_tools.listen.command", "tell what of a topic arrives here, and how late"),
     "driver": ("acts_tools.driver.driver_command", "ask or tell a running driver: query, calibrate, tare, set"),

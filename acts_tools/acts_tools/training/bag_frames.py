@@ -5,18 +5,17 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import Image
 
-from acts_core.array import COUNT_MAX
 from acts_core.errors import ArrayError, RecordingError
 from acts_msgs.msg import Baseline, TactileSamples
 from acts_recon.images import BaselineSubtraction
 from acts_ros.bags import require_rosbags
+from acts_tools.bags.messages import checked, image_counts, messages, parsed
 
 _IMAGE = "sensor_msgs/msg/Image"
 _SAMPLES = "acts_msgs/msg/TactileSamples"
@@ -25,8 +24,6 @@ _NEEDED = (
     "needed is one of type acts_msgs/msg/TactileSamples whose frames are rasters (every taxel measured: scheme "
     "raster), or of type sensor_msgs/msg/Image with encoding mono16 (image_raw)"
 )
-
-_Message = TypeVar("_Message")
 
 
 def bag_frames(path: Path, topic: str = "") -> tuple[NDArray[np.uint16], str]:
@@ -90,26 +87,17 @@ def bag_frames(path: Path, topic: str = "") -> tuple[NDArray[np.uint16], str]:
 def _is_full(bag: Any, path: Path, topic: str, kind: str) -> bool:
     """Whether the first message of a topic holds a full frame."""
     if kind == _IMAGE:
-        first = next(_messages(bag, path, topic, Image), None)
+        first = next(messages(bag, path, topic, Image), None)
         return first is not None and first.encoding == "mono16"
     if kind == _SAMPLES:
-        samples = next(_messages(bag, path, topic, TactileSamples), None)
+        samples = next(messages(bag, path, topic, TactileSamples), None)
         return samples is not None and len(samples.indices) == samples.rows * samples.cols
     return False
 
 
 def _images(bag: Any, path: Path, topic: str) -> Iterator[NDArray[np.uint16]]:
-    for number, image in enumerate(_messages(bag, path, topic, Image)):
-        data = bytes(image.data)
-        step = image.step
-        if image.encoding != "mono16" or step < 2 * image.width or len(data) != step * image.height or not data:
-            raise RecordingError(
-                f"message {number} of {topic} in '{path}' is an image {image.width} x {image.height}, "
-                f"{image.encoding}, of {len(data)} bytes: needed is mono16"
-            )
-        rows = np.frombuffer(data, dtype=np.uint8).reshape(image.height, step)[:, : 2 * image.width]
-        frame = np.ascontiguousarray(rows).view(">u2" if image.is_bigendian else "<u2").astype(np.uint16)
-        yield _checked(frame, f"message {number} of {topic} in '{path}'")
+    for number, image in enumerate(messages(bag, path, topic, Image)):
+        yield image_counts(image, f"message {number} of {topic} in '{path}'")
 
 
 def _rasters(bag: Any, path: Path, topic: str, types: dict[str, str]) -> Iterator[NDArray[np.uint16]]:
@@ -120,11 +108,11 @@ def _rasters(bag: Any, path: Path, topic: str, types: dict[str, str]) -> Iterato
     number = -1
     for name, _, data in bag.messages(topics):
         if name == beside:
-            latest, baseline = _parsed(data, Baseline, f"a message of {beside} in '{path}'"), None
+            latest, baseline = parsed(data, Baseline, f"a message of {beside} in '{path}'"), None
             continue
         number += 1
         where = f"message {number} of {topic} in '{path}'"
-        samples = _parsed(data, TactileSamples, where)
+        samples = parsed(data, TactileSamples, where)
         size = samples.rows * samples.cols
         indices = np.asarray(samples.indices, dtype=np.uint16)
         counts = np.asarray(samples.counts, dtype=np.uint16)
@@ -143,30 +131,7 @@ def _rasters(bag: Any, path: Path, topic: str, types: dict[str, str]) -> Iterato
                 raise RecordingError(f"{beside} in '{path}' does not fit {topic}: {error}") from error
         frame = np.zeros(size, dtype=np.uint16)
         frame[indices] = counts if baseline is None else baseline.apply(indices, counts)
-        yield _checked(frame.reshape(samples.rows, samples.cols), where)
-
-
-def _checked(frame: NDArray[np.uint16], where: str) -> NDArray[np.uint16]:
-    if frame.max() > COUNT_MAX:
-        raise RecordingError(f"{where} holds {frame.max()} counts; allowed is 0 to {COUNT_MAX}")
-    return frame
-
-
-def _messages(bag: Any, path: Path, topic: str, kind: type[_Message]) -> Iterator[_Message]:
-    for number, (_, _, data) in enumerate(bag.messages([topic])):
-        yield _parsed(data, kind, f"message {number} of {topic} in '{path}'")
-
-
-def _parsed(data: bytes, kind: type[_Message], where: str) -> _Message:
-    try:
-        message = deserialize_message(data, kind)
-    # rclpy has no exception of its own for bytes that are no such message.
-    except (RuntimeError, ValueError) as error:
-        raise RecordingError(
-            f"{where} cannot be read: {error}; was it recorded with another version of its package?"
-        ) from error
-    assert isinstance(message, kind)
-    return message
+        yield checked(frame.reshape(samples.rows, samples.cols), where)
 
 
 def _listed(names: list[str]) -> str:

@@ -1,0 +1,96 @@
+"""Messages out of a bag, checked; what cannot be used is told by its number and topic."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+from rclpy.serialization import deserialize_message
+from sensor_msgs.msg import Image
+
+from acts_core.array import COUNT_MAX
+from acts_core.errors import RecordingError
+
+_Message = TypeVar("_Message")
+
+
+def messages(bag: Any, path: Path, topic: str, kind: type[_Message]) -> Iterator[_Message]:
+    """All messages of a topic, in their order.
+
+    Parameters
+    ----------
+    bag : acts_ros.bags.reading.Bag
+        Open.
+    path : Path
+        Of the bag, for errors.
+    topic : str
+    kind : type
+        Of its messages.
+
+    Raises
+    ------
+    RecordingError
+        One cannot be read.
+    """
+    for number, (_, _, data) in enumerate(bag.messages([topic])):
+        yield parsed(data, kind, f"message {number} of {topic} in '{path}'")
+
+
+def parsed(data: bytes, kind: type[_Message], where: str) -> _Message:
+    """A message out of its bytes.
+
+    Raises
+    ------
+    RecordingError
+        The bytes are no such message; `where` says which.
+    """
+    try:
+        message = deserialize_message(data, kind)
+    # rclpy has no exception of its own for bytes that are no such message.
+    except (RuntimeError, ValueError) as error:
+        raise RecordingError(
+            f"{where} cannot be read: {error}; was it recorded with another version of its package?"
+        ) from error
+    assert isinstance(message, kind)
+    return message
+
+
+def image_counts(image: Image, where: str) -> NDArray[np.uint16]:
+    """Counts of an image of a skin.
+
+    Returns
+    -------
+    np.ndarray [shape=(rows, cols), dtype=uint16]
+        0 to 1023.
+
+    Raises
+    ------
+    RecordingError
+        It has another encoding than mono16, is not whole, or holds other values; `where` says which.
+    """
+    data = bytes(image.data)
+    step = image.step
+    if image.encoding != "mono16" or step < 2 * image.width or len(data) != step * image.height or not data:
+        raise RecordingError(
+            f"{where} is an image {image.width} x {image.height}, "
+            f"{image.encoding}, of {len(data)} bytes: needed is mono16"
+        )
+    rows = np.frombuffer(data, dtype=np.uint8).reshape(image.height, step)[:, : 2 * image.width]
+    frame = np.ascontiguousarray(rows).view(">u2" if image.is_bigendian else "<u2").astype(np.uint16)
+    return checked(frame, where)
+
+
+def checked(frame: NDArray[np.uint16], where: str) -> NDArray[np.uint16]:
+    """The frame, whose counts are allowed ones.
+
+    Raises
+    ------
+    RecordingError
+        They are not; `where` says which frame.
+    """
+    if frame.max() > COUNT_MAX:
+        raise RecordingError(f"{where} holds {frame.max()} counts; allowed is 0 to {COUNT_MAX}")
+    return frame

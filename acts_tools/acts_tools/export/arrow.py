@@ -1,0 +1,26 @@
+"""pyarrow, which writes parquet and which not everybody has."""
+
+from __future__ import annotations
+
+import importlib
+from typing import Any
+
+from acts_core.errors import RecordingError
+
+
+def arrow() -> tuple[Any, Any]:
+    """The modules ``pyarrow`` and ``pyarrow.parquet``.
+
+    Raises
+    ------
+    RecordingError
+        They are not installed.
+    """
+    try:
+        return importlib.import_module("pyarrow"), importlib.import_module("pyarrow.parquet")
+    except ImportError as error:
+        raise RecordingError(
+            "the Python package pyarrow, which writes parquet files, is not installed. Install it with: "
+            "./acts run python3 -m pip install pyarrow (on a ROS installation: pip install pyarrow); "
+            "csv and npz do without"
+        ) from error

@@ -1,0 +1,92 @@
+"""`acts export`: touch of a bag as tables, for those who learn from it."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from acts_core.errors import RecordingError
+
+FORMATS = ("csv", "npz", "parquet", "lerobot")
+_LEROBOT_HZ = 30.0
+_RATE_MAX_HZ = 10_000.0
+
+
+def add_parser(subparsers: Any) -> None:
+    """Add ``acts export`` to the acts command."""
+    parser = subparsers.add_parser(
+        "export",
+        help="write touch of a bag as csv, npz, parquet or a LeRobot dataset",
+        description="Write images, contacts and joint states of bags as tables with one row a time. Images and "
+        "contacts that were not recorded are recovered from the samples. docs/export.md lists the columns.",
+    )
+    parser.add_argument("bags", nargs="+", type=Path, metavar="BAG", help="bag; of several each is a LeRobot episode")
+    parser.add_argument("--to", required=True, choices=FORMATS, dest="kind", help="format")
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="PATH",
+        help="folder (npz: file) to make (name of the first bag and format)",
+    )
+    parser.add_argument("--skin", default="", metavar="NAMESPACE", help="which skin, of several")
+    parser.add_argument("--joints", default="", metavar="TOPIC", help="which joint states, of several")
+    parser.add_argument("--layout", default="square", help="of the skin, as of acts view (square)")
+    parser.add_argument(
+        "--rate",
+        type=float,
+        metavar="HZ",
+        help=f"rows a second, each with what was newest then; 0: one a frame (0; lerobot {_LEROBOT_HZ:.0f})",
+    )
+    parser.add_argument("--task", default="touch", metavar="WORDS", help="lerobot: what is done in the bags (touch)")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Export; returns the exit code.
+
+    Raises
+    ------
+    RecordingError
+        Of bags that cannot be read, or an output that is there.
+    """
+    kind, bags = arguments.kind, arguments.bags
+    rate_hz = _LEROBOT_HZ if arguments.rate is None and kind == "lerobot" else arguments.rate or 0.0
+    if not 0.0 <= rate_hz <= _RATE_MAX_HZ or (kind == "lerobot" and (rate_hz < 1.0 or rate_hz != int(rate_hz))):
+        allowed = f"a whole number from 1 to {_RATE_MAX_HZ:.0f}" if kind == "lerobot" else f"0 to {_RATE_MAX_HZ:.0f}"
+        raise RecordingError(f"--rate {rate_hz:g}: for {kind} allowed is {allowed}")
+    if len(bags) > 1 and kind != "lerobot":
+        raise RecordingError(f"{len(bags)} bags: of several only a LeRobot dataset is made; export them one by one")
+    output = arguments.output or _default_output(bags[0], kind)
+    if output.exists():
+        raise RecordingError(f"'{output}' exists already and is not overwritten: choose another with -o")
+    # Late: they take time that a wrong command line need not cost.
+    from acts_tools.export.lerobot import LeRobotWriter
+    from acts_tools.export.recording import Choice, open_recording
+    from acts_tools.export.tables import write_csv, write_npz, write_parquet
+
+    choice = Choice(arguments.skin, arguments.joints, arguments.layout, rate_hz)
+    writer: LeRobotWriter | None = None
+    try:
+        for bag in bags:
+            with open_recording(bag, choice) as recording:
+                if kind == "lerobot":
+                    writer = writer or LeRobotWriter(output, int(rate_hz), arguments.task)
+                    n_rows = writer.add(recording)
+                else:
+                    write = {"csv": write_csv, "npz": write_npz, "parquet": write_parquet}[kind]
+                    n_rows = write(recording, output)
+                left_out = f"; {recording.left_out} frames left out" if recording.left_out else ""
+                joints = f", {len(recording.joint_columns)} joint columns" if recording.joint_columns else ""
+                print(f"{bag}: {n_rows} rows of {recording.skin}{joints}{left_out}")
+        if writer is not None:
+            writer.close()
+    except OSError as error:
+        raise RecordingError(f"'{output}' cannot be written: {error.strerror or error}") from error
+    print(f"written to {output}")
+    return 0
+
+
+def _default_output(bag: Path, kind: str) -> Path:
+    name = bag.resolve().name.removesuffix(".mcap")
+    return Path(f"{name}.npz" if kind == "npz" else f"{name}_{kind}")

@@ -1,0 +1,247 @@
+"""Recordings as episodes of a LeRobot dataset, format v3.0, as lerobot 0.4 to 0.6 read it.
+
+Parquet tables of rows (``data/``) and of episodes (``meta/episodes/``), the tasks (``meta/tasks.parquet``), a
+description of the columns (``meta/info.json``) and their statistics (``meta/stats.json``).
+lerobot itself is not needed.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image as PngImage
+
+from acts_core.array import COUNT_MAX
+from acts_core.errors import RecordingError
+from acts_recon.contacts import MAX_BLOBS
+from acts_tools.export.arrow import arrow
+from acts_tools.export.lerobot_statistics import Statistics, pooled, statistics_of
+from acts_tools.export.recording import Recording, Row
+from acts_tools.export.tracks import CONTACT_COLUMNS, CONTACTS_COLUMNS
+
+_VERSION = "v3.0"
+_FILES_IN_CHUNK = 1000
+_FILE_MB_MAX = 100
+_FILE = "chunk-{chunk_index:03d}/file-{file_index:03d}.parquet"
+_TASKS_FOR_PANDAS = {
+    "index_columns": ["task"],
+    "column_indexes": [],
+    "columns": [
+        {
+            "name": "task_index",
+            "field_name": "task_index",
+            "pandas_type": "int64",
+            "numpy_type": "int64",
+            "metadata": None,
+        },
+        {"name": "task", "field_name": "task", "pandas_type": "unicode", "numpy_type": "object", "metadata": None},
+    ],
+    "pandas_version": "2.0.0",
+}
+"""lerobot reads the tasks with pandas, and needs their names as its index."""
+
+Features = dict[str, dict[str, Any]]
+
+
+class LeRobotWriter:
+    """Writes a dataset, episode after episode.
+
+    Parameters
+    ----------
+    folder : Path
+        To make.
+    rate_hz : int
+        Rows a second, of all episodes.
+    task : str
+        What is done in them, in words.
+
+    Raises
+    ------
+    RecordingError
+        pyarrow is not installed.
+    """
+
+    def __init__(self, folder: Path, rate_hz: int, task: str) -> None:
+        self._pa, self._pq = arrow()
+        self._folder = folder
+        self._rate_hz = rate_hz
+        self._task = task
+        self._features: Features = {}
+        self._episodes: list[dict[str, Any]] = []
+        self._statistics: list[Statistics] = []
+        self._n_rows = 0
+        self._file = 0
+        folder.mkdir(parents=True)
+
+    def add(self, recording: Recording) -> int:
+        """Write one recording as an episode; the number of its rows.
+
+        Raises
+        ------
+        RecordingError
+            It has other columns than those before, or nothing to export.
+        """
+        rows = list(recording.rows())
+        features, columns = _features_of(rows, recording)
+        if self._features and features != self._features:
+            raise RecordingError(
+                f"'{recording.name}' has other columns than the recordings before ({_described(features)}; those have "
+                f"{_described(self._features)}): make a dataset of each"
+            )
+        self._features = features
+        number, n_rows = len(self._episodes), len(rows)
+        columns |= {
+            "timestamp": (np.arange(n_rows) / self._rate_hz).astype(np.float32),
+            "frame_index": np.arange(n_rows, dtype=np.int64),
+            "episode_index": np.full(n_rows, number, dtype=np.int64),
+            "index": np.arange(self._n_rows, self._n_rows + n_rows, dtype=np.int64),
+            "task_index": np.zeros(n_rows, dtype=np.int64),
+        }
+        statistics = {
+            name: statistics_of(values, features[name]["dtype"] == "image") for name, values in columns.items()
+        }
+        chunk, file = divmod(self._file, _FILES_IN_CHUNK)
+        place = {"chunk_index": chunk, "file_index": file}
+        self._write(
+            "data/" + _FILE.format(**place),
+            {name: self._arrow_column(columns[name], features[name]) for name in features},
+        )
+        self._episodes.append(
+            {
+                "episode_index": number,
+                "tasks": [self._task],
+                "length": n_rows,
+                **{f"data/{name}": value for name, value in place.items()},
+                "dataset_from_index": self._n_rows,
+                "dataset_to_index": self._n_rows + n_rows,
+                **{
+                    f"stats/{name}/{kind}": value.tolist()
+                    for name, kinds in statistics.items()
+                    for kind, value in kinds.items()
+                },
+                "meta/episodes/chunk_index": 0,
+                "meta/episodes/file_index": 0,
+            }
+        )
+        self._statistics.append(statistics)
+        self._n_rows += n_rows
+        self._file += 1
+        return n_rows
+
+    def close(self) -> None:
+        """Write what describes the episodes; without it there is no dataset."""
+        pa = self._pa
+        episodes = {name: [one[name] for one in self._episodes] for name in self._episodes[0]}
+        self._write("meta/episodes/" + _FILE.format(chunk_index=0, file_index=0), episodes)
+        tasks = pa.table({"task_index": pa.array([0], pa.int64()), "task": [self._task]})
+        tasks = tasks.replace_schema_metadata({"pandas": json.dumps(_TASKS_FOR_PANDAS)})
+        self._pq.write_table(tasks, self._folder / "meta/tasks.parquet")
+        all_statistics = pooled(self._statistics)
+        self._write_json(
+            "meta/stats.json",
+            {name: {kind: v.tolist() for kind, v in kinds.items()} for name, kinds in all_statistics.items()},
+        )
+        self._write_json(
+            "meta/info.json",
+            {
+                "codebase_version": _VERSION,
+                "fps": self._rate_hz,
+                "features": self._features,
+                "total_episodes": len(self._episodes),
+                "total_frames": self._n_rows,
+                "total_tasks": 1,
+                "chunks_size": _FILES_IN_CHUNK,
+                "data_files_size_in_mb": _FILE_MB_MAX,
+                "video_files_size_in_mb": 200,
+                "data_path": "data/" + _FILE,
+                "video_path": None,
+                "robot_type": None,
+                "splits": {"train": f"0:{len(self._episodes)}"},
+            },
+        )
+
+    def _arrow_column(self, values: NDArray[Any], feature: dict[str, Any]) -> Any:
+        pa = self._pa
+        if feature["dtype"] == "image":
+            kind = pa.struct([("bytes", pa.binary()), ("path", pa.string())])
+            return pa.array([{"bytes": _png(one), "path": None} for one in values], kind)
+        column = pa.array(values.ravel())
+        # From the innermost dimension outwards. lerobot writes matrices as lists without a fixed length.
+        for place, length in reversed(list(enumerate(values.shape[1:]))):
+            is_matrix = values.ndim > 2
+            if is_matrix:
+                n_lists = int(np.prod(values.shape[: place + 1]))
+                column = pa.ListArray.from_arrays(pa.array(np.arange(n_lists + 1) * length, pa.int32()), column)
+            else:
+                column = pa.FixedSizeListArray.from_arrays(column, length)
+        return column
+
+    def _write(self, name: str, columns: dict[str, Any]) -> None:
+        path = self._folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        self._pq.write_table(self._pa.table(columns), path)
+
+    def _write_json(self, name: str, content: dict[str, Any]) -> None:
+        (self._folder / name).write_text(json.dumps(content, indent=4) + "\n")
+
+
+def _features_of(rows: Sequence[Row], recording: Recording) -> tuple[Features, dict[str, NDArray[Any]]]:
+    """What the columns are, and their values; the skin's name is part of those of its touch."""
+    skin = recording.skin.strip("/").replace("/", "_") or "skin"
+    image = np.stack([row.image for row in rows])
+    grey = np.rint(image * (255.0 / COUNT_MAX)).astype(np.uint8)
+    columns: dict[str, NDArray[Any]] = {
+        f"observation.images.{skin}": np.repeat(grey[..., np.newaxis], 3, axis=-1),
+        f"observation.tactile.{skin}": image.astype(np.float32),
+    }
+    names: dict[str, Any] = {
+        f"observation.images.{skin}": ["height", "width", "channels"],
+        f"observation.tactile.{skin}": ["rows", "cols"],
+    }
+    contact = [row.contact for row in rows if row.contact is not None]
+    if contact:
+        columns[f"observation.contact.{skin}"] = np.stack(contact).astype(np.float32)
+        names[f"observation.contact.{skin}"] = list(CONTACT_COLUMNS)
+    if rows[0].contacts is not None:
+        columns[f"observation.contacts.{skin}"] = np.stack([_padded(row.contacts) for row in rows])
+        names[f"observation.contacts.{skin}"] = [f"rank x {', '.join(CONTACTS_COLUMNS)}"]
+    joints = [row.joints for row in rows if row.joints is not None]
+    if joints:
+        columns["observation.state"] = np.stack(joints).astype(np.float32)
+        names["observation.state"] = list(recording.joint_columns)
+    features: Features = {
+        name: {
+            "dtype": "image" if name.startswith("observation.images") else str(values.dtype),
+            "shape": list(values.shape[1:]),
+            "names": names[name],
+        }
+        for name, values in columns.items()
+    }
+    for name in ("timestamp", "frame_index", "episode_index", "index", "task_index"):
+        features[name] = {"dtype": "float32" if name == "timestamp" else "int64", "shape": [1], "names": None}
+    return features, columns
+
+
+def _padded(contacts: NDArray[np.float64] | None) -> NDArray[np.float32]:
+    """The contacts of a row; rows of zeros after the last."""
+    padded = np.zeros((MAX_BLOBS, len(CONTACTS_COLUMNS)), dtype=np.float32)
+    if contacts is not None:
+        kept = contacts[:MAX_BLOBS]
+        padded[: len(kept)] = kept
+    return padded
+
+
+def _png(pixels: NDArray[np.uint8]) -> bytes:
+    file = io.BytesIO()
+    PngImage.fromarray(pixels).save(file, format="PNG")
+    return file.getvalue()
+
+
+def _described(features: Features) -> str:
+    return ", ".join(f"{name} {feature['shape']}" for name, feature in features.items() if name.startswith("obs"))

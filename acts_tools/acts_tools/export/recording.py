@@ -1,0 +1,244 @@
+"""What of a bag is exported: one skin, its contacts and the joints, brought to common times."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from sensor_msgs.msg import Image
+
+from acts_core.errors import RecordingError
+from acts_ros.bags import require_rosbags
+from acts_tools.bags.messages import messages
+from acts_tools.export.frames import Seen, recorded_frames, recovered_frames
+from acts_tools.export.tracks import Track, Values, contact_track, contacts_track, joint_track
+
+_IMAGE = "sensor_msgs/msg/Image"
+_SAMPLES = "acts_msgs/msg/TactileSamples"
+_JOINTS = "sensor_msgs/msg/JointState"
+_NS_PER_S = 1_000_000_000
+# A row is not repeated for longer: a bag whose clock was set would fill the disk.
+_PAUSE_MAX_S = 60.0
+
+
+@dataclass(frozen=True)
+class Choice:
+    """What to export.
+
+    Attributes
+    ----------
+    skin : str
+        Its namespace; empty for the only one in the bag.
+    joints : str
+        Topic of joint states; empty for the only one in the bag, if there is one.
+    layout : str
+        Of the skin; only for what is recovered from samples.
+    rate_hz : float
+        Rows a second; 0: one a frame.
+    """
+
+    skin: str = ""
+    joints: str = ""
+    layout: str = "square"
+    rate_hz: float = 0.0
+
+
+@dataclass(frozen=True)
+class Row:
+    """What was newest at one time. Ages are how long before it had been measured [s].
+
+    Attributes
+    ----------
+    stamp_ns : int
+        ROS time [ns].
+    time_s : float
+        Since the first row.
+    image : np.ndarray [shape=(rows, cols), dtype=uint16]
+        Counts.
+    contact : np.ndarray [shape=(7,), dtype=float64] or None
+        `CONTACT_COLUMNS`; None where the recording has none.
+    contacts : np.ndarray [shape=(n, 9), dtype=float64] or None
+        `CONTACTS_COLUMNS`; likewise.
+    joints : np.ndarray [shape=(k,), dtype=float64] or None
+        `Recording.joint_columns`; likewise.
+    """
+
+    stamp_ns: int
+    time_s: float
+    image_age_s: float
+    image: NDArray[np.uint16]
+    contact_age_s: float
+    contact: Values | None
+    contacts: Values | None
+    joints_age_s: float
+    joints: Values | None
+
+
+@dataclass
+class Recording:
+    """An open bag of which one skin is exported; `rows` reads it."""
+
+    name: str
+    skin: str
+    rate_hz: float
+    joint_columns: tuple[str, ...]
+    left_out: int = 0
+    """Frames without a row: not newer than the one before, or before all else had been told."""
+    _frames: Iterator[Seen] = field(default_factory=lambda: iter(()))
+    _contact: Track[Values] | None = None
+    _contacts: Track[Values] | None = None
+    _joints: Track[Values] | None = None
+
+    def rows(self) -> Iterator[Row]:
+        """All rows in their order; once.
+
+        Raises
+        ------
+        RecordingError
+            There is nothing to export, the bag is damaged, or a pause is too long to be filled.
+        """
+        tracks = [track for track in (self._contact, self._contacts, self._joints) if track is not None]
+        begin_ns = max((track.stamps_ns[0] for track in tracks), default=0)
+        first_ns, made = 0, 0
+        before: Seen | None = None
+        for seen in self._ascending():
+            if before is not None and seen.stamp_ns - before.stamp_ns > _PAUSE_MAX_S * _NS_PER_S and self.rate_hz:
+                raise RecordingError(
+                    f"'{self.name}' has no frame of {self.skin} for {(seen.stamp_ns - before.stamp_ns) * 1e-9:.0f} s; "
+                    f"rows are repeated for at most {_PAUSE_MAX_S:.0f} s: export it with --rate 0, or record less"
+                )
+            if seen.stamp_ns < begin_ns:
+                self.left_out += 1
+                if not self.rate_hz:
+                    continue
+            if not self.rate_hz:
+                first_ns = first_ns or seen.stamp_ns
+                yield self._row(seen.stamp_ns, first_ns, seen)
+                made += 1
+            else:
+                first_ns = first_ns or max(seen.stamp_ns, begin_ns)
+                while before is not None and (due_ns := self._due_ns(first_ns, made)) < seen.stamp_ns:
+                    yield self._row(due_ns, first_ns, before)
+                    made += 1
+            before = seen
+        if self.rate_hz and before is not None:
+            while (due_ns := self._due_ns(first_ns, made)) <= before.stamp_ns:
+                yield self._row(due_ns, first_ns, before)
+                made += 1
+        if not made:
+            raise RecordingError(f"'{self.name}' has no frame of {self.skin} after all else in it had been told once")
+
+    def _ascending(self) -> Iterator[Seen]:
+        last_ns = 0
+        for seen in self._frames:
+            if seen.stamp_ns > last_ns:
+                last_ns = seen.stamp_ns
+                yield seen
+            else:
+                self.left_out += 1
+
+    def _due_ns(self, first_ns: int, number: int) -> int:
+        return first_ns + round(number * _NS_PER_S / self.rate_hz)
+
+    def _row(self, stamp_ns: int, first_ns: int, seen: Seen) -> Row:
+        contact_ns, contact = (seen.stamp_ns, seen.contact) if self._contact is None else self._contact.at(stamp_ns)
+        contacts = seen.contacts if self._contacts is None else self._contacts.at(stamp_ns)[1]
+        joints_ns, joints = (stamp_ns, None) if self._joints is None else self._joints.at(stamp_ns)
+        return Row(
+            stamp_ns=stamp_ns,
+            time_s=(stamp_ns - first_ns) * 1e-9,
+            image_age_s=(stamp_ns - seen.stamp_ns) * 1e-9,
+            image=seen.image,
+            contact_age_s=(stamp_ns - contact_ns) * 1e-9,
+            contact=contact,
+            contacts=contacts,
+            joints_age_s=(stamp_ns - joints_ns) * 1e-9,
+            joints=joints,
+        )
+
+
+@contextmanager
+def open_recording(path: Path, choice: Choice) -> Iterator[Recording]:
+    """Open a bag to export one skin of it.
+
+    Images are the recorded ones (``image_raw``), else they are recovered from ``samples``; likewise contacts.
+
+    Raises
+    ------
+    RecordingError
+        There is no bag, or not what `choice` asks for in it, or several where it does not say which.
+    """
+    require_rosbags()
+    # Imports rosbags, which a ROS installation need not have.
+    from acts_ros.bags.reading import open_bag
+
+    with open_bag(path) as bag:
+        types = bag.topics()
+        skin = _skin(bag, path, types, choice.skin)
+        images, samples, beside = f"{skin}/image_raw", f"{skin}/samples", f"{skin}/baseline"
+        joints = _joint_topic(path, types, choice.joints)
+        for topic in (images, samples, beside, f"{skin}/contact", f"{skin}/contacts", joints):
+            bag.check_definition(topic)
+        if types.get(images) == _IMAGE:
+            frames = recorded_frames(bag, path, images)
+        else:
+            frames = recovered_frames(bag, path, samples, beside if beside in types else None, choice.layout)
+        columns, joint_values = joint_track(bag, path, joints) if joints else ((), Track[Values]())
+        contact = contact_track(bag, path, f"{skin}/contact")
+        contacts = contacts_track(bag, path, f"{skin}/contacts")
+        yield Recording(
+            name=str(path),
+            skin=skin,
+            rate_hz=choice.rate_hz,
+            joint_columns=columns if joint_values.stamps_ns else (),
+            _frames=frames,
+            _contact=contact if contact.stamps_ns else None,
+            _contacts=contacts if contacts.stamps_ns else None,
+            _joints=joint_values if joint_values.stamps_ns else None,
+        )
+
+
+def _skin(bag: Any, path: Path, types: dict[str, str], wanted: str) -> str:
+    found = sorted(
+        {
+            topic.rsplit("/", 1)[0]
+            for topic, kind in types.items()
+            if (kind == _SAMPLES and topic.endswith("/samples"))
+            or (kind == _IMAGE and topic.endswith("/image_raw") and _is_in_counts(bag, path, topic))
+        }
+    )
+    found = [name for name in found if not (name.endswith("/view") and name.removesuffix("/view") in found)]
+    if wanted:
+        name = f"/{wanted.strip('/')}"
+        if name not in found:
+            raise RecordingError(f"'{path}' has no skin {name}; it has {', '.join(found) or 'none'}")
+        return name
+    if len(found) != 1:
+        raise RecordingError(
+            f"'{path}' has the skins {', '.join(found)}: choose one with --skin"
+            if found
+            else f"'{path}' has no skin: needed is a topic image_raw (sensor_msgs/msg/Image, mono16) or samples "
+            f"({_SAMPLES}); it has {', '.join(sorted(types)) or 'none'}"
+        )
+    return found[0]
+
+
+def _is_in_counts(bag: Any, path: Path, topic: str) -> bool:
+    first = next(messages(bag, path, topic, Image), None)
+    return first is not None and first.encoding == "mono16"
+
+
+def _joint_topic(path: Path, types: dict[str, str], wanted: str) -> str:
+    found = sorted(topic for topic, kind in types.items() if kind == _JOINTS)
+    if wanted:
+        if wanted not in found:
+            raise RecordingError(f"'{path}' has no joint states on {wanted}; it has {', '.join(found) or 'none'}")
+        return wanted
+    if len(found) > 1:
+        raise RecordingError(f"'{path}' has joint states on {', '.join(found)}: choose one with --joints")
+    return found[0] if found else ""

@@ -1,0 +1,166 @@
+"""Numbers over time out of a bag: the contact, the contacts one by one, joint states."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Generic, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+from sensor_msgs.msg import JointState
+
+from acts_msgs.msg import Contact, Contacts
+from acts_recon.contacts import Contact as FoundContact
+from acts_recon.contacts import TrackedBlob
+from acts_tools.bags.messages import messages
+
+Values = NDArray[np.float64]
+_NS_PER_S = 1_000_000_000
+
+CONTACT_COLUMNS = ("in_contact", "x_m", "y_m", "force_n", "peak_counts", "area_m2", "spread_m")
+"""Of all that presses, taken together; 0 without contact."""
+
+CONTACTS_COLUMNS = ("number", "x_m", "y_m", "vx_m_s", "vy_m_s", "force_n", "peak_counts", "area_m2", "spread_m")
+"""Of each contact."""
+
+_T = TypeVar("_T")
+
+
+@dataclass
+class Track(Generic[_T]):
+    """Something over time.
+
+    Attributes
+    ----------
+    stamps_ns : list of int
+        Ascending, ROS time [ns].
+    values : list
+        As many.
+    """
+
+    stamps_ns: list[int] = field(default_factory=list)
+    values: list[_T] = field(default_factory=list)
+
+    def add(self, stamp_ns: int, value: _T) -> None:
+        """Append; what is not newer than the last is left out."""
+        if not self.stamps_ns or stamp_ns > self.stamps_ns[-1]:
+            self.stamps_ns.append(stamp_ns)
+            self.values.append(value)
+
+    def at(self, stamp_ns: int) -> tuple[int, _T]:
+        """The newest at or before a time: its stamp and value; there must be one."""
+        place = bisect_right(self.stamps_ns, stamp_ns) - 1
+        return self.stamps_ns[place], self.values[place]
+
+
+def stamp_ns_of(message: Any) -> int:
+    """Stamp of a message's header [ns]."""
+    stamp = message.header.stamp
+    return int(stamp.sec) * _NS_PER_S + int(stamp.nanosec)
+
+
+def contact_track(bag: Any, path: Path, topic: str) -> Track[Values]:
+    """The recorded contact, with `CONTACT_COLUMNS`."""
+    return _track(bag, path, topic, Contact, contact_of_message)
+
+
+def contacts_track(bag: Any, path: Path, topic: str) -> Track[Values]:
+    """The recorded contacts: arrays [shape=(n, 9)] with `CONTACTS_COLUMNS`."""
+    return _track(bag, path, topic, Contacts, _contacts_of_message)
+
+
+def joint_track(bag: Any, path: Path, topic: str) -> tuple[tuple[str, ...], Track[Values]]:
+    """Recorded joint states.
+
+    Publishers may share the topic; what each of them says of its joints is kept until it says more.
+
+    Returns
+    -------
+    columns : tuple of str
+        Such as ``knuckle.position``, of the joints in their order; velocity and effort where they are told.
+    track : Track
+        From the message on with which every joint has been told.
+    """
+    told = [(stamp_ns_of(message), _joint_values(message)) for message in messages(bag, path, topic, JointState)]
+    columns = tuple(dict.fromkeys(name for _, values in told for name in values))
+    newest: dict[str, float] = {}
+    track: Track[Values] = Track()
+    for stamp_ns, values in told:
+        newest.update(values)
+        if len(newest) == len(columns):
+            track.add(stamp_ns, np.array([newest[name] for name in columns]))
+    return columns, track
+
+
+def contact_found(found: FoundContact) -> Values:
+    """Of a recovered image, with `CONTACT_COLUMNS`."""
+    return np.array(
+        [found.in_contact, found.x_m, found.y_m, found.force_n, found.peak_counts, found.area_m2, found.spread_m],
+        dtype=np.float64,
+    )
+
+
+def contacts_found(blobs: tuple[TrackedBlob, ...]) -> Values:
+    """Of a recovered image: an array [shape=(n, 9)] with `CONTACTS_COLUMNS`."""
+    rows = [
+        (
+            blob.number,
+            blob.x_m,
+            blob.y_m,
+            blob.vx_m_s,
+            blob.vy_m_s,
+            blob.force_n,
+            blob.peak_counts,
+            blob.area_m2,
+            blob.spread_m,
+        )
+        for blob in blobs
+    ]
+    return np.array(rows, dtype=np.float64).reshape(-1, len(CONTACTS_COLUMNS))
+
+
+def contact_of_message(message: Contact) -> Values:
+    """A recorded one, with `CONTACT_COLUMNS`."""
+    centre = message.centre_of_pressure
+    return np.array(
+        [message.in_contact, centre.x, centre.y, message.force, message.peak, message.area, message.spread],
+        dtype=np.float64,
+    )
+
+
+def _contacts_of_message(message: Contacts) -> Values:
+    rows = [
+        (
+            one.number,
+            one.position.x,
+            one.position.y,
+            one.velocity.x,
+            one.velocity.y,
+            one.force,
+            one.peak,
+            one.area,
+            one.spread,
+        )
+        for one in message.contacts
+    ]
+    return np.array(rows, dtype=np.float64).reshape(-1, len(CONTACTS_COLUMNS))
+
+
+def _joint_values(message: JointState) -> dict[str, float]:
+    values = {}
+    for kind in ("position", "velocity", "effort"):
+        numbers = getattr(message, kind)
+        if len(numbers) == len(message.name):
+            values.update({f"{name}.{kind}": float(number) for name, number in zip(message.name, numbers, strict=True)})
+    return values
+
+
+def _track(bag: Any, path: Path, topic: str, kind: type, read: Callable[[Any], Values]) -> Track[Values]:
+    track: Track[Values] = Track()
+    read_messages: Iterator[Any] = messages(bag, path, topic, kind)
+    for message in read_messages:
+        track.add(stamp_ns_of(message), read(message))
+    return track
