@@ -1,3 +1,3 @@
-"""The `acts` command: launch files, bags, training and demonstrations. See `acts --help`."""
+"""The `acts` command: launch files, bags, training, measurements and demonstrations. See `acts --help`."""
 
 __version__ = "0.1.0"

@@ -1,4 +1,4 @@
-"""`python3 -m acts_tools` is the acts command."""
+"""`python3 -m acts_tools` runs the acts command."""
 
 import sys
 

@@ -1,4 +1,4 @@
-"""The `acts` command: one subcommand, one module; only the module of the subcommand that was asked for is imported."""
+"""The `acts` command. Each subcommand is one module; only the module of the given subcommand is imported."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ COMMANDS = {
     "play": ("acts_tools.bags.play", "publish a bag's messages again"),
     "export": ("acts_tools.export.command", "write touch of a bag as csv, npz, parquet or a LeRobot dataset"),
     "view": ("acts_tools.view_command", "show touch on a page in the browser"),
-    "listen": ("acts_tools.listen.command", "tell what of a topic arrives here, and how late"),
-    "driver": ("acts_tools.driver.driver_command", "ask or tell a running driver: query, calibrate, tare, set"),
-    "diagnostics": ("acts_tools.diagnostics.command", "print what the running nodes say of themselves"),
+    "listen": ("acts_tools.listen.command", "measure loss and delay of a topic on this machine"),
+    "driver": ("acts_tools.driver.driver_command", "control a running driver: query, calibrate, tare, set"),
+    "diagnostics": ("acts_tools.diagnostics.command", "print the diagnostics of the running nodes"),
     "selftest": ("acts_tools.selftest.command", "test a board, its wiring and its skin"),
-    "doctor": ("acts_tools.doctor.command", "tell what this machine lacks, and how to mend it"),
+    "doctor": ("acts_tools.doctor.command", "check this machine, and say how to correct what is wrong"),
     "train": ("acts_tools.train", "train a dictionary for the reconstruction"),
     "library": ("acts_tools.library", "write a library of known objects for the classification"),
     "bench": ("acts_tools.bench.command", "measure throughput, CPU and latency"),
@@ -34,7 +34,7 @@ COMMANDS = {
 _EPILOG = """\
 examples:
   acts demo ball_balancing                                          see the whole chain at work, no hardware needed
-  acts launch acts_bringup tactile.launch.xml --show-args           what a launch file lets you choose
+  acts launch acts_bringup tactile.launch.xml --show-args           list the arguments of a launch file
   acts launch acts_bringup tactile.launch.xml sim:=false port:=auto
   acts record -o touch /plate/samples /plate/contact                Ctrl-C ends it
   acts play touch
@@ -56,10 +56,10 @@ def main(argv: Sequence[str] | None = None) -> int:
     Returns
     -------
     int
-        Exit code: that of the subcommand, 1 after an `ActsError`, 2 for a wrong command line, 130 after Ctrl-C.
+        Exit code: that of the subcommand, 1 after an `ActsError`, 2 for an invalid command line, 130 after Ctrl-C.
     """
     words = list(sys.argv[1:] if argv is None else argv)
-    # The first word that is no option names the subcommand: acts has no option that takes a value.
+    # The first word that is not an option is the subcommand, because acts has no option with a value.
     selected = next((word for word in words if not word.startswith("-")), None)
     parser, module = _build_parser(selected)
     arguments = parser.parse_args(words)
@@ -74,7 +74,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         return _INTERRUPTED
     except BrokenPipeError:
-        # The reader of our output went away (`acts ... | head`); without this Python complains once more at exit.
+        # The reader of our output has ended (`acts ... | head`); without this Python prints another error at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
 

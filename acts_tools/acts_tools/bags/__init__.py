@@ -1,1 +1,1 @@
-"""Recording topics to MCAP bags and publishing them again; see docs/bags.md. Importing this imports no ROS."""
+"""Record topics to MCAP bags and play them; see docs/bags.md. Importing this does not import ROS."""

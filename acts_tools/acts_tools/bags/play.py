@@ -1,4 +1,4 @@
-"""`acts play`: publish a bag's messages again."""
+"""`acts play`: publish the messages of a bag."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Run ``acts play``; 0 when the bag was played to its end or until Ctrl-C."""
+    """Run ``acts play``; return 0 when the bag was played to its end or until Ctrl-C."""
     if not 0 < arguments.rate < float("inf"):
         raise RecordingError(f"--rate {arguments.rate:g} is not a positive number")
     if not 0 <= arguments.delay < float("inf"):
@@ -61,10 +61,10 @@ def play(path: Path, rate: float, loop: bool, topics: list[str] | None, delay_s:
     Raises
     ------
     RecordingError
-        There is no bag, a topic is not in it, or it is damaged (after what is readable has been played).
+        There is no bag, a topic is not in it, or it is damaged (after the readable messages have been played).
     """
     require_rosbags()
-    # Late: they take time that the other commands need not spend.
+    # Imported here, because they are slow to import and other commands do not need them.
     import rclpy
     from rclpy.signals import SignalHandlerOptions
 
@@ -85,7 +85,7 @@ def play(path: Path, rate: float, loop: bool, topics: list[str] | None, delay_s:
                 going = stop.sleep_until(started_s)
                 while going:
                     before = player.report.published
-                    # A bag without messages ends also a loop.
+                    # A bag without messages also ends a loop.
                     going = player.play(rate, stop.sleep_until) and loop and player.report.published > before
             finally:
                 player.finish()

@@ -1,4 +1,4 @@
-"""Publish a bag's messages at the pace at which they were recorded."""
+"""Publish a bag's messages at the rate at which they were recorded."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ _ACKNOWLEDGE_S = 1.0
 
 @dataclass
 class PlayReport:
-    """How playing went.
+    """Result of playing.
 
     Attributes
     ----------
     published : int
         Messages published.
     worst_lateness_s : float
-        Largest delay of a message against its time [s].
+        Largest delay of a message after its due time [s].
     """
 
     published: int = 0
@@ -40,13 +40,13 @@ class Player:
     Parameters
     ----------
     node : Node
-        Publishes; it need not spin.
+        Node of the publishers; it need not spin.
     bag : Bag
-        Open.
+        An open bag.
     topics : sequence of str or None
         Topics to play; None for all.
     say : callable
-        Takes a line for the user.
+        Called with a line for the user.
 
     Raises
     ------
@@ -101,7 +101,7 @@ class Player:
         for topic, stamp_ns, data in self._bag.messages(list(self._publishers)):
             if first_ns is None:
                 first_ns = stamp_ns
-            # Every deadline counts from the start, so that delays do not add up.
+            # Every deadline is relative to the start, so that delays do not accumulate.
             deadline_s = started_s + (stamp_ns - first_ns) * 1e-9 / rate
             if not sleep_until(deadline_s):
                 return False
@@ -111,6 +111,6 @@ class Player:
         return True
 
     def finish(self) -> None:
-        """Give reliable subscribers the time to get the last messages."""
+        """Wait until reliable subscribers have received the last messages."""
         for publisher in self._publishers.values():
             publisher.wait_for_all_acked(Duration(nanoseconds=int(_ACKNOWLEDGE_S * 1e9)))

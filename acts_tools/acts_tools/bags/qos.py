@@ -1,4 +1,4 @@
-"""Quality of service between the graph, bags and endpoints of our own."""
+"""Conversion of quality of service between the graph, bags, and our publishers and subscriptions."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def for_subscription(offers: Sequence[TopicEndpointInfo]) -> QoSProfile:
     Returns
     -------
     QoSProfile
-        Reliable, and with the kept messages, only where every publisher offers it; four seconds deep at 1 kHz.
+        Reliable or transient local only where every publisher offers it; the depth is four seconds at 1 kHz.
     """
     return QoSProfile(
         history=HistoryPolicy.KEEP_LAST,
@@ -69,13 +69,13 @@ def for_publisher(recorded: Sequence[Qos]) -> QoSProfile:
     Parameters
     ----------
     recorded : sequence of Qos
-        What the topic's publishers offered when it was recorded; may be empty.
+        Profiles of the topic's publishers when it was recorded; may be empty.
 
     Returns
     -------
     QoSProfile
-        Reliable and transient local where one publisher was. Kept messages are as many as recorded (one when that is
-        not known); otherwise the depth is at least 256, so that bursts pass.
+        Reliable or transient local where at least one publisher was. The depth is the recorded one if transient local
+        (1 where it is unknown), otherwise at least 256, for bursts.
     """
     reliable = not recorded or any(profile.reliability is QosReliability.RELIABLE for profile in recorded)
     kept = any(profile.durability is QosDurability.TRANSIENT_LOCAL for profile in recorded)

@@ -1,4 +1,4 @@
-"""`acts record`: topics to an MCAP bag in rosbag2's layout."""
+"""`acts record`: record topics to an MCAP bag in rosbag2's layout."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "record",
         help="record topics to a bag",
         description="Record topics to an MCAP bag that `acts play`, `ros2 bag`, Foxglove and rosbags read. "
-        "Topics may appear later. Ctrl-C ends it; should it be killed, what is older than a second is kept.",
+        "Topics may appear later. Ctrl-C ends it; if it is killed, only the last second is lost.",
     )
     parser.add_argument("topics", nargs="*", help="topics, such as /plate/contact")
     parser.add_argument("-a", "--all", action="store_true", help="all topics that are not hidden")
@@ -34,7 +34,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Run ``acts record``; 0 when something of every topic that was asked for has been recorded."""
+    """Run ``acts record``; return 0 when messages of every requested topic have been recorded."""
     if bool(arguments.topics) == arguments.all:
         raise RecordingError("say which topics to record: either their names, or -a for all")
     if arguments.duration is not None and not 0 < arguments.duration < float("inf"):
@@ -67,7 +67,7 @@ def record(path: Path, topics: list[str] | None, duration_s: float | None) -> in
         The bag cannot be made or written.
     """
     require_rosbags()
-    # Late: they take time that the other commands need not spend.
+    # Imported here, because they are slow to import and other commands do not need them.
     import rclpy
     from rclpy.signals import SignalHandlerOptions
 
@@ -87,7 +87,7 @@ def record(path: Path, topics: list[str] | None, duration_s: float | None) -> in
         _say(f"recording to {path}, Ctrl-C ends it")
         started_s = time.monotonic()
         try:
-            # The bag is closed before the graph is left: should that fail, it is complete already.
+            # Close the bag before ROS is shut down, so that it is complete if that fails.
             with closing(bag), closing(recorder):
                 while not stop.is_set and (duration_s is None or time.monotonic() - started_s < duration_s):
                     recorder.discover()

@@ -1,4 +1,4 @@
-"""Subscribe to topics as they appear and write what they carry, unparsed, to a bag."""
+"""Subscribe to topics as they appear, and write their serialised messages to a bag."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ except ImportError:  # Humble
 
 @dataclass
 class TopicRecord:
-    """What has been recorded of one topic.
+    """Counts of one recorded topic.
 
     Attributes
     ----------
@@ -34,7 +34,7 @@ class TopicRecord:
     received : int
         Messages written.
     lost : int or None
-        Messages that the middleware reports as lost on the way; None when it cannot tell.
+        Messages that the middleware reports as lost; None when it does not report.
     """
 
     topic: str
@@ -49,13 +49,13 @@ class Recorder:
     Parameters
     ----------
     node : Node
-        Subscribes; somebody else spins it.
+        Node of the subscriptions; the caller spins it.
     bag : BagWriter
-        Takes the messages.
+        Bag for the messages.
     topics : sequence of str or None
         Full names of the topics; None for all that are not hidden.
     say : callable
-        Takes a line for the user.
+        Called with a line for the user.
     """
 
     def __init__(self, node: Node, bag: BagWriter, topics: Sequence[str] | None, say: Callable[[str], None]) -> None:
@@ -70,13 +70,13 @@ class Recorder:
         self._refused: set[str] = set()
 
     def discover(self) -> None:
-        """Look for new topics and subscribe to them. Call it now and then."""
+        """Find new topics and subscribe to them; to be called regularly."""
         for topic, types in self._node.get_topic_names_and_types():
             if topic in self._refused or not self._wanted(topic):
                 continue
             offers = self._node.get_publishers_info_by_topic(topic)
             if not offers:
-                continue  # its type and quality of service are the publishers' to say
+                continue  # without a publisher, its type and quality of service are unknown
             if topic in self.records:
                 self._relax(topic, offers)
                 continue
@@ -87,22 +87,22 @@ class Recorder:
                 self._say(f"not recorded: {topic}: {error}")
 
     def close(self) -> None:
-        """Unsubscribe; nothing is written any more."""
+        """Destroy the subscriptions; nothing is written after that."""
         for subscription in self._subscriptions.values():
             self._node.destroy_subscription(subscription)
         self._subscriptions.clear()
 
     def missing(self) -> list[str]:
-        """Topics that were asked for and have not appeared."""
+        """Requested topics that have not appeared."""
         return [topic for topic in self._topics or () if topic not in self.records and topic not in self._refused]
 
     def silent(self) -> list[str]:
-        """Topics that have appeared, and of which no message has come."""
+        """Topics that have appeared, but without a message."""
         return sorted(topic for topic, record in self.records.items() if not record.received)
 
     @property
     def is_complete(self) -> bool:
-        """Whether there are messages of every topic that was asked for; of any at all where all were."""
+        """Whether there are messages of every requested topic; with all topics, whether there are any."""
         if self._topics is None:
             return any(record.received for record in self.records.values())
         return not (self.missing() or self.refused() or self.silent())
@@ -127,7 +127,7 @@ class Recorder:
         self._say(f"recording {topic} ({types[0]})")
 
     def _relax(self, topic: str, offers: list[TopicEndpointInfo]) -> None:
-        """Subscribe anew when a publisher has come whose offer is too weak for the present subscription."""
+        """Subscribe again if a new publisher is not compatible with the present subscription."""
         present, needed = self._subscriptions[topic].qos_profile, qos.for_subscription(offers)
         too_strict = (
             present.reliability == ReliabilityPolicy.RELIABLE and needed.reliability != ReliabilityPolicy.RELIABLE

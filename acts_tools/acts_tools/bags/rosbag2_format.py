@@ -1,4 +1,4 @@
-"""Bags as rosbag2 itself writes them, where the library rosbags differs: version, type hashes, times, distribution."""
+"""Write bags like rosbag2 where the library rosbags differs: version, type hashes, times, distribution."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ from rosbags.interfaces import Connection, ConnectionExtRosbag2
 from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.rosbag2.storage_mcap import Channel, McapWriter, write_channel, write_string
 
-# No reader of rosbag2 refuses a version, each takes the fields it knows. Up to 8 the quality of service is a text with
-# numbers; 9 has a list with names, on which Humble and Iron fail. 6 to 8 add fields that Humble passes over.
+# Readers of rosbag2 accept any version and read the fields they know. Up to 8 the quality of service is a text with
+# numbers; 9 has a list with names, on which Humble and Iron fail. 6 to 8 add fields that Humble ignores.
 _METADATA_VERSION = 8
 
 _DISTRIBUTION_LINE = re.compile(r"^( *ros_distro:) rosbags$", re.MULTILINE)
 
 
 class McapFile(McapWriter):
-    """An MCAP file as rosbag2's storage plugin writes it."""
+    """An MCAP file like that of rosbag2's storage plugin."""
 
     def add_connection(self, connection: Connection, offered_qos_profiles: str) -> None:
-        """Add a channel that carries the hash of its type."""
+        """Add a channel with the hash of its type."""
         metadata = BytesIO()
         for text in ("offered_qos_profiles", offered_qos_profiles, "topic_type_hash", connection.digest):
             write_string(metadata, text)
@@ -36,7 +36,7 @@ class McapFile(McapWriter):
         write_channel(self.chunk.bio, channel, self.schemas)
 
     def close_chunk(self) -> None:
-        """Close the pending chunk; one without messages has the times 0, as MCAP demands."""
+        """Close the pending chunk; one without messages has the times 0, as MCAP requires."""
         if not self.chunk.msgs:
             self.chunk.message_start_time = 0
         super().close_chunk()
@@ -65,7 +65,7 @@ class Rosbag2Writer(Writer):
     def close(self) -> None:
         """Write the index and ``metadata.yaml``."""
         if not any(self.counts.values()):
-            # Otherwise the metadata say that it starts in the year 2262.
+            # Otherwise an empty bag would start in the year 2262.
             self.min_timestamp = self.max_timestamp = 0
         super().close()
         fresh = self.metapath.with_suffix(".yaml.tmp")
@@ -74,5 +74,5 @@ class Rosbag2Writer(Writer):
 
 
 def _with_distribution(metadata: str) -> str:
-    """Metadata with the name that rosbag2 would write there."""
+    """Metadata with the name of the ROS distribution, as rosbag2 writes it."""
     return _DISTRIBUTION_LINE.sub(rf"\1 {os.environ.get('ROS_DISTRO') or 'unknown'}", metadata)

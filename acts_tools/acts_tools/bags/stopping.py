@@ -1,4 +1,4 @@
-"""Ctrl-C, SIGTERM and the end of the terminal as a flag, so that a loop ends between two steps, never within one."""
+"""Ctrl-C, SIGTERM and SIGHUP as a flag, so that a loop ends between two steps, never within one."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ _SLICE_S = 0.1
 
 
 class StopFlag:
-    """While entered, the first SIGINT, SIGTERM or SIGHUP sets the flag; a SIGHUP that nohup lets be ignored stays so.
+    """Context in which the first SIGINT, SIGTERM or SIGHUP sets a flag; SIGHUP stays ignored under nohup.
 
     rclpy's own handlers must be off: ``rclpy.init(signal_handler_options=SignalHandlerOptions.NO)``.
     """
@@ -40,7 +40,7 @@ class StopFlag:
             remaining_s = deadline_s - time.monotonic()
             if remaining_s <= 0:
                 return True
-            # A signal does not end a sleep, so that a long one is taken in slices.
+            # In slices, because a signal does not end a sleep.
             time.sleep(min(remaining_s, _SLICE_S))
         return False
 

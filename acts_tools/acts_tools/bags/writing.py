@@ -1,4 +1,4 @@
-"""Writing a bag so that a crash costs no more than the last moment."""
+"""Write a bag such that a crash loses only the last second."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from acts_tools.bags.rosbag2_format import McapFile, Rosbag2Writer
 
 
 class BagWriter:
-    """An MCAP bag in rosbag2's layout. Once it could not be written, `write` and `flush` say so again.
+    """An MCAP bag in rosbag2's layout. After a failed write, `write` and `flush` raise the error again.
 
     Parameters
     ----------
@@ -37,20 +37,20 @@ class BagWriter:
         self._failure: RecordingError | None = None
         try:
             self._writer = Rosbag2Writer(path)
-            # rosbags writes null where rosbag2 expects a map when there is none.
+            # Without custom data rosbags writes null, where rosbag2 expects a map.
             self._writer.set_custom_data("recorder", f"acts record {__version__}")
             self._writer.open()
         except (OSError, WriterError) as error:
             raise RecordingError(f"cannot make the bag '{path}': {error}") from error
 
     def add_topic(self, topic: str, message_type: str, definition: str, type_hash: str, offered: list[Qos]) -> Any:
-        """Add a topic; what is returned is its handle for `write`."""
+        """Add a topic and return its handle for `write`."""
         return self._writer.add_connection(
             topic, message_type, msgdef=definition, rihs01=type_hash, offered_qos_profiles=offered
         )
 
     def write(self, topic: Any, data: bytes) -> None:
-        """Write one serialised message, stamped now. Stamps never go back, also when the clock does."""
+        """Write one serialised message with the present time. Stamps never decrease, even if the clock is set back."""
         if self._failure is not None:
             raise self._failure
         self._last_stamp_ns = max(time.time_ns(), self._last_stamp_ns)
@@ -60,13 +60,13 @@ class BagWriter:
             raise self._give_up(error) from error
 
     def flush(self) -> None:
-        """Hand everything so far to the operating system: from then on it survives the end of this process."""
+        """Pass all data to the operating system, so that they survive the end of this process."""
         if self._failure is not None:
             raise self._failure
         storage = self._writer.storage
         assert isinstance(storage, McapFile)
         try:
-            # A chunk is whole or lost; one without messages would have no valid times.
+            # An incomplete chunk would be lost; one without messages would have no valid times.
             if storage.chunk.msgs:
                 storage.close_chunk()
             storage.bio.flush()
@@ -74,7 +74,7 @@ class BagWriter:
             raise self._give_up(error) from error
 
     def close(self) -> None:
-        """Finish the bag with its index and ``metadata.yaml``, unless it could not be written."""
+        """Finish the bag with its index and ``metadata.yaml``, unless a write has failed."""
         if self._failure is not None:
             return
         try:
@@ -83,14 +83,14 @@ class BagWriter:
             raise self._give_up(error) from error
 
     def size_bytes(self) -> int:
-        """Size of its files."""
+        """Size of its files [bytes]."""
         return sum(path.stat().st_size for path in self.path.iterdir())
 
     def _give_up(self, error: OSError) -> RecordingError:
-        """Leave the file as it is: writing the rest would fail again, at the latest when Python ends."""
+        """Keep the file as it is: writing the rest would fail again, at the latest when Python ends."""
         with suppress(OSError):
             self._writer.abort()
         self._failure = RecordingError(
-            f"cannot write to the bag '{self.path}': {error.strerror}. What is in it can be played."
+            f"cannot write to the bag '{self.path}': {error.strerror}. The messages in it can be played."
         )
         return self._failure

@@ -1,1 +1,1 @@
-"""Figures of the sensing end: `acts bench`. Every measurement is a module, listed in `acts_tools.bench.registry`."""
+"""`acts bench`: performance of the sensing. Every measurement is a module, listed in `acts_tools.bench.registry`."""

@@ -1,4 +1,4 @@
-"""`acts bench [NAME...]`: figures of the sensing end."""
+"""`acts bench [NAME...]`: measure the performance of the sensing."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser = subparsers.add_parser(
         "bench",
         help="measure throughput, CPU and latency",
-        description="Measure the sensing end on this machine; everything is simulated, no hardware is needed.",
+        description="Measure the performance of the sensing on this machine; all hardware is simulated.",
         epilog="measurements:\n"
         + "".join(
             f"  {name:<12} {entry.summary}, {entry.seconds:g} s{' (only by name)' if entry.only_by_name else ''}\n"
@@ -39,7 +39,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Measure, write and print; the exit code tells whether something was wrong, not merely slow."""
+    """Measure, write and print; return 1 if something failed, but 0 if it was only slow."""
     from acts_tools.bench import report as reports
     from acts_tools.bench.skins import options as skins
     from acts_tools.bench.skins import table as skins_table
@@ -72,7 +72,7 @@ def _measure(arguments: argparse.Namespace) -> dict[str, Any]:
 
 
 def _file(arguments: argparse.Namespace, name: str) -> Path:
-    """Where the report goes; told before the work where that cannot be."""
+    """Path of the report; its folder is made before the measurement, to find errors early."""
     from acts_tools.output_file import require_writable
 
     path = Path(arguments.out / name if arguments.json is None else arguments.json)

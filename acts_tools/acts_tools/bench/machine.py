@@ -1,4 +1,4 @@
-"""The machine a measurement ran on, and who else used it meanwhile."""
+"""The machine of a measurement, and its load by other programs."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import psutil
 
 
 def describe() -> dict[str, object]:
-    """The machine in general words: cores, architecture, versions."""
+    """Cores, architecture and versions of the machine."""
     return {
         "cores": os.cpu_count(),
         "architecture": platform.machine(),
@@ -22,22 +22,22 @@ def describe() -> dict[str, object]:
 
 
 class BusyMeter:
-    """How busy all cores together are, with whatever, from construction on."""
+    """Load of all cores by any program, since construction."""
 
     def __init__(self) -> None:
         self._begin_s = time.monotonic()
         self._busy_s = _machine_busy_s()
 
     def percent(self) -> float:
-        """Load of the machine [% of one core]; as inexact as that of `OthersMeter`."""
+        """Load of the machine [% of one core]; as coarse as that of `OthersMeter`."""
         return (_machine_busy_s() - self._busy_s) / max(time.monotonic() - self._begin_s, 1e-9) * 100
 
 
 class OthersMeter:
-    """How much CPU everybody but this process and its children took, from construction on.
+    """CPU time of all processes but this one and its children, since construction.
 
-    What a hypervisor gave to other machines counts too. The kernel counts the whole machine in ticks of some
-    milliseconds, so that this is right to a few percent only.
+    Time that a hypervisor gave to other machines is included. The kernel counts in ticks of some milliseconds, so the
+    result has an error of a few percent.
     """
 
     def __init__(self) -> None:
@@ -46,7 +46,7 @@ class OthersMeter:
         self._own_s = _own_s()
 
     def percent(self) -> float:
-        """Load by others [% of one core]. Children count as own when they have ended and were waited for."""
+        """Load by others [% of one core]. Children are excluded once they have ended and were waited for."""
         elapsed_s = max(time.monotonic() - self._begin_s, 1e-9)
         others_s = _machine_busy_s() - self._machine_s - (_own_s() - self._own_s)
         return max(0.0, others_s / elapsed_s * 100)

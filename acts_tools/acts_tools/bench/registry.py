@@ -1,7 +1,7 @@
 """The measurements by name.
 
-How to add one: a module with ``measure(workbench: Workbench) -> Result`` (see `acts_tools.bench.result`), and a line
-here. It may start processes, as long as all of them have ended when it returns.
+To add one, write a module with ``measure(workbench: Workbench) -> Result`` (see `acts_tools.bench.result`), and add a
+line here. It may start processes if all of them have ended when it returns.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from acts_tools.bench.workbench import Workbench
 
 
 class Measurement(Protocol):
-    """What a module of a measurement has."""
+    """Interface of a measurement's module."""
 
     def measure(self, workbench: Workbench) -> Result:
         """Measure for about ``workbench.seconds`` and return the figures."""
@@ -23,18 +23,18 @@ class Measurement(Protocol):
 
 @dataclass(frozen=True)
 class Entry:
-    """One measurement that there is.
+    """One available measurement.
 
     Attributes
     ----------
     module : str
-        Where ``measure`` is.
+        Module with ``measure``.
     summary : str
-        What it measures, the title above its figures.
+        Title of its figures.
     seconds : float
-        How long it measures unless told otherwise; starting and stopping comes on top.
+        Default duration, without starting and stopping [s].
     only_by_name : bool
-        Whether `acts bench` without names leaves it out, because it takes long.
+        Whether `acts bench` without names skips it, because it takes long.
     """
 
     module: str

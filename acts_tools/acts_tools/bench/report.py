@@ -1,4 +1,4 @@
-"""A report of `acts bench` for a person, plain and in Markdown."""
+"""Format a report of `acts bench` as plain text or Markdown."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def markdown(report: Report) -> str:
         lines.append(f"| *{one['summary']}* (`{name}`) | |")
         for figure in _figures(one):
             text = f"**{figure.text}**" if figure.is_ratio else figure.text
-            # Markdown drops the spaces that set off what belongs to the line above.
+            # Markdown drops the indentation of details of the line above.
             label = figure.label.replace("    ", "&nbsp;&nbsp;")
             lines.append(f"| {label} | {text} |")
     lines += ["", conditions(report)]
@@ -41,13 +41,13 @@ def markdown(report: Report) -> str:
 
 
 def conditions(report: Report) -> str:
-    """When, where and how loaded, in a line."""
+    """Date, machine and load, in one line."""
     others = ", ".join(f"{name} {one['others_cpu_percent']:.0f}" for name, one in report["measurements"].items())
     return f"{surroundings(report)}; CPU used by others meanwhile [% of one core]: {others}"
 
 
 def surroundings(report: Report) -> str:
-    """When and where, and how loaded the machine was before and after."""
+    """Date and machine, and load average before and after."""
     where = report["machine"]
     before, after = report["load_average_before"], report["load_average_after"]
     return (

@@ -1,4 +1,4 @@
-"""What a measurement returns."""
+"""Results of a measurement."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ class Figure:
     key : str
         Name in the JSON file.
     label : str
-        What it is, for a person.
+        Description, for a person.
     value : float, int, str or None
         None where it could not be measured.
     unit : str
-        Behind the number; may be empty.
+        Unit after the number; may be empty.
     is_ratio : bool
-        Whether it compares two things measured side by side, so that it holds on other machines too.
+        Whether it compares two things measured under the same load, so that it is valid for other machines as well.
     """
 
     key: str
@@ -47,7 +47,7 @@ class Result:
     figures : list of Figure
         In the order in which they are shown.
     problems : list of str
-        What was wrong, not merely slow, in words; `acts bench` then ends with code 1.
+        Failures, as sentences; if there are any, `acts bench` ends with code 1.
     """
 
     figures: list[Figure]
@@ -55,5 +55,5 @@ class Result:
 
 
 def shortened(value: float) -> str:
-    """A number with four significant digits, never in powers of ten."""
+    """A number with four significant digits, never in scientific notation."""
     return f"{value:.0f}" if abs(value) >= 1000 else f"{value:.4g}"

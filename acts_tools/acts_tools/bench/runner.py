@@ -1,4 +1,4 @@
-"""Runs measurements one after another and puts the report together."""
+"""Run measurements one after another and assemble the report."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ SECONDS_MIN, SECONDS_MAX = 0.2, 3600.0
 
 
 def choose(names: Sequence[str], entries: Mapping[str, Entry] = MEASUREMENTS) -> list[str]:
-    """Which measurements to run.
+    """Choose the measurements to run.
 
     Parameters
     ----------
     names : sequence of str
-        As asked for; none for all that do not take long.
+        Names from the command line; empty for all short ones.
     entries : mapping of str to Entry
-        What there is.
+        The available measurements.
 
     Raises
     ------
@@ -46,16 +46,16 @@ def choose(names: Sequence[str], entries: Mapping[str, Entry] = MEASUREMENTS) ->
 
 
 def run(names: Sequence[str], seconds: float | None, stop: StopFlag) -> dict[str, Any]:
-    """Measure, and say on standard error what is being measured.
+    """Measure, and print the current measurement on standard error.
 
     Parameters
     ----------
     names : sequence of str
         Measurements, in order.
     seconds : float or None
-        How long each measures [s]; None for its own time.
+        Duration of each [s]; None for its default.
     stop : StopFlag
-        Ends the run with KeyboardInterrupt.
+        When it is set, the run ends with KeyboardInterrupt.
 
     Returns
     -------
@@ -82,13 +82,13 @@ def run(names: Sequence[str], seconds: float | None, stop: StopFlag) -> dict[str
 
 
 def check_seconds(seconds: float | None) -> None:
-    """Raise `ActsError` where nobody can measure for so long [s]; None is fine."""
+    """Raise `ActsError` if a duration [s] is out of range; None is allowed."""
     if seconds is not None and not SECONDS_MIN <= seconds <= SECONDS_MAX:
         raise ActsError(f"--seconds {seconds:g}: allowed is {SECONDS_MIN:g} to {SECONDS_MAX:g}")
 
 
 def begin_report() -> dict[str, Any]:
-    """What every report begins with: when, where, and how loaded the machine is."""
+    """First fields of every report: date, machine and load average."""
     return {
         "date": datetime.now(timezone.utc).date().isoformat(),
         "machine": machine.describe(),
@@ -97,7 +97,7 @@ def begin_report() -> dict[str, Any]:
 
 
 def load_average() -> list[float]:
-    """Of the last 1, 5 and 15 minutes."""
+    """Load average of the last 1, 5 and 15 minutes."""
     return [round(load, 2) for load in os.getloadavg()]
 
 

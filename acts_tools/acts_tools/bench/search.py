@@ -1,4 +1,4 @@
-"""Find the largest value at which something still holds, a question at a time."""
+"""Search for the largest value that satisfies a condition, one trial at a time."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 @dataclass
 class Search:
-    """Doubles until it does not hold (or halves until it does), then halves the interval.
+    """Doubles the value until the condition fails (or halves it until it holds), then bisects the interval.
 
-    It asks nothing itself, so that several searches can take turns and meet the same weather::
+    The caller makes the trials, so that several searches can take turns under the same load of the machine::
 
         while not search.done:
             search.answer(holds(search.value))
@@ -17,20 +17,20 @@ class Search:
     Parameters
     ----------
     value : float
-        Where to start, and later what to try next.
+        First value to try, later the next one.
     minimum, maximum : float
         Smallest and largest value to try.
     resolution : float
         Relative width of the interval at which to stop, above 0.
     tries : int
-        How many times in a row the answer has to be no: one stall of the machine does not decide.
+        Number of failed trials in a row that reject a value, so that one stall of the machine does not.
 
     Attributes
     ----------
     good : float or None
-        Largest value for which the answer was yes; None as long as there was none.
+        Largest value for which the condition held; None before the first.
     bad : float or None
-        Smallest value that was given up.
+        Smallest rejected value.
     done : bool
         Whether the search has ended.
     """
@@ -46,7 +46,7 @@ class Search:
     _failed: int = 0
 
     def answer(self, holds: bool) -> None:
-        """Tell whether it held at `value`, and choose the next one."""
+        """Set whether the condition held at `value`, and choose the next value."""
         if holds:
             self.good = self.value
         else:

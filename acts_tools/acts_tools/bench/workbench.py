@@ -1,4 +1,4 @@
-"""What a measurement is given: time, a folder, and word when it is to stop."""
+"""Resources of a measurement: time, a folder, and a stop flag."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from acts_tools.bags.stopping import StopFlag
 
 @dataclass(frozen=True)
 class Workbench:
-    """Conditions of one measurement.
+    """Resources of one measurement.
 
     Attributes
     ----------
     seconds : float
-        How long to measure [s].
+        Duration of the measurement [s].
     folder : Path
-        An empty folder of its own, in memory, removed afterwards: links to ports, recordings, logs.
+        A temporary folder in memory, for links to ports, recordings and logs.
     stop : StopFlag
         Set when the user wants to stop.
     """
@@ -28,11 +28,11 @@ class Workbench:
     stop: StopFlag
 
     def check_stop(self) -> None:
-        """Leave by KeyboardInterrupt when the user wants to stop; to be called in every loop."""
+        """Raise KeyboardInterrupt if the user wants to stop; to be called in every loop."""
         if self.stop.is_set:
             raise KeyboardInterrupt
 
     def sleep(self, seconds: float) -> None:
-        """Wait, or leave by KeyboardInterrupt."""
+        """Wait; raise KeyboardInterrupt if the user wants to stop."""
         if not self.stop.sleep_until(time.monotonic() + seconds):
             raise KeyboardInterrupt

@@ -1,1 +1,1 @@
-"""`acts demo`: the whole chain with everything simulated, one folder for each demonstration."""
+"""`acts demo`: demonstrations of the whole chain in simulation, one folder each."""

@@ -1,1 +1,1 @@
-"""The measurements of `acts bench`, a module each, listed in `acts_tools.bench.registry`."""
+"""The measurements of `acts bench`, one module each, listed in `acts_tools.bench.registry`."""

@@ -1,7 +1,7 @@
-"""How many frames a second one core decodes, and how that compares with a plain decoder in Python.
+"""Frames per second that one core decodes, and the ratio to a simple decoder in Python.
 
-The decoders take turns on the same pieces, so that whatever slows the machine slows all of them; the ratio is the
-median over the turns. Time is the thread's CPU time, from which others are left out.
+The decoders take turns on the same data, so that other load on the machine affects all of them; the ratio is the median
+over the turns. Time is the thread's CPU time, which excludes that of other programs.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from acts_tools.bench.workbench import Workbench
 _FRAMES = 1000
 _LINES = 100
 _TURNS_MIN = 3
-# Lines as fast as binary frames come, or recording them would take longer than measuring.
+# Lines at the rate of binary frames, as recording would otherwise take longer than the measurement.
 _RASTER_OPTIONS = ("--protocol", "raster_ascii", "--sample-us", "4", "--rate-hz", "200")
 
 
@@ -64,7 +64,7 @@ def measure(workbench: Workbench) -> Result:
 
 
 def same_frames(some: Sequence[SampleFrame], others: Sequence[SampleFrame]) -> bool:
-    """Whether two lists of frames say the same."""
+    """Whether two lists of frames are equal."""
     return len(some) == len(others) and all(map(_same, some, others))
 
 

@@ -1,4 +1,4 @@
-"""What the driver costs at 1 kHz and M = 55, beside the virtual board that feeds it."""
+"""CPU load of the driver at 1 kHz and M = 55, and of the virtual board that feeds it."""
 
 from __future__ import annotations
 

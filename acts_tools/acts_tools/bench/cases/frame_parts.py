@@ -1,8 +1,8 @@
-"""Where the time of a frame goes, part by part, at the pace of 1 kHz.
+"""CPU time of each step in the processing of a frame, at 1 kHz.
 
-In one process a frame is decoded, stamped, recovered, and its contact published. With driver and reconstruction in two
-processes, it is sent and received as a message besides. CPU time of the thread is measured, at the pace of the board:
-between two frames others use the caches, and a part then takes up to twice what it takes in a loop.
+In one process a frame is decoded, stamped and recovered, and its contact is published. With driver and reconstruction
+in two processes, it is also sent and received as a message. The CPU time of the thread is measured at the rate of the
+board: between two frames others use the caches, so that a step takes up to twice its time in a loop.
 """
 
 from __future__ import annotations
@@ -51,25 +51,25 @@ _AS_MESSAGE = {
 
 
 class Stopwatch:
-    """CPU times of this thread by part [us]."""
+    """CPU times of this thread by step [us]."""
 
     def __init__(self) -> None:
         self.times_us: dict[str, list[float]] = {}
 
     def time(self, part: str, function: Callable[..., T], *arguments: object) -> T:
-        """Call a function and note how long that took."""
+        """Call a function and record its CPU time."""
         began_ns = time.thread_time_ns()
         result = function(*arguments)
         self.times_us.setdefault(part, []).append((time.thread_time_ns() - began_ns) * 1e-3)
         return result
 
     def median_us(self, part: str) -> float:
-        """Of all times of a part; 0 without any."""
+        """Median of all times of a step; 0 without any [us]."""
         return float(np.median(self.times_us[part])) if part in self.times_us else 0.0
 
 
 def measure(workbench: Workbench) -> Result:
-    """Work on frames of a virtual board, with a subscriber of samples and contacts in another process."""
+    """Process frames of a virtual board, with a subscriber of samples and contacts in another process."""
     watch = Stopwatch()
     with ExitStack() as stack:
         board = stack.enter_context(virtual_board(workbench.folder, "--rate-hz", "1000", *pressed(workbench.folder)))
@@ -115,7 +115,7 @@ def _work(
         arrival_ns = time.time_ns()
         frames = watch.time("decode", decoder.feed, data)
         if len(frames) != 1:
-            # Not at the pace that is asked about: what was held up counts for nothing.
+            # Several frames at once were delayed: they are not processed at 1 kHz, and not measured.
             stream.accept(frames, arrival_ns)
             continue
         accepted = watch.time("stamp", stream.accept, frames, arrival_ns)

@@ -1,7 +1,7 @@
-"""The highest frame rate that holds without loss, M = 55: the driver, and readers without ROS as its peers.
+"""The highest frame rate without loss, M = 55, of the driver, and for comparison of readers without ROS.
 
-The board measures far faster than real hardware would, so that it is not what ends the search. The contenders take
-turns, a rate each, so that whatever else runs on the machine meets all of them.
+The board measures much faster than real hardware, so that it is not the limit. The readers take turns, one rate at a
+time, so that other load on the machine affects all of them.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ _SAMPLE_US = "0.2"
 
 @dataclass
 class _Contender:
-    """One reader and its search."""
+    """One of the compared readers, and its search."""
 
     key: str
     label: str
@@ -46,13 +46,13 @@ class _Contender:
 
     @property
     def end(self) -> str:
-        """What gave out at the lowest rate that was given up."""
+        """Bottleneck at the lowest rate that failed."""
         reasons = [trial.bottleneck for trial in self.failed if trial.asked_hz == self.search.bad]
         return reasons[-1] if reasons else "nothing"
 
 
 def measure(workbench: Workbench) -> Result:
-    """Search for the driver and its peers; each rate is held for the measurement's time."""
+    """Search for the driver and the other readers; each rate is tried for the measurement's time."""
     options = (*pressed(workbench.folder), "--sample-us", _SAMPLE_US)
     seconds = workbench.seconds
 

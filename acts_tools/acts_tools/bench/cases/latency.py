@@ -1,9 +1,8 @@
-"""How long after its last measurement a frame is published and received, and how true its stamp is, at 1 kHz.
+"""Latency from the last measurement of a frame to its publication and reception, and error of its stamp, at 1 kHz.
 
-The virtual board tells when its clock began, so that the true time of every measurement is known; by its stamp alone
-the driver would be its own judge. The board's clock is fast by `DRIFT_PPM` as a quartz is. Latencies begin at the true
-time and include how late the board's process itself was woken; how much that is tells a reader without ROS, which reads
-the same board before the driver does.
+The virtual board reports the start of its clock, so that the true time of every measurement is known independently of
+the driver's stamps. The board's clock is fast by `DRIFT_PPM`, as a quartz may be. Latencies begin at the true time and
+include the wake-up delay of the board's process. To show that delay, a reader without ROS reads the same board first.
 """
 
 from __future__ import annotations
@@ -32,14 +31,14 @@ from acts_tools.percentiles import percentiles
 
 DRIFT_PPM = 30.0
 _PERIOD_US = 1000
-# The driver's clock estimate takes the drift into account after 2.5 s and is settled after 5.
+# The driver's clock estimate includes the drift after 2.5 s, and has settled after 5 s.
 _SETTLE_S = 6.0
 _NAMES = {"median": "median", "p99": "99 % within", "p99_9": "99.9 % within"}
 
 
 @dataclass
 class Arrivals:
-    """What a subscriber noted of every message: number, stamp and a time [ns], a list each, and counts."""
+    """Number, stamp and a time [ns] of every message of a subscriber, one list each, and counts."""
 
     sequence: list[int] = field(default_factory=list)
     stamp_ns: list[int] = field(default_factory=list)
@@ -47,7 +46,7 @@ class Arrivals:
     counter: StreamCounter = field(default_factory=StreamCounter)
 
     def add(self, message: TactileSamples, time_ns: int) -> None:
-        """Note one message."""
+        """Add one message."""
         stamp = message.header.stamp
         stamp_ns = stamp.sec * 1_000_000_000 + stamp.nanosec
         self.counter.step(message.sequence, (time_ns - stamp_ns) * 1e-9)
@@ -56,12 +55,12 @@ class Arrivals:
         self.time_ns.append(time_ns)
 
     def after(self, truth: TrueTime) -> NDArray[np.float64]:
-        """From the true time of each measurement to the time that was noted [ms]."""
+        """Time from the true time of each measurement to the recorded time [ms]."""
         return _after(truth, self.sequence, self.time_ns)
 
 
 def measure(workbench: Workbench) -> Result:
-    """A third of the time each: read without ROS, receive messages, and learn from messages when they were sent."""
+    """For a third of the time each: read without ROS, receive messages, and get the times of their publication."""
     options = ("--rate-hz", "1000", "--drift-ppm", str(DRIFT_PPM), *pressed(workbench.folder))
     with virtual_board(workbench.folder, *options) as board:
         direct, arrivals_ns = _read_directly(board, workbench)
@@ -85,8 +84,8 @@ def measure(workbench: Workbench) -> Result:
                 graph.spin_until(lambda: received.sequence, START_TIMEOUT_S, "messages", check)
                 graph.spin_for(workbench.seconds / 3)
                 truth.observe_host()
-            # Only this executor hands on what the middleware knows of a message; it is the slower one, which the time
-            # of sending does not depend on.
+            # Only this executor passes on the middleware's information about a message. It is slower, but the time of
+            # sending does not depend on it.
             with Graph(workbench, SingleThreadedExecutor) as graph:
 
                 def note_sending(message: TactileSamples, info: dict[str, int]) -> None:
@@ -128,7 +127,7 @@ def _figures(received: Arrivals, sent: Arrivals, direct_ms: NDArray[np.float64],
 
 
 def _read_directly(board: Board, workbench: Workbench) -> tuple[list[SampleFrame], list[int]]:
-    """Frames read from the port without ROS, and the host's real time when each of them was decoded [ns]."""
+    """Frames read from the port without ROS, and the host's real time at which each was decoded [ns]."""
     source = SerialSource(str(board.link))
     decoder = StreamDecoder()
     frames: list[SampleFrame] = []
@@ -147,5 +146,5 @@ def _read_directly(board: Board, workbench: Workbench) -> tuple[list[SampleFrame
 
 
 def _after(truth: TrueTime, sequence: Sequence[int], time_ns: Sequence[int]) -> NDArray[np.float64]:
-    """From the true time of each frame's measurement to a time of the host [ms]."""
+    """Time from the true time of each frame's measurement to a time of the host [ms]."""
     return np.asarray((np.array(time_ns, dtype=np.int64) - truth.at(sequence)) * 1e-6, dtype=np.float64)

@@ -1,7 +1,7 @@
-"""What a skin costs on a cable between two machines, and what becomes of its contacts when the cable is bad.
+"""Traffic of a skin on a cable between two machines, and loss and delay of its contacts on a bad cable.
 
-Driver and reconstruction with a simulated board run on the one machine, `acts listen` on the other; both are network
-namespaces of this one, so that their clocks agree.
+Driver and reconstruction with a simulated board run on one machine, and `acts listen` on the other. Both are network
+namespaces of this machine, so that their clocks agree.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from acts_tools.two_machines.ear import EVERY_S, Ear, Report, ear
 from acts_tools.two_machines.machines import TwoMachines, two_machines
 
 CONTACT = "/plate/contact"
-# In the order of the table. The last needs most.
+# In the order of the table. The last has the most traffic.
 TOPICS = ("samples", "contact", "contacts", "cop", "confidence", "image_raw", "image")
 CABLES = {
     "good": Conditions(),
@@ -29,7 +29,7 @@ CABLES = {
     "delay_loss": Conditions(delay_s=0.02, loss=0.02),
 }
 LABELS = {"good": "good cable", "delay": "20 ms delay", "loss": "2 % loss", "delay_loss": "20 ms delay and 2 % loss"}
-# Shorter and longer than the 20 s after which Fast DDS takes a silent participant for gone.
+# Shorter and longer than 20 s, after which Fast DDS removes a silent participant.
 CUTS_S = (3.0, 25.0)
 _START_TIMEOUT_S = 120.0
 _TIMEOUT_S = 60.0
@@ -37,7 +37,7 @@ _LAUNCH = "launch.log"
 
 
 class _Link:
-    """The two machines with a skin on the near one."""
+    """The two machines, with a skin on the near one."""
 
     def __init__(self, workbench: Workbench, machines: TwoMachines, domain_id: int) -> None:
         self._workbench = workbench
@@ -46,7 +46,7 @@ class _Link:
         self.figures: list[Figure] = []
 
     def measure_traffic(self) -> None:
-        """Every topic by itself, and what the middleware says without any."""
+        """Measure the traffic of every topic by itself, and that of the middleware without any."""
         with ear(self._machines.far, ["/plate/board"], self._domain_id, self._log("idle")) as idle:
             idle.wait_for(lambda report: report.received("/plate/board") > 0, _START_TIMEOUT_S, "the board")
             idle_kb_s = self._kilobytes_per_second()
@@ -65,7 +65,7 @@ class _Link:
             ]
 
     def measure_cables(self) -> None:
-        """Contacts over a good and over bad cables, and after cuts."""
+        """Measure contacts over a good cable and bad cables, and after interruptions."""
         with ear(self._machines.far, [CONTACT], self._domain_id, self._log("cables")) as heard:
             heard.wait_for(partial(_flows, CONTACT), _START_TIMEOUT_S, "contacts")
             for name, conditions in CABLES.items():
@@ -75,7 +75,7 @@ class _Link:
                 self._measure_cut(heard, cut_s)
 
     def measure_image(self) -> None:
-        """The picture for viewers over a lossy cable: large and reliable, the worst case."""
+        """Measure the image for viewers over a lossy cable: large and reliable, the worst case."""
         with ear(self._machines.far, [CONTACT, "/plate/image"], self._domain_id, self._log("picture")) as heard:
             heard.wait_for(
                 lambda report: min(report.received(CONTACT), report.received("/plate/image")) > 0, _TIMEOUT_S, "images"
@@ -148,7 +148,7 @@ def _flows(topic: str, report: Report) -> bool:
 
 
 def measure(workbench: Workbench) -> Result:
-    """Measure for ``workbench.seconds`` each: every topic, every cable."""
+    """Measure every topic and every cable, for ``workbench.seconds`` each."""
     domain_id = int(os.environ["ROS_DOMAIN_ID"])
     launch = [sys.executable, "-m", "acts_tools", "launch", "--own", "acts_bringup", "tactile.launch.xml"]
     with two_machines() as machines:

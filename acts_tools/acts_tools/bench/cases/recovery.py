@@ -1,14 +1,14 @@
-"""How fast FastOMP recovers an image: against scikit-learn, against SPAMS, and against what the processor can do.
+"""CPU time of FastOMP for an image, compared with scikit-learn, SPAMS and the limit of the processor.
 
-A frame is 55 samples of 32 x 32, its 49 patches of 8 x 8 overlap, the dictionary is the shipped one with 1000 atoms.
-Two kinds of frames: adaptive samples of single presses, in which only the patches that were touched need atoms, and
-random samples of a skin that is pressed everywhere, in which all do.
+A frame is 55 samples of 32 x 32 taxels, with 49 overlapping patches of 8 x 8; the dictionary is the shipped one with
+1000 atoms. There are two kinds of frames: adaptive samples of single presses, in which only the touched patches need
+atoms, and random samples of a skin that is pressed everywhere, in which all patches do.
 
-Our time is that of a whole frame, from its samples to the image. The peers get their work prepared (measured rows of
-the dictionary cut out, for SPAMS also normalised) and are timed for the pursuit alone: a call for each patch, as many
-atoms as we take. All take turns on the same frames, in CPU time of one thread.
+The time of FastOMP is that of a whole frame, from its samples to the image. The other libraries get prepared problems
+(the measured rows of the dictionary, for SPAMS also normalised) and are timed for the pursuit alone: one call per
+patch, with as many atoms. All take turns on the same frames, in CPU time of one thread.
 
-The limit is the multiply-adds that FastOMP is made of, over the most that this core does in registers.
+The limit is the number of multiply-adds in FastOMP over the rate at which this core does them in registers.
 """
 
 from __future__ import annotations
@@ -47,16 +47,16 @@ M = 55
 TOUCH_COUNTS = 60
 FRAMES = 10
 CALLS = 50
-"""Of ours in a turn; it is much shorter than theirs."""
+"""Repetitions of FastOMP in a turn, because it is much faster than the others."""
 SAME = 0.01
-"""Residuals that differ by less, relative to the samples, are the same: that much rounding does where two atoms tie."""
+"""Tolerance of residuals, relative to the samples: rounding causes such differences where two atoms tie."""
 
 Samples = tuple[NDArray[np.uint16], NDArray[np.uint16]]
 
 
 @dataclass(frozen=True)
 class Problem:
-    """What a patch asks of a pursuit."""
+    """The sparse coding problem of one patch."""
 
     A: NDArray[np.float32]
     y: NDArray[np.float32]
@@ -77,9 +77,9 @@ def measure(workbench: Workbench) -> Result:
 
 
 def multiply_adds(problem: Problem) -> int:
-    """Of FastOMP on one patch: correlations, orthogonalisation, residual, coefficients, and the patch itself.
+    """Number in FastOMP on one patch: correlations, orthogonalisation, residual, coefficients, and the patch itself.
 
-    Comparing correlations is not counted, nor is anything that is done once for a frame.
+    Comparisons of correlations, and work that is done once per frame, are not counted.
     """
     (m, n_atoms), s = problem.A.shape, problem.atoms
     correlations = s * m * n_atoms
@@ -89,7 +89,7 @@ def multiply_adds(problem: Problem) -> int:
 
 
 def patch_problems(layout: PatchLayout, atoms: NDArray[np.float32], samples: Samples) -> list[Problem]:
-    """The patches of a frame in which something was pressed."""
+    """Problems of the pressed patches of a frame."""
     value = np.zeros(layout.rows * layout.cols, dtype=np.float32)
     measured = np.zeros(value.size, dtype=bool)
     value[samples[0]] = np.where(samples[1] > TOUCH_COUNTS, samples[1], 0)
@@ -125,7 +125,7 @@ def _compare(
         ready = [_for_spams(one) for patches in work for one in patches]
         contenders["spams"] = lambda: [_by_spams(spams, *one) for one in ready]
     with warnings.catch_warnings():
-        # scikit-learn complains of atoms that are alike on the few measured pixels; it is timed, not used.
+        # scikit-learn warns of atoms that are equal on the few measured taxels; here it is only timed.
         warnings.simplefilter("ignore")
         problems += _disagreements(work[0], linear_model, spams)
         seconds = _take_turns(contenders, workbench)
@@ -173,15 +173,15 @@ def _for_spams(problem: Problem) -> tuple[NDArray[np.float32], NDArray[np.float3
 
 
 def _by_spams(spams: Any, A: NDArray[np.float32], y: NDArray[np.float32], atoms: int) -> Any:
-    # Without `eps` it is left to chance at which residual it stops, often before the first atom.
+    # Without `eps` its stopping residual is undefined, and it often stops before the first atom.
     return spams.omp(y, A, L=atoms, eps=0.0, numThreads=1)
 
 
 def order_recursive(A: NDArray[np.floating], y: NDArray[np.floating], atoms: int) -> float:
-    """What SPAMS should leave of `y`, relative to it.
+    """Norm of the residual that SPAMS should leave, relative to that of `y`.
 
-    Its `omp` is not FastOMP's kind of pursuit, but order recursive matching pursuit: the first atom is the same on
-    normalised columns, each further one is that which lowers the residual most. It leaves less, for more work.
+    Its `omp` is not OMP, but order recursive matching pursuit. On normalised columns the first atom is the same; each
+    further one is the atom that reduces the residual most. The residual is smaller, for more work.
     """
     orthogonal = A.astype(np.float64)
     residual = y.astype(np.float64)
@@ -198,12 +198,12 @@ def order_recursive(A: NDArray[np.floating], y: NDArray[np.floating], atoms: int
 
 
 def _left(A: NDArray[np.float32], y: NDArray[np.float32], coefficients: NDArray[np.floating]) -> float:
-    """Norm of what coefficients do not explain, relative to that of the samples."""
+    """Norm of the residual ``y - A x``, relative to that of `y`."""
     return float(np.linalg.norm(y - A @ coefficients) / np.linalg.norm(y))
 
 
 def _disagreements(work: list[Problem], linear_model: Any, spams: Any) -> list[str]:
-    """What is timed must solve the problems: who leaves another residual than the method that it implements?"""
+    """Check that each timed method solves the problems: its residual must be that of the method it implements."""
     found = []
     for one in work:
         if linear_model is not None:

@@ -1,7 +1,7 @@
-"""The driver for ten minutes at 1 kHz and M = 55: frames lost, memory, CPU, latency.
+"""The driver for ten minutes at 1 kHz and M = 55: lost frames, memory, CPU, latency.
 
-Memory is that of the driver's process, looked at every second; its growth is the slope of the line through all values
-but those of the first tenth, in which buffers fill and kernels are loaded.
+The memory of the driver's process is read every second. Its growth is the slope of a line fitted to all values but the
+first tenth, in which buffers fill and kernels are loaded.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from acts_tools.percentiles import percentiles
 from acts_tools.process_load import cpu_s
 
 GROWTH_MAX_MB_PER_H = 10.0
-"""Growth of the driver's memory from which on it counts as a leak; judged on runs of `JUDGED_S` or more."""
+"""Growth of the driver's memory that counts as a leak; checked in runs of `JUDGED_S` or more."""
 
 JUDGED_S = 300.0
 _SETTLE_S = 3.0
@@ -44,7 +44,7 @@ class Memory:
     Attributes
     ----------
     time_s, mb : list of float
-        Seconds since the start of the measurement, and megabytes (1e6 bytes) then.
+        Time since the start of the measurement, and memory at that time (1 MB is 1e6 bytes).
     """
 
     time_s: list[float] = field(default_factory=list)
@@ -55,7 +55,7 @@ class Memory:
         return self.mb[int(np.argmin(np.abs(np.array(self.time_s) - time_s)))]
 
     def growth_mb_per_h(self) -> float:
-        """Slope of the line through the values behind the first tenth [MB/h]; 0 where there is only one."""
+        """Slope of a line fitted to the values after the first tenth [MB/h]; 0 where there is only one."""
         time_s = np.array(self.time_s)
         behind = time_s >= 0.1 * time_s[-1]
         if behind.sum() < 2:
@@ -64,7 +64,7 @@ class Memory:
 
 
 def measure(workbench: Workbench) -> Result:
-    """Run virtual board and driver, receive every message, and look at the driver's process once a second."""
+    """Run virtual board and driver, receive every message, and read the driver's memory once a second."""
     statuses: deque[dict[str, int]] = deque(maxlen=1)
     counter = StreamCounter()
     memory = Memory()
@@ -126,16 +126,16 @@ def measure(workbench: Workbench) -> Result:
 
 
 def problems(added: dict[str, int], memory: Memory, seconds: float) -> list[str]:
-    """What was wrong, and not merely slow.
+    """Failures; being slow is not one.
 
     Parameters
     ----------
     added : dict of str to int
-        What the driver counted.
+        Counts of the driver.
     memory : Memory
-        Of the driver.
+        Memory of the driver.
     seconds : float
-        How long was measured [s].
+        Duration of the measurement [s].
     """
     found = []
     if added["lost"] > added["overruns"]:

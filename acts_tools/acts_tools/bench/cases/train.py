@@ -1,9 +1,9 @@
-"""How long K-SVD takes for a dictionary, and scikit-learn's learner for one that is as good.
+"""CPU time of K-SVD for a dictionary, and of scikit-learn for one that is equally good.
 
-Both learn 1000 atoms from the same 15,000 patches. Good is what the sparse codes of other patches leave unexplained:
-13 atoms each, chosen by the same pursuit for both. K-SVD makes the paper's ten iterations; then
-MiniBatchDictionaryLearning goes on, batch by batch, until it is as good. Time is CPU time of all threads, scoring left
-out, so that other people's work hardly counts.
+Both learn 1000 atoms from the same 15,000 patches. The measure is the residual of other patches after sparse coding
+with 13 atoms by the same pursuit. K-SVD makes the paper's ten iterations; then MiniBatchDictionaryLearning continues,
+batch by batch, until its residual is as small. Time is CPU time of all threads without the scoring, so that other
+programs hardly affect it.
 """
 
 from __future__ import annotations
@@ -24,13 +24,13 @@ from acts_tools.train import choose_patches, model_frames
 PRESSES = 3000
 PATCHES = 15000
 OTHERS = 2000
-"""Patches that are scored, and not learnt from."""
+"""Number of patches for scoring, which are not used for learning."""
 
 CONFIG = KsvdConfig()
 BATCH = 256
 BATCHES_BETWEEN_SCORES = 6
 PENALTY = 0.1
-"""Of the codes scikit-learn learns with (alpha): with its default, 1, it does not come near in an epoch."""
+"""Penalty alpha of scikit-learn's codes: with its default, 1, it is far from as good after an epoch."""
 
 Patches = NDArray[np.float32]
 
@@ -38,7 +38,7 @@ Patches = NDArray[np.float32]
 def measure(workbench: Workbench) -> Result:
     """Learn with both; scikit-learn for at most `workbench.seconds` of CPU time."""
     learnt, others = _patches()
-    # Compiled, or loaded from the cache, before the clock runs.
+    # Compile or load the kernels before the measurement.
     learn_dictionary(learnt[: CONFIG.atoms], KsvdConfig(atoms=CONFIG.atoms, iterations=1), rng=_rng())
     workbench.check_stop()
     begin_s = time.process_time()
@@ -65,12 +65,12 @@ def measure(workbench: Workbench) -> Result:
 
 
 def unexplained(atoms: NDArray[np.floating], patches: Patches) -> float:
-    """Norm of what codes of `CONFIG.sparsity` atoms leave of patches, over the norm of the patches.
+    """Norm of the residual of patches, coded with `CONFIG.sparsity` atoms, over the norm of the patches.
 
     Parameters
     ----------
     atoms : np.ndarray [shape=(n_atoms, n_pixels), dtype=float]
-        Of any norm but 0.
+        Atoms of any norm but 0.
     patches : np.ndarray [shape=(n, n_pixels), dtype=float32]
     """
     D = np.ascontiguousarray(atoms / np.linalg.norm(atoms, axis=1, keepdims=True), dtype=np.float32)
@@ -84,7 +84,7 @@ def unexplained(atoms: NDArray[np.floating], patches: Patches) -> float:
 def _learn_as_well(
     decomposition: Any, learnt: Patches, others: Patches, error: float, workbench: Workbench
 ) -> tuple[float, float]:
-    """CPU time [s] and error of scikit-learn when it was as good, or gave up."""
+    """CPU time [s] and error of scikit-learn when it was as good or gave up."""
     learner = decomposition.MiniBatchDictionaryLearning(
         n_components=CONFIG.atoms, alpha=PENALTY, batch_size=BATCH, random_state=0
     )
@@ -104,7 +104,7 @@ def _learn_as_well(
 
 
 def _patches() -> tuple[Patches, Patches]:
-    """Patches to learn from, and to score with; each of norm 1."""
+    """Patches for learning and for scoring, each of norm 1."""
     frames = model_frames(list(OBJECTS.values()), PRESSES, seed=0)
     patches = choose_patches(
         frames, PATCHES + OTHERS, size=8, touch_counts=60.0, min_active=4, coherence=0.99, rng=_rng()

@@ -1,1 +1,1 @@
-"""What ACTS is compared with: the same work done by plain code, by other libraries, and by bare arithmetic."""
+"""References to compare ACTS with: the same work in plain Python, in other libraries, and as bare arithmetic."""

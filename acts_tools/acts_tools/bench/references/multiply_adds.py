@@ -1,4 +1,4 @@
-"""What one core can do at most: single-precision multiply-adds per second, all of them in registers."""
+"""Peak performance of one core: single-precision multiply-adds per second in registers."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _ELEMENTS = 256
 
 @kernel(fastmath={"contract", "nsz"})
 def _work(times: int, x: NDArray[np.float32], a: float, b: float) -> None:
-    """Four chains of eight multiply-adds for every element, unrolled: enough of them in flight for any processor."""
+    """Four chains of eight multiply-adds for every element, unrolled: enough parallelism for any processor."""
     for _ in range(times):
         for k in range(x.shape[0]):
             p = x[k]

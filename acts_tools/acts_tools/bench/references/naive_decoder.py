@@ -1,7 +1,7 @@
-"""The binary stream decoded as one would first write it: struct, bytes, zlib, and COBS in pure Python.
+"""A simple decoder of the binary stream: struct, bytes, zlib, and COBS in pure Python.
 
-It is what `acts bench decode` compares `acts_core.wire.StreamDecoder` with. It yields the same frames from any bytes
-and refuses what is damaged, but does not say why.
+`acts bench decode` compares `acts_core.wire.StreamDecoder` with it. It returns the same frames for any bytes, but
+drops damaged packets without a reason.
 """
 
 from __future__ import annotations
@@ -19,17 +19,17 @@ _SCHEMES = {int(scheme) for scheme in Scheme}
 
 
 class NaiveDecoder:
-    """Frames out of the board's bytes."""
+    """Decodes frames from the board's bytes."""
 
     def __init__(self) -> None:
         self._buffer = b""
 
     def reset(self) -> None:
-        """Tell that the stream was opened: what is pending is dropped."""
+        """Reset for a stream that was opened: pending bytes are dropped."""
         self._buffer = b""
 
     def feed(self, data: bytes) -> list[SampleFrame]:
-        """Take the next bytes of the stream and return the frames that they complete, in order."""
+        """Decode the next bytes of the stream; return the frames that they complete, in order."""
         *packets, self._buffer = (self._buffer + data).split(b"\0")
         frames = []
         for packet in packets:
@@ -40,7 +40,7 @@ class NaiveDecoder:
 
 
 def _unstuff(packet: bytes) -> bytes:
-    """Undo COBS; empty where the packet is damaged."""
+    """Decode COBS; empty where the packet is damaged."""
     decoded = bytearray()
     position = 0
     while position < len(packet):

@@ -1,4 +1,4 @@
-"""Libraries that measurements compare with where they are installed; ACTS itself needs none of them."""
+"""Optional libraries for comparison; ACTS itself needs none of them."""
 
 from __future__ import annotations
 
@@ -18,5 +18,5 @@ def peer(name: tuple[str, str], submodule: str = "") -> ModuleType | None:
 
 
 def missing(name: tuple[str, str]) -> str:
-    """What to show in place of a figure."""
+    """Text in place of a figure of a missing library."""
     return f"not installed: pip install {name[1]}"

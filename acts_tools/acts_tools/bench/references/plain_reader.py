@@ -1,4 +1,4 @@
-"""A reader of the board without ROS, in a process of its own: the peer of the driver at high frame rates.
+"""A reader of the board without ROS in a process of its own, to compare the driver with.
 
     python3 -m acts_tools.bench.references.plain_reader PORT stream|naive
 
@@ -35,7 +35,7 @@ def reader_trial(
     Parameters
     ----------
     workbench : Workbench
-        Folder, and the wish to stop.
+        Folder and stop flag.
     decoder : str
         One of `DECODERS`.
     asked_hz : float
@@ -69,7 +69,7 @@ def reader_trial(
 
 
 def main(words: Sequence[str]) -> int:
-    """Read a port until told to stop."""
+    """Read a port until a signal asks to stop."""
     path, name = words
     source = SerialSource(path)
     decoder: Decoder = DECODERS[name]()

@@ -1,1 +1,1 @@
-"""What measurements are made with: boards, drivers and listeners in processes of their own, and the ROS graph."""
+"""Equipment of the measurements: boards, drivers and listeners in processes of their own, and a ROS node."""

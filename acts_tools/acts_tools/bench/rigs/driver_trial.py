@@ -1,4 +1,4 @@
-"""The driver node on the virtual board, both processes of their own, watched over /diagnostics."""
+"""The driver node on the virtual board, in two processes, observed over /diagnostics."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ from acts_tools.driver.driver_status import driver_values
 def driver_trial(workbench: Workbench, asked_hz: float, seconds: float, board_options: Sequence[str]) -> Trial:
     """Run the driver at a frame rate.
 
-    It has one subscriber in another process, so that sending is part of its work. That one leaves the messages in the
-    middleware: what a consumer makes of them would take CPU that is not the driver's.
+    It has one subscriber in another process, so that sending is part of its work. The subscriber leaves the messages in
+    the middleware, because processing them would take CPU time that is not the driver's.
 
     Parameters
     ----------
     workbench : Workbench
-        Folder, and the wish to stop.
+        Folder and stop flag.
     asked_hz : float
         Frame rate of the board.
     seconds : float
@@ -65,7 +65,7 @@ def driver_trial(workbench: Workbench, asked_hz: float, seconds: float, board_op
                 yield received.popleft()
 
         graph.node.create_subscription(DiagnosticArray, "/diagnostics", keep, 10)
-        # Not given to the executor.
+        # Hidden from the executor.
         sink = Node("sink", namespace=NAMESPACE)
         sink.create_subscription(TactileSamples, "samples", lambda message: None, STREAM)
         try:

@@ -1,4 +1,4 @@
-"""A look into the ROS graph: one node that spins in slices, so that a measurement can be stopped."""
+"""A ROS node that spins in short slices, so that a measurement can be stopped."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ _SLICE_S = 0.05
 
 
 class Graph:
-    """ROS while it is entered.
+    """Context in which ROS is initialised.
 
     Parameters
     ----------
     workbench : Workbench
-        Ends the spinning when the user wants to stop.
+        Stop flag: ends the spinning when the user wants to stop.
     make : callable
         Makes the executor.
 
@@ -41,7 +41,7 @@ class Graph:
         self._make = make
 
     def __enter__(self) -> Graph:
-        """Join the graph."""
+        """Initialise ROS and make the node."""
         middleware.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
         self.node = Node("bench", namespace=NAMESPACE)
         self._executor = self._make()
@@ -51,7 +51,7 @@ class Graph:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        """Leave it."""
+        """Destroy the node and shut ROS down."""
         self._executor.shutdown()
         self.node.destroy_node()
         rclpy.try_shutdown()
@@ -64,13 +64,13 @@ class Graph:
         Parameters
         ----------
         condition : callable
-            Looked at every twentieth of a second.
+            Checked every twentieth of a second.
         timeout_s : float
             Longest wait [s].
         what : str
-            What is waited for, for the error.
+            Description of the condition, for the error.
         check : callable or None
-            Raises when waiting is in vain.
+            Raises an error when waiting is useless.
 
         Raises
         ------
@@ -87,7 +87,7 @@ class Graph:
             self.spin_slice(_SLICE_S)
 
     def spin_slice(self, seconds: float) -> None:
-        """Run callbacks for a while [s] and look at nothing meanwhile, not even at the wish to stop."""
+        """Run callbacks for a while [s], without checking the stop flag."""
         spin_for(self._executor, seconds)
 
     def spin_for(self, seconds: float) -> None:

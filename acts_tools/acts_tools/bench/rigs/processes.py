@@ -1,4 +1,4 @@
-"""The processes that are measured: the virtual board, and what reads it."""
+"""The measured processes: the virtual board, and programs that read it."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _STOP_TIMEOUT_S = 10.0
 
 @dataclass(frozen=True)
 class Board:
-    """A virtual board that runs.
+    """A running virtual board.
 
     Attributes
     ----------
@@ -44,12 +44,12 @@ class Board:
 
 @contextmanager
 def virtual_board(folder: Path, *options: str) -> Iterator[Board]:
-    """Run a virtual board, M = 55 at 1 kHz where the options say nothing else.
+    """Run a virtual board, by default with M = 55 at 1 kHz.
 
     Parameters
     ----------
     folder : Path
-        For its link and log.
+        Folder for its link and log.
     *options : str
         As in ``docs/virtual_board.md``.
 
@@ -78,7 +78,7 @@ def driver(folder: Path, link: Path, *parameters: str) -> Iterator[subprocess.Po
     Parameters
     ----------
     folder : Path
-        For its log.
+        Folder for its log.
     link : Path
         The port.
     *parameters : str
@@ -99,7 +99,7 @@ def command_line(folder: Path, name: str, command: Sequence[str]) -> Iterator[su
 
 @contextmanager
 def python_module(folder: Path, module: str, arguments: Sequence[str]) -> Iterator[subprocess.Popen[bytes]]:
-    """Run a Python module; its standard output can be read, its errors go to a log in `folder`."""
+    """Run a Python module with a pipe for its standard output; its errors go to a log in `folder`."""
     command = [sys.executable, "-m", module, *arguments]
     with _running(command, folder / f"{module}.log") as process:
         yield process
@@ -114,20 +114,20 @@ def tactile(folder: Path, link: Path, namespace: str, *options: str) -> Iterator
 
 
 def check_alive(process: subprocess.Popen[bytes], log: Path, name: str = "") -> None:
-    """Raise `LaunchError` with its name, or that of its log, and the end of its log where a process has ended."""
+    """Raise `LaunchError` if a process has ended, with its name, or that of its log, and the end of its log."""
     if process.poll() is not None:
         raise LaunchError(f"{name or log.stem} ended early with code {process.returncode}: {_log_end(log)}")
 
 
 @contextmanager
 def _running(command: Sequence[str], log_path: Path) -> Iterator[subprocess.Popen[bytes]]:
-    """A child that is ended at the end of the block whatever happens."""
+    """A child process that is always stopped at the end of the block."""
     with log_path.open("wb") as log:
         process = subprocess.Popen(
             command,
             stdout=subprocess.PIPE,
             stderr=log,
-            # Ctrl-C is for this process; it ends its children in order.
+            # Only this process gets Ctrl-C; it stops its children in order.
             start_new_session=True,
             preexec_fn=leave_with_parent(os.getpid()),
         )

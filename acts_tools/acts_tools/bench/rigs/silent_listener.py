@@ -1,4 +1,4 @@
-"""A subscriber in a process of its own that takes samples and contacts as a controller does, and drops them.
+"""A subscriber in a process of its own that receives samples and contacts like a controller, and drops them.
 
 python3 -m acts_tools.bench.rigs.silent_listener NAMESPACE
 """
@@ -17,7 +17,7 @@ _PERIOD_S = 0.008
 
 
 def main(namespace: str) -> None:
-    """Take messages until the process is ended."""
+    """Receive messages until the process is stopped."""
     middleware.init(args=[])
     node = PollingNode("silent_listener", namespace=namespace)
     subscriptions = [

@@ -1,4 +1,4 @@
-"""A pressed skin for the virtual board, so that frames hold what frames of a real touch hold."""
+"""A recording of a pressed skin for the virtual board, so that frames are like those of a real touch."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ _SPREAD = 2.5
 
 
 def pressed(folder: Path) -> tuple[str, ...]:
-    """Write a recording and return the virtual board's options that play it without end.
+    """Write a recording and return the virtual board's options that play it in a loop.
 
-    A press the size of a fingertip, 600 counts at its peak, goes round the skin five times a second.
+    A press of a fingertip's size, with a peak of 600 counts, circles on the skin five times a second.
 
     Parameters
     ----------
     folder : Path
-        Where the recording goes.
+        Folder for the recording.
     """
     angle = 2 * np.pi * np.arange(_FRAMES)[:, None, None] / _FRAMES
     row, col = np.mgrid[:_SIDE, :_SIDE]

@@ -1,4 +1,4 @@
-"""A board's bytes recorded in the pieces in which the port gave them."""
+"""Record a board's bytes in the pieces that the port returned."""
 
 from __future__ import annotations
 
@@ -15,33 +15,33 @@ _TIMEOUT_S = 30.0
 
 
 class Decoder(Protocol):
-    """Anything that makes frames of bytes."""
+    """Decodes bytes to frames."""
 
     def reset(self) -> None:
-        """Tell that the stream was opened."""
+        """Reset for a stream that was opened."""
 
     def feed(self, data: bytes) -> list[SampleFrame]:
         """Frames that the next bytes complete."""
 
 
 def record(port: Path, decoder: Decoder, frames: int, workbench: Workbench) -> list[bytes]:
-    """Read a port until so many frames were in it.
+    """Read a port until it has sent a number of frames.
 
     Parameters
     ----------
     port : Path
         The port.
     decoder : Decoder
-        Tells how many frames there were.
+        Counts the frames.
     frames : int
-        How many are wanted.
+        Number of frames.
     workbench : Workbench
-        Stops the recording.
+        Stop flag.
 
     Returns
     -------
     list of bytes
-        What each read returned; every frame is whole.
+        Result of each read; the last frame is complete.
 
     Raises
     ------

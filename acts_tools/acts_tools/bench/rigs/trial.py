@@ -1,4 +1,4 @@
-"""One run of a reader on the virtual board: what it read, what it lost, what CPU it took."""
+"""One run of a reader on the virtual board: frames read and lost, and CPU load."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ _SATURATED_PERCENT = 90.0
 
 @dataclass(frozen=True)
 class Status:
-    """What a reader says of itself, again and again.
+    """A status that a reader reports regularly.
 
     Attributes
     ----------
     time_s : float
-        When, on the reader's clock [s].
+        Time of the report, on the reader's clock [s].
     frames, lost, overruns : int
-        As in ``docs/driver.md``, since it began.
+        Counts since its start, as in ``docs/driver.md``.
     """
 
     time_s: float
@@ -35,7 +35,7 @@ class Status:
 
 @dataclass(frozen=True)
 class Trial:
-    """Outcome of a run; counts are those of the time that was measured.
+    """Result of a run; counts are those of the measured time.
 
     Attributes
     ----------
@@ -44,12 +44,12 @@ class Trial:
     rate_hz : float
         Frames read per second.
     frames, lost, overruns : int
-        Frames read; numbers missing between them; frames the board dropped because they were not read, or skipped
-        because it was late itself.
+        Frames read; frame numbers missing between them; frames that the board dropped because they were not read, or
+        skipped because it was late.
     cpu_percent : dict of str to float
         Load of every process [% of one core].
     machine_percent : float
-        Load of the whole machine, others included [% of one core].
+        Load of the whole machine, including other programs [% of one core].
     """
 
     asked_hz: float
@@ -62,12 +62,12 @@ class Trial:
 
     @property
     def holds(self) -> bool:
-        """Whether nothing was lost and the reader kept up with the board, and the board with its clock."""
+        """Whether no frame was lost, the reader kept up with the board, and the board with its clock."""
         return self.lost == 0 and self.overruns == 0 and self.rate_hz >= _RATE_SHARE * self.asked_hz
 
     @property
     def bottleneck(self) -> str:
-        """What gave out when it did not hold: a process that fills a core, all cores together, or neither of them."""
+        """Cause of a failure: a process that fills a core, all cores together, or neither."""
         busiest, percent = max(self.cpu_percent.items(), key=lambda item: item[1], default=("", 0.0))
         if percent >= _SATURATED_PERCENT:
             return f"{busiest} fills a core"
@@ -78,16 +78,16 @@ class Trial:
 
 
 def observe(statuses: Iterator[Status], asked_hz: float, seconds: float) -> Trial:
-    """Follow a reader, from about a second after its first frames on: until then losses of its start are reported.
+    """Observe a reader, starting a second after its first frames, because losses at its start are reported until then.
 
     Parameters
     ----------
     statuses : iterator of Status
-        Waits for the next one. Never ends.
+        Blocks until the next status; never ends.
     asked_hz : float
         Frame rate of the board.
     seconds : float
-        How long to measure; the first loss ends it early [s].
+        Duration of the measurement; the first loss ends it early [s].
     """
     begin = next(status for status in statuses if status.frames > 0)
     first = next(status for status in statuses if status.time_s >= begin.time_s + _SETTLE_S)
@@ -105,7 +105,7 @@ def observe(statuses: Iterator[Status], asked_hz: float, seconds: float) -> Tria
             meter.percent(),
             machine.percent(),
         )
-        # A report that came a little early does not cost another one.
+        # Tolerance for a report that came slightly early.
         if elapsed_s >= _EARLY_SHARE * seconds or trial.lost or trial.overruns:
             return trial
     raise AssertionError("a reader's reports do not end")

@@ -1,4 +1,4 @@
-"""When a frame of the virtual board was really measured, in the host's real time."""
+"""The true time of measurement of a virtual board's frames, in the host's real time."""
 
 from __future__ import annotations
 
@@ -13,27 +13,27 @@ from acts_core.frames import SampleFrame
 
 
 class TrueTime:
-    """From the number of a frame to the true time of its last measurement.
+    """Converts the number of a frame to the true time of its last measurement.
 
-    The virtual board says which monotonic time of the host its clock began at, and its frames follow each other evenly.
-    The host's real time, in which stamps are, may be slewed meanwhile, and is therefore compared with the monotonic one
-    at every call of `observe_host`.
+    The virtual board reports the monotonic time of the host at the start of its clock, and its frames are evenly
+    spaced. Stamps are in the host's real time, which may be slewed; each call of `observe_host` compares it with the
+    monotonic time.
 
     Parameters
     ----------
     frames : sequence of SampleFrame
-        Some frames of this run of the board; they are checked for being even.
+        Some frames of this run of the board; an even spacing of them is required.
     period_us : int
-        From frame to frame on the board's clock [us].
+        Time between frames on the board's clock [us].
     epoch_monotonic_ns : int
         The host's monotonic time at board time 0 [ns].
     drift_ppm : float
-        How much faster the board's clock runs than the host's.
+        Relative speed of the board's clock to the host's, minus 1 [ppm].
 
     Raises
     ------
     PacketError
-        When the frames are not even, so that a number does not tell a time.
+        When the frames are not evenly spaced.
     """
 
     def __init__(
@@ -50,7 +50,7 @@ class TrueTime:
         self.observe_host()
 
     def observe_host(self) -> None:
-        """Compare the host's two clocks; to be called at the beginning and the end of what is to be dated."""
+        """Compare the host's two clocks; to be called at the beginning and the end of the measurement."""
         before, real, after = time.monotonic_ns(), time.time_ns(), time.monotonic_ns()
         monotonic = (before + after) // 2
         self._host.append((monotonic, real - monotonic))
@@ -61,7 +61,7 @@ class TrueTime:
         Parameters
         ----------
         sequence : array_like [shape=(n,), dtype=int]
-            Numbers of frames that did not wrap.
+            Frame numbers without wrap-around.
 
         Returns
         -------
@@ -73,6 +73,6 @@ class TrueTime:
         begin, origin = self._host[0]
         since = [float(time_ns - begin) for time_ns, _ in self._host]
         changes = [float(offset_ns - origin) for _, offset_ns in self._host]
-        # Relative to the first, so that nothing is lost in the doubles of the interpolation.
+        # Relative to the first, to keep the precision of doubles in the interpolation.
         change = np.interp((monotonic - begin).astype(np.float64), since, changes)
         return np.asarray(monotonic + origin + np.rint(change).astype(np.int64), dtype=np.int64)

@@ -1,4 +1,4 @@
-"""`acts bench skins`: from the command line to a report."""
+"""`acts bench skins`: measure and report."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ def run(arguments: argparse.Namespace, path: Path) -> dict[str, Any]:
     Parameters
     ----------
     arguments : argparse.Namespace
-        Of `acts bench`.
+        Arguments of `acts bench`.
     path : Path
-        Where the report goes.
+        Path of the report.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""What the figures of several skins mean: what was wrong, what makes them worse than they are, and whether they do."""
+"""Evaluate the figures of several skins: failures, warnings, and whether the targets are met."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ Report = Mapping[str, Any]
 ONE_CPU_PERCENT = 20.0
 ONE_MEDIAN_MS = 0.35
 ONE_P99_MS = 1.0
-"""What one skin with nothing beside it should do on one core: CPU of driver and reconstruction, latency."""
+"""Targets for one skin without load on one core: CPU of driver and reconstruction, latency."""
 
 SEVERAL = 4
 SEVERAL_P99_MS = 5.0
-"""Up to `SEVERAL` skins should lose nothing on two cores and have this latency."""
+"""Target for up to `SEVERAL` skins on two cores: no loss, and this latency [ms]."""
 
 _SILENT_S = 1.0
 _RATE_SHARE = 0.98
 
 
 def problems(report: Report) -> list[str]:
-    """What was wrong, not merely slow."""
+    """Failures; being slow is not one."""
     found = []
     for skin in report["skins"]:
         if not skin["received"]:
@@ -43,7 +43,7 @@ def problems(report: Report) -> list[str]:
 
 
 def warnings(report: Report) -> list[str]:
-    """What a reader of the figures has to know."""
+    """Conditions that affect the figures."""
     found = []
     others = report["others_cpu_percent"]
     if others > OTHERS_WARNING_PERCENT:
@@ -61,14 +61,14 @@ def warnings(report: Report) -> list[str]:
             found.append(f"not in real time, as the kernel did not grant it or took it away: {', '.join(refused)}")
     for name, memory in report["rss_mb"].items():
         growth = memory["growth_mb_per_h"]
-        # This process keeps a number for every contact.
+        # The memory of this process grows by a number for every contact.
         if name != BENCH and growth is not None and growth > GROWTH_MAX_MB_PER_H:
             found.append(f"the memory of {name} grows by {growth:.1f} MB an hour")
     return found
 
 
 def verdict(report: Report) -> list[str]:
-    """The figures against what is wanted, in words; empty where nothing is said about so many skins or such a load."""
+    """Comparison of the figures with the targets, as sentences; empty where there is no target."""
     skins = report["skins"]
     if report["load"] or len(skins) > SEVERAL or any(not skin["received"] for skin in skins):
         return []
@@ -88,7 +88,7 @@ def verdict(report: Report) -> list[str]:
 
 
 def total_percent(report: Report) -> float:
-    """CPU of everything but the load [% of one core]."""
+    """CPU of all processes but the load [% of one core]."""
     return round(sum(percent for name, percent in report["cpu_percent"].items() if not _is_load(name)), 2)
 
 
@@ -97,7 +97,7 @@ def _is_load(name: str) -> bool:
 
 
 def _where(skin: Mapping[str, Any]) -> str:
-    """Where frames stayed; the nodes' own time of counting is a little longer than ours."""
+    """Where frames were lost; the nodes count for slightly longer than this process."""
     left = int(skin["lost"])
     parts = []
     for count, where in (

@@ -1,7 +1,7 @@
-"""Measures several skins: from the stamp of each frame to the callback of a subscriber, frames lost, CPU and memory.
+"""Measure several skins: latency from the stamp of a frame to a subscriber's callback, lost frames, CPU and memory.
 
-This process is the subscriber of all skins, on the executor and with the settings of any ACTS node. While it counts it
-does nothing else but a line a second on a terminal, and looks at the memory now and then.
+This process is the subscriber of all skins, with the executor and settings of an ACTS node. While it counts, it only
+prints a line per second on a terminal and rarely reads the memory.
 """
 
 from __future__ import annotations
@@ -26,37 +26,37 @@ from acts_tools.bench.skins.stream import ContactStream
 from acts_tools.bench.workbench import Workbench
 
 SETTLE_S = 6.0
-"""The driver's clock estimate takes the drift into account after 2.5 s and is settled after 5 [s]."""
+"""The driver's clock estimate includes the drift after 2.5 s, and has settled after 5 s [s]."""
 
-# Kernels are compiled at the first start on a machine, by all skins at once.
+# At the first start on a machine, all skins compile their kernels at the same time.
 _START_TIMEOUT_S = 180.0
 _SLICE_S = 0.5
 _LINE_EVERY_S = 1.0
-# Rarely: it takes as long as some frames.
+# Rarely, because it takes as long as some frames.
 _MEMORY_EVERY_S = 10.0
 
 
 def measure(workbench: Workbench, options: SkinsOptions, terminal: TextIO | None = None) -> dict[str, Any]:
-    """Run everything, and count for ``workbench.seconds``.
+    """Run all processes, and count for ``workbench.seconds``.
 
     Parameters
     ----------
     workbench : Workbench
-        Time, folder, and the wish to stop.
+        Duration, folder and stop flag.
     options : SkinsOptions
-        What is run.
+        Numbers of skins and busy loops, and their scheduling.
     terminal : TextIO or None
-        Where the line that tells how far it is goes, if it is a terminal; None for standard error.
+        Stream for the progress line, if it is a terminal; None for standard error.
 
     Returns
     -------
     dict
-        What is measured, as in ``docs/benchmarks.md``.
+        Figures, as in ``docs/benchmarks.md``.
 
     Raises
     ------
     LaunchError
-        When a process does not start, or ends before it is told to.
+        When a process does not start, or ends early.
     """
     with running_skins(workbench.folder, options) as skins, Graph(workbench) as graph:
         streams = {name: ContactStream() for name in options.names}
@@ -72,7 +72,7 @@ def measure(workbench: Workbench, options: SkinsOptions, terminal: TextIO | None
         with computing(workbench.folder, options.load) as load:
             watched = [*skins, *load]
             settle()
-            # Again only now, as children inherit it.
+            # Only after the children were started, because they would inherit it.
             with realtime.subscriber(options.realtime):
                 graph.spin_for(min(SETTLE_S, workbench.seconds))
                 before = next_counts(graph, options.names, lambda: _check(watched))
@@ -91,7 +91,7 @@ def _count(
     watched: Sequence[Watched],
     line: StatusLine,
 ) -> dict[str, Any]:
-    """What is received and used while the time passes."""
+    """Count for the duration; return figures of contacts, CPU and memory."""
     machine = BusyMeter()
     consumption = Consumption(watched, time.monotonic)
     begin_s = now_s = time.monotonic()

@@ -11,7 +11,7 @@ from acts_core.errors import ActsError
 NAME = "skins"
 SUMMARY = "1 to 16 skins at 1 kHz, M = 55, to a subscriber of their contacts"
 SECONDS = 60.0
-"""How long it measures unless told otherwise [s]."""
+"""Default duration [s]."""
 
 SKINS_MAX = 16
 LOAD_MAX = 64
@@ -19,14 +19,14 @@ LOAD_MAX = 64
 
 @dataclass(frozen=True)
 class SkinsOptions:
-    """What is run.
+    """Numbers of skins and busy loops, and their scheduling.
 
     Attributes
     ----------
     skins : int
-        How many skins, 1 to `SKINS_MAX`.
+        Number of skins, 1 to `SKINS_MAX`.
     load : int
-        How many processes compute without end beside them, 0 to `LOAD_MAX`.
+        Number of processes with busy loops, 0 to `LOAD_MAX`.
     realtime : bool
         Whether boards, skins and subscriber run under SCHED_FIFO; the load never does.
 
@@ -53,22 +53,22 @@ class SkinsOptions:
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
-    """Add them, in a group of their own. Not given, they are None."""
+    """Add the options in a group of their own. Options that are not given are None."""
     group = parser.add_argument_group(f"options of {NAME}, which is measured by itself")
-    group.add_argument("--skins", type=int, metavar="N", help="how many skins (default: 1)")
-    group.add_argument("--load", type=int, metavar="L", help="processes that compute without end beside (default: 0)")
+    group.add_argument("--skins", type=int, metavar="N", help="number of skins (default: 1)")
+    group.add_argument("--load", type=int, metavar="L", help="number of processes with busy loops (default: 0)")
     group.add_argument(
         "--realtime", choices=("on", "off"), help="run boards, skins and subscriber in real time (default: off)"
     )
 
 
 def is_chosen(arguments: argparse.Namespace) -> bool:
-    """Whether the command line asks for the skins.
+    """Whether the command line selects this measurement.
 
     Raises
     ------
     ActsError
-        When it also asks for another measurement, or has options of the skins and does not ask for them.
+        When it also selects another measurement, or has options of this one without selecting it.
     """
     names = list(dict.fromkeys(arguments.names))
     if NAME in names:
@@ -83,7 +83,7 @@ def is_chosen(arguments: argparse.Namespace) -> bool:
 
 
 def options_from(arguments: argparse.Namespace) -> SkinsOptions:
-    """The options as a command line says.
+    """Options from a command line.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""The processes of several skins, watched together."""
+"""The processes of several skins."""
 
 from __future__ import annotations
 
@@ -22,23 +22,23 @@ from acts_tools.process_load import cpu_s
 
 RATE_HZ = 1000.0
 BENCH = "bench"
-"""The name of this process, which receives the contacts."""
+"""Name of this process, which receives the contacts."""
 
 _MB = 1e6
 
 
 @dataclass(frozen=True)
 class Watched:
-    """A process that runs while is measured.
+    """A process that runs during the measurement.
 
     Attributes
     ----------
     name : str
         Program and skin.
     process : subprocess.Popen
-        It.
+        The process.
     log : Path
-        What it writes to standard error.
+        Log with its standard error.
     """
 
     name: str
@@ -46,13 +46,13 @@ class Watched:
     log: Path
 
     def check(self) -> None:
-        """Raise `LaunchError` with the end of its log where it has ended."""
+        """Raise `LaunchError` with the end of its log if it has ended."""
         check_alive(self.process, self.log, self.name)
 
 
 @contextmanager
 def running_skins(folder: Path, options: SkinsOptions) -> Iterator[list[Watched]]:
-    """Run a virtual board and a process `tactile` for every skin; all have ended when it is left."""
+    """Run a virtual board and a process `tactile` for every skin; stop all at the end of the block."""
     field = pressed(folder)
     with ExitStack() as stack:
         watched: list[Watched] = []
@@ -71,14 +71,14 @@ def running_skins(folder: Path, options: SkinsOptions) -> Iterator[list[Watched]
         try:
             yield watched
         finally:
-            # All at once: they end side by side, and before their boards do.
+            # Signal all of them first, so that they end concurrently, and before their boards.
             for one in watched[options.skins :]:
                 one.process.terminate()
 
 
 @contextmanager
 def computing(folder: Path, count: int) -> Iterator[list[Watched]]:
-    """Run processes that compute without end, at ordinary priority."""
+    """Run processes with busy loops, at ordinary priority."""
     with ExitStack() as stack:
         watched: list[Watched] = []
         for number in range(1, count + 1):
@@ -89,14 +89,14 @@ def computing(folder: Path, count: int) -> Iterator[list[Watched]]:
 
 
 class Consumption:
-    """CPU and memory of processes, and of this one, from construction on.
+    """CPU and memory of processes, including this one, since construction.
 
     Parameters
     ----------
     watched : sequence of Watched
-        They must not end.
+        Other processes; they must not end.
     clock : callable
-        Tells the time [s].
+        Returns the time [s].
     """
 
     def __init__(self, watched: Sequence[Watched], clock: Callable[[], float]) -> None:
@@ -109,7 +109,7 @@ class Consumption:
         self._cpu_before_s = self._cpu_s()
 
     def note_memory(self) -> None:
-        """Look at the memory, which takes some hundred microseconds."""
+        """Read the memory of all processes, which takes some hundred microseconds."""
         passed_s = self._clock() - self._begin_s
         for name, pid in self._processes.items():
             try:
@@ -119,7 +119,7 @@ class Consumption:
             self._memory[name].time_s.append(passed_s)
 
     def cpu_percent(self) -> dict[str, float]:
-        """Mean load of each so far [% of one core]."""
+        """Mean load of each process so far [% of one core]."""
         passed_s = max(self._clock() - self._begin_s, 1e-9)
         return {
             name: round((used_s - self._cpu_before_s[name]) / passed_s * 100, 2)
@@ -127,7 +127,7 @@ class Consumption:
         }
 
     def rss_mb(self) -> dict[str, dict[str, float | None]]:
-        """Resident memory at the start and at the end [MB], and its growth behind the first tenth [MB/h].
+        """Resident memory at the start and at the end [MB], and its growth after the first tenth [MB/h].
 
         The growth is None where the time is too short for it.
         """

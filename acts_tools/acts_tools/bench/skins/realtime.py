@@ -1,4 +1,4 @@
-"""Real time for what is measured: options of the processes, and what the kernel granted of it."""
+"""Real-time scheduling of the measured processes: their options, and the priorities that the kernel granted."""
 
 from __future__ import annotations
 
@@ -12,24 +12,24 @@ from acts_core.runtime import RealtimeConfig, demote_process, enter_realtime
 BOARD_PRIORITY = 45
 SKIN_PRIORITY = 40
 SUBSCRIBER_PRIORITY = 35
-"""Priorities under SCHED_FIFO, as in docs/real_time.md; a subscriber has that of a controller."""
+"""SCHED_FIFO priorities, as in docs/real_time.md; the subscriber has that of a controller."""
 
 
 def board_options(realtime: bool) -> list[str]:
-    """For `virtual_board`."""
+    """Options of `virtual_board`."""
     return ["--realtime-priority", str(BOARD_PRIORITY)] if realtime else []
 
 
 def tactile_options(realtime: bool) -> list[str]:
-    """For `tactile`, all of which is scheduled as its driver asks."""
+    """Options of `tactile`; the parameters of its driver schedule the whole process."""
     return ["--set", f"driver.realtime_priority={SKIN_PRIORITY}"] if realtime else []
 
 
 @contextmanager
 def subscriber(realtime: bool) -> Iterator[None]:
-    """Run this process in real time, where that is asked for and allowed; no child is to be started meanwhile.
+    """Run this process in real time, if that is chosen and allowed; no child may be started in the block.
 
-    One under the ordinary scheduler that is put aside while it has a lock of the middleware holds up all publishers.
+    Under ordinary scheduling, it could be preempted while it holds a lock of the middleware, and block all publishers.
     """
     enter_realtime(RealtimeConfig(SUBSCRIBER_PRIORITY if realtime else 0), "bench", _tell)
     try:
@@ -40,7 +40,7 @@ def subscriber(realtime: bool) -> Iterator[None]:
 
 
 def granted(pids: Mapping[str, int]) -> dict[str, int]:
-    """The priority under SCHED_FIFO of each process, by its main thread; 0 for the ordinary scheduler."""
+    """SCHED_FIFO priority of the main thread of each process; 0 for ordinary scheduling."""
     return {name: _priority(pid) for name, pid in pids.items()}
 
 

@@ -1,4 +1,4 @@
-"""What driver and reconstruction of each skin say of themselves on /diagnostics."""
+"""Counters that driver and reconstruction of each skin publish on /diagnostics."""
 
 from __future__ import annotations
 
@@ -21,27 +21,27 @@ COUNTERS = {
     ),
     "reconstruction": ("not_published",),
 }
-"""What should stay 0, see docs/driver.md and docs/reconstruction.md, by node."""
+"""Counters that should stay 0, by node; see docs/driver.md and docs/reconstruction.md."""
 
 Counts = Mapping[str, Mapping[str, int]]
-"""By node and counter."""
+"""Counters by node and name."""
 
 _TIMEOUT_S = 30.0
 
 
 def next_counts(graph: Graph, names: Sequence[str], check: Callable[[], None]) -> dict[str, Counts]:
-    """The counters of every skin, by its name, out of its next report.
+    """The counters of every skin, by its name, from its next report.
 
-    Subscribed only for it: the reports are long, and reading them takes as long as several frames.
+    It subscribes only for this, because reading the long reports takes as long as several frames.
 
     Parameters
     ----------
     graph : Graph
-        Spins meanwhile.
+        Spins while waiting.
     names : sequence of str
         The skins' namespaces.
     check : callable
-        Raises when waiting is in vain.
+        Raises an error when waiting is useless.
 
     Raises
     ------
@@ -57,7 +57,7 @@ def next_counts(graph: Graph, names: Sequence[str], check: Callable[[], None]) -
                 continue
             name, node = wanted[status.name]
             values = {value.key: value.value for value in status.values}
-            # A driver that has lost its port says less.
+            # A driver that has lost its port reports fewer values.
             if all(counter in values for counter in COUNTERS[node]):
                 found[name][node] = {counter: int(values[counter]) for counter in COUNTERS[node]}
 
@@ -75,7 +75,7 @@ def next_counts(graph: Graph, names: Sequence[str], check: Callable[[], None]) -
 
 
 def added(before: Counts, after: Counts) -> dict[str, dict[str, int]]:
-    """What was counted between two reports of a skin."""
+    """Differences of the counters of two reports of a skin."""
     return {
         node: {name: count - before[node][name] for name, count in counts.items()} for node, counts in after.items()
     }

@@ -1,4 +1,4 @@
-"""How far the measurement is, in one line of a terminal that is written again and again."""
+"""Progress of the measurement, in one line of a terminal."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ _ERASE = "\r\033[K"
 
 
 class StatusLine:
-    """Writes the line; nothing where the stream is no terminal.
+    """Writes the line; nothing if the stream is no terminal.
 
     Parameters
     ----------
     seconds : float
-        How long is measured [s].
+        Duration of the measurement [s].
     stream : TextIO
-        Where to write.
+        Output.
     """
 
     def __init__(self, seconds: float, stream: TextIO) -> None:
@@ -25,7 +25,7 @@ class StatusLine:
         self._is_shown = stream.isatty()
 
     def show(self, passed_s: float, rates_hz: Mapping[str, float], lost: Mapping[str, int]) -> None:
-        """Show the rate of each skin since the last line, and what it has lost so far."""
+        """Show the rate of each skin since the last line, and the contacts lost so far."""
         if not self._is_shown:
             return
         skins = ", ".join(f"{name} {rate_hz:.0f}/s" for name, rate_hz in rates_hz.items())
@@ -35,7 +35,7 @@ class StatusLine:
         self._stream.flush()
 
     def clear(self) -> None:
-        """Take the line away."""
+        """Erase the line."""
         if self._is_shown:
             self._stream.write(_ERASE)
             self._stream.flush()

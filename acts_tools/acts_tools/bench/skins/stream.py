@@ -1,4 +1,4 @@
-"""What arrives of one skin: its contacts, counted and timed."""
+"""Counts and latencies of the contacts of one skin."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ _KEYS = {"median": "median", "p99": "p99", "p99_9": "p999"}
 
 
 class ContactStream:
-    """Takes the contacts of a skin as an ordinary subscriber gets them; keeps four bytes of each.
+    """Receives the contacts of a skin like an ordinary subscriber, and stores four bytes of each.
 
     Attributes
     ----------
     received, lost : int
-        Contacts, and numbers missing between them, since `begin`.
+        Contacts, and frame numbers missing between them, since `begin`.
     silent_s : float
-        Time since the last one, at the last call of `look` [s].
+        Time since the last contact, at the last call of `look` [s].
     """
 
     def __init__(self) -> None:
@@ -34,19 +34,19 @@ class ContactStream:
         self.silent_s = 0.0
 
     def take(self, message: Contact) -> None:
-        """Note a contact: the callback of a subscription."""
+        """Count a contact: the callback of a subscription."""
         now_ns = time.time_ns()
         stamp = message.header.stamp
         self._counter.step(message.sequence, (now_ns - stamp.sec * _NS_PER_S - stamp.nanosec) * 1e-9)
 
     def begin(self, now_s: float) -> None:
-        """Count from now on."""
+        """Start counting."""
         self._received_before, self._lost_before = self._counter.received, self._counter.lost
         self._counter.take_latencies()
         self._received_at_look, self._looked_s, self.silent_s = self._counter.received, now_s, 0.0
 
     def look(self, now_s: float) -> float:
-        """Contacts per second since the last look; notes silence."""
+        """Contacts per second since the last call; updates `silent_s`."""
         passed_s, new = now_s - self._looked_s, self._counter.received - self._received_at_look
         self._received_at_look, self._looked_s = self._counter.received, now_s
         self.silent_s = 0.0 if new else self.silent_s + passed_s
@@ -54,17 +54,17 @@ class ContactStream:
 
     @property
     def ever_received(self) -> int:
-        """Contacts since it was made."""
+        """Number of contacts since construction."""
         return self._counter.received
 
     @property
     def received(self) -> int:
-        """Contacts since `begin`."""
+        """Number of contacts since `begin`."""
         return self._counter.received - self._received_before
 
     @property
     def lost(self) -> int:
-        """Numbers missing since `begin`, between the contacts received."""
+        """Number of frame numbers missing between contacts since `begin`."""
         return self._counter.lost - self._lost_before
 
     def take_latencies_ms(self) -> dict[str, float | None]:

@@ -1,4 +1,4 @@
-"""The report of `acts bench skins` for a person, plain and in Markdown."""
+"""Format the report of `acts bench skins` as plain text or Markdown."""
 
 from __future__ import annotations
 

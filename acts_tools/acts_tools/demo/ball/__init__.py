@@ -1,1 +1,1 @@
-"""The demonstration of ball balancing: watched, scored and drawn."""
+"""The demonstration of ball balancing: run, recorded, scored and drawn."""

@@ -1,4 +1,4 @@
-"""The node that watches a ball-balancing run and fills a `Recording`."""
+"""The node that observes a ball-balancing run and fills a `Recording`."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ from acts_ros.polled import PollingNode
 from acts_tools.demo.ball.recording import Recording
 from acts_tools.driver.driver_status import driver_values
 
-# Of the most frequent topic twice as many as come in a second.
+# Twice the number of messages per second of the most frequent topic.
 _DEPTH = 256
 
 
 def seconds(stamp: object) -> float:
-    """A message stamp as seconds."""
+    """A message stamp in seconds [s]."""
     return stamp.sec + stamp.nanosec * 1e-9  # type: ignore[attr-defined,no-any-return]
 
 
 class Collector(PollingNode):
-    """Subscribes what the demo scores and shows; read ten times a second, it wakes nobody in between.
+    """Subscribes to the topics that the demo scores and shows, and polls them ten times a second.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ class Collector(PollingNode):
         ]
 
     def take_in(self) -> None:
-        """Work on what has come since the last call, which is a second ago at most."""
+        """Process the messages since the last call, which must be at most a second ago."""
         for subscription, handle in self._inputs:
             for message, _ in subscription.take_all():
                 handle(message)
@@ -98,7 +98,7 @@ class Collector(PollingNode):
         if not self._balancing:
             return
         if self._first is None:
-            # Everything is counted from here on: what happened before the loop was closed is the start-up.
+            # Counts begin here, because those before the loop was closed are of the start-up.
             self._first = message
             return
         recording = self.recording

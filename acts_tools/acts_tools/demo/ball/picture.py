@@ -20,7 +20,7 @@ _PATH = "#1f77b4"
 
 
 def draw(recording: Recording, results: dict[str, Any], geometry: ArrayGeometry, path: Path) -> None:
-    """Draw a run into a PNG file."""
+    """Draw a run to a PNG file."""
     names = [name for name in ("hold", *LETTERS) if name in recording.segments]
     figure = plt.figure(figsize=(3.6 * max(len(names), 3), 9.6), layout="constrained")
     grid = figure.add_gridspec(3, max(len(names), 3), height_ratios=[1, 1, 0.6])

@@ -1,4 +1,4 @@
-"""What a run of the ball-balancing demo leaves behind, as plain arrays."""
+"""The recorded data of a run of the ball-balancing demo."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 @dataclass
 class Track:
-    """A path over time that grows sample by sample.
+    """A path over time, built sample by sample.
 
     Attributes
     ----------
@@ -25,7 +25,7 @@ class Track:
     y_m: list[float] = field(default_factory=list)
 
     def add(self, time_s: float, x_m: float, y_m: float) -> None:
-        """Append one sample; one that is not newer than the last is left out, interpolation needs growing times."""
+        """Append one sample, unless it is not newer than the last: interpolation needs increasing times."""
         if not self.time_s or time_s > self.time_s[-1]:
             self.time_s.append(time_s)
             self.x_m.append(x_m)
@@ -38,38 +38,38 @@ class Track:
 
 @dataclass
 class Recording:
-    """Everything the demo scores and draws.
+    """All data that the demo scores and draws.
 
     Attributes
     ----------
     truth : Track
-        Where the simulated ball really was.
+        True position of the simulated ball.
     reference : Track
-        Where it should have been, only while the control loop was closed.
+        Reference position, only while the control loop was closed.
     segments : list of str
         Name of the reference's segment, one per sample of `reference`.
     tilt_time_s, tilt_commanded_rad, tilt_measured_rad : lists
         Tilt about the skin's x and y axes.
     latencies_s : list of arrays
-        From the last measurement of a frame to the reception of its contact by the process of the control node.
+        Time from the last measurement of a frame to the reception of its contact by the control node's process.
     touch_age_s : list of float
-        How old the newest contact was when a control step used it, 50 times a second.
+        Age of the newest contact when a control step used it, 50 times a second.
     contacts_received, contacts_lost : int
-        Counted by the control node.
+        Counts of the control node.
     contact_rate_hz : float
         Contacts received per second over the run.
     frames_lost : int
         Frames missing between board and driver, counted by the driver.
     crc_errors : int
-        Counted by the driver.
+        Damaged packets, counted by the driver.
     segment_pressure : dict of str to np.ndarray [shape=(rows, cols), dtype=float64]
         Sum of the tactile images of each segment [ADC counts].
     cpu_percent : dict of str to float
         Mean load of every process [% of one core].
     stop_reason : str
-        Why the controller stopped, empty when it did not.
+        Reason why the controller stopped; empty if it did not.
     finished : bool
-        Whether the reference came to its end.
+        Whether the reference reached its end.
     """
 
     truth: Track = field(default_factory=Track)

@@ -1,4 +1,4 @@
-"""`acts demo ball_balancing`: run the whole chain with simulated skin, ball and robot, watch it, score it, draw it."""
+"""`acts demo ball_balancing`: run the whole chain with simulated skin, ball and robot; record, score and draw it."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from acts_tools.process_load import LoadMeter
 from acts_tools.ros_domain import use_free_domain
 from acts_tools.run_folder import shared_memory
 
-# On a machine that compiles for the first time and has other work besides, a minute was not enough.
+# On a busy machine that compiles the kernels for the first time, a minute was not enough.
 _START_TIMEOUT_S = 180.0
 NAMESPACE = "/plate"
 _RTDE_PORT = 30004
@@ -44,19 +44,19 @@ _STATE_NAMES = {
 
 
 def plan(seconds: float | None) -> tuple[str, float]:
-    """The longest trajectory of hold, N, B, I that fits into a time.
+    """The longest trajectory of hold, N, B, I that fits into a given time.
 
     Parameters
     ----------
     seconds : float or None
-        Time there is [s]; None for all of it.
+        Available time [s]; None for the whole trajectory.
 
     Returns
     -------
     trajectory : str
         Comma list for the launch argument.
     duration_s : float
-        How long it takes.
+        Its duration [s].
     """
     segments = ["hold", "N", "B", "I"]
     while True:
@@ -89,12 +89,12 @@ def _median_and_p99(collector: Collector) -> tuple[float, float]:
 
 
 def check_robot_ip(robot_ip: str) -> None:
-    """Refuse an address where a real robot may be, or where a simulated one is already.
+    """Refuse an address that a real robot may have, or at which a simulated one is running.
 
     Raises
     ------
     LaunchError
-        Saying which.
+        In both cases.
     """
     if not is_loopback(robot_ip) or ":" in robot_ip:
         raise LaunchError(
@@ -112,7 +112,7 @@ def check_robot_ip(robot_ip: str) -> None:
 
 
 def watch(arguments: list[str], duration_s: float, recording: Recording, log_path: Path, stop: StopFlag) -> None:
-    """Launch the chain and watch it to the end of the trajectory, or until it is to stop (KeyboardInterrupt).
+    """Launch the chain and record it to the end of the trajectory, or until the user stops it (KeyboardInterrupt).
 
     Raises
     ------
@@ -137,18 +137,18 @@ def watch(arguments: list[str], duration_s: float, recording: Recording, log_pat
 
 
 def run(seconds: float | None, out: Path, robot_ip: str, realtime_priority: int = 0) -> int:
-    """Run the demo; the exit code says whether it worked.
+    """Run the demo and return the exit code, 0 if it worked.
 
     Parameters
     ----------
     seconds : float or None
-        Trace only what fits into this time [s]; None for everything.
+        Trace only the letters that fit into this time [s]; None for all.
     out : Path
         Folder for the results.
     robot_ip : str
         Loopback address of the simulated robot; no other is accepted.
     realtime_priority : int
-        Of all processes under SCHED_FIFO; 0: the ordinary scheduler.
+        SCHED_FIFO priority of all processes; 0 for ordinary scheduling.
     """
     if not 0 <= realtime_priority <= 99:
         raise ActsError(f"--realtime-priority {realtime_priority}: allowed is 0 to 99")
@@ -175,7 +175,7 @@ def _run(seconds: float | None, out: Path, robot_ip: str, realtime_priority: int
             f"trajectory:={trajectory}",
             f"run_dir:={run_dir}",
             f"robot_ip:={robot_ip}",
-            # One image in ten is plenty for a map of the pressure and costs a tenth.
+            # One image in ten is enough for a map of the pressure.
             "image_raw_rate_hz:=100",
             f"realtime_priority:={realtime_priority}",
         ]

@@ -1,4 +1,4 @@
-"""Figures of a ball-balancing run, and whether it was good enough."""
+"""Figures of a ball-balancing run, and whether it meets the limits."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from acts_tools.demo.ball.recording import Recording
 from acts_tools.percentiles import percentiles
 
 HOLD_SETTLE_S = 2.0
-"""The first seconds of holding do not count: the ball starts off the centre."""
+"""Time at the start of holding that is not scored [s], because the ball starts off the centre."""
 
 LIMITS = {
     "contact_rate_hz": 995.0,
@@ -20,7 +20,7 @@ LIMITS = {
     "rms_mm.B": 5.0,
     "rms_mm.I": 5.0,
 }
-"""Least rate, largest losses and errors of a run that worked."""
+"""Smallest rate, largest losses and errors of a good run."""
 
 LETTERS = ("N", "B", "I")
 
@@ -33,9 +33,9 @@ def rms_error_mm(recording: Recording, segment: str, *, skip_s: float = 0.0) -> 
     recording : Recording
         The run.
     segment : str
-        Name of the segment; all its occurrences count.
+        Name of the segment; all its occurrences are included.
     skip_s : float
-        How much of the beginning of the run is left out [s].
+        Time at the beginning of the run that is excluded [s].
 
     Returns
     -------
@@ -47,7 +47,7 @@ def rms_error_mm(recording: Recording, segment: str, *, skip_s: float = 0.0) -> 
     time_s = np.array(recording.reference.time_s)
     wanted = np.column_stack([recording.reference.x_m, recording.reference.y_m])
     chosen = np.array([name == segment for name in recording.segments]) & (time_s >= time_s[0] + skip_s)
-    # Beyond the last known truth there is nothing to compare with.
+    # After the last known truth there is nothing to compare with.
     chosen &= time_s <= recording.truth.time_s[-1]
     if not chosen.any():
         return None
@@ -78,7 +78,7 @@ def score(recording: Recording) -> dict[str, Any]:
 
 
 def failures(recording: Recording, results: dict[str, Any]) -> list[str]:
-    """What was not good enough, in words; empty for a good run."""
+    """Failures as sentences; empty for a good run."""
     found = []
     if recording.stop_reason:
         found.append(f"the controller stopped: {recording.stop_reason}")
