@@ -68,7 +68,7 @@ class RigidHand:
         for _ in range(steps):
             self.now_s += DT_S
             if pressed is not None:
-                self.supervisor.touch(all_regions(*pressed), self.now_s - 0.002)
+                self.supervisor.touch(all_regions(*pressed), self.now_s - 0.002, self.now_s)
             self.goal = np.asarray(self.supervisor.step(self.reading(), self.goal, self.now_s, DT_S))
             self.q = self.goal.copy()
             for name, stop in self.stops.items():

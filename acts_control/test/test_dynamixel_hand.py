@@ -230,6 +230,26 @@ def test_a_port_that_is_none_and_a_rate_nobody_knows_are_refused(tmp_path: Path,
         bus.hand(baud=12345).connect()
 
 
+def test_a_bus_that_another_program_moves_is_refused_with_its_name_and_goes_on(bus: Bus) -> None:
+    first = bus.hand(motor_watchdog_s=0.0)
+    first.connect()
+    first.enable()
+    with pytest.raises(HandError, match=rf"is held by .*process {bus.process.pid}.*obeys one program"):
+        bus.hand().connect()
+    first.command([0.1] * 16)
+    reading_where(first, lambda reading: reading.q_rad == pytest.approx([0.1] * 16, abs=0.02))
+    first.close()
+    second = bus.hand()
+    second.connect()
+    second.close()
+
+
+@pytest.mark.parametrize("port", ["/dev/ptmx", "/dev/zero", "/dev/null", "/", "/etc/hostname"])
+def test_what_is_no_port_is_refused(port: str) -> None:
+    with pytest.raises(HandError, match=port):
+        DynamixelHand(LEAP_RIGHT, DynamixelConfig(port=port)).connect()
+
+
 @pytest.mark.parametrize(
     "change",
     [

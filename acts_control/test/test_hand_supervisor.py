@@ -7,9 +7,12 @@ import math
 import numpy as np
 import pytest
 from hand_rig import RigidHand, all_regions, region
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from acts_control.hand.description import LEAP_RIGHT
-from acts_control.hand.reflexes import HandState
+from acts_control.hand.nodes.reflexes_node import HandReflexesSettings
+from acts_control.hand.reflexes import REFLEXES, HandState, make_reflexes
 from acts_control.hand.reflexes.sharp_avoidance import SharpAvoidance, SharpAvoidanceConfig
 from acts_control.hand.reflexes.slip_prevention import SlipPrevention, SlipPreventionConfig
 from acts_core.skin import RegionContact
@@ -23,6 +26,12 @@ def a_hand(**settings: float) -> RigidHand:
     hand = RigidHand(("slip", slip), ("sharp", sharp), **settings)
     hand.supervisor.restart(recovered=False)
     hand.step([])
+    return hand
+
+
+def a_hand_of_all_reflexes() -> RigidHand:
+    hand = RigidHand(*make_reflexes(" ".join(REFLEXES), HandReflexesSettings()).items(), grip_settle_s=0.02)
+    hand.supervisor.restart(recovered=False)
     return hand
 
 
@@ -148,7 +157,7 @@ def test_a_finger_that_presses_with_more_than_is_allowed_gives_way_whatever_is_a
 
 def test_old_touch_is_not_taken_for_new() -> None:
     hand = a_holding_hand()
-    hand.supervisor.touch(all_regions(TIP), hand.now_s - 1.0)
+    hand.supervisor.touch(all_regions(TIP), hand.now_s - 1.0, hand.now_s)
     assert hand.step(GRIPPED) is HandState.HOLDING
 
 
@@ -174,3 +183,61 @@ def test_a_finger_that_cannot_come_into_its_shape_does_not_keep_the_hand_from_cl
     hand.supervisor.grasp()
     hand.step([], steps=600)
     assert hand.angle("ring_pip") > LEAP_RIGHT.postures["pregrasp"][10] + 0.2
+
+
+@pytest.mark.parametrize("ahead_s", [0.5, 3600.0, math.inf, math.nan])
+def test_touch_from_the_future_counts_as_not_come_and_keeps_none_that_follows_from_counting(ahead_s: float) -> None:
+    hand = a_holding_hand()
+    hand.supervisor.touch(all_regions(TIP), hand.now_s + ahead_s, hand.now_s)
+    assert hand.step(GRIPPED, steps=5) is HandState.HOLDING
+    assert hand.supervisor.status.refused == 1
+    assert hand.supervisor.status.touch_age_s < 0.01
+    assert hand.step([TIP, *GRIPPED[1:]], steps=5) is HandState.AVOIDING
+
+
+any_number = st.floats(width=32) | st.sampled_from([0.0, -1.0, 1e-30, 1e5, -1e6, 1e30])
+any_vector = st.tuples(any_number, any_number, any_number)
+any_region = st.builds(
+    RegionContact,
+    name=st.sampled_from([*LEAP_RIGHT.regions, "", "/", "nobody"]),
+    link=st.sampled_from([*LEAP_RIGHT.links, "", "nobody"]),
+    active_taxels=st.integers(0, 65535),
+    force_n=any_number,
+    centre_m=any_vector,
+    normal=any_vector,
+    area_m2=any_number,
+    peak_n=any_number,
+    spread_m=any_number,
+    concentration=any_number,
+    sharpness=any_number,
+    motion_m_s=any_vector,
+    slip_m=any_number,
+    slipping=st.booleans(),
+)
+
+
+@settings(max_examples=150, deadline=None)
+@given(
+    touches=st.lists(st.tuples(st.lists(any_region, max_size=6), st.floats()), min_size=1, max_size=6),
+    grasps=st.booleans(),
+)
+def test_whatever_touch_says_the_goals_stay_within_limits_and_rate_and_the_hand_holds_again(
+    touches: list[tuple[list[RegionContact], float]], grasps: bool
+) -> None:
+    hand = a_hand_of_all_reflexes()
+    hand.step(GRIPPED, steps=3)
+    if grasps:
+        hand.supervisor.grasp()
+        hand.step(GRIPPED, steps=20)
+    lower = np.array([joint.lower_rad for joint in LEAP_RIGHT.joints])
+    upper = np.array([joint.upper_rad for joint in LEAP_RIGHT.joints])
+    for regions, ahead_s in touches:
+        before = hand.goal.copy()
+        hand.supervisor.touch(regions, hand.now_s + ahead_s, hand.now_s)
+        hand.step(None)
+        assert ((lower <= hand.goal) & (hand.goal <= upper)).all()
+        assert np.abs(hand.goal - before).max() <= 0.2
+    hand.step(GRIPPED, steps=30)
+    assert not hand.supervisor.status.is_stale
+    assert hand.supervisor.grasp() == ""
+    assert hand.step(GRIPPED, steps=40) is HandState.HOLDING

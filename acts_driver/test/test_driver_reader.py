@@ -10,9 +10,10 @@ from pty_board import PtyBoard, frame, wait_for
 
 from acts_core.errors import PortError
 from acts_core.frames import SampleFrame
+from acts_core.runtime import is_stale_link
 from acts_core.wire import DelimitedDecoder, RasterDecoder, StreamDecoder, encode_frame
 from acts_driver.port import Reader, SerialSource
-from acts_driver.port.port import explain, is_stale_link, open_port
+from acts_driver.port.port import explain, open_port
 
 
 class Collector:

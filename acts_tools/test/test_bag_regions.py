@@ -73,7 +73,7 @@ def decisions(messages: Sequence[bytes]) -> list[tuple[Any, ...]]:
     for k, message in enumerate(messages):
         touch = read_regions(message)
         stamp_s = 1e-9 * touch.stamp_ns
-        supervisor.touch(touch.regions, stamp_s)
+        supervisor.touch(touch.regions, stamp_s, stamp_s)
         if k == 5:
             assert supervisor.grasp() == ""
         at = tuple(np.minimum(goal, 0.4).tolist())

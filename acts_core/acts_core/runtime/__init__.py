@@ -12,6 +12,7 @@ from acts_core.runtime.realtime import RealtimeConfig, enter_realtime, parse_cor
 from acts_core.runtime.realtime_guard import LogCallback, demote_process
 from acts_core.runtime.stamp_order import Order, StampOrder
 from acts_core.runtime.stream_statistics import StreamCounter
+from acts_core.runtime.terminals import holders, is_multiplexer, is_stale_link
 
 __all__ = [
     "LogCallback",
@@ -24,8 +25,11 @@ __all__ = [
     "begin",
     "demote_process",
     "enter_realtime",
+    "holders",
     "is_done",
     "is_loopback",
+    "is_multiplexer",
+    "is_stale_link",
     "parse_cores",
     "process_name",
     "within_patience",

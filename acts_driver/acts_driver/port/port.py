@@ -14,11 +14,8 @@ import serial
 from serial.tools import list_ports
 
 from acts_core.errors import PortError
+from acts_core.runtime import holders, is_multiplexer, is_stale_link
 from acts_driver.port.port_choice import Lister, ports_present
-
-_LINK_TOLERANCE_NS = 100_000_000
-# /dev/ptmx, under whatever name (Documentation/admin-guide/devices.txt of Linux).
-_MULTIPLEXER = os.makedev(5, 2)
 
 
 def open_port(path: str, baud: int, lister: Lister = list_ports.comports) -> serial.Serial:
@@ -79,47 +76,6 @@ def explain(path: str, number: int | None, reason: str, lister: Lister = list_po
     if number == errno.ENOTTY:
         return f"{_shown(path)} is no serial port. {ports_present(lister)}"
     return f"port {_shown(path)} cannot be opened: {reason}. {ports_present(lister)}"
-
-
-def is_stale_link(path: str) -> bool:
-    """Whether a link points to a pseudo-terminal that was made after it.
-
-    A simulated board that was killed leaves its link behind, and its terminal's number soon belongs to somebody else,
-    whose input would be taken.
-    """
-    target = os.path.realpath(path)
-    if not Path(path).is_symlink() or not target.startswith("/dev/pts/"):
-        return False
-    try:
-        return Path(target).stat().st_ctime_ns > Path(path).lstat().st_mtime_ns + _LINK_TOLERANCE_NS
-    except OSError:
-        # Gone by now; opening tells.
-        return False
-
-
-def is_multiplexer(path: str) -> bool:
-    """Whether opening a path would make a new pseudo-terminal, on which nobody ever writes."""
-    try:
-        return Path(path).stat().st_rdev == _MULTIPLEXER
-    except OSError:
-        # Opening tells.
-        return False
-
-
-def holders(path: str) -> list[str]:
-    """Names and process numbers of the programs that have a port open, as far as this user may see."""
-    device = os.path.realpath(path)
-    found = []
-    for process in Path("/proc").glob("[0-9]*"):
-        try:
-            if int(process.name) != os.getpid() and any(
-                os.path.realpath(link) == device for link in (process / "fd").iterdir()
-            ):
-                found.append(f"{(process / 'comm').read_text().strip()} (process {process.name})")
-        except OSError:
-            # Another user's process, or one that has just ended.
-            continue
-    return sorted(found)
 
 
 def _how_to_be_permitted(path: str) -> str:

@@ -4,12 +4,13 @@ In come frames, contacts and regions; out come messages or their bytes, and back
 """
 
 from acts_ros.messages.cdr import ContactFields, header_of, read_contact, write_contact
-from acts_ros.messages.regions_cdr import read_regions, write_regions
+from acts_ros.messages.regions_cdr import RegionsFields, read_regions, write_regions
 from acts_ros.messages.sample_messages import SamplesMessage, frame_of, stamp_ns_of
 from acts_ros.messages.skin_frame import skin_frame
 
 __all__ = [
     "ContactFields",
+    "RegionsFields",
     "SamplesMessage",
     "frame_of",
     "header_of",

@@ -171,9 +171,9 @@ class HandLoop:
         HandError
             For a name that the hand does not have or an angle that is not finite; nothing is changed then.
         """
-        unknown = [name for name in angles_rad if name not in self._index]
-        if unknown:
-            raise HandError(f"the hand has no joint {', '.join(unknown)}; its joints are {', '.join(self._index)}")
+        unknown = next((name for name in angles_rad if name not in self._index), None)
+        if unknown is not None:
+            raise HandError(f"the hand has no joint {unknown:.64}; its joints are {', '.join(self._index)}")
         broken = [f"{name} = {angle}" for name, angle in angles_rad.items() if not isfinite(angle)]
         if broken:
             raise HandError(f"{', '.join(broken)}: angles have to be finite")
@@ -191,9 +191,15 @@ class HandLoop:
         self._enabled = True
         return ""
 
-    def release(self) -> None:
-        """Switch the torque off."""
+    def release(self) -> str:
+        """Switch the torque off, now or as soon as the hand is connected; why that cannot be now, or nothing."""
         self._enabled = False
+        status = self.status
+        if not self._thread.is_alive():
+            return f"the hand's loop has ended: {status.reason}"
+        if status.phase is HandPhase.CONNECTING:
+            return f"the hand is not connected ({status.reason}); its motors are released as soon as it is"
+        return ""
 
     def _run(self) -> None:
         while not self._closing.is_set():

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from math import isfinite
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +21,12 @@ from acts_core.settings import setting, validate
 from acts_core.skin import RegionContact
 
 Array = NDArray[np.float64]
+
+# Touch that is stamped further ahead of the clock is by another clock: it would count as the newest until then.
+_FUTURE_S = 0.05
+
+# Beyond what any skin of a hand says; also the squares and products of such numbers are finite.
+_LARGEST = 1e6
 
 
 @dataclass(frozen=True)
@@ -55,7 +60,7 @@ class SupervisorStatus:
     events : mapping of str to int
         How often each reflex has been set off.
     steps, refused : int
-        Steps so far; messages of touch and answers of reflexes left out for numbers that are not finite.
+        Steps so far; messages of touch and answers of reflexes left out, for numbers or stamps that cannot be.
     """
 
     state: HandState = HandState.STOPPED
@@ -133,9 +138,16 @@ class HandSupervisor:
         else:
             self._become(HandState.STOPPED, "goals stand where the joints are")
 
-    def touch(self, regions: Sequence[RegionContact], stamp_s: float) -> None:
-        """Take what the skin feels; `stamp_s`: when it was measured, by the clock of `step` [s]."""
-        if not all(map(_is_finite, regions)) or not isfinite(stamp_s):
+    def touch(self, regions: Sequence[RegionContact], stamp_s: float, now_s: float) -> None:
+        """Take what the skin feels.
+
+        Parameters
+        ----------
+        regions : sequence of RegionContact
+        stamp_s, now_s : float
+            When it was measured, and the present, by the clock of `step` [s].
+        """
+        if not stamp_s <= now_s + _FUTURE_S or not all(map(_can_be, regions)):
             self.refuse()
             return
         if stamp_s <= self._touch_s:
@@ -284,7 +296,8 @@ class HandSupervisor:
             reflex.reset()
 
 
-def _is_finite(region: RegionContact) -> bool:
+def _can_be(region: RegionContact) -> bool:
+    """Whether all numbers are such as a skin may say; NaN is not."""
     numbers = (
         *(region.force_n, region.area_m2, region.peak_n, region.spread_m, region.concentration),
         *(region.sharpness, region.slip_m),
@@ -292,4 +305,4 @@ def _is_finite(region: RegionContact) -> bool:
         *region.normal,
         *region.motion_m_s,
     )
-    return all(map(isfinite, numbers))
+    return all(abs(number) <= _LARGEST for number in numbers)

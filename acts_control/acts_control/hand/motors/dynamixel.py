@@ -8,6 +8,7 @@ port itself raises (OSError, termios.error) passes through.
 
 from __future__ import annotations
 
+import errno
 import math
 import termios
 import time
@@ -19,6 +20,7 @@ from typing import Any
 
 from acts_control.hand.description import HandDescription, Joint
 from acts_control.hand.motors.bus import HandError, HandLostError, HandReading
+from acts_core.runtime import holders, is_multiplexer, is_stale_link
 from acts_core.settings import setting, validate
 
 # The control table, see the e-manual of the XC330-M288.
@@ -227,7 +229,8 @@ class DynamixelHand:
     def close(self) -> None:
         """Give the port back; the torque stays as it is."""
         port, self._port = self._port, None
-        if port is not None:
+        # The library fails where it has not come to open it.
+        if port is not None and port.ser is not None:
             with suppress(OSError, termios.error):
                 port.closePort()
 
@@ -243,17 +246,20 @@ class DynamixelHand:
             ) from error
         config = self._config
         self._sdk = dynamixel_sdk
+        if is_multiplexer(config.port) or is_stale_link(config.port):
+            raise HandError(f"{config.port} is no port of a hand: behind it is a terminal that belongs to nobody yet")
         # The library's only setting for how long it waits; its own 16 ms is that of a USB adapter as it comes.
         port_handler.LATENCY_TIMER = config.answer_timeout_ms
         self._packets = dynamixel_sdk.PacketHandler(2.0)
         self._port = dynamixel_sdk.PortHandler(config.port)
         try:
             known = self._port.openPort() and self._port.setBaudRate(config.baud)
+            if known:
+                # The library has no such option: two programs would take each other's answers and move one hand.
+                self._port.ser.exclusive = True
         except (OSError, termios.error) as error:
-            self._port = None
-            raise HandError(
-                f"{config.port} cannot be opened ({error}); is the hand connected, and may this user open the port?"
-            ) from error
+            self.close()
+            raise HandError(_why_not(config.port, error)) from error
         if not known:
             self.close()
             raise HandError(f"baud = {config.baud}: the library does not know it; the LEAP hand has 4000000")
@@ -357,6 +363,14 @@ def _name(joint: Joint) -> str:
 
 def _fault(bits: int) -> str:
     return ", ".join(words for bit, words in _FAULTS.items() if bits >> bit & 1)
+
+
+def _why_not(port: str, error: Exception) -> str:
+    """Words for a port that cannot be opened."""
+    if getattr(error, "errno", None) in (errno.EBUSY, errno.EAGAIN):
+        held_by = ", ".join(holders(port)) or f"another program (`lsof {port}` tells which)"
+        return f"{port} is held by {held_by}; a hand obeys one program: stop that first"
+    return f"{port} cannot be opened ({error}); is the hand connected, and may this user open the port?"
 
 
 def _usb_latency(port: Path) -> list[str]:

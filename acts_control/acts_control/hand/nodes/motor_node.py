@@ -113,10 +113,7 @@ class MotorNode(PollingNode):
         return answered(response, self.loop.enable())
 
     def _on_torque_off(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-        self.loop.release()
-        response.success = True
-        response.message = "releasing"
-        return response
+        return answered(response, self.loop.release())
 
 
 def answered(response: Trigger.Response, objection: str) -> Any:

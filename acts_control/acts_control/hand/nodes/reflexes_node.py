@@ -29,7 +29,7 @@ from acts_ros.clocks import steady_timer
 from acts_ros.composition import parameters_from
 from acts_ros.diagnostics import OK, WARN, Report
 from acts_ros.executor import run
-from acts_ros.messages import read_regions
+from acts_ros.messages import RegionsFields, read_regions
 from acts_ros.parameters import declare, node_options
 from acts_ros.polled import PolledSubscription
 from acts_ros.qos import STATE, STREAM
@@ -37,6 +37,8 @@ from acts_ros.qos import STATE, STREAM
 _LONG_AGO_S = 1e6
 # Touch that has come while the loop was held up: the newest counts, the others are dropped.
 _TOUCH_DEPTH = 64
+# Of so many patches as a layout may have, each with names as long as they may be.
+_TOUCH_BYTES_MAX = 16384
 _TIMING_PERIOD_S = 1.0
 
 
@@ -58,6 +60,19 @@ def settings_class() -> type:
 
 
 HandReflexesSettings = settings_class()
+
+
+def regions_in(data: bytes) -> RegionsFields:
+    """The regions of a message.
+
+    Raises
+    ------
+    PacketError
+        When it is none, or longer than one of a hand can be: reading it would hold the hand up.
+    """
+    if len(data) > _TOUCH_BYTES_MAX:
+        raise PacketError(f"regions of {len(data)} bytes: at most {_TOUCH_BYTES_MAX} are read")
+    return read_regions(data)
 
 
 class TouchedHand:
@@ -92,12 +107,13 @@ class TouchedHand:
         self._touched_ns = None
         if taken:
             try:
-                touch = read_regions(taken[-1][0])
+                touch = regions_in(taken[-1][0])
             except PacketError:
                 self._supervisor.refuse()
             else:
                 self._touched_ns = touch.stamp_ns
-                self._supervisor.touch(touch.regions, now_s - 1e-9 * (self._now_ns() - touch.stamp_ns))
+                stamp_s = now_s - 1e-9 * (self._now_ns() - touch.stamp_ns)
+                self._supervisor.touch(touch.regions, stamp_s, now_s)
         before = self._supervisor.status
         goals = [float(angle) for angle in self._supervisor.step(reading, goal_rad, now_s, dt_s)]
         status = self._supervisor.status

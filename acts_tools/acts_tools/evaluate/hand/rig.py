@@ -109,7 +109,7 @@ class HandRig:
         self.world.step()
         self.regions = list(self._finder.step(self.time_s, self._image()))
         if seen:
-            self.supervisor.touch(seen, seen_s)
+            self.supervisor.touch(seen, seen_s, self.time_s)
         if self.time_s >= self._due_s - 1e-9:
             self._due_s += self._period_s
             self._cycle()
