@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterator, MutableMapping
+from collections.abc import Iterator, Mapping, MutableMapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -34,6 +34,8 @@ _CHOICES = (_PROFILE, _JAZZY_PROFILE, "ROS_STATIC_PEERS", "ROS_DISCOVERY_SERVER"
 # Fast DDS reads these files in the working directory of a process.
 _FILES = ("DEFAULT_FASTDDS_PROFILES.xml", "DEFAULT_FASTRTPS_PROFILES.xml")
 
+HIGHEST_DOMAIN = 232
+"""Its ports, 7400 + 250 * domain and some above, are the last below 65536."""
 
 # The place in the source of ROS that its error messages contain.
 _SOURCE_PLACE = re.compile(r", at \S+:\d+")
@@ -45,14 +47,31 @@ def init(**options: Any) -> None:
     Raises
     ------
     SettingsError
-        As of `telling_wrong_arguments`.
+        As of `check_domain` and `telling_wrong_arguments`.
     """
+    check_domain(os.environ)
     obstacle = choose_transports(os.environ, rclpy.get_rmw_implementation_identifier(), Path.cwd())
     with telling_wrong_arguments():
         rclpy.init(**options)
     if obstacle is not None:
         get_logger("acts_ros").warning(
             f"{_RANGE} asks for this machine only, but {obstacle}: others may get in (docs/security.md)"
+        )
+
+
+def check_domain(environment: Mapping[str, str]) -> None:
+    """Refuse a domain that there cannot be: ROS ends the process then, in some releases without a word.
+
+    Raises
+    ------
+    SettingsError
+        ``ROS_DOMAIN_ID`` is not a number from 0 to 232.
+    """
+    text = environment.get("ROS_DOMAIN_ID", "")
+    if text and not (text.isdecimal() and int(text) <= HIGHEST_DOMAIN):
+        raise SettingsError(
+            f"ROS_DOMAIN_ID={text}: allowed is 0 to {HIGHEST_DOMAIN}, for the ports of others do not exist; "
+            "export another, or unset it for 0"
         )
 
 

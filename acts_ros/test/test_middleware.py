@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 import rclpy
 
-from acts_ros.middleware import choose_transports
+from acts_core.errors import SettingsError
+from acts_ros.middleware import check_domain, choose_transports
 
 PROFILE, JAZZY_PROFILE = PROFILES = ("FASTDDS_DEFAULT_PROFILES_FILE", "FASTRTPS_DEFAULT_PROFILES_FILE")
 FAST_DDS = "rmw_fastrtps_cpp"
@@ -122,3 +123,14 @@ def test_no_process_waits_for_another_in_shared_memory(discovery: str) -> None:
         timeout=60,
     )
     assert finished.stdout.strip() == "False", finished.stderr
+
+
+@pytest.mark.parametrize("domain", ["233", "-1", "abc", "4294967297", "1.5"])
+def test_a_domain_that_there_cannot_be_is_refused_with_those_there_are(domain: str) -> None:
+    with pytest.raises(SettingsError, match=f"ROS_DOMAIN_ID={domain}: allowed is 0 to 232"):
+        check_domain({"ROS_DOMAIN_ID": domain})
+
+
+@pytest.mark.parametrize("variables", [{}, {"ROS_DOMAIN_ID": ""}, {"ROS_DOMAIN_ID": "0"}, {"ROS_DOMAIN_ID": "232"}])
+def test_a_domain_that_there_is_is_taken(variables: dict[str, str]) -> None:
+    check_domain(variables)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from acts_ros.middleware import HIGHEST_DOMAIN
 from acts_tools.doctor.finding import Finding, Level, unknown
 from acts_tools.doctor.machine import Machine
 
 _BUFFER_BYTES = 4 << 20
 _BUFFERS = ("rmem_max", "wmem_max")
-_HIGHEST_DOMAIN = 232
 # Beyond, the ports of a domain are among those that Linux gives to any program.
 _SAFE_DOMAINS = (range(0, 102), range(215, 233))
 _RANGES = ("SUBNET", "LOCALHOST", "OFF", "SYSTEM_DEFAULT")
@@ -36,8 +36,8 @@ def ros_domain(machine: Machine) -> Finding:
     """Whose nodes ours can see."""
     name = "ROS domain"
     text = machine.environment.get("ROS_DOMAIN_ID", "")
-    if text and not (text.isdecimal() and int(text) <= _HIGHEST_DOMAIN):
-        allowed = f"allowed is 0 to {_HIGHEST_DOMAIN}"
+    if text and not (text.isdecimal() and int(text) <= HIGHEST_DOMAIN):
+        allowed = f"allowed is 0 to {HIGHEST_DOMAIN}"
         return Finding(name, Level.LACKS, f"ROS_DOMAIN_ID={text}: {allowed}, no node starts", "export ROS_DOMAIN_ID=42")
     domain = int(text or 0)
     if not any(domain in safe for safe in _SAFE_DOMAINS):
