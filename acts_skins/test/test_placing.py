@@ -58,7 +58,7 @@ def test_deviations_are_those_of_the_turned_covariance(rpy_rad: tuple[float, flo
 
 @pytest.mark.parametrize("number", [math.nan, math.inf])
 def test_numbers_that_are_none_are_noticed_wherever_they_stand(number: float) -> None:
-    assert TOUCH.is_finite()
-    assert not replace(TOUCH, force_n=number).is_finite()
-    assert not replace(TOUCH, position_m=(0.0, number, 0.0)).is_finite()
-    assert not replace(TOUCH, spread_sd_m=number).is_finite()
+    assert TOUCH.can_be()
+    assert not replace(TOUCH, force_n=number).can_be()
+    assert not replace(TOUCH, position_m=(0.0, number, 0.0)).can_be()
+    assert not replace(TOUCH, spread_sd_m=number).can_be()

@@ -87,3 +87,14 @@ def test_a_level_that_does_not_exist_is_taken_for_the_worst() -> None:
     aggregate = Aggregate(["left"])
     aggregate.take(Status("left/driver", 200, "x"), 0.0)
     assert told(aggregate, 0.0)["/Skins/left/driver"].level == STALE
+
+
+def test_made_up_nodes_do_not_pile_up() -> None:
+    aggregate = Aggregate(["left"])
+    aggregate.take(Status("left/driver", 0, "well"), 0.0)
+    for number in range(5000):
+        aggregate.take(Status(f"left/node_{number}", 0, "well"), 0.0)
+    aggregate.take(Status("left/driver", 2, "gone"), 0.5)
+    told = aggregate.step(1.0)
+    assert len(told) < 300
+    assert any((status.name, status.message) == ("/Skins/left/driver", "gone") for status in told)

@@ -25,6 +25,7 @@ from rclpy.node import Node
 from acts_core.errors import REFUSED_EXIT_CODE
 from acts_msgs.msg import Contact, Contacts, SkinContacts, SkinState, TrackedContact
 from acts_ros import qos
+from acts_ros.messages.cdr import header_bytes
 
 DEADLINE_S = 60.0
 
@@ -71,6 +72,10 @@ class Robot:
             contact.position_sigma.x, contact.position_sigma.y = 0.001, 0.002
             message.contacts.append(contact)
         self._skins[name].publish(message)
+
+    def send(self, name: str, data: bytes) -> None:
+        """Send bytes as the contacts of a skin."""
+        self._skins[name].publish(data)
 
     def press_as_one(self, name: str, force_n: float) -> None:
         message = Contact(in_contact=True, force=force_n)
@@ -192,15 +197,21 @@ def test_what_cannot_be_is_dropped_and_told(robot: Robot, tmp_path: Path) -> Non
         robot.press("left", math.nan, 2.0)
         robot.press("left", 9.0, frame_id="elsewhere")
         robot.press("right", 3.0, ahead_s=100.0)
+        # Ahead of the whole ones by a little, so that they are the newest.
+        head = header_bytes(robot.node.get_clock().now().nanoseconds + 1_000_000, "left")
+        robot.send("left", head + b"\xff" * 60)
+        robot.send("left", head + bytes(100_000))
 
     def told(words: str) -> bool:
         return any(words in status.message for array in reports for status in array.status)
 
     with running(tmp_path, 164) as process:
-        robot.until(lambda: told("contacts of left with NaN or infinite values dropped"), press)
+        robot.until(lambda: told("contacts of left with impossible values dropped"), press)
         robot.until(lambda: told("contacts of left in the frame 'elsewhere' dropped"), press)
+        robot.until(lambda: told("contacts of left that cannot be read dropped"), press)
+        robot.until(lambda: told("contacts of left in messages of more than 65536 bytes dropped"), press)
         robot.until(lambda: told("right is lost: no contacts yet, stamps lie 100 s ahead of this clock"), press)
-        robot.until(lambda: bool(robot.merged[-1].contacts), press)
+        robot.until(lambda: bool(robot.merged[-1].contacts), lambda: robot.press("left", math.nan, 2.0))
         assert [contact.number for contact in robot.merged[-1].contacts] == [2]
         assert robot.merged[-1].contacts[0].force.z == pytest.approx(-2.0)
         ended_in_order(process)

@@ -23,7 +23,7 @@ from acts_ros.polled import PollingNode
 from acts_skins.contacts.alignment import Aligned, AlignedSkin, Aligner, AlignmentConfig, SkinState
 from acts_skins.contacts.cycle import Cycle
 from acts_skins.contacts.messages import CONTACT_TYPES, skin_contact, touches
-from acts_skins.contacts.placing import Placement
+from acts_skins.contacts.placing import Placement, Touch
 from acts_skins.skins_file import read_skins
 
 _NS_PER_S = 1_000_000_000
@@ -31,6 +31,10 @@ _FRAMES_HZ = 1000.0
 # Queues hold the frames of this many cycles, and at least this many frames, in case the node is delayed.
 _CYCLES_KEPT = 4
 _FRAMES_KEPT = 64
+# Some 250 contacts, far more than a skin tells apart; to read more would hold up the others.
+_LARGEST_BYTES = 65536
+_LONGEST_NAME = 64
+_FOREIGN = "in another frame"
 
 
 @dataclass(frozen=True)
@@ -75,6 +79,7 @@ class SkinContactsNode(PollingNode):
         self._clock = self.get_clock()
         self._there: set[str] = set()
         self._refused: Counter[tuple[str, str]] = Counter()
+        self._foreign_frames: dict[str, str] = {}
         self._aligned: Aligned[bytes] | None = None
         self._cycle = Cycle(settings.rate_hz, self._step)
         self._reported: tuple[float, int, int, Counter[tuple[str, str]]] = (time.monotonic(), 0, 0, Counter())
@@ -92,6 +97,9 @@ class SkinContactsNode(PollingNode):
         now_ns = self._clock.now().nanoseconds
         for name, subscription in self._subscriptions_of.items():
             for data, _ in subscription.take_all():
+                if len(data) > _LARGEST_BYTES:
+                    self._refused[name, f"in messages of more than {_LARGEST_BYTES} bytes"] += 1
+                    continue
                 try:
                     stamp_ns, frame_id = header_of(data)
                 except PacketError:
@@ -99,7 +107,8 @@ class SkinContactsNode(PollingNode):
                     continue
                 if frame_id != name:
                     # The file does not give the pose of this frame.
-                    self._refused[name, f"in the frame {frame_id!r}"] += 1
+                    self._foreign_frames[name] = frame_id[:_LONGEST_NAME]
+                    self._refused[name, _FOREIGN] += 1
                     continue
                 self._aligner.take(name, stamp_ns, data, now_ns)
         aligned = self._aligner.step(now_ns)
@@ -117,9 +126,9 @@ class SkinContactsNode(PollingNode):
             state = StateMessage(name=skin.name, state=skin.state.value, age=skin.age_s)
             if skin.frame is not None and skin.stamp_ns is not None:
                 state.stamp.sec, state.stamp.nanosec = divmod(skin.stamp_ns, _NS_PER_S)
-                for touch in touches(deserialize_message(skin.frame, self._kind)):
-                    if not touch.is_finite():
-                        self._refused[skin.name, "with NaN or infinite values"] += 1
+                for touch in self._touches(skin.name, skin.frame):
+                    if not touch.can_be():
+                        self._refused[skin.name, "with impossible values"] += 1
                         continue
                     placed = self._placements[skin.name].place(touch)
                     contacts.append(skin_contact(skin.name, self._links[skin.name], placed))
@@ -127,6 +136,14 @@ class SkinContactsNode(PollingNode):
             skins.append(state)
         message.skins, message.contacts = skins, contacts
         return message
+
+    def _touches(self, name: str, data: bytes) -> list[Touch]:
+        try:
+            return touches(deserialize_message(data, self._kind))
+        # rclpy has no exception of its own for bytes that are no such message.
+        except (RuntimeError, ValueError):
+            self._refused[name, "that cannot be read"] += 1
+            return []
 
     def _tell_changes(self, aligned: Aligned[bytes]) -> None:
         for skin in aligned.skins:
@@ -166,9 +183,9 @@ class SkinContactsNode(PollingNode):
                     f", stamps lie {counters.ahead_s:.3g} s ahead of {self._clock_name()}" if counters.future else ""
                 )
                 troubles.append(f"{skin.name} is {_silence(skin)}{ahead}")
-        troubles += [
-            f"{number} contacts of {name} {why} dropped" for (name, why), number in (refused - refused_before).items()
-        ]
+        for (name, why), number in (refused - refused_before).items():
+            shown = f"in the frame {self._foreign_frames[name]!r}" if why is _FOREIGN else why
+            troubles.append(f"{number} contacts of {name} {shown} dropped")
         if missed > missed_before:
             troubles.append(f"{missed - missed_before} cycles missed")
         if troubles:

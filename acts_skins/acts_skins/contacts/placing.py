@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import astuple, dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.transforms import Transform, Vector
+
+# A number of a contact has 32 bits; also squares of what is larger than any measurement are finite.
+_LARGEST = 2.0**32
 
 
 @dataclass(frozen=True)
@@ -30,10 +32,10 @@ class Touch:
     area_sd_m2: float
     spread_sd_m: float
 
-    def is_finite(self) -> bool:
-        """Whether no number in it is NaN or infinite."""
+    def can_be(self) -> bool:
+        """Whether all numbers are such as a skin may say; NaN is not."""
         numbers = (number for value in astuple(self) for number in (value if isinstance(value, tuple) else (value,)))
-        return all(math.isfinite(number) for number in numbers)
+        return all(abs(number) <= _LARGEST for number in numbers)
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,9 @@ _WORDS = ("OK", "Warning", "Error", "Stale")
 EXPECTED = ("driver", "reconstruction")
 """Nodes that every skin has."""
 
+# Anybody in the domain can make up names of nodes; what is too many is left out.
+_NODES_MAX = 200
+
 
 @dataclass(frozen=True)
 class Status:
@@ -61,6 +64,8 @@ class Aggregate:
             return
         name = status.name.removeprefix(self._prefix)
         if name in self._others or name.partition("/")[0] in self._skins:
+            if name not in self._heard and len(self._heard) >= _NODES_MAX:
+                return
             self._heard[name] = (now_s, status)
 
     def step(self, now_s: float) -> list[Status]:
