@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 from acts_core.errors import SettingsError
 from acts_core.settings import setting, validate
+
+_NAMESPACE = re.compile(r"(/[A-Za-z_][A-Za-z0-9_]*)+")
 
 
 @dataclass(frozen=True)
@@ -27,6 +30,12 @@ class ViewSettings:
         validate(self)
         if not self.host.strip():
             raise SettingsError("host is empty: needed is an address or a name, such as 127.0.0.1 or 0.0.0.0")
+        for name in self.namespaces:
+            if _NAMESPACE.fullmatch(name) is None:
+                raise SettingsError(
+                    f"skins: {name[1:]!r} is no namespace: allowed are letters, digits (not first) and _, parts with / "
+                    "between, and a comma between skins"
+                )
 
     @property
     def namespaces(self) -> tuple[str, ...]:

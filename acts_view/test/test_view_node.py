@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from array import array
 from collections.abc import Callable, Iterator
@@ -20,12 +21,15 @@ from sensor_msgs.msg import Image
 from test_view_codec import decode
 from websockets.sync.client import ClientConnection, connect
 
+from acts_core.errors import ArrayError, SettingsError
 from acts_core.skin import RegionContact
 from acts_msgs.msg import Contact, Contacts, HandStatus, RegionContacts, TrackedContact
 from acts_ros import qos
 from acts_ros.executor import spin_for
 from acts_ros.messages import ContactFields, write_contact, write_regions
 from acts_view.nodes.view_node import ViewNode
+from acts_view.settings import ViewSettings
+from acts_view.skin.snapshot import SkinShape
 
 DOMAIN_ID = 176
 DEADLINE_S = 30.0
@@ -174,6 +178,61 @@ def test_where_nothing_is_for_viewers_the_image_is_that_at_frame_rate_as_in_a_ba
     with bench.connect() as client:
         bench.until(lambda: "image" in bench.arrays, client, play)
     assert (bench.arrays["image"] == 300).all()
+
+
+def test_what_cannot_be_is_left_out_and_the_page_goes_on(bench: Bench, caplog: pytest.LogCaptureFixture) -> None:
+    image = bench.skin.create_publisher(Image, "view/image_raw", qos.VIEW)
+    contacts = bench.skin.create_publisher(Contacts, "view/contacts", qos.VIEW)
+    regions = bench.skin.create_publisher(RegionContacts, "regions", qos.STREAM)
+    status = bench.skin.create_publisher(HandStatus, "hand/status", qos.STATE)
+    diagnostics = bench.skin.create_publisher(DiagnosticArray, "/diagnostics", 10)
+    huge = Image(height=65, width=64, encoding="mono16", step=128, data=array("B", bytes(65 * 128)))
+    none = Image(height=0, width=0, encoding="mono16")
+    broken = ContactFields(0, "hand", 7, True, math.nan, math.inf, math.nan, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+    patches = [RegionContact("palm", "palm_lower", 3, math.nan), *[RegionContact("x" * 300, "y", 1, 1.0)] * 70]
+    named = iter(range(100_000))
+
+    def play() -> None:
+        image.publish(huge)
+        image.publish(none)
+        bench.contact.publish(write_contact(broken))
+        bench.contact.publish(b"\x00\x01\x00\x00\xff")
+        contacts.publish(Contacts(contacts=[TrackedContact(force=math.nan)] * 100))
+        regions.publish(write_regions(0, "hand", 1, patches))
+        status.publish(HandStatus(state=99, reason="r" * 10_000, active=["a"] * 1000))
+        names = [f"made_up_{next(named)}" for _ in range(50)]
+        diagnostics.publish(DiagnosticArray(status=[DiagnosticStatus(name=name, message="m" * 900) for name in names]))
+
+    with bench.connect() as client:
+        bench.until(
+            lambda: (
+                bool(bench.headers.get("frame", {}).get("regions") and bench.headers["frame"]["hand"])
+                and len(bench.headers["status"]["diagnostics"]) == 200
+            ),
+            client,
+            play,
+        )
+        frame = bench.headers["frame"]
+        assert "image" not in bench.arrays
+        assert frame["touch"] is None
+        assert len(bench.arrays["contacts"]) == 64
+        assert (len(frame["regions"]), len(frame["regions"][0][0])) == (63, 200)
+        assert (len(frame["hand"]["reason"]), len(frame["hand"]["active"])) == (200, 64)
+        assert max(len(one["message"]) for one in bench.headers["status"]["diagnostics"]) == 500
+        bench.until(lambda: bench.headers["frame"]["touch"] is not None, client, lambda: bench.press(2.0))
+    assert [record.message for record in caplog.records if record.name == "asyncio"] == []
+
+
+@pytest.mark.parametrize("change", [{"rows": -5}, {"cols": 10**9}, {"pitch_m": math.nan}, {"row_pitch_m": -1.0}])
+def test_a_skin_that_cannot_be_is_refused(change: dict[str, Any]) -> None:
+    with pytest.raises(ArrayError, match="cannot be shown"):
+        SkinShape(**change)
+
+
+@pytest.mark.parametrize("skins", ["my skin", "plate,9lives", "a//b", "~/plate"])
+def test_only_namespaces_are_taken_as_skins(skins: str) -> None:
+    with pytest.raises(SettingsError, match="is no namespace"):
+        ViewSettings(skins=skins)
 
 
 def contact_subscribers(bench: Bench) -> int:

@@ -38,6 +38,8 @@ _RANGES = {"m": (0, MAX_SIDE**2), "threshold_counts": (-1, COUNT_MAX)}
 _PARAMETERS = ("scheme", *_RANGES)
 _PATIENCE_S = 10.0
 _WAITING_MAX = 32
+# Anybody in the domain can make up more.
+_OFFERS_MAX = 64
 
 
 @dataclass
@@ -68,6 +70,7 @@ class Control:
         self._clients: dict[str, Client] = {}
         self._calls: list[_Call] = []
         self._settings: dict[str, dict[str, Any]] = {}
+        self._asked: dict[str, Future[Any]] = {}
 
     def take(self, request: Request, answer: Answer) -> None:
         """Take what a page asks for; on the server's thread.
@@ -109,11 +112,11 @@ class Control:
             for do, name in TRIGGERS.items()
             for service, kinds in self._services.items()
             if service.endswith(f"/{name}") and _TRIGGER_TYPE in kinds
-        ]
+        ][:_OFFERS_MAX]
         for do, namespace in offers:
             # Ahead of the first request, which would have to wait until the service is reached.
             self._client(f"{namespace}/{TRIGGERS[do]}", Trigger)
-        drivers = [name.removesuffix(f"/{_SET}") for name in self._services if name.endswith(f"/{_SET}")]
+        drivers = [name.removesuffix(f"/{_SET}") for name in self._services if name.endswith(f"/{_SET}")][:_OFFERS_MAX]
         for driver in drivers:
             self._client(f"{driver}/{_SET}", SetParameters)
             self._ask_settings(driver)
@@ -157,6 +160,10 @@ class Control:
 
     def _ask_settings(self, driver: str) -> None:
         client = self._client(f"{driver}/{_GET}", GetParameters)
+        asked = self._asked.get(driver)
+        if asked is not None and not asked.done():
+            # Kept, questions that are never answered would add up.
+            client.remove_pending_request(asked)
         if not client.service_is_ready():
             return
 
@@ -169,7 +176,8 @@ class Control:
                 ]
                 self._settings[driver] = dict(zip(_PARAMETERS, values, strict=True))
 
-        client.call_async(GetParameters.Request(names=list(_PARAMETERS))).add_done_callback(on_done)
+        self._asked[driver] = client.call_async(GetParameters.Request(names=list(_PARAMETERS)))
+        self._asked[driver].add_done_callback(on_done)
 
     def _client(self, service: str, kind: type) -> Client:
         if service not in self._clients:

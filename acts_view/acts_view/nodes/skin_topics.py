@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from sensor_msgs.msg import Image
 
+from acts_core.array import MAX_SIDE
 from acts_core.errors import PacketError
 from acts_msgs.msg import Contact, Contacts, HandStatus, RegionContacts
 from acts_ros import qos
@@ -19,6 +20,9 @@ from acts_view.skin.snapshot import CONTACT_COLUMNS, Frame, RegionState, Sample
 _SEQUENCE_MODULUS = 1 << 32
 # A stamp further from the clock than this is by another clock, as in a bag that is played.
 _SAME_CLOCK_S = 10.0
+# What one skin may show at most: what is more is left out, for every page is sent all of it.
+_SHOWN = 64
+_TEXT = 200
 _MONO = {"mono16": "u2", "mono8": "u1"}
 _HAND_STATES = {
     getattr(HandStatus, name): name.removeprefix("STATE_").lower()
@@ -118,7 +122,7 @@ class SkinTopics:
         if newest is None:
             return samples, None, None
         touch = (newest.x_m, newest.y_m, newest.force_n, newest.peak_counts, newest.area_m2)
-        return samples, touch if newest.in_contact else None, newest.stamp_ns
+        return samples, touch if newest.in_contact and all(map(math.isfinite, touch)) else None, newest.stamp_ns
 
     def _lost(self, sequence: int) -> int:
         before, self._sequence = self._sequence, sequence
@@ -130,6 +134,8 @@ class SkinTopics:
 def _pixels(message: Image | None, encoding: str) -> NDArray[Any] | None:
     """The pixels of an image of counts or of confidence; None for any other."""
     if message is None or message.encoding != encoding:
+        return None
+    if not (1 <= message.width <= MAX_SIDE and 1 <= message.height <= MAX_SIDE):
         return None
     kind = np.dtype(_MONO[encoding]).newbyteorder(">" if message.is_bigendian else "<")
     if message.step != message.width * kind.itemsize or len(message.data) != message.step * message.height:
@@ -149,9 +155,9 @@ def _table(message: Contacts) -> tuple[NDArray[np.uint32], NDArray[np.float32]]:
             math.hypot(one.velocity.x, one.velocity.y),
             one.age,
         )
-        for one in message.contacts
+        for one in message.contacts[:_SHOWN]
     ]
-    numbers = np.array([one.number for one in message.contacts], np.uint32)
+    numbers = np.array([one.number for one in message.contacts[:_SHOWN]], np.uint32)
     return numbers, np.array(rows, np.float32).reshape(-1, len(CONTACT_COLUMNS))
 
 
@@ -160,12 +166,16 @@ def _regions(data: bytes, old: Any) -> Any:
         regions = read_regions(data).regions
     except PacketError:
         return old
-    return [RegionState(one.name, one.force_n, one.slip_m, one.slipping) for one in regions]
+    return [
+        RegionState(one.name[:_TEXT], one.force_n, one.slip_m, one.slipping)
+        for one in regions[:_SHOWN]
+        if math.isfinite(one.force_n) and math.isfinite(one.slip_m)
+    ]
 
 
 def _hand(message: HandStatus) -> dict[str, Any]:
     return {
         "state": _HAND_STATES.get(message.state, str(message.state)),
-        "reason": message.reason,
-        "active": list(message.active),
+        "reason": message.reason[:_TEXT],
+        "active": [name[:_TEXT] for name in message.active[:_SHOWN]],
     }

@@ -29,6 +29,11 @@ from acts_view.web.server import ViewServer
 _LOOK_PERIOD_S = 1.0
 _DIAGNOSTICS_DEPTH = 100
 _FORGET_NODE_S = 60.0
+# What is shown at most: anybody in the domain can make up more.
+_SKINS_MAX = 32
+_NODES_MAX = 200
+_VALUES_MAX = 100
+_TEXT = 500
 _CONTACT_TYPE = "acts_msgs/msg/Contact"
 _CONTACT_TOPIC = "/contact"
 # As SkinShape has them.
@@ -47,7 +52,7 @@ class ViewNode(PollingNode):
         super().__init__("view", **node_options(), **options)
         self._settings = settings = declare(self, ViewSettings)
         self._skins: dict[str, SkinTopics] = {}
-        self._asked: dict[str, Client] = {}
+        self._asked: dict[str, tuple[Client, Future[Any] | None]] = {}
         self._names = list(settings.namespaces)
         self._heard: dict[str, tuple[float, DiagnosticStatus]] = {}
         self._pages = 0
@@ -113,17 +118,22 @@ class ViewNode(PollingNode):
     def _find(self) -> None:
         for topic, kinds in self.get_topic_names_and_types():
             name = topic.removesuffix(_CONTACT_TOPIC)
-            if _CONTACT_TYPE in kinds and name != topic and name not in self._names:
+            if _CONTACT_TYPE in kinds and name != topic and name not in self._names and len(self._names) < _SKINS_MAX:
                 self._names.append(name)
         self._names.sort()
 
     def _ask_shape(self, name: str) -> None:
-        service = f"{name}/reconstruction/get_parameters"
         if name not in self._asked:
-            self._asked[name] = self.create_client(GetParameters, service)
-        if self._asked[name].service_is_ready():
-            future = self._asked[name].call_async(GetParameters.Request(names=list(_SHAPE_PARAMETERS)))
+            service = f"{name}/reconstruction/get_parameters"
+            self._asked[name] = self.create_client(GetParameters, service), None
+        client, asked = self._asked[name]
+        if asked is not None and not asked.done():
+            # Kept, questions that are never answered would add up.
+            client.remove_pending_request(asked)
+        if client.service_is_ready():
+            future = client.call_async(GetParameters.Request(names=list(_SHAPE_PARAMETERS)))
             future.add_done_callback(lambda done: self._on_shape(name, done))
+            self._asked[name] = client, future
 
     def _on_shape(self, name: str, done: Future[Any]) -> None:
         response = done.result()
@@ -140,18 +150,19 @@ class ViewNode(PollingNode):
     def _on_diagnostics(self, array: DiagnosticArray) -> None:
         now_s = time.monotonic()
         for status in array.status:
-            self._heard[status.name] = (now_s, status)
+            if status.name in self._heard or len(self._heard) < _NODES_MAX:
+                self._heard[status.name] = (now_s, status)
 
     def _statuses(self) -> list[dict[str, Any]]:
         now_s = time.monotonic()
         self._heard = {name: one for name, one in self._heard.items() if now_s - one[0] < _FORGET_NODE_S}
         return [
             {
-                "name": name,
+                "name": name[:_TEXT],
                 "level": int.from_bytes(status.level, "little"),
-                "message": status.message,
+                "message": status.message[:_TEXT],
                 "age_s": now_s - heard_s,
-                "values": [[value.key, value.value] for value in status.values],
+                "values": [[value.key[:_TEXT], value.value[:_TEXT]] for value in status.values[:_VALUES_MAX]],
             }
             for name, (heard_s, status) in sorted(self._heard.items())
         ]

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_core.errors import ActsError
+from acts_core.array import MAX_SIDE
+from acts_core.errors import ActsError, ArrayError
 from acts_core.skin import Layout, layout
 from acts_view.skin.arrangement import arrangement
 from acts_view.skin.history import COLUMNS
@@ -17,6 +18,9 @@ from acts_view.web.codec import encode
 
 CONTACT_COLUMNS = ("x_m", "y_m", "force_n", "peak_counts", "area_m2", "spread_m", "speed_m_s", "age_s")
 """Of a contact, besides its number."""
+
+
+_LARGEST_PITCH_M = 1.0
 
 
 @dataclass(frozen=True)
@@ -85,6 +89,11 @@ class SkinShape:
         As `Layout.geometry` takes them; 0: the layout's own [m].
     touch_counts : int
         Above which a taxel is pressed.
+
+    Raises
+    ------
+    ArrayError
+        For what no skin is like.
     """
 
     layout: str = "square"
@@ -93,6 +102,15 @@ class SkinShape:
     pitch_m: float = 0.0
     row_pitch_m: float = 0.0
     touch_counts: int = 60
+
+    def __post_init__(self) -> None:
+        # Whoever plays the node reconstruction says them.
+        if not (1 <= self.rows <= MAX_SIDE and 1 <= self.cols <= MAX_SIDE):
+            raise ArrayError(f"a skin of {self.rows} x {self.cols} taxels cannot be shown: 1 to {MAX_SIDE} a side")
+        if not (0.0 <= self.pitch_m <= _LARGEST_PITCH_M and 0.0 <= self.row_pitch_m <= _LARGEST_PITCH_M):
+            raise ArrayError(
+                f"taxels {self.pitch_m:g} m and {self.row_pitch_m:g} m apart cannot be shown: 0 to {_LARGEST_PITCH_M:g}"
+            )
 
 
 def describe_skin(name: str, shape: SkinShape) -> dict[str, Any]:
