@@ -1,6 +1,7 @@
 """Write docs/reference.md: every launch argument, node parameter and sampling scheme, from the sources.
 
-Writes the choices of the argument `scheme` into the launch files, too: XML takes them from no registry.
+Writes the choices of the arguments `scheme`, `method` and `protocol` into the launch files, too: XML takes them from no
+registry.
 """
 
 from __future__ import annotations
@@ -10,10 +11,13 @@ import importlib
 import re
 import sys
 import xml.etree.ElementTree as ET
+from collections.abc import Iterable
 from pathlib import Path
 
 from acts_core.sampling import SCHEME_NUMBERS, SCHEMES
 from acts_core.settings import Changeable, default_of, describe
+from acts_driver.protocols import PROTOCOLS
+from acts_recon.methods import METHODS
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs" / "reference.md"
@@ -33,6 +37,9 @@ NODES = (
     ("acts_sim", "ball_world", "acts_sim.ball.ball_world_node", "BallWorldSettings"),
 )
 """Package, executable, module and settings class of every node with parameters."""
+
+CHOICES: dict[str, Iterable[str]] = {"scheme": SCHEME_NUMBERS, "method": METHODS, "protocol": PROTOCOLS}
+"""What is registered, by the launch argument that chooses among it."""
 
 HEAD = """# Reference: launch arguments and parameters
 
@@ -97,20 +104,23 @@ def schemes_section() -> list[str]:
     return [*lines, ""]
 
 
-def with_schemes(launch_file: str) -> str:
-    """The text of a launch file, with all schemes as choices of its argument `scheme`."""
+def with_choices(launch_file: str) -> str:
+    """The text of a launch file, with all that is registered as choices of the arguments that name it."""
+    for argument, registered in CHOICES.items():
 
-    def written(found: re.Match[str]) -> str:
-        names = [*SCHEME_NUMBERS, *(["params_file"] if 'default="params_file"' in found[1] else [])]
-        choices = "".join(f'<choice value="{name}"/>' for name in names)
-        return f"{found[1]}\n    {choices}\n{found[2]}"
+        def written(found: re.Match[str], names: Iterable[str] = registered) -> str:
+            more = ["params_file"] if 'default="params_file"' in found[1] else []
+            choices = "".join(f'<choice value="{name}"/>' for name in [*names, *more])
+            return f"{found[1]}\n    {choices}\n{found[2]}"
 
-    return re.sub(r'(<arg name="scheme" default=[^>]*[^/]>)\n.*?\n(  </arg>)', written, launch_file, flags=re.DOTALL)
+        tag = rf'(<arg name="{argument}" default=[^>]*[^/]>)\n.*?\n(  </arg>)'
+        launch_file = re.sub(tag, written, launch_file, flags=re.DOTALL)
+    return launch_file
 
 
 def written_files() -> dict[Path, str]:
     """What this script writes, by path."""
-    launch_files = {path: with_schemes(path.read_text()) for path in sorted((ROOT / "launch").glob("*.launch.xml"))}
+    launch_files = {path: with_choices(path.read_text()) for path in sorted((ROOT / "launch").glob("*.launch.xml"))}
     return {**launch_files, PAGE: page()}
 
 

@@ -18,7 +18,9 @@ from launch_support import PACKAGE
 
 from acts_core.errors import LaunchError
 from acts_core.settings import describe
+from acts_driver.protocols import PROTOCOLS
 from acts_driver.settings import DriverSettings
+from acts_recon.methods import METHODS
 from acts_ros.composition import IN_PARAMS_FILE
 from acts_sim.hand import HandWorldConfig
 from acts_tools.launch.evaluate import Plan, declarations, evaluate
@@ -143,10 +145,11 @@ def test_only_with_sim_is_the_robot_held_to_be_a_simulated_one(launch: Callable[
 
 # What is simulated reads no params file.
 OF_SIMULATED_ALONE = ("object",)
-# method and protocol are free: modules of one's own add to them (docs/extending.md), and the nodes refuse the rest.
 # Of every file that takes a params file; the simulated board takes none.
 CHOICES = {
     "scheme": tuple(word for word in describe(DriverSettings)["scheme"].choices if word),
+    "method": tuple(METHODS),
+    "protocol": tuple(PROTOCOLS),
     "autostart": ("true", "false"),
     "replay_loop": ("true", "false"),
     "object": describe(HandWorldConfig)["object"].choices,
