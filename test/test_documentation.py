@@ -53,3 +53,48 @@ def test_links_into_pages_lead_to_a_heading(page: Path) -> None:
     for target, anchor in re.findall(r"\]\((?!https?:)([^)#]*\.md)?#([^)]+)\)", page.read_text()):
         other = page.parent / target if target else page
         assert anchor in headings(other), f"{page.name} links to {target}#{anchor}"
+
+
+# What the pages on extending have one write.
+WRITTEN = {"fading", "overlap", "numbered_lines", "tilting_table", "comb", "tap_to_open", "NAME"}
+TRACKED = [
+    path for folder in ROOT.iterdir() if not folder.name.startswith(".") for path in [folder, *folder.rglob("*")]
+]
+SOURCES = [
+    path
+    for path in TRACKED
+    if path.suffix in (".md", ".py", ".hpp", ".cpp", ".ino", ".msg", ".xml")
+    and "test" not in path.relative_to(ROOT).parts
+]
+
+
+def is_there(name: str) -> bool:
+    """Whether a path or a module with dots, from wherever its reader would begin, exists."""
+    return any(str(path).endswith(f"/{name}") for path in TRACKED)
+
+
+def is_module(name: str) -> bool:
+    """Whether a name with dots is a module, or something that a module names."""
+    package, *parts = name.split(".")
+    folder = ROOT / package / package
+    for k, part in enumerate(parts):
+        if (folder / part).is_dir():
+            folder /= part
+            continue
+        own = folder / f"{part}.py"
+        wanted = parts[k + 1 :] if own.is_file() else [part]
+        text = (own if own.is_file() else folder / "__init__.py").read_text()
+        return not wanted or re.search(rf"\b{re.escape(wanted[0])}\b", text) is not None
+    return True
+
+
+def test_files_and_modules_that_pages_and_comments_name_exist() -> None:
+    missing = []
+    for source in SOURCES:
+        for number, line in enumerate(source.read_text().splitlines(), 1):
+            paths = re.findall(r"(?<![\w/.~$-])(acts_\w+/(?:\w+/)*\w+\.(?:py|hpp|cpp|ya?ml|xml|md))\b", line)
+            modules = re.findall(r"\b(acts_(?!msgs|firmware|config|bringup)[a-z]+(?:\.[A-Za-z_]\w*)+)", line)
+            wrong = [name for name in paths if Path(name).stem not in WRITTEN and not is_there(name)]
+            wrong += [name for name in modules if not is_module(name)]
+            missing += [f"{source.relative_to(ROOT)}:{number} names {name}" for name in wrong]
+    assert missing == []

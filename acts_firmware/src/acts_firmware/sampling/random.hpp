@@ -1,4 +1,4 @@
-// Random numbers that are the same on every machine, in Python too (acts_core.sampling.pcg32).
+// Random numbers that are the same on every machine, in Python too (acts_core.sampling.basis.pcg32).
 #pragma once
 
 #include <cstdint>

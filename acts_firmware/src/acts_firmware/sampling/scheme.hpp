@@ -1,4 +1,5 @@
-// What a sampling scheme tells of itself. acts_core/sampling/scheme.py is the same in Python; a test compares the two.
+// What a sampling scheme tells of itself. acts_core/sampling/basis/scheme.py is the same in Python; a test compares the
+// two.
 #pragma once
 
 #include <array>

@@ -10,7 +10,7 @@
 namespace acts {
 
 // The schemes that look for neighbours walk the picture of the skin, place by place, row-major. Without a map the
-// picture is the matrix itself, and all of it one patch. acts_core/sampling/skin_map.py is the same in Python.
+// picture is the matrix itself, and all of it one patch. acts_core/sampling/basis/skin_map.py is the same in Python.
 class SkinMap {
  public:
   static constexpr int kMaxPatches = 16;
