@@ -11,8 +11,7 @@ from acts_core.errors import PacketError
 from acts_core.skin import RegionContact
 from acts_msgs.msg import RegionContact as RegionMessage
 from acts_msgs.msg import RegionContacts
-from acts_ros.messages import read_regions, write_regions
-from acts_ros.messages.regions_cdr import RegionsFields
+from acts_ros.messages import RegionsFields, read_regions, write_regions
 
 NAMES = st.text(st.characters(exclude_characters="\0", codec="utf-8"), max_size=12)
 DOUBLES = st.floats()
