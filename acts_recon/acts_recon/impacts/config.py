@@ -1,0 +1,31 @@
+"""When a touch is an impact, a tap, a press, a step or a slide."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from acts_core.settings import setting, validate
+
+
+@dataclass(frozen=True)
+class ImpactConfig:
+    """Settings of impacts. All become parameters of the reconstruction node."""
+
+    impact_longest_s: float = setting(0.04, "an impact is over after this time [s]", minimum=0.005, maximum=0.5)
+    impact_rise_s: float = setting(
+        0.02, "the force of an impact that stays is largest within this time [s]", minimum=0.001, maximum=0.5
+    )
+    impact_quiet_s: float = setting(
+        0.003, "a touch is over when nothing was felt for this time and a frame [s]", minimum=0.0, maximum=0.5
+    )
+    impact_join_m: float = setting(0.025, "contacts nearer than this are one impact [m]", minimum=0.0, maximum=1.0)
+    impact_tap_s: float = setting(0.3, "what touches for longer than this is no tap [s]", minimum=0.01, maximum=10.0)
+    impact_slide_m: float = setting(
+        0.015, "what moves further than this, and than its own size, slides [m]", minimum=0.001, maximum=1.0
+    )
+    impact_step_m2: float = setting(
+        0.0025, "what is larger than this, and no impact, is a step [m^2]", minimum=1e-5, maximum=1.0
+    )
+
+    def __post_init__(self) -> None:
+        validate(self)

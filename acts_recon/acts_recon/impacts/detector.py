@@ -1,0 +1,285 @@
+"""Impacts in image after image: told when they begin, and again when they are over."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.array import ArrayGeometry
+from acts_core.skin import ForceResponse, MeasuredForceResponse
+from acts_recon.contacts import BlobConfig, BlobTracker, TrackedBlob
+from acts_recon.images import Borders, borders_of
+from acts_recon.impacts.config import ImpactConfig
+from acts_recon.impacts.footprint_fit import Footprint
+from acts_recon.impacts.impact import UNKNOWN_DIRECTION_SD_RAD, Impact, Kind
+from acts_recon.impacts.samples import RecentSamples
+from acts_recon.impacts.touch import Touch, impulse_of, reach_m_of
+
+Array = NDArray[np.float64]
+
+_LONGEST_PAUSE_S = 0.5
+_NUMBERS = 2**32
+# Of a fitted footprint's force: the taxels' sensitivities, and how far it is from a Gaussian.
+_FORCE_SD = 0.2
+
+
+def _covers(blob: TrackedBlob, x_m: float, y_m: float) -> bool:
+    return math.hypot(blob.x_m - x_m, blob.y_m - y_m) <= reach_m_of(blob)
+
+
+class ImpactDetector:
+    """Tells each touch of the skin when it begins, and what it was when it is over.
+
+    Parameters
+    ----------
+    geometry : ArrayGeometry
+        Of the images.
+    response : ForceResponse or MeasuredForceResponse, optional
+        From counts to newtons.
+    blobs : BlobConfig, optional
+        What is a contact in an image, and the noise of a reading.
+    config : ImpactConfig, optional
+    borders : Borders, optional
+        No contact reaches over one, and contacts on its two sides are never one impact.
+    """
+
+    def __init__(
+        self,
+        geometry: ArrayGeometry,
+        response: ForceResponse | MeasuredForceResponse | None = None,
+        blobs: BlobConfig | None = None,
+        config: ImpactConfig | None = None,
+        borders: Borders | None = None,
+    ) -> None:
+        self.config = config or ImpactConfig()
+        blobs = blobs or BlobConfig()
+        response = response or ForceResponse()
+        self._geometry = geometry
+        self._borders = borders or borders_of(geometry.rows, geometry.cols)
+        self._tracker = BlobTracker(geometry, response, blobs, self._borders)
+        memory_s = self.config.impact_longest_s + self.config.impact_quiet_s + 0.1
+        noise_counts = max(blobs.noise_counts, 0.3)  # of a reading in whole counts
+        self._samples = RecentSamples(geometry, response, float(blobs.touch_counts), noise_counts, memory_s)
+        self._touches: list[Touch] = []
+        self._next_number = 1
+        self._before_s: float | None = None
+
+    def reset(self) -> None:
+        """Forget all touches, without telling of them again; numbers go on."""
+        self._tracker.reset()
+        self._samples.reset()
+        self._touches.clear()
+        self._before_s = None
+
+    def step(
+        self,
+        time_s: float,
+        duration_s: float,
+        image: NDArray[np.float32],
+        sigma: NDArray[np.float32] | None = None,
+        age_s: NDArray[np.float32] | None = None,
+        measured: NDArray[np.float32] | None = None,
+    ) -> tuple[Impact, ...]:
+        """Look at the image of the next frame.
+
+        Parameters
+        ----------
+        time_s, duration_s : float
+            When the frame's last measurement ended, and how long all of them took [s]. Where the time goes back, or on
+            by more than half a second, all touches are forgotten.
+        image : np.ndarray [shape=(rows, cols), dtype=float32]
+            Counts; C-contiguous.
+        sigma : np.ndarray [shape=(rows, cols), dtype=float32], optional
+            Standard deviation of each taxel [counts]; without it those of forces are 0.
+        age_s, measured : np.ndarray [shape=(rows, cols), dtype=float32], optional
+            How long before `time_s` each taxel was measured [s], and what [counts]. Without them directions are not
+            known, and a frame has seen what its image shows.
+
+        Returns
+        -------
+        tuple of Impact
+            What has begun with this frame, and what is over.
+
+        Raises
+        ------
+        ArrayError
+            When image or sigma are of another kind or size.
+        """
+        if self._before_s is not None and not 0.0 < time_s - self._before_s <= _LONGEST_PAUSE_S:
+            self.reset()
+        before_s = time_s - duration_s if self._before_s is None else self._before_s
+        self._before_s = time_s
+        if age_s is not None and measured is not None:
+            self._samples.add(time_s, duration_s, measured, age_s)
+            is_sampled = True
+        else:
+            is_sampled = False
+        found = self._tracker.step(image, time_s, sigma)
+        told = self._follow(found, time_s, before_s, is_sampled) if found else []
+        if self._touches:
+            told += self._end(time_s, time_s - before_s)
+        return tuple(told)
+
+    def _follow(self, found: tuple[TrackedBlob, ...], time_s: float, before_s: float, is_sampled: bool) -> list[Impact]:
+        """Give each contact to the touch that it belongs to; tell of the touches that begin."""
+        parts: dict[int, list[TrackedBlob]] = {}
+        for blob in sorted(found, key=lambda one: -one.force_n):
+            patch = self._patch(blob)
+            touch = self._nearest(blob, patch)
+            if touch is None:
+                touch = Touch(self._next_number, patch, time_s, before_s)
+                touch.x_m, touch.y_m = blob.x_m, blob.y_m
+                self._next_number = self._next_number % (_NUMBERS - 1) + 1
+                self._touches.append(touch)
+            parts.setdefault(touch.number, []).append(blob)
+        self._drop_those_in_others(parts)
+        begun = []
+        for touch in list(self._touches):
+            blobs = parts.get(touch.number, [])
+            if blobs and self._is_felt(touch, blobs, time_s, is_sampled):
+                touch.add(time_s, blobs, self.config)
+                if touch.began_s == time_s:
+                    begun.append(self._begun(touch))
+            elif not touch.frames_seen:
+                # The image goes on showing what was measured before: that is no new touch.
+                self._touches.remove(touch)
+        return begun
+
+    def _drop_those_in_others(self, parts: dict[int, list[TrackedBlob]]) -> None:
+        """Forget touches whose contacts have grown into that of another."""
+        for touch in [one for one in self._touches if one.number not in parts]:
+            for other in self._touches:
+                blobs = parts.get(other.number, [])
+                if other.patch == touch.patch and any(_covers(blob, touch.x_m, touch.y_m) for blob in blobs):
+                    self._touches.remove(touch)
+                    break
+
+    def _is_felt(self, touch: Touch, blobs: list[TrackedBlob], time_s: float, is_sampled: bool) -> bool:
+        """Whether this frame's own samples show the touch, or say nothing of it."""
+        if not is_sampled:
+            touch.see(np.array([time_s]))
+            return True
+        strongest = blobs[0]
+        reach_m = max(math.hypot(b.x_m - strongest.x_m, b.y_m - strongest.y_m) + reach_m_of(b) for b in blobs)
+        pressed_s, free_s = self._samples.near(strongest.x_m, strongest.y_m, reach_m)
+        if pressed_s.size:
+            touch.see(pressed_s)
+        return bool(pressed_s.size) or bool(touch.frames_seen and not free_s.size)
+
+    def _patch(self, blob: TrackedBlob) -> int:
+        row = round(float(self._geometry.row_of(blob.y_m)))
+        col = round(float(self._geometry.col_of(blob.x_m)))
+        return int(self._borders.rectangle_of[row * self._geometry.cols + col])
+
+    def _nearest(self, blob: TrackedBlob, patch: int) -> Touch | None:
+        nearest, nearest_m = None, math.inf
+        for touch in self._touches:
+            distance_m = math.hypot(blob.x_m - touch.x_m, blob.y_m - touch.y_m)
+            # Of a large contact the centre may be far away.
+            reach_m = max(self.config.impact_join_m, touch.reach_m)
+            if touch.patch == patch and distance_m <= reach_m and distance_m < nearest_m:
+                nearest, nearest_m = touch, distance_m
+        return nearest
+
+    def _begun(self, touch: Touch) -> Impact:
+        onset_s, onset_sd_s = touch.onset(self._untouched_before(touch))
+        return Impact(
+            number=touch.number,
+            is_over=False,
+            kind=Kind.UNKNOWN,
+            onset_s=onset_s,
+            onset_sd_s=onset_sd_s,
+            duration_s=0.0,
+            frames=touch.frames_seen,
+            x_m=touch.x_m,
+            y_m=touch.y_m,
+            peak_n=touch.peak_n,
+            peak_sd_n=touch.peak_sd_n,
+        )
+
+    def _untouched_before(self, touch: Touch) -> NDArray[np.float64]:
+        first_s = 2 * touch.before_s - touch.began_s
+        return self._samples.untouched_s(*touch.start_m, first_s, touch.first_sample_s)
+
+    def _end(self, time_s: float, period_s: float) -> list[Impact]:
+        """Tell of the touches that are over, and of impacts that stay on the skin."""
+        config = self.config
+        told, still = [], []
+        for touch in self._touches:
+            gone_s = time_s - touch.last_s
+            if gone_s > 0 and gone_s >= config.impact_quiet_s:
+                if not touch.is_told:
+                    told.append(self._over(touch, period_s))
+                continue
+            still.append(touch)
+            is_late = time_s - touch.began_s > config.impact_longest_s
+            rose = touch.peak_s - touch.began_s <= config.impact_rise_s
+            if not touch.is_told and is_late and rose and touch.stays_after_impact():
+                touch.is_told = True
+                told.append(self._over(touch, period_s, stays=True))
+        self._touches = still
+        return told
+
+    def _over(self, touch: Touch, period_s: float, *, stays: bool = False) -> Impact:
+        time, force_n, path_x_m, path_y_m = touch.path()
+        last = float(time[-1])
+        is_short = stays or touch.last_s - touch.began_s <= self.config.impact_longest_s
+        fitted = self._footprint(time, force_n, path_x_m, path_y_m, touch.spread_m) if is_short else None
+        peak_n, peak_sd_n = touch.peak_n, touch.peak_sd_n
+        x_m, y_m = touch.peak_x_m, touch.peak_y_m
+        if fitted is not None:
+            # Between taxels that were just measured an image is a guess, which is far off where taxels saturate.
+            force_n = np.interp(time, fitted.time_s, fitted.force_n)
+            path_x_m, path_y_m = fitted.path(time)
+            x_m, y_m = (float(one[0]) for one in fitted.path(fitted.time_s[[fitted.force_n.argmax()]]))
+            peak_n, peak_sd_n = float(fitted.force_n.max()), _FORCE_SD * float(fitted.force_n.max())
+        force = (time, force_n) if fitted is None else (fitted.time_s, fitted.force_n)
+        onset_s, onset_sd_s = touch.onset(self._untouched_before(touch), force if is_short else None)
+        if stays:
+            end_s = touch.last_s
+        else:
+            free_s = self._samples.untouched_s(touch.x_m, touch.y_m, touch.last_sample_s, math.inf)
+            end_s, _ = touch.end(free_s, touch.last_s + period_s, force if is_short else None)
+        kind = Kind.IMPACT if stays else touch.kind(onset_s, end_s, self.config)
+        velocity, sd, direction, direction_sd = (0.0, 0.0), (0.0, 0.0), 0.0, UNKNOWN_DIRECTION_SD_RAD
+        if fitted is not None and kind is Kind.IMPACT:
+            vx, vy = fitted.velocity_m_s.tolist()
+            velocity = (vx, vy)
+            sd_x, sd_y = np.sqrt(np.diag(fitted.covariance)).tolist()
+            sd = (sd_x, sd_y)
+            direction = math.atan2(vy, vx)
+            direction_sd = min(fitted.direction_sd_rad, UNKNOWN_DIRECTION_SD_RAD)
+        impulse_n_s = impulse_of(force, onset_s, end_s if is_short else last)
+        return Impact(
+            number=touch.number,
+            is_over=True,
+            kind=kind,
+            onset_s=onset_s,
+            onset_sd_s=onset_sd_s,
+            duration_s=max(end_s - onset_s, 0.0),
+            frames=touch.frames_seen,
+            x_m=x_m,
+            y_m=y_m,
+            peak_n=peak_n,
+            peak_sd_n=peak_sd_n,
+            bounced=kind is Kind.IMPACT and not stays,
+            impulse_n_s=impulse_n_s,
+            impulse_sd_n_s=_FORCE_SD * impulse_n_s if fitted is not None else impulse_n_s * peak_sd_n / peak_n,
+            direction_rad=direction,
+            direction_sd_rad=direction_sd,
+            velocity_m_s=velocity,
+            velocity_sd_m_s=sd,
+            time_s=time,
+            force_n=force_n,
+            path_x_m=path_x_m,
+            path_y_m=path_y_m,
+        )
+
+    def _footprint(self, time_s: Array, force_n: Array, x_m: Array, y_m: Array, spread_m: float) -> Footprint | None:
+        total = float(force_n.sum())
+        middle_x_m, middle_y_m = float(force_n @ x_m) / total, float(force_n @ y_m) / total
+        away_m2 = (x_m - middle_x_m) ** 2 + (y_m - middle_y_m) ** 2
+        reach_m = math.sqrt(float(force_n @ away_m2) / total + spread_m**2)
+        return self._samples.footprint(float(time_s[0]), float(time_s[-1]), middle_x_m, middle_y_m, reach_m)

@@ -1,0 +1,166 @@
+"""One touch while it goes on: what is kept of its frames, and what they say when it is over."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_recon.contacts import TrackedBlob
+from acts_recon.impacts.config import ImpactConfig
+from acts_recon.impacts.impact import Kind
+
+MAX_FRAMES = 512
+"""Frames that are kept of a touch; at higher rates than 12,800 frames/s those of the end of an impact are not."""
+
+# A force that stands still at its largest for most of the time is held: nothing that flies does that.
+_HELD_SHARE, _HELD_TIME, _HELD_S = 0.8, 0.7, 0.015
+_FALLEN_SHARE = 0.5
+# Hertz: the force of what meets the skin at a steady speed grows with time to this power.
+_RISE_POWER = 1.5
+
+_TIME, _FORCE, _FORCE_SD, _X, _Y = range(5)
+
+Force = tuple[NDArray[np.float64], NDArray[np.float64]]
+"""Times and forces [s, N]."""
+
+
+def reach_m_of(blob: TrackedBlob) -> float:
+    """How far a contact reaches from its centre, about: the radius of a disc of its area, and a third more [m]."""
+    return 1.3 * math.sqrt(blob.area_m2 / math.pi)
+
+
+class Touch:
+    """A touch from its first frame on.
+
+    Parameters
+    ----------
+    number : int
+    patch : int
+        Rectangle of the image that it lies in.
+    began_s, before_s : float
+        End of its first frame and of the frame before [s].
+    """
+
+    def __init__(self, number: int, patch: int, began_s: float, before_s: float) -> None:
+        self.number, self.patch = number, patch
+        self.began_s, self.before_s = began_s, before_s
+        self.last_s = began_s
+        self.first_sample_s = self.last_sample_s = began_s
+        self.is_told = False
+        self.frames_seen = 0
+        self.x_m = self.y_m = 0.0
+        self.start_m = 0.0, 0.0
+        self.reach_m = 0.0
+        self.most_area_m2 = 0.0
+        self.way_m = 0.0
+        self.spread_m = 0.0
+        self.peak_n = self.peak_sd_n = 0.0
+        self.peak_s = began_s
+        self.peak_x_m = self.peak_y_m = 0.0
+        self._settled_m: tuple[float, float] | None = None
+        self._rows = np.zeros((MAX_FRAMES, 5))
+        self._n = 0
+
+    @property
+    def rows(self) -> NDArray[np.float64]:
+        """Time, force, its standard deviation, x and y of the frames that are kept; shape (n, 5)."""
+        return self._rows[: self._n]
+
+    def see(self, pressed_s: NDArray[np.float64]) -> None:
+        """Count a frame that has measured it pressed, at these times [s]."""
+        if not self.frames_seen:
+            self.first_sample_s = float(pressed_s.min())
+        self.frames_seen += 1
+        self.last_sample_s = float(pressed_s.max())
+
+    def add(self, time_s: float, blobs: list[TrackedBlob], config: ImpactConfig) -> None:
+        """Take what was found of it in the next frame: one contact, or several near each other."""
+        force_n = sum(blob.force_n for blob in blobs)
+        x_m = sum(blob.force_n * blob.x_m for blob in blobs) / force_n
+        y_m = sum(blob.force_n * blob.y_m for blob in blobs) / force_n
+        sd_n = math.sqrt(sum(blob.force_sd_n**2 for blob in blobs))
+        self.last_s, self.x_m, self.y_m = time_s, x_m, y_m
+        if not self._n:
+            self.start_m = x_m, y_m
+        self.reach_m = max(math.hypot(b.x_m - x_m, b.y_m - y_m) + reach_m_of(b) for b in blobs)
+        self.most_area_m2 = max(self.most_area_m2, sum(blob.area_m2 for blob in blobs))
+        if force_n > self.peak_n:
+            self.peak_n, self.peak_sd_n, self.peak_s = force_n, sd_n, time_s
+            self.peak_x_m, self.peak_y_m = x_m, y_m
+            self.spread_m = max(blob.spread_m for blob in blobs)
+        age_s = time_s - self.began_s
+        if age_s >= config.impact_rise_s:
+            # While a contact begins, its centre moves though it does not.
+            self._settled_m = self._settled_m or (x_m, y_m)
+            self.way_m = max(self.way_m, math.dist(self._settled_m, (x_m, y_m)))
+        if age_s <= config.impact_longest_s and self._n < MAX_FRAMES:
+            self._rows[self._n] = time_s, force_n, sd_n, x_m, y_m
+            self._n += 1
+
+    def onset(self, untouched_s: NDArray[np.float64], force: Force | None = None) -> tuple[float, float]:
+        """When it first touched, and the standard deviation [s].
+
+        Parameters
+        ----------
+        untouched_s : np.ndarray [shape=(n,), dtype=float64]
+            When the taxels there were measured and not pressed, before its first sample.
+        force : (time_s, force_n), optional
+            Its force over time: from the first two values it is followed back to 0.
+        """
+        latest_s = self.first_sample_s
+        earliest_s = float(untouched_s.max(initial=latest_s - (self.began_s - self.before_s)))
+        return _between(earliest_s, latest_s, None if force is None else _zero(force, 0, 1))
+
+    def end(self, untouched_s: NDArray[np.float64], after_s: float, force: Force | None = None) -> tuple[float, float]:
+        """When it was last touched, and the standard deviation [s]; as `onset`. `after_s`: end of the next frame."""
+        earliest_s = self.last_sample_s
+        latest_s = float(untouched_s.min(initial=max(after_s, earliest_s)))
+        return _between(earliest_s, latest_s, None if force is None else _zero(force, -1, -2))
+
+    def stays_after_impact(self) -> bool:
+        """Whether what still touches came as an impact: its force was soon largest and has fallen since."""
+        return bool(self.rows[-1, _FORCE] <= _FALLEN_SHARE * self.peak_n)
+
+    def kind(self, onset_s: float, end_s: float, config: ImpactConfig) -> Kind:
+        """What it was, now that it is over."""
+        duration_s = end_s - onset_s
+        if duration_s <= config.impact_longest_s and not self._is_held(duration_s):
+            return Kind.IMPACT
+        if self.way_m > max(config.impact_slide_m, 2 * self.spread_m):
+            return Kind.SLIDE
+        if self.most_area_m2 > config.impact_step_m2:
+            return Kind.STEP
+        return Kind.TAP if duration_s <= config.impact_tap_s else Kind.PRESS
+
+    def _is_held(self, duration_s: float) -> bool:
+        if duration_s < _HELD_S:
+            return False
+        return bool(np.mean(self.rows[:, _FORCE] > _HELD_SHARE * self.peak_n) > _HELD_TIME)
+
+    def path(self) -> tuple[NDArray[np.float64], ...]:
+        """Time, force, x and y of the frames that are kept."""
+        return tuple(self.rows[:, column].copy() for column in (_TIME, _FORCE, _X, _Y))
+
+
+def impulse_of(force: Force, onset_s: float, end_s: float) -> float:
+    """Force over time, 0 at the first touch and at the last [N s]."""
+    time_s, force_n = force
+    before_s, after_s = min(onset_s, float(time_s[0])), max(end_s, float(time_s[-1]))
+    return float(np.trapezoid(np.concatenate(([0.0], force_n, [0.0])), np.concatenate(([before_s], time_s, [after_s]))))
+
+
+def _zero(force: Force, outer: int, inner: int) -> float | None:
+    """When the force is 0 that has these two values, by Hertz's law [s]; None where it does not lead there."""
+    time_s, force_n = force
+    if time_s.size < 2 or not 0 < force_n[outer] < force_n[inner]:
+        return None
+    small, large = (float(force_n[k]) ** (1 / _RISE_POWER) for k in (outer, inner))
+    return float(time_s[outer] - (time_s[inner] - time_s[outer]) * small / (large - small))
+
+
+def _between(earliest_s: float, latest_s: float, guess_s: float | None) -> tuple[float, float]:
+    """A moment that lies between two, and its standard deviation [s]."""
+    middle_s, sd_s = (earliest_s + latest_s) / 2, (latest_s - earliest_s) / math.sqrt(12)
+    return (middle_s, sd_s) if guess_s is None else (min(max(guess_s, earliest_s), latest_s), sd_s)
