@@ -102,5 +102,5 @@ def test_the_command_prints_what_is_reported(monkeypatch: pytest.MonkeyPatch) ->
 def test_where_nobody_reports_it_says_so(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("ROS_DOMAIN_ID", "189")
     assert main(["diagnostics", "--timeout", "0.2"]) == 3
-    assert "nobody has reported on /diagnostics or /diagnostics_agg within 0.2 s" in capsys.readouterr().err
+    assert "no node has reported on /diagnostics or /diagnostics_agg within 0.2 s" in capsys.readouterr().err
     assert main(["diagnostics", "--timeout", "0"]) == 1

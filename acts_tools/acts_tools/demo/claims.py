@@ -1,6 +1,6 @@
-"""What a demonstration has for itself alone while it runs, so that a second one is told instead of spoiling the first.
+"""Exclusive use of a folder and a robot's address: a second demonstration fails instead of disturbing the first.
 
-Both claims end with the process, however it ends, and leave nothing behind.
+Both end with the process, however it ends, and leave no files.
 """
 
 from __future__ import annotations
@@ -17,12 +17,12 @@ from acts_core.errors import LaunchError
 
 @contextmanager
 def claimed_folder(out: Path) -> Iterator[None]:
-    """The folder that results are written to.
+    """Exclusive use of the folder for results.
 
     Raises
     ------
     LaunchError
-        Another demonstration has it.
+        Another demonstration uses it.
     """
     descriptor = os.open(out, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
     try:
@@ -40,14 +40,14 @@ def claimed_folder(out: Path) -> Iterator[None]:
 
 @contextmanager
 def claimed_robot(robot_ip: str) -> Iterator[None]:
-    """The address of a simulated robot, from before it is there.
+    """Exclusive use of the address of a simulated robot, from before its start.
 
     Raises
     ------
     LaunchError
-        Another demonstration has it.
+        Another demonstration uses it.
     """
-    # A name that exists in the system's memory only, and in this network only.
+    # An abstract socket name, which exists in memory and in this network namespace only.
     with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as name:
         try:
             name.bind(f"\0acts_demo_robot_{robot_ip}")

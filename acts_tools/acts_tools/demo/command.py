@@ -8,12 +8,12 @@ from pathlib import Path
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Add ``demo`` to the acts command."""
-    parser = subparsers.add_parser("demo", help="run a demonstration with everything simulated")
+    parser = subparsers.add_parser("demo", help="run a demonstration in simulation")
     demos = parser.add_subparsers(dest="demo", required=True, metavar="NAME")
     ball = demos.add_parser(
         "ball_balancing",
         help="a UR5e balances a ball by touch and traces N, B and I",
-        description="Ball balancing by touch with simulated skin, ball and UR5e. The exit code says whether it worked.",
+        description="Ball balancing by touch with simulated skin, ball and UR5e. The exit code is 0 if it worked.",
     )
     ball.add_argument("--seconds", type=float, help="shorten it: trace only what fits into this time (default: all)")
     ball.add_argument("--out", type=Path, default=Path("out"), help="folder for the results (default: out)")
@@ -27,17 +27,17 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     hand = demos.add_parser(
         "hand",
         help="a LEAP hand holds, balances, avoids and shakes hands by touch",
-        description="The reflexes of a simulated LEAP hand, each act with a hand of its own. The exit code says "
-        "whether it worked.",
+        description="The reflexes of a simulated LEAP hand, with a new hand for each act. The exit code is 0 if it "
+        "worked.",
     )
     hand.add_argument("acts", nargs="*", metavar="ACT", help="acts to play: sphere, slip, sharp, hand_to_hand (all)")
     hand.add_argument("--out", type=Path, default=Path("out"), help="folder for the results (default: out)")
-    hand.add_argument("--seed", type=int, default=5, help="of what differs from one simulated hand to the next")
+    hand.add_argument("--seed", type=int, default=5, help="seed of the simulated hands' variation")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Run the demonstration that was named."""
-    # Late: the other commands need neither ROS messages nor the drawing library.
+    """Run the chosen demonstration and return its exit code."""
+    # Imported here: other commands need neither ROS messages nor the drawing library.
     if arguments.demo == "hand":
         from acts_tools.demo.hand import run as hand
 

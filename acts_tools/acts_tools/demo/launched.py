@@ -1,4 +1,4 @@
-"""A launch file that runs as long as somebody watches it."""
+"""Run a launch file for the length of a block."""
 
 from __future__ import annotations
 
@@ -15,27 +15,27 @@ from acts_ros.processes.launcher import leave_with_parent
 _STOP_TIMEOUT_S = 20.0
 
 NICENESS = 10
-"""Of the process that watches: what it shows may come late, what it watches may not."""
+"""Niceness of the observing process: its output may be late, but the launched processes may not."""
 
 
 @contextmanager
 def launched(
     launch_file: str, arguments: list[str], log_path: Path, niceness: int = NICENESS
 ) -> Iterator[subprocess.Popen[bytes]]:
-    """Run a launch file of acts_bringup in a session of its own, and make this process yield the CPU to it.
+    """Run a launch file of acts_bringup in a session of its own, with a higher priority than this process.
 
-    At the end, or should this process be killed, the launch is stopped.
+    The launch is stopped at the end of the block, or if this process is killed.
 
     Parameters
     ----------
     launch_file : str
-        Its name.
+        Name of the launch file.
     arguments : list of str
-        ``name:=value``.
+        Launch arguments, as ``name:=value``.
     log_path : Path
-        Takes what the launch prints.
+        File for the output of the launch.
     niceness : int
-        That this process gets, for good: what it starts later would have it as well, so 0 where it starts more.
+        Permanent niceness of this process. Processes that it starts later inherit it, so give 0 if there are any.
     """
     command = [sys.executable, "-m", "acts_tools", "launch", "--own", "acts_bringup", launch_file, *arguments]
     with log_path.open("wb") as log:
@@ -46,7 +46,7 @@ def launched(
             start_new_session=True,
             preexec_fn=leave_with_parent(os.getpid()),
         )
-        # After the start: children inherit it.
+        # After the start, because children inherit it.
         os.nice(niceness)
         try:
             yield process

@@ -1,4 +1,4 @@
-"""Waits for what a demonstration does, shows a status line meanwhile, and notices when something ends."""
+"""Wait for events of a demonstration with a status line, and notice when its launch ends."""
 
 from __future__ import annotations
 
@@ -16,20 +16,20 @@ _PLAIN_REFRESH_S = 5.0
 
 
 class Watcher:
-    """Takes in what has come, ten times a second, and prints a line.
+    """Processes messages ten times a second, and prints a status line.
 
-    On a terminal the line stays in place; elsewhere one is printed every five seconds.
+    On a terminal the line is updated in place; elsewhere one is printed every five seconds.
 
     Parameters
     ----------
     take_in : callable
-        Works on what has come.
+        Processes the messages since the last call.
     launch : subprocess.Popen
-        Of the launch file.
+        Process of the launch.
     stop : StopFlag
-        Set when a person wants it to end.
+        Set when the user wants to stop.
     line : callable
-        The status line.
+        Returns the status line.
     """
 
     def __init__(
@@ -43,14 +43,14 @@ class Watcher:
         self._shown_s = 0.0
 
     def until(self, condition: Callable[[], bool], timeout_s: float) -> bool:
-        """Wait for a condition; whether it came true in time.
+        """Wait for a condition; return whether it became true in time.
 
         Raises
         ------
         LaunchError
             When the launch has ended.
         KeyboardInterrupt
-            When it is to stop.
+            When the user wants to stop.
         """
         deadline_s = time.monotonic() + timeout_s
         while not condition():
@@ -60,7 +60,7 @@ class Watcher:
         return True
 
     def end(self) -> None:
-        """Leave the status line."""
+        """End the status line."""
         if self._live:
             print()
 

@@ -1,1 +1,1 @@
-"""`acts diagnostics`: what the nodes say of themselves."""
+"""`acts diagnostics`: print the diagnostics of the running nodes."""

@@ -1,4 +1,4 @@
-"""`acts diagnostics`: print what /diagnostics and its aggregate hold now; the exit code is the worst level."""
+"""`acts diagnostics`: print the newest reports of all nodes; the exit code is the worst level."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ if TYPE_CHECKING:
     from diagnostic_msgs.msg import DiagnosticArray
 
 _TOPICS = ("/diagnostics", "/diagnostics_agg")
-# Nodes report once a second: after this time from the first one on, each has.
+# Nodes report once a second, so this long after the first report each has reported.
 _ALL_S = 2.2
 _TURN_S = 0.1
 _DEPTH = 100
 _NOBODY = 3
 
 _EPILOG = """\
-exit codes: 0 all is OK, 1 a warning, 2 an error, 3 something is stale or nobody reports
+exit codes: 0 all is OK, 1 a warning, 2 an error, 3 something is stale or no node reports
 
 examples:
-  acts diagnostics                  every node with all it says
-  acts diagnostics --brief          a line for each
+  acts diagnostics                  every node with all its values
+  acts diagnostics --brief          one line for each node
   acts diagnostics --json | jq .    for programs
 
 docs/driver.md explains the values of the driver.
@@ -38,7 +38,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     """Add ``diagnostics`` to the acts command."""
     parser = subparsers.add_parser(
         "diagnostics",
-        help="print what the running nodes say of themselves",
+        help="print the diagnostics of the running nodes",
         description="Listen to /diagnostics and /diagnostics_agg for some seconds and print the newest report of each "
         "node: level, message, values.",
         epilog=_EPILOG,
@@ -52,13 +52,13 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Listen and print; the worst level, or 3 where nobody reports."""
+    """Listen and print; return the worst level, or 3 if no node reports."""
     if not 0 < arguments.timeout < float("inf"):
         raise SettingsError(f"--timeout {arguments.timeout:g} is not a positive time in seconds")
     statuses = _heard(arguments.timeout)
     if statuses.is_empty:
         print(
-            f"nobody has reported on {' or '.join(_TOPICS)} within {arguments.timeout:g} s: are nodes running, and "
+            f"no node has reported on {' or '.join(_TOPICS)} within {arguments.timeout:g} s: are nodes running, and "
             "with this ROS_DOMAIN_ID?",
             file=sys.stderr,
         )
@@ -71,8 +71,8 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _heard(timeout_s: float) -> Statuses:
-    """What was reported: nothing within the time, or everything of some seconds from the first report on."""
-    # Late: they take time that the other commands need not spend.
+    """Reports of some seconds from the first one on; empty if there is none within the time."""
+    # Imported here, because they are slow to import and other commands do not need them.
     import rclpy
     from diagnostic_msgs.msg import DiagnosticArray
     from rclpy.context import Context
@@ -85,7 +85,7 @@ def _heard(timeout_s: float) -> Statuses:
 
     statuses = Statuses(_TOPICS)
     with StopFlag() as stop:
-        # Signals are left alone where the context is one's own.
+        # rclpy installs no signal handlers for a context of our own.
         context = Context()
         middleware.init(args=[], context=context)
         node = Node("acts_diagnostics", context=context, start_parameter_services=False, enable_rosout=False)

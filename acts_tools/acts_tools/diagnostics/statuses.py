@@ -1,4 +1,4 @@
-"""What was heard on the topics of diagnostics: as a table, as JSON, as an exit code. Knows no ROS."""
+"""Statuses received on the diagnostics topics, as a table, as JSON, and as an exit code. Does not depend on ROS."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 from acts_skins.overview.aggregate import Status
 
 WORDS = ("OK", "WARN", "ERROR", "STALE")
-"""Words of the levels, by their number; the exit code of a level is its number."""
+"""Names of the levels, by their number; the exit code of a level is its number."""
 
 
 class Statuses:
@@ -17,28 +17,28 @@ class Statuses:
     Parameters
     ----------
     topics : sequence of str
-        In the order in which they are shown.
+        Topics in the order of the output.
     """
 
     def __init__(self, topics: Sequence[str]) -> None:
         self._heard: dict[str, dict[str, Status]] = {topic: {} for topic in topics}
 
     def take(self, topic: str, status: Status) -> None:
-        """Take a status that came on a topic."""
+        """Store a status that was received on a topic."""
         self._heard[topic][status.name] = status
 
     @property
     def is_empty(self) -> bool:
-        """Whether nothing was heard."""
+        """Whether no status was received."""
         return not any(self._heard.values())
 
     @property
     def worst(self) -> int:
-        """The worst level, 0 to 3; 0 where nothing was heard."""
+        """The worst level, 0 to 3; 0 without any status."""
         return max((_level(status) for heard in self._heard.values() for status in heard.values()), default=0)
 
     def lines(self, *, with_values: bool) -> Iterator[str]:
-        """A table for a person: level, name and message, below them the named values."""
+        """A table for a person: level, name and message, followed by the named values."""
         for topic, heard in self._heard.items():
             if not heard:
                 continue
@@ -55,7 +55,7 @@ class Statuses:
                     )
 
     def as_json(self) -> dict[str, Any]:
-        """The same for programs: for each topic that was heard, a list of statuses."""
+        """The same for programs: a list of statuses for each topic with any."""
         return {
             topic: [
                 {
@@ -73,5 +73,5 @@ class Statuses:
 
 
 def _level(status: Status) -> int:
-    """The level; one that is none is taken for an error."""
+    """The level; an invalid one counts as an error."""
     return status.level if 0 <= status.level < len(WORDS) else WORDS.index("ERROR")

@@ -1,1 +1,1 @@
-"""`acts doctor`: what this machine lacks for 1 kHz and for real time, and the command that mends it."""
+"""`acts doctor`: check whether this machine is ready for 1 kHz and real time, and print commands that correct it."""

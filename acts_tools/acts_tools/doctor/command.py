@@ -1,4 +1,4 @@
-"""`acts doctor`: what does this machine lack?"""
+"""`acts doctor`: check this machine."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from acts_tools.doctor.report import examine
 
 _EPILOG = """\
 levels:
-  ok      as it should be
-  ?       cannot be told here, as in a container
-  note    1 kHz works, single frames come late
+  ok      good
+  ?       unknown, for example in a container
+  note    1 kHz works, but single frames may be late
   lacks   1 kHz does not work, or real time does not where --realtime asks for it
 
-It changes nothing; below what could be better stand the commands that mend it. The exit code is 1 when something is
-lacking, and 0 also where there are only notes. docs/real_time.md explains what real time needs.
+It changes nothing; commands that correct a finding are printed below it. The exit code is 1 if something is lacking,
+and 0 if there are only notes. docs/real_time.md explains what real time needs.
 """
 
 
@@ -27,20 +27,18 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     """Add ``doctor`` to the acts command."""
     parser = subparsers.add_parser(
         "doctor",
-        help="tell what this machine lacks, and how to mend it",
-        description="Look at this machine: does it have what 1 kHz, and real time, need?",
+        help="check this machine, and say how to correct what is wrong",
+        description="Check whether this machine is ready for 1 kHz, and for real time.",
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument(
-        "--realtime", action="store_true", help="realtime_priority is to work: what it needs is lacking"
-    )
+    parser.add_argument("--realtime", action="store_true", help="also require what realtime_priority needs")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the report as JSON")
     parser.add_argument("--root", type=Path, default=Path("/"), metavar="FOLDER", help="a folder in place of / (/)")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Look and report; 1 when something is lacking."""
+    """Check and report; return 1 if something is lacking."""
     if not arguments.root.is_dir():
         raise ActsError(f"--root {arguments.root}: is no folder")
     diagnosis = examine(Machine(root=arguments.root), realtime=arguments.realtime)

@@ -1,4 +1,4 @@
-"""How many cores there are for us, and how fast they are when a frame comes."""
+"""Number of usable cores, and their clock when a frame arrives."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from acts_tools.doctor.machine import Machine
 
 
 def cores(machine: Machine) -> Finding:
-    """Cores that this process may use, and how much of them."""
+    """Check the cores that this process may use, and the quota of its control group."""
     name = "cores"
     allowed = machine.cores()
     if allowed is None:
@@ -18,7 +18,7 @@ def cores(machine: Machine) -> Finding:
     if quota is not None and quota < len(allowed):
         text = f"{len(allowed)}, of which the control group allows {quota:.2g} cores' worth of time"
         mend = "docker run --cpus=2 ...     # or no --cpus at all; of a service: CPUQuota=200%"
-        # Used up, it holds everything until the next tenth of a second, real time or not.
+        # When the quota is used up, all processes stop until the next tenth of a second, even real-time ones.
         return Finding(name, Level.LACKS if quota < 1 else Level.NOTE, text, mend if quota < 2 else "")
     if len(allowed) == 1:
         return Finding(name, Level.NOTE, "one: enough for one skin, if nothing else runs")
@@ -26,7 +26,7 @@ def cores(machine: Machine) -> Finding:
 
 
 def _quota_cores(machine: Machine) -> float | None:
-    """What the control group allows, in cores; None where there is no limit."""
+    """Quota of the control group, in cores; None where there is no limit."""
     folder = machine.control_group("")
     words = (machine.text(f"{folder}/cpu.max") or "").split() if folder is not None else []
     if len(words) == 2 and all(word.isdecimal() for word in words):
@@ -39,7 +39,7 @@ def _quota_cores(machine: Machine) -> float | None:
 
 
 def core_clock(machine: Machine) -> Finding:
-    """Whether the cores keep their speed between frames."""
+    """Check whether the cores keep their clock rate between frames."""
     name = "core clock"
     governors: Counter[str] = Counter()
     for path in machine.found("sys/devices/system/cpu/cpu[0-9]*/cpufreq/scaling_governor"):

@@ -1,4 +1,4 @@
-"""What a check says: how bad, in one sentence, and the command that mends it."""
+"""Result of a check: its level, a sentence, and a command that corrects it."""
 
 from __future__ import annotations
 
@@ -7,33 +7,33 @@ from enum import IntEnum
 
 
 class Level(IntEnum):
-    """How much a finding matters; the larger the worse."""
+    """Severity of a finding; larger is worse."""
 
     OK = 0
     UNKNOWN = 1
-    """It cannot be told here, as in a container that hides it."""
+    """The state is unknown, for example hidden by a container."""
     NOTE = 2
-    """1 kHz works without it; single frames come late, or something beside 1 kHz is worse."""
+    """1 kHz works, but single frames are late, or something else is worse."""
     LACKS = 3
-    """It keeps 1 kHz, or what was asked for, from working."""
+    """1 kHz, or what was requested, does not work."""
 
 
 @dataclass(frozen=True)
 class Finding:
-    """The outcome of one check.
+    """The result of one check.
 
     Attributes
     ----------
     name : str
-        What was looked at.
+        Name of the check.
     level : Level
-        See there.
+        Severity.
     text : str
-        What was found, for a person.
+        The finding, for a person.
     mend : str
-        Command, or commands line by line; empty where there is nothing to mend.
+        Commands that correct it, one per line; empty where there is nothing to correct.
     for_realtime : bool
-        Whether real-time scheduling depends on it: a note then counts as lacking where real time is asked for.
+        Whether real-time scheduling depends on it; with ``--realtime`` a note then counts as lacking.
     """
 
     name: str
@@ -44,15 +44,15 @@ class Finding:
 
 
 def unknown(name: str, what: str, *, for_realtime: bool = False) -> Finding:
-    """A finding for what the machine does not show.
+    """A finding about something that the machine does not show.
 
     Parameters
     ----------
     name : str
-        As of the check.
+        Name of the check.
     what : str
         What is missing, such as a file.
     for_realtime : bool
-        As of `Finding`.
+        As in `Finding`.
     """
-    return Finding(name, Level.UNKNOWN, f"cannot be told here: there is no {what}", for_realtime=for_realtime)
+    return Finding(name, Level.UNKNOWN, f"unknown: there is no {what}", for_realtime=for_realtime)

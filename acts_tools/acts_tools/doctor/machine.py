@@ -1,4 +1,4 @@
-"""The machine as the checks see it: files, limits and environment, all of which a test can make up."""
+"""Interface of the checks to the machine: files, limits and environment, which tests can replace."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def _group_names() -> frozenset[str]:
 
 @dataclass(frozen=True)
 class Machine:
-    """Where the checks look.
+    """Sources of the checks.
 
     Attributes
     ----------
@@ -54,13 +54,13 @@ class Machine:
     environment : mapping of str to str
         Environment variables.
     limit : callable
-        Takes a resource's number, returns the soft and the hard limit.
+        Function from a resource's number to its soft and hard limit.
     groups : frozenset of str
         Names of the groups of this process.
     may_use : callable
-        Whether a file may be read and written.
+        Function that returns whether a file may be read and written.
     space : callable
-        The size of the file system that a path lies on.
+        Function from a path to the size of its file system.
     """
 
     root: Path = Path("/")
@@ -71,28 +71,28 @@ class Machine:
     space: Callable[[Path], Space] = _space
 
     def text(self, path: str) -> str | None:
-        """Content of a file without surrounding blanks; None where there is none to read."""
+        """Content of a file without surrounding blanks; None where it cannot be read."""
         try:
             return (self.root / path).read_text(errors="replace").strip()
         except OSError:
             return None
 
     def number(self, path: str) -> int | None:
-        """The whole number that a file holds; None where it does not hold one."""
+        """The integer in a file; None where there is none."""
         try:
             return int(self.text(path) or "")
         except ValueError:
             return None
 
     def found(self, pattern: str) -> list[Path]:
-        """Paths below the root that match, in order; none where the folder cannot be read."""
+        """Sorted paths below the root that match a pattern; empty where the folder cannot be read."""
         try:
             return sorted(self.root.glob(pattern))
         except OSError:
             return []
 
     def status(self, key: str) -> str | None:
-        """A line of this process's own status, such as ``CapEff``."""
+        """A line of ``/proc/self/status``, such as ``CapEff``."""
         for line in (self.text("proc/self/status") or "").splitlines():
             name, _, value = line.partition(":")
             if name == key:
@@ -100,26 +100,26 @@ class Machine:
         return None
 
     def has_capability(self, number: int) -> bool:
-        """Whether this process has one of the rights of root, by its number in ``linux/capability.h``."""
+        """Whether this process has a capability, by its number in ``linux/capability.h``."""
         try:
             return bool(int(self.status("CapEff") or "0", 16) >> number & 1)
         except ValueError:
             return False
 
     def cores(self) -> frozenset[int] | None:
-        """The cores that this process may run on; None where that cannot be told."""
+        """The cores that this process may run on; None where that is unknown."""
         try:
             return parse_cores(self.status("Cpus_allowed_list") or "", range(_CPU_SETSIZE)) or None
         except SettingsError:
             return None
 
     def control_group(self, controller: str) -> str | None:
-        """Folder of this process's control group without the root; None where there is none.
+        """Folder of this process's control group, relative to the root; None where there is none.
 
         Parameters
         ----------
         controller : str
-            Of version 1, such as ``cpu``; empty for version 2.
+            Controller of version 1, such as ``cpu``; empty for version 2.
         """
         for line in (self.text("proc/self/cgroup") or "").splitlines():
             _, controllers, path = [*line.split(":", 2), "", ""][:3]

@@ -1,4 +1,4 @@
-"""Shared memory, what dead processes left in it, and swap."""
+"""Checks of shared memory, of files that dead processes left in it, and of swap."""
 
 from __future__ import annotations
 
@@ -6,13 +6,13 @@ from acts_tools.doctor.finding import Finding, Level, unknown
 from acts_tools.doctor.machine import Machine
 
 _MIB = 1 << 20
-# A launch with three skins and a viewer takes some 20 MiB, most of it segments of the middleware.
+# A launch with three skins and a viewer needs some 20 MiB, most of it segments of the middleware.
 _NEEDED_BYTES = 32 * _MIB
 _SHM = "dev/shm"
 
 
 def shared_memory(machine: Machine) -> Finding:
-    """Whether there is shared memory, for the middleware and for what simulated processes share."""
+    """Check whether there is shared memory for the middleware and for simulated processes."""
     name = "shared memory"
     folder = machine.root / _SHM
     if not folder.is_dir() or not machine.may_use(folder):
@@ -30,17 +30,17 @@ def shared_memory(machine: Machine) -> Finding:
 
 
 def abandoned(machine: Machine) -> Finding:
-    """Segments of Fast DDS whose process has died without removing them."""
+    """Check for segments of Fast DDS whose process died without removing them."""
     name = "left-over files"
     locks = machine.text("proc/locks")
     if locks is None:
         return unknown(name, "/proc/locks")
-    # MAJOR:MINOR:INODE is the sixth word, or the seventh in the line of who waits for a lock.
+    # MAJOR:MINOR:INODE is the sixth word, or the seventh in the line of a process that waits for a lock.
     locked = {word.rsplit(":", 1)[1] for line in locks.splitlines() for word in line.split() if word.count(":") == 2}
     dead = []
     for path in machine.found(f"{_SHM}/fastdds_*_el"):
         if path.name.startswith("fastdds_port"):
-            continue  # shared by several processes, and taken up by the next one
+            continue  # shared by several processes, and reused by the next one
         try:
             if str(path.stat().st_ino) not in locked:
                 dead.append(path.name)
@@ -57,7 +57,7 @@ def abandoned(machine: Machine) -> Finding:
 
 
 def swap(machine: Machine) -> Finding:
-    """Whether pages may go to a disk."""
+    """Check whether memory may be swapped out."""
     name = "swap"
     swaps = machine.text("proc/swaps")
     if swaps is None:
@@ -70,6 +70,6 @@ def swap(machine: Machine) -> Finding:
     return Finding(
         name,
         Level.NOTE,
-        "on: a process that lay still may be late by many milliseconds when its first frame comes",
+        "on: an idle process may be late by many milliseconds when its first frame arrives",
         "sudo sysctl -w vm.swappiness=10",
     )

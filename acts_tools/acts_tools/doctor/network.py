@@ -1,4 +1,4 @@
-"""What ROS needs of the network: socket buffers, and a domain of one's own."""
+"""Checks of the network for ROS: socket buffers, domain and discovery."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from acts_tools.doctor.machine import Machine
 
 _BUFFER_BYTES = 4 << 20
 _BUFFERS = ("rmem_max", "wmem_max")
-# Beyond, the ports of a domain are among those that Linux gives to any program.
+# The ports of higher domains are among those that Linux gives to any program.
 _SAFE_DOMAINS = (range(0, 102), range(215, 233))
 _RANGES = ("SUBNET", "LOCALHOST", "OFF", "SYSTEM_DEFAULT")
 
 
 def socket_buffers(machine: Machine) -> Finding:
-    """How much of a burst a socket can hold, as the ROS documentation on DDS tuning advises."""
+    """Check the sizes of socket buffers, as the ROS documentation on DDS tuning advises."""
     name = "socket buffers"
     sizes = {which: machine.number(f"proc/sys/net/core/{which}") for which in _BUFFERS}
     known = {which: size for which, size in sizes.items() if size is not None}
@@ -27,13 +27,13 @@ def socket_buffers(machine: Machine) -> Finding:
     return Finding(
         name,
         Level.NOTE,
-        f"{words}: over a network, bursts of images at 1 kHz get lost (shared memory is not concerned)",
+        f"{words}: over a network, bursts of images at 1 kHz get lost (shared memory is not affected)",
         f"sudo sysctl -w {settings}     # to keep it: in /etc/sysctl.d/60-ros.conf",
     )
 
 
 def ros_domain(machine: Machine) -> Finding:
-    """Whose nodes ours can see."""
+    """Check the ROS domain."""
     name = "ROS domain"
     text = machine.environment.get("ROS_DOMAIN_ID", "")
     if text and not (text.isdecimal() and int(text) <= HIGHEST_DOMAIN):
@@ -50,13 +50,13 @@ def ros_domain(machine: Machine) -> Finding:
     return Finding(
         name,
         Level.NOTE,
-        "0, that of everyone who has not chosen one: robots of others on this network join in",
+        "0, the default: robots of others on this network communicate with yours",
         "export ROS_DOMAIN_ID=42     # or: export ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST",
     )
 
 
 def discovery(machine: Machine) -> Finding:
-    """How far nodes look for one another."""
+    """Check the range of discovery."""
     name = "ROS discovery"
     text = machine.environment.get("ROS_AUTOMATIC_DISCOVERY_RANGE", "")
     if text and text not in _RANGES:

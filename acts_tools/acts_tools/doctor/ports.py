@@ -1,4 +1,4 @@
-"""The serial ports: may we open them, and do they hand on what they have at once?"""
+"""Checks of the serial ports: permissions, and delays of their adapters."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _JOIN = "sudo usermod -a -G dialout $USER     # uucp on Arch Linux; then log out
 
 
 def latency_timers(machine: Machine) -> Finding:
-    """How long adapters of USB to serial keep bytes back."""
+    """Check for how long USB serial adapters buffer bytes."""
     name = "serial latency"
     slow = {}
     for path in machine.found("sys/bus/usb-serial/devices/*/latency_timer"):
@@ -26,14 +26,14 @@ def latency_timers(machine: Machine) -> Finding:
     if slow:
         words = ", ".join(f"{port} {latency_ms} ms" for port, latency_ms in slow.items())
         mend = "\n".join(f"echo 1 | sudo tee /sys/bus/usb-serial/devices/{port}/latency_timer" for port in slow)
-        return Finding(name, Level.LACKS, f"bytes are kept back at {words}: frames come in bursts", mend)
-    # A board with a USB of its own, such as a Teensy, has no such timer.
+        return Finding(name, Level.LACKS, f"bytes are buffered at {words}: frames arrive in bursts", mend)
+    # A board with native USB, such as a Teensy, has no such timer.
     ports = [path.name for path in (*_ports(machine, "ttyACM*"), *machine.found("sys/bus/usb-serial/devices/*"))]
-    return Finding(name, Level.OK, f"{', '.join(ports)}: nothing is kept back" if ports else "no port is plugged in")
+    return Finding(name, Level.OK, f"{', '.join(ports)}: no delay" if ports else "no port is plugged in")
 
 
 def port_rights(machine: Machine) -> Finding:
-    """Whether this user may open the ports."""
+    """Check whether this user may open the ports."""
     name = "port rights"
     ports = [*_ports(machine, "ttyACM*"), *_ports(machine, "ttyUSB*")]
     refused = [port.name for port in ports if not machine.may_use(port)]

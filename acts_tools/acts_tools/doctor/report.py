@@ -1,4 +1,4 @@
-"""All findings together: the verdict, the text for a person, and JSON."""
+"""Report of all findings: the verdict, text for a person, and JSON."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ CHECKS: tuple[Callable[[Machine], Finding], ...] = (
     network.ros_domain,
     network.discovery,
 )
-"""Everything that is looked at, in the order of the report. A new check is a function here and nothing else."""
+"""All checks, in the order of the report. To add a check, add its function here."""
 
 _WORDS = {Level.OK: "ok", Level.UNKNOWN: "?", Level.NOTE: "note", Level.LACKS: "lacks"}
 _COLOURS = {Level.OK: 32, Level.UNKNOWN: 90, Level.NOTE: 33, Level.LACKS: 31}
@@ -36,14 +36,14 @@ _LEVEL_WIDTH = max(map(len, _WORDS.values()))
 
 @dataclass(frozen=True)
 class Diagnosis:
-    """What was found.
+    """Results of all checks.
 
     Attributes
     ----------
     findings : sequence of Finding
         In the order of `CHECKS`.
     realtime : bool
-        Whether notes that concern real-time scheduling count as lacking.
+        Whether notes about real-time scheduling count as lacking.
     """
 
     findings: Sequence[Finding]
@@ -55,7 +55,7 @@ class Diagnosis:
         return all(finding.level is not Level.LACKS for finding in self.findings)
 
     def text(self, *, coloured: bool = False) -> str:
-        """The report for a person, with the commands below what they mend."""
+        """The report for a person, with commands below the findings that they correct."""
         name_width = max((len(finding.name) for finding in self.findings), default=0)
         indent = " " * (_LEVEL_WIDTH + name_width + 4)
         lines = []
@@ -69,7 +69,7 @@ class Diagnosis:
 
     @property
     def verdict(self) -> str:
-        """All of it in one line."""
+        """Summary in one line."""
         what = "real time at 1 kHz" if self.realtime else "1 kHz"
         lacking = [finding.name for finding in self.findings if finding.level is Level.LACKS]
         notes = sum(finding.level is Level.NOTE for finding in self.findings)
@@ -85,14 +85,14 @@ class Diagnosis:
 
 
 def examine(machine: Machine, *, realtime: bool = False) -> Diagnosis:
-    """Look at everything.
+    """Run all checks.
 
     Parameters
     ----------
     machine : Machine
-        Where to look.
+        The machine.
     realtime : bool
-        Real-time scheduling is to work as well: what it depends on and is only noted counts as lacking.
+        Whether real-time scheduling is required as well; notes about it then count as lacking.
     """
     findings = [check(machine) for check in CHECKS]
     if realtime:

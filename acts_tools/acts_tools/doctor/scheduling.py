@@ -1,4 +1,4 @@
-"""Whether the machine allows real-time scheduling, and how good it is at it."""
+"""Checks of real-time scheduling: whether it is allowed, and how well it works."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _DEFAULT_SHARE_US = 950_000
 
 
 def rtprio_limit(machine: Machine) -> Finding:
-    """The highest priority an ordinary user may ask for."""
+    """Check the highest real-time priority of an ordinary user."""
     name = "rtprio limit"
     if machine.has_capability(_CAP_SYS_NICE):
         return Finding(name, Level.OK, "any priority: this process has the right CAP_SYS_NICE", for_realtime=True)
@@ -38,7 +38,7 @@ def rtprio_limit(machine: Machine) -> Finding:
 
 
 def locked_memory(machine: Machine) -> Finding:
-    """Whether pages can be kept in memory."""
+    """Check whether memory can be locked."""
     name = "locked memory"
     if machine.has_capability(_CAP_IPC_LOCK):
         return Finding(name, Level.OK, "no limit: this process has the right CAP_IPC_LOCK", for_realtime=True)
@@ -55,7 +55,7 @@ def locked_memory(machine: Machine) -> Finding:
 
 
 def kernel(machine: Machine) -> Finding:
-    """Whether the kernel can be interrupted nearly everywhere."""
+    """Check whether the kernel is fully preemptible."""
     name = "kernel"
     version = machine.text("proc/version")
     if machine.text("sys/kernel/realtime") == "1" or "PREEMPT_RT" in (version or ""):
@@ -66,13 +66,13 @@ def kernel(machine: Machine) -> Finding:
     return Finding(
         name,
         Level.NOTE,
-        "not PREEMPT_RT: now and then a frame is late by a millisecond or more, whatever its priority",
+        "not PREEMPT_RT: sometimes a frame is late by a millisecond or more, whatever its priority",
         "sudo pro enable realtime-kernel          # Ubuntu\nsudo apt install linux-image-rt-amd64     # Debian",
     )
 
 
 def realtime_share(machine: Machine) -> Finding:
-    """How much of a core the kernel leaves to real-time threads."""
+    """Check the share of a core that real-time threads may use."""
     name = "real-time share"
     folder = machine.control_group("cpu")
     if folder is not None and machine.number(f"{folder}/cpu.rt_runtime_us") == 0:

@@ -1,1 +1,1 @@
-"""`acts driver`: what a running driver says, and what it is asked to do."""
+"""`acts driver`: control a running driver, and read its status."""

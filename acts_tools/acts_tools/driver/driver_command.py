@@ -1,4 +1,4 @@
-"""`acts driver`: what a running driver can be asked and told, for machines without the `ros2` command."""
+"""`acts driver`: control a running driver, also on machines without the `ros2` command."""
 
 from __future__ import annotations
 
@@ -33,23 +33,23 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     """Add ``driver`` to the acts command."""
     parser = subparsers.add_parser(
         "driver",
-        help="ask or tell a running driver",
-        description="Ask a running driver about its board, calibrate or tare it, set parameters of the board.",
+        help="control a running driver",
+        description="Query the board of a running driver, calibrate or tare it, or set parameters of the board.",
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("-n", "--namespace", default="plate", help="of the skin (plate)")
+    parser.add_argument("-n", "--namespace", default="plate", help="namespace of the skin (plate)")
     parser.add_argument("what", choices=(*_SERVICES, "set"))
     parser.add_argument("values", nargs="*", metavar="NAME=VALUE", help="parameters, with set")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Ask, print the answer; 1 where the driver refuses."""
+    """Call the driver and print its reply; return 1 if it refuses."""
     is_set = arguments.what == "set"
     if bool(arguments.values) != is_set:
         raise SettingsError("`acts driver set` takes parameters, such as m=128; the others take none")
     values = parameters_of(arguments.values)
-    # Late: rclpy takes a second, and a wrong parameter is told without it.
+    # Imported here: rclpy takes a second, and an invalid parameter is reported without it.
     from rcl_interfaces.srv import SetParametersAtomically
     from rclpy.parameter import Parameter
     from std_srvs.srv import Trigger
@@ -68,12 +68,12 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def parameters_of(words: list[str]) -> dict[str, Any]:
-    """Parameters of the board out of ``NAME=VALUE``, with the types that they are declared with.
+    """Parameters of the board from ``NAME=VALUE``, with their declared types.
 
     Raises
     ------
     SettingsError
-        No such parameter, or a value of another type.
+        There is no such parameter, or the value has another type.
     """
     from acts_driver.board import BOARD_PARAMETERS, BoardParameters
 
@@ -93,7 +93,7 @@ def parameters_of(words: list[str]) -> dict[str, Any]:
 
 
 def _absolute(path: str) -> str:
-    """A path that means the same in the driver's folder as in ours."""
+    """An absolute path, because the driver has another working directory."""
     return path if path in ("", "none") else str(Path(path).expanduser().absolute())
 
 

@@ -1,4 +1,4 @@
-"""What a driver says of itself on /diagnostics."""
+"""Status of a driver on /diagnostics."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def driver_values(message: DiagnosticArray, namespace: str) -> dict[str, str] | 
     Returns
     -------
     dict of str to str or None
-        As listed in ``docs/driver.md``; None where the message holds none, or the driver has not found its port yet.
+        Values as listed in ``docs/driver.md``; None where the message has none, or the driver has not found its port.
     """
     name = f"{namespace.strip('/')}/driver"
     for status in message.status:

@@ -1,1 +1,1 @@
-"""`acts evaluate`: how well touch is recovered, on recorded or modelled frames."""
+"""`acts evaluate`: score recovery, classification, slip and reflexes on recorded or simulated touch."""

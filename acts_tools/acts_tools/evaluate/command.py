@@ -1,4 +1,4 @@
-"""`acts evaluate`: what can be evaluated, each a module with ``add_parser(commands)``."""
+"""`acts evaluate`: the evaluations, each a module with ``add_parser(commands)``."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ def add_parser(subparsers: Any) -> None:
     parser = subparsers.add_parser(
         "evaluate",
         help="score the recovery of images on recordings",
-        description="Sample what was recorded or modelled taxel by taxel as the board would, recover every frame, "
-        "compare with the truth. docs/recovery.md tells what the numbers mean.",
+        description="Sample recorded or simulated touch like the board, recover every frame, and compare with the "
+        "truth. docs/recovery.md explains the numbers.",
     )
     commands = parser.add_subparsers(title="what to evaluate", metavar="WHAT", required=True)
     for module in (
@@ -35,5 +35,5 @@ def add_parser(subparsers: Any) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Run what was asked for; returns the exit code."""
+    """Run the chosen evaluation and return the exit code."""
     return int(arguments.evaluate(arguments))

@@ -1,4 +1,4 @@
-"""What the evaluations print and write."""
+"""Output of the evaluations: lines of a table, and JSON."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ HEADER = (
 
 
 def line(result: dict[str, Any]) -> str:
-    """One entry of `results` as a line under `HEADER`; `touch` is of pressed taxels, the sigma of touched ones."""
+    """One entry of `results` as a line of the table; `touch` is of pressed taxels, sigma of touched taxels."""
     cop, touch, notice = (result[name] for name in ("cop_error_taxels", "touch_cop_error_taxels", "notice_ms"))
     touched = (result["sigma"] or {"touched": {"ratio": None, "within_2": None}})["touched"]
     return (
@@ -34,7 +34,7 @@ def line(result: dict[str, Any]) -> str:
 
 
 def number(value: float | None, width: int, digits: int) -> str:
-    """A number of a table, a dash for None."""
+    """A number in a table, or a dash for None."""
     return f"{'-':>{width}}" if value is None else f"{value:{width}.{digits}f}"
 
 
@@ -55,14 +55,14 @@ def write_json(path: Path | None, report: dict[str, Any]) -> None:
 
 
 class Results:
-    """The entries of a report. The JSON file has each as soon as it is there: an interrupted work keeps what is done.
+    """The entries of a report. Each is written to the JSON file at once, so that an interrupted run keeps them.
 
     Parameters
     ----------
     path : Path or None
         The JSON file; None for none.
     about : dict
-        What else the report says.
+        Further fields of the report.
 
     Raises
     ------
@@ -77,6 +77,6 @@ class Results:
         self._about = about
 
     def add(self, entry: dict[str, Any]) -> None:
-        """Take another entry."""
+        """Add an entry."""
         self.entries.append(entry)
         write_json(self._path, {**self._about, "results": self.entries})

@@ -1,1 +1,1 @@
-"""The demonstration of the hand's reflexes: played, watched, scored and drawn."""
+"""The demonstration of the hand's reflexes: run, recorded, scored and drawn."""

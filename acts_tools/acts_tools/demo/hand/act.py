@@ -1,4 +1,4 @@
-"""An act of the demonstration: a scenario of the evaluation, played by a hand whose processes really run."""
+"""An act of the demonstration: a scenario of the evaluation with a hand that runs in real processes."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from acts_tools.live_hand.recording import HandRecording
 
 @dataclass(frozen=True)
 class Moment:
-    """How things stood at a time.
+    """State at one time.
 
     Attributes
     ----------
     time_s : float
     truth : HandTruth
     counts : np.ndarray [shape=(taxels,)]
-        What the taxels read.
+        Counts of the taxels.
     """
 
     time_s: float
@@ -31,15 +31,15 @@ class Moment:
 
 @dataclass(frozen=True)
 class Act:
-    """What is left of it.
+    """Recorded data of an act.
 
     Attributes
     ----------
     name : str
-        Of the scenario.
+        Name of the scenario.
     title : str
     world : HandWorldConfig
-        What was in the hand.
+        Settings of the world, with the object in the hand.
     recording : HandRecording
     outcome : Outcome
     """
@@ -52,11 +52,11 @@ class Act:
 
     @property
     def begin_s(self) -> float:
-        """When the hand began to close [s]."""
+        """Time at which the hand began to close [s]."""
         return self.recording.marks[0][0] if self.recording.marks else self.recording.truth_between()[0][0]
 
     def moment(self, time_s: float) -> Moment | None:
-        """How things stood at a time or up to a tenth of a second beside it; None where nothing is known."""
+        """State at a time, or up to 0.1 s before or after it; None where there is none."""
         if not self.recording.fields:
             return None
         at_s, counts = min(self.recording.fields, key=lambda one: abs(one[0] - time_s))

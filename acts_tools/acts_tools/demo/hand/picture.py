@@ -1,4 +1,4 @@
-"""The picture of a run of the hand: moments shown, and grip, motion and joints over time, an act a column."""
+"""The picture of a run of the hand, with a column per act: two views, and force, motion and slip over time."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ _AVOIDING = "#ff7f0e"
 
 
 def draw(acts: list[Act], path: Path) -> None:
-    """Draw a run into a PNG file.
+    """Draw a run to a PNG file.
 
     Parameters
     ----------
@@ -92,7 +92,7 @@ def _span(act: Act) -> tuple[float, float]:
 
 
 def _moments(act: Act) -> list[tuple[Moment, str]]:
-    """Two that tell the story: at the last mark, and at the end."""
+    """Two moments to show: at the last mark, and at the end."""
     _, end_s = _span(act)
     last_s, last = act.recording.marks[-1] if act.recording.marks else (act.begin_s, "")
     at_last = (last_s + 0.3, f"after “{last}”") if last == _PUT else (last_s - 0.05, f"before “{last}”")
@@ -102,7 +102,7 @@ def _moments(act: Act) -> list[tuple[Moment, str]]:
 
 
 def _show(figure: Any, place: Any, act: Act, moment: Moment, title: str) -> None:
-    """Rendered where that is possible, else drawn."""
+    """Show a moment: rendered where that is possible, else drawn."""
     try:
         picture = _rendered(act, moment)
     except ActsError:
@@ -128,7 +128,7 @@ def _rendered(act: Act, moment: Moment) -> Any:
 
 
 def _trimmed(picture: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """Without what is all background."""
+    """The picture without its margins of background."""
     there = (picture != picture[0, 0]).any(axis=2)
     rows, cols = np.flatnonzero(there.any(axis=1)), np.flatnonzero(there.any(axis=0))
     if not len(rows):
@@ -147,7 +147,7 @@ def _draw_forces(axes: Any, act: Act, begin_s: float, end_s: float) -> None:
 
 
 def _draw_motion(axes: Any, act: Act, begin_s: float, end_s: float) -> None:
-    # Before it was put into the hand it was elsewhere.
+    # The object was elsewhere before it was put into the hand.
     put_s = max((time_s + _PUT_SETTLED_S for time_s, words in act.recording.marks if words == _PUT), default=begin_s)
     times_s, rows = act.recording.truth_between(put_s, end_s)
     if not len(rows):
@@ -155,11 +155,11 @@ def _draw_motion(axes: Any, act: Act, begin_s: float, end_s: float) -> None:
     moved_mm = 1e3 * (column(rows, "object_position_m") - column(rows, "object_position_m")[0])
     for k, (axis, colour) in enumerate(_AXIS_COLOURS.items()):
         axes.plot(times_s - act.begin_s, moved_mm[:, k], color=colour, lw=1.3, label=f"{axis} of the palm")
-    axes.set(ylabel="way of the object [mm]")
+    axes.set(ylabel="displacement of the object [mm]")
 
 
 def _draw_slip(axes: Any, act: Act, begin_s: float, end_s: float) -> None:
-    """Of each finger the region that slips most, as the skin tells it."""
+    """Draw the largest slip of each finger's regions, as computed from the skin."""
     inside = [(time_s, regions) for time_s, regions in act.recording.regions if begin_s <= time_s <= end_s]
     times_s = np.array([time_s for time_s, _ in inside]) - act.begin_s
     for finger, colour in _COLOURS.items():
@@ -167,11 +167,11 @@ def _draw_slip(axes: Any, act: Act, begin_s: float, end_s: float) -> None:
             [one.slip_m for one in regions if LEAP_RIGHT.regions[one.name].finger == finger] for _, regions in inside
         ]
         axes.plot(times_s, [1e3 * max(slips, default=0.0) for slips in of_it], color=colour, lw=1.3)
-    axes.set(ylabel="slip told by the skin [mm]")
+    axes.set(ylabel="slip measured by the skin [mm]")
 
 
 def _mark(axes: Any, act: Act, begin_s: float, end_s: float) -> None:
-    """Lines where something was made to happen, bars while the hand was avoiding something."""
+    """Draw lines at commanded events, and bars while the hand avoided a tip."""
     for time_s, _ in act.recording.marks:
         if begin_s <= time_s <= end_s:
             axes.axvline(time_s - act.begin_s, color="0.3", lw=0.8, ls="--")

@@ -1,4 +1,4 @@
-"""`acts demo hand`: a simulated hand plays scenarios of the evaluation by touch; watch it, score it, draw it."""
+"""`acts demo hand`: a simulated hand plays scenarios of the evaluation by touch; record, score and draw it."""
 
 from __future__ import annotations
 
@@ -26,20 +26,20 @@ TITLES = {
     "sharp": "a finger is poked with a tip",
     "hand_to_hand": "another hand is shaken",
 }
-"""The acts in their order, by the names of their scenarios."""
+"""Titles of the acts in their order, by the names of their scenarios."""
 
 
 def run(names: list[str], out: Path, seed: int) -> int:
-    """Run the demo; the exit code says whether it worked.
+    """Run the demo and return the exit code, 0 if it worked.
 
     Parameters
     ----------
     names : list of str
-        Acts to play, of `TITLES`; none for all.
+        Acts to play, of `TITLES`; empty for all.
     out : Path
         Folder for the results.
     seed : int
-        Of what differs from one simulated hand to the next.
+        Seed of the simulated hands' variation.
     """
     unknown = [name for name in names if name not in TITLES]
     if unknown:
@@ -76,12 +76,12 @@ def _run(names: list[str], out: Path, seed: int, stop: StopFlag) -> int:
 
 
 def play(name: str, seed: int, log_path: Path, stop: StopFlag, begin_s: float) -> Act:
-    """Play an act with a hand of its own.
+    """Play an act with a new hand.
 
     Raises
     ------
     LaunchError
-        When the hand does not come up, or ends early.
+        When the hand does not start, or ends early.
     """
 
     def line(collector: HandCollector) -> str:

@@ -1,4 +1,4 @@
-"""Figures of a run of the hand, and whether it was good enough."""
+"""Figures of a run of the hand, and whether it meets the limits."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from acts_control.hand.reflexes import HandToHandConfig
 from acts_tools.demo.hand.act import Act
 from acts_tools.percentiles import percentiles
 
-# What each act is judged by is the scenario's own; here it is put into words.
+# The scenario judges an act; this module only describes the result.
 _LARGEST_N = HandToHandConfig().hand_to_hand_max_force_n
 
 Row = tuple[str, Any, str, str]
-"""Name, value (None: unknown), unit, what is wanted."""
+"""Name, value (None: unknown), unit, limit."""
 
 
 def rows(act: Act) -> list[Row]:
@@ -73,7 +73,7 @@ def score(acts: list[Act]) -> dict[str, Any]:
 
 
 def failures(act: Act) -> list[str]:
-    """What was not good enough in an act, in words; empty for a good one."""
+    """Failures of an act as sentences; empty for a good one."""
     if act.outcome.ok:
         return []
     told = ", ".join(f"{name}: {_shown(value, unit)}" for name, value, unit, _ in rows(act))
@@ -110,7 +110,7 @@ def _joined(pieces: list[list[NDArray[np.float32]]]) -> NDArray[np.float32]:
 
 
 def _cpu(acts: list[Act]) -> dict[str, float]:
-    """Mean over the acts."""
+    """Mean load over the acts, by process [% of one core]."""
     names = sorted({name for act in acts for name in act.recording.cpu_percent})
     return {
         name: round(float(np.mean([act.recording.cpu_percent.get(name, 0.0) for act in acts])), 1) for name in names

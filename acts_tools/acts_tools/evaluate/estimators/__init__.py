@@ -1,1 +1,1 @@
-"""The methods that are evaluated, behind one interface, and the dictionaries that they are given."""
+"""The evaluated methods, with one interface, and their dictionaries."""

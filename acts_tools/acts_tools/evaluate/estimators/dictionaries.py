@@ -1,4 +1,4 @@
-"""Dictionaries to evaluate with: from files, and two that are not learnt."""
+"""Dictionaries for the evaluation: from files, and two that are not learnt."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _SIDE = 8
 
 
 def dictionary_named(word: str) -> Dictionary:
-    """A dictionary from a file of `acts train`, or, for ``FILE:ARRAY``, from an array (pixels, atoms) of any npz file.
+    """A dictionary from a file of `acts train`, or for ``FILE:ARRAY`` from an array (pixels, atoms) of any npz file.
 
     Raises
     ------
@@ -35,10 +35,10 @@ def dictionary_named(word: str) -> Dictionary:
 
 
 def cosine_dictionary(side: int = _SIDE, atoms: int = _ATOMS) -> Dictionary:
-    """Overcomplete discrete cosine transform of a patch's pixels in a row, as the paper compares with (S8).
+    """Overcomplete discrete cosine transform of a patch's pixels as one sequence, as in the paper's comparison (S8).
 
-    Atom k is ``cos(pi * k * pixel / atoms)`` over the pixels of the patch, column first, without its mean (but for
-    atom 0), and of norm 1.
+    Atom k is ``cos(pi * k * pixel / atoms)`` over the pixels of the patch, column by column, minus its mean (except
+    atom 0), and normalised.
     """
     pixel, k = np.arange(side**2)[:, None], np.arange(atoms)[None, :]
     waves = np.cos(np.pi * k * pixel / atoms)
@@ -47,9 +47,9 @@ def cosine_dictionary(side: int = _SIDE, atoms: int = _ATOMS) -> Dictionary:
 
 
 def haar_dictionary(side: int = _SIDE, atoms: int = _ATOMS) -> Dictionary:
-    """Overcomplete Haar: boxes and steps of 1, 2, 4, ... pixels at every place along rows times those along columns.
+    """Overcomplete Haar: products of boxes and steps of 1, 2, 4, ... pixels at every position along rows and columns.
 
-    Of all such products, 1156 for a patch of 8 x 8, those `atoms` that cover most pixels are taken, each of norm 1.
+    There are 1156 products for a patch of 8 x 8; those `atoms` that cover most pixels are used, normalised.
 
     Raises
     ------
@@ -68,7 +68,7 @@ def haar_dictionary(side: int = _SIDE, atoms: int = _ATOMS) -> Dictionary:
 
 
 def _haar_line(side: int) -> NDArray[np.float64]:
-    """Boxes of every dyadic width, then steps, each at every place; np.ndarray [shape=(n, side)]."""
+    """Boxes of every dyadic width, then steps, each at every position; np.ndarray [shape=(n, side)]."""
     rows = []
     for step in (False, True):
         width = 2 if step else 1

@@ -1,4 +1,4 @@
-"""Plain ways to fill in what was not measured, each frame alone: the baselines."""
+"""Baseline methods, which interpolate the samples of each frame alone."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ _NOISE = 0.05
 class Linear(Method):
     """Linear interpolation over the Delaunay triangles of the measured taxels, linear extrapolation beyond them.
 
-    Outside of the convex hull of the measured taxels the plane of the triangle at the nearest edge of the hull goes on.
-    What comes out is clipped to 0 to 1023. Where the measured taxels span no triangle the nearest one's value is taken.
+    Outside of the convex hull of the measured taxels, the plane of the triangle at the nearest edge is extrapolated.
+    The result is clipped to 0 to 1023. Without any triangle, each taxel gets the value of the nearest measured one.
     """
 
     summary = "linear interpolation"
@@ -70,14 +70,14 @@ def _fill(
     owner: NDArray[np.int64],
     ends: NDArray[np.int32],
 ) -> None:
-    """Each triangle's plane inside of it; outside of all (`image` is NaN) that of the one at the nearest edge."""
+    """Fill `image` by the plane of each triangle, and outside (NaN) by that of the triangle at the nearest edge."""
     planes = np.zeros((len(triangles), 3))
     for t in range(len(triangles)):
         a, b, c = triangles[t]
         ur, uc = known[b, 0] - known[a, 0], known[b, 1] - known[a, 1]
         vr, vc = known[c, 0] - known[a, 0], known[c, 1] - known[a, 1]
         area = ur * vc - uc * vr
-        # Places are whole taxels: any other triangle has an area of at least 1.
+        # Positions are integers, so twice the area of a triangle is at least 1 unless it is degenerate.
         if abs(area) < 0.5:
             planes[t, 0] = counts[a]
             continue
@@ -114,11 +114,11 @@ def _nearest(places: NDArray[np.float64], known: NDArray[np.float64]) -> NDArray
 
 
 class GaussianProcess(Method):
-    """Mean of a Gaussian process through the measured taxels, each frame alone.
+    """Posterior mean of a Gaussian process given the measured taxels, each frame alone.
 
-    The prior mean is 0, the kernel a Matern 3/2 with a length of 2 taxels, the noise of a reading 5 % of the kernel's
-    amplitude; all fixed: of several kernels the best on presses of the contact model. What comes out is clipped to 0 to
-    1023.
+    The prior mean is 0, the kernel a Matern 3/2 with a length of 2 taxels, and the noise of a reading 5 % of the
+    kernel's amplitude. All are fixed: of several kernels this was the best on presses of the contact model. The result
+    is clipped to 0 to 1023.
     """
 
     summary = "a Gaussian process"

@@ -1,4 +1,4 @@
-"""The methods that turn samples into images, by name; each behind the same small interface."""
+"""The recovery methods by name, with one interface."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from acts_tools.evaluate.estimators.interpolation import GaussianProcess, Linear
 
 
 class ZeroFill(Method):
-    """What was not measured in this frame is 0."""
+    """Taxels that were not measured in this frame are 0."""
 
-    summary = "0 where nothing was measured"
+    summary = "0 for taxels that were not measured"
 
     def __init__(self, skin: SkinSetup, config: NoSettings | None = None) -> None:
         self.image = np.zeros((skin.geometry.rows, skin.geometry.cols), dtype=np.float32)
@@ -38,12 +38,12 @@ class ZeroFill(Method):
 
 
 class LastValue(ZeroFill):
-    """Every taxel keeps what was last measured there."""
+    """Every taxel keeps its last measured value."""
 
-    summary = "what was last measured"
+    summary = "the last measured value"
 
     def reset(self) -> None:
-        """Forget all values."""
+        """Set all values to 0."""
         self.image.fill(0)
 
     def step(
@@ -55,7 +55,7 @@ class LastValue(ZeroFill):
 
 
 MethodFactory = Callable[[SkinSetup, Dictionary, Mapping[str, SettingValue]], Method]
-"""From the skin, the dictionary of methods that use a learnt one, and settings by name to a method."""
+"""Function from a skin, a dictionary (for methods that use one) and settings by name to a method."""
 
 
 def _registered(kind: type[Method]) -> MethodFactory:
@@ -63,7 +63,7 @@ def _registered(kind: type[Method]) -> MethodFactory:
 
 
 def _config(kind: type[Method], settings: Mapping[str, SettingValue]) -> Any:
-    """Of all settings that are given, a method takes those that are its own."""
+    """Settings of a method, from all given settings."""
     return kind.Config(**{name: value for name, value in settings.items() if name in describe(kind.Config)})
 
 
@@ -81,17 +81,17 @@ METHODS: dict[str, MethodFactory] = {
 
 
 def method_names() -> tuple[str, ...]:
-    """All that can be evaluated: `METHODS`, and what else the node offers (docs/extending.md)."""
+    """Names of all methods: `METHODS`, and further ones of the node (docs/extending.md)."""
     return *METHODS, *(name for name, kind in REGISTERED.items() if kind not in (Fusion, PerFrame))
 
 
 def method_named(name: str) -> MethodFactory:
-    """Look a method up.
+    """Find a method by its name.
 
     Raises
     ------
     SettingsError
-        Naming those that exist.
+        When there is none; the message names those that exist.
     """
     if name in METHODS:
         return METHODS[name]

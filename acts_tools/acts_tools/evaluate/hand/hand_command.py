@@ -1,4 +1,4 @@
-"""`acts evaluate hand`: the reflexes of the simulated hand, scenario by scenario, without wires and without a clock."""
+"""`acts evaluate hand`: the reflexes of the simulated hand, scenario by scenario, in one process or live."""
 
 from __future__ import annotations
 
@@ -27,31 +27,30 @@ def add_parser(commands: Any) -> None:
     parser = commands.add_parser(
         "hand",
         help="the reflexes of the simulated hand, scenario by scenario",
-        description="Run the simulated hand, its skin and its reflexes in one process, without wires and faster than "
-        "their processes could; the same seed gives the same bits. Or --live: as processes, as on a real hand. "
-        "docs/reflexes.md tells what the numbers mean.",
+        description="Run the simulated hand, its skin and its reflexes in one process, faster than real time; the same "
+        "seed gives the same bits. With --live, run them as processes, as on a real hand. docs/reflexes.md explains "
+        "the numbers.",
     )
-    parser.add_argument("--scenario", required=True, choices=_NAMES, help="what happens to the hand")
-    parser.add_argument("--seed", type=int, default=1, metavar="S", help="of the first run (default: %(default)s)")
-    parser.add_argument("--seeds", type=int, default=1, metavar="N", help="how many runs (default: %(default)s)")
+    parser.add_argument("--scenario", required=True, choices=_NAMES, help="scenario to run")
+    parser.add_argument("--seed", type=int, default=1, metavar="S", help="seed of the first run (default: %(default)s)")
+    parser.add_argument("--seeds", type=int, default=1, metavar="N", help="number of runs (default: %(default)s)")
     parser.add_argument(
-        "--reflex", choices=("on", "off"), default="on", help="whether the reflex in question acts (default: on)"
+        "--reflex", choices=("on", "off"), default="on", help="whether the reflex of the scenario is on (default: on)"
     )
     parser.add_argument(
-        "--rate-hz", type=float, default=250.0, metavar="R", help="of the reflexes' loop (default: %(default)g)"
+        "--rate-hz", type=float, default=250.0, metavar="R", help="rate of the reflexes [Hz] (default: %(default)g)"
     )
     parser.add_argument(
         "--live",
         action="store_true",
-        help="over all the real interfaces: each run launches the simulated hand, its board and the nodes, and takes "
-        "the time it takes",
+        help="use all real interfaces: each run launches the simulated hand, its board and the nodes, in real time",
     )
     parser.add_argument("--json", type=Path, metavar="OUT", help="write the results here, too")
     parser.set_defaults(evaluate=_run)
 
 
 def _run(arguments: argparse.Namespace) -> int:
-    # Imported here: MuJoCo and the kernels take long, and only this needs them.
+    # Imported here, because MuJoCo and the kernels are slow to import.
     from acts_tools.evaluate.hand.scenario import Run
     from acts_tools.evaluate.hand.scenarios import SCENARIOS
 
@@ -79,7 +78,7 @@ def _run(arguments: argparse.Namespace) -> int:
 
 
 def _live(arguments: argparse.Namespace, one: Run) -> tuple[Outcome, dict[str, object]]:
-    """A run over the real interfaces, and how long its cycles took and from the last measurement to the goals."""
+    """A run over the real interfaces, with the durations of its cycles and the latency from measurement to goals."""
     from acts_tools.bags.stopping import StopFlag
     from acts_tools.evaluate.hand.scenarios import SCENARIOS
     from acts_tools.live_hand.rigs import LiveRigs
@@ -98,7 +97,7 @@ def _live(arguments: argparse.Namespace, one: Run) -> tuple[Outcome, dict[str, o
 
 
 def _summary(outcomes: Sequence[Any]) -> dict[str, object]:
-    """Shares over the seeds with their intervals, and medians; printed, too."""
+    """Shares over the seeds with their intervals, and medians; also prints them."""
     summary: dict[str, object] = {"seed": "all", "runs": len(outcomes)}
     for name in ("ok", "kept"):
         known = [getattr(one, name) for one in outcomes if getattr(one, name) is not None]

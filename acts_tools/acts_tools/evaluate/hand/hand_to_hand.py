@@ -20,7 +20,7 @@ _LOST_FOR_S = 0.1
 
 
 def run(one: Run) -> Outcome:
-    """Three phalanges have to stay in touch, and no region may press with more than the limit."""
+    """Three phalanges must stay in contact, and no region may exceed the force limit."""
     draw = one.draw()
     world = HandWorldConfig(seed=one.seed, pose="thumb_up", object="other_hand", object_held=True)
     reflexes = ("slip", "hand_to_hand") if one.reflex else ("slip",)
@@ -30,7 +30,7 @@ def run(one: Run) -> Outcome:
         outcome.details["failed"] = "not grasped"
         return outcome
     rig.run(0.5)
-    # Along the palm and a little across it, never into it.
+    # Along the palm and slightly across it, never into it.
     way = draw.standard_normal(3) * (1.0, 1.0, 0.3)
     way *= _WAY_M / np.linalg.norm(way)
     way[2] = -abs(way[2])

@@ -1,4 +1,4 @@
-"""A hand that holds a cylinder is poked into a finger: with a tip of a millimetre, or with what is blunt."""
+"""A finger of a hand that holds a cylinder is poked, by a tip of 1 mm or by a blunt end."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _FINGERS = ("index", "middle", "ring")
 
 
 def sharp(one: Run) -> Outcome:
-    """The tip of a millimetre: the finger has to open, the others hold."""
+    """A tip of 1 mm: the finger must open, the others must hold."""
     outcome = _poke(one, SHARP_RADIUS_M)
     outcome.ok = bool(
         outcome.noticed_ms is not None
@@ -33,9 +33,9 @@ def sharp(one: Run) -> Outcome:
 
 
 def blunt(one: Run) -> Outcome:
-    """A round end of 8 to 20 mm: nothing may happen, nor at the cylinder itself."""
+    """A round end of 8 to 20 mm: no reflex may act, neither for it nor for the cylinder."""
     outcome = _poke(one, float(one.draw().uniform(BLUNT_RADIUS_M, 0.020)))
-    # Also before the end touched: the cylinder, too, is blunt.
+    # Also before the end touches, because the cylinder is blunt as well.
     outcome.ok = outcome.details.get("alarms", 1) == 0
     return outcome
 

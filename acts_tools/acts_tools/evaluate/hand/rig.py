@@ -1,6 +1,6 @@
-"""The simulated hand with its reflexes, without wires: no clock, no process, the same seed gives the same bits.
+"""The simulated hand with its reflexes in one process, without a clock: the same seed gives the same bits.
 
-Every step of the world is a frame of the skin. The reflexes see it one frame later, at the cycles of their loop.
+Every step of the world is a frame of the skin. The reflexes receive it one frame later, at the cycles of their loop.
 """
 
 from __future__ import annotations
@@ -28,26 +28,26 @@ from acts_sim.hand import STEP_S, HandWorld, HandWorldConfig
 _CURRENT_BASED_POSITION = 5
 _NOISE_COUNTS = 1.5
 _MAX_SPEED_RAD_S = 12.0
-"""Of a goal, as the node `hand_reflexes` has it [rad/s]."""
+"""Largest speed of a goal, as in the node `hand_reflexes` [rad/s]."""
 _KINEMATICS = HandKinematics(LEAP_RIGHT)
 
 
 @dataclass(frozen=True)
 class RigOptions:
-    """How the hand is run.
+    """Options of the hand and its reflexes.
 
     Attributes
     ----------
     rate_hz : float
-        Of the reflexes' loop.
+        Rate of the reflexes' loop [Hz].
     reflexes : tuple of str
-        Names in the registry.
+        Names of active reflexes in the registry.
     touch_counts : float
         A taxel above it is pressed.
     slip : SlipConfig
-        When motion counts as slip.
+        Thresholds of slip.
     settings : mapping
-        Of the supervisor and the reflexes, where they are not the usual ones.
+        Settings of supervisor and reflexes that are not the defaults.
     """
 
     rate_hz: float = 250.0
@@ -58,7 +58,7 @@ class RigOptions:
 
 
 class HandRig:
-    """A world, its skin's regions, and a supervisor that moves its motors.
+    """A hand's world, the regions of its skin, and a supervisor that moves its motors.
 
     Parameters
     ----------
@@ -71,9 +71,9 @@ class HandRig:
     supervisor : HandSupervisor
     reflexes : dict of str to Reflex
     regions : list of RegionContact
-        As of the last step.
+        Regions at the last step.
     goal_rad : np.ndarray [shape=(joints,)]
-        What was sent to the motors last [rad].
+        Goals last sent to the motors [rad].
     """
 
     def __init__(self, world: HandWorldConfig, options: RigOptions) -> None:
@@ -95,16 +95,16 @@ class HandRig:
 
     @property
     def time_s(self) -> float:
-        """Of the world [s]."""
+        """Time of the world [s]."""
         return self.world.time_s
 
     @property
     def state(self) -> HandState:
-        """Of the supervisor."""
+        """State of the supervisor."""
         return self.supervisor.status.state
 
     def step(self) -> None:
-        """Let one step of the world pass."""
+        """Advance by one step of the world."""
         seen, seen_s = list(self.regions), self.time_s
         self.world.step()
         self.regions = list(self._finder.step(self.time_s, self._image()))
@@ -115,7 +115,7 @@ class HandRig:
             self._cycle()
 
     def run(self, duration_s: float, until: Callable[[], bool] = lambda: False) -> bool:
-        """Go on for a time [s], or until something is the case; whether it was."""
+        """Run for a time [s], or until a condition is true; return whether it was."""
         for _ in range(round(duration_s / STEP_S)):
             self.step()
             if until():
@@ -123,14 +123,14 @@ class HandRig:
         return False
 
     def grasp(self, timeout_s: float = 6.0) -> bool:
-        """Close the hand; whether it holds something then."""
+        """Close the hand; return whether it then holds something."""
         self.run(0.02)
         self.supervisor.grasp()
         self.run(timeout_s, lambda: self.state in (HandState.HOLDING, HandState.OPEN))
         return self.state is HandState.HOLDING
 
     def object_m(self) -> NDArray[np.float64]:
-        """Where the object is, in the palm's frame [m]."""
+        """Position of the object in the palm's frame [m]."""
         return np.array(self.world.truth.object_position_m)
 
     def _cycle(self) -> None:
@@ -154,7 +154,7 @@ class HandRig:
         return np.clip(np.rint(noisy), 0, COUNT_MAX).astype(np.float32)
 
     def _switch_on(self, config: DynamixelConfig) -> None:
-        """As `DynamixelHand` sets the motors up."""
+        """Set the motors up like `DynamixelHand`."""
         for motor, joint in zip(self.world.motors, LEAP_RIGHT.joints, strict=True):
             _write(motor, "operating_mode", _CURRENT_BASED_POSITION)
             _write(motor, "position_p_gain", round(config.position_p_gain * joint.gain_scale))

@@ -1,4 +1,4 @@
-"""What every scenario gives, and which there are."""
+"""Options and outcome of a scenario."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ from acts_tools.evaluate.hand.rig import HandRig, RigOptions
 
 @dataclass(frozen=True)
 class Run:
-    """How a scenario is run once.
+    """Options of one run of a scenario.
 
     Attributes
     ----------
     seed : int
     reflex : bool
-        Whether the reflex that it is about acts.
+        Whether the reflex of the scenario is on.
     rate_hz : float
     settings : mapping
-        Of supervisor and reflexes, where they are not the usual ones.
+        Settings of supervisor and reflexes that are not the defaults.
     rig : callable
-        Makes the hand: `HandRig`, or what can do the same over the real interfaces (`acts_tools.live_hand.rigs`).
+        Makes the hand: `HandRig`, or its equivalent over the real interfaces (`acts_tools.live_hand.rigs`).
     """
 
     seed: int
@@ -35,30 +35,30 @@ class Run:
     rig: Callable[[HandWorldConfig, RigOptions], Any] = HandRig
 
     def draw(self) -> np.random.Generator:
-        """For what differs from seed to seed."""
+        """Random generator of the run's variation."""
         return np.random.default_rng([self.seed, 7])
 
 
 @dataclass
 class Outcome:
-    """What came of it; None where it does not apply or did not happen.
+    """Outcome of a run; None for what does not apply or did not happen.
 
     Attributes
     ----------
     ok : bool
-        Whether all that is asked of the scenario was met.
+        Whether all criteria of the scenario were met.
     noticed_ms : float or None
-        From 0.2 mm of motion, or from the contact of the tip, until the reflex acted.
+        Time from 0.2 mm of motion, or from the contact of the tip, until the reflex acted.
     stopped_ms : float or None
-        From then until the object stood, or the joints had begun to open.
+        Time from then until the object stopped, or the joints began to open.
     kept : bool or None
-        Whether the object is still in the hand, or other contacts still touch.
+        Whether the object is still in the hand, or the other contacts persist.
     penetration_mm : float or None
-        Deepest that the tip was in the skin.
+        Largest depth of the tip in the skin.
     offset_mm : float or None
-        How far the object was moved by what happened, or is from the palm's centre at the end.
+        Displacement of the object by the event, or its distance from the palm's centre at the end.
     details : dict
-        What belongs to this scenario alone.
+        Further results of this scenario.
     """
 
     ok: bool = False

@@ -1,4 +1,4 @@
-"""Which scenarios there are, by name."""
+"""The scenarios by name."""
 
 from __future__ import annotations
 
@@ -15,4 +15,4 @@ SCENARIOS: dict[str, Callable[[Run], Outcome]] = {
     "small_sphere": sphere.small,
     "hand_to_hand": hand_to_hand.run,
 }
-"""Each runs once and tells what came of it."""
+"""Functions that run a scenario once and return its outcome."""

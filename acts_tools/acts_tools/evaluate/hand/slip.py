@@ -1,4 +1,4 @@
-"""A held cylinder is pulled along its axis by half, once or twice its weight, within 50 ms."""
+"""A held cylinder is pulled along its axis by 0.5, 1 or 2 times its weight, within 50 ms."""
 
 from __future__ import annotations
 
@@ -9,19 +9,19 @@ from acts_tools.evaluate.hand.rig import RigOptions
 from acts_tools.evaluate.hand.scenario import Outcome, Run
 
 LOADS = (0.5, 1.0, 2.0)
-"""Times the weight of the object."""
+"""Forces, relative to the weight of the object."""
 
 _RAMP_S = 0.05
 _WATCHED_S = 1.0
 _NOTICEABLE_M = 0.0002
 _ALLOWED_M = 0.003
 _NOTICED_MS = 15.0
-# Slower than this it stands: the foam still gives a little.
+# Below this speed the object counts as at rest: the foam still yields slightly.
 _STANDS_M_S = 0.010
 
 
 def run(one: Run) -> Outcome:
-    """Grasp, let go, load, watch."""
+    """Grasp, release the holder, load, observe."""
     draw = one.draw()
     world = HandWorldConfig(
         seed=one.seed,
@@ -33,7 +33,7 @@ def run(one: Run) -> Outcome:
         object_x_m=draw.uniform(-0.003, 0.003),
     )
     load = LOADS[one.seed % len(LOADS)]
-    # A light grip, which carries the object and little more.
+    # A light grip, which carries little more than the object.
     settings = {"grip_force_n": 0.25, **one.settings}
     rig = one.rig(world, RigOptions(one.rate_hz, ("sharp", "slip") if one.reflex else ("sharp",), settings=settings))
     outcome = Outcome(kept=False, details={"load": load, "mass_kg": world.object_mass_kg})
@@ -52,7 +52,7 @@ def run(one: Run) -> Outcome:
     while rig.time_s < begin_s + _WATCHED_S:
         rig.step()
         truth = rig.world.truth
-        # Along the pull: a grip that tightens moves the object across it as well, which is no slip.
+        # Only along the pull: a grip that tightens also moves the object across it, which is no slip.
         farthest_m = max(farthest_m, float((np.array(truth.object_position_m) - at) @ rig.world.down))
         speed_m_s = float(np.array(truth.object_velocity_m_s) @ rig.world.down)
         if moved_s is None and farthest_m > _NOTICEABLE_M:

@@ -1,4 +1,4 @@
-"""A sphere that lies off the middle of the palm is gripped, and brought to the middle."""
+"""A sphere off the centre of the palm is gripped and brought to the centre."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from acts_sim.hand import HandWorldConfig
 from acts_tools.evaluate.hand.rig import HandRig, RigOptions
 from acts_tools.evaluate.hand.scenario import Outcome, Run
 
-# Around what is large the thumb closes from above; for what is small it waits at the side.
+# The thumb closes around large spheres from above; for small ones it waits at the side.
 _POSTURES = {"sphere": "round", "small_sphere": "cup"}
 _OFF_M = 0.020
 _NEAR_M = 0.005
@@ -23,25 +23,25 @@ _PULL_WEIGHTS, _PULL_RAMP_S, _PULLED_S = 3.0, 0.1, 1.0
 
 
 def run(one: Run) -> Outcome:
-    """A sphere of 20 to 40 mm radius, 20 mm off; in the end within 5 mm, with two fingertips on it."""
+    """A sphere of 20 to 40 mm radius, 20 mm off; at the end it must be within 5 mm, with two fingertips on it."""
     return _run(one, float(one.draw().uniform(0.020, 0.040)), "sphere")
 
 
 def small(one: Run) -> Outcome:
-    """A sphere of 8 to 15 mm radius: trapped, and kept while it is pulled away from the palm by thrice its weight."""
+    """A sphere of 8 to 15 mm radius must be kept while it is pulled away from the palm by three times its weight."""
     return _run(one, float(one.draw().uniform(0.008, 0.015)), "small_sphere")
 
 
 def _run(one: Run, radius_m: float, name: str) -> Outcome:
     draw = np.random.default_rng([one.seed, 13])
-    # To the side or towards the fingers: towards the wrist the thumb stands in the way.
+    # To the side or towards the fingers; towards the wrist the thumb is in the way.
     angle = draw.uniform(-math.pi / 2, math.pi / 2)
     world = HandWorldConfig(
         seed=one.seed,
         pose="palm_up",
         object=name,
         object_size_m=radius_m,
-        # Out of the way until the hand has come into its shape: the thumb would sweep it off.
+        # Away until the hand has its initial shape; the thumb would push it off.
         object_x_m=-0.1,
         object_y_m=-0.1,
     )

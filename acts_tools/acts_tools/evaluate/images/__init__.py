@@ -1,1 +1,1 @@
-"""How well images are recovered: recordings sampled as a board would, recovered by a method, scored frame by frame."""
+"""Evaluation of recovery: recordings are sampled like a board, recovered by a method, and scored frame by frame."""

@@ -1,4 +1,4 @@
-"""Samplers that measure in recorded frames: the firmware's own, and Python's for schemes that no board has."""
+"""Samplers for recorded frames: that of the firmware, and Python's for schemes that exist in Python only."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _LIBRARY = "libacts_sampler.so"
 
 
 def library_path() -> Path:
-    """Where the firmware's sampler is installed.
+    """Path of the installed library with the firmware's sampler.
 
     Raises
     ------
@@ -52,20 +52,20 @@ def _library(path: Path) -> ctypes.CDLL:
 
 
 class BoardSampler:
-    """What a board would have sampled: `acts_core.sampling.Sampler` in C++, a hundred times as fast, on recordings.
+    """The board's samples of a recording: `acts_core.sampling.Sampler` in C++, about a hundred times as fast.
 
     Parameters
     ----------
     config : SamplingConfig
     noise_counts : float
-        Standard deviation of normal noise that is added to every measurement, drawn from the seed of `config`.
+        Standard deviation of normal noise that is added to every measurement, with the seed of `config`.
     library : Path, optional
-        The firmware's sampler as a library; without it, the installed one.
+        Library with the firmware's sampler; by default the installed one.
 
     Raises
     ------
     SettingsError
-        When the firmware refuses the settings, or its library is not built.
+        When the firmware refuses the settings, or the library is not built.
     """
 
     def __init__(self, config: SamplingConfig, noise_counts: float = 0.0, library: Path | None = None) -> None:
@@ -86,16 +86,16 @@ class BoardSampler:
     def frame(
         self, frames: NDArray[np.uint16], position: float, step: float
     ) -> tuple[NDArray[np.uint16], NDArray[np.uint16]]:
-        """Sample one frame while the recording goes on.
+        """Sample one frame while the recording continues.
 
         Parameters
         ----------
         frames : np.ndarray [shape=(n, rows, cols), dtype=uint16, C-contiguous]
-            Counts, 0 to 1023; interpolated linearly in time, the first and last held.
+            Counts, 0 to 1023; interpolated linearly in time, constant before the first and after the last.
         position : float
-            Where in the recording the first measurement is made, in frames.
+            Time of the first measurement, in frames of the recording.
         step : float
-            How much later each following measurement is made, in frames.
+            Time between measurements, in frames of the recording.
 
         Returns
         -------
@@ -149,19 +149,19 @@ class PythonSampler:
 
 
 def sampler_of(config: SamplingConfig, noise_counts: float = 0.0) -> BoardSampler | PythonSampler:
-    """The firmware's sampler where it has the scheme, else Python's."""
+    """The firmware's sampler if it has the scheme, else Python's."""
     in_firmware = any(line.split("\t")[0] == config.scheme for line in scheme_table().splitlines())
     return (BoardSampler if in_firmware else PythonSampler)(config, noise_counts)
 
 
 def scheme_table(library: Path | None = None) -> str:
-    """What the firmware's schemes say of themselves; see `acts_sampler_schemes` in acts_firmware/host."""
+    """Table of the firmware's schemes; see `acts_sampler_schemes` in acts_firmware/host."""
     table: bytes = _library(library or library_path()).acts_sampler_schemes()
     return table.decode()
 
 
 def firmware_takes(scheme: int, rows: int, cols: int, m: int) -> bool:
-    """Whether the firmware has frames of `m` taxels of the scheme of this number."""
+    """Whether the firmware supports a scheme, by its number, with `m` taxels per frame."""
     return bool(_library(library_path()).acts_sampler_takes(scheme, rows, cols, m))
 
 

@@ -1,4 +1,4 @@
-"""Whether a method knows how wrong it is: its errors against the standard deviations that it gives."""
+"""Calibration of a method's uncertainty: its errors compared with its standard deviations."""
 
 from __future__ import annotations
 
@@ -14,25 +14,25 @@ from acts_core.skin import ForceResponse
 from acts_recon.contacts import ContactFinder
 
 ROWS = ("touched", "untouched", "x", "y", "force", "area", "spread")
-"""Taxels that are touched and that are not; then numbers of the contact that all pressed taxels make."""
+"""Touched and untouched taxels, then quantities of the contact of all pressed taxels."""
 
 SUMS = (len(ROWS), 4)
-"""Shape of the sums: how many there were, squares of error over sigma, how many within 1 and 2 sigma."""
+"""Shape of the sums: number, sum of (error / sigma)^2, and numbers within 1 and 2 sigma."""
 
 _TOUCHED, _UNTOUCHED = range(2)
 
-# Below it errors are those of the arithmetic [counts, m, N, m^2].
+# Smaller errors are rounding [counts, m, N, m^2].
 _TINY = 1e-9
 
 
 class Calibration:
-    """Compares images with the truth, and what is computed of them.
+    """Compares images, and contacts computed from them, with the truth.
 
     Parameters
     ----------
     geometry : ArrayGeometry
     live : np.ndarray [shape=(rows, cols), dtype=bool]
-        Only these taxels count.
+        Only these taxels are scored.
     touch_counts : float
         A taxel above it is pressed.
     """
@@ -45,12 +45,12 @@ class Calibration:
     def errors(
         self, image: NDArray[np.float32], sigma: NDArray[np.float32], truth: NDArray[np.float32]
     ) -> NDArray[np.float64]:
-        """Sums of one image, to be added up.
+        """Sums of one image, to be added.
 
         Parameters
         ----------
         image, sigma, truth : np.ndarray [shape=(taxels,), dtype=float32]
-            Estimate, its standard deviation and what really was there [counts].
+            Estimate, its standard deviation and the truth [counts].
 
         Returns
         -------
@@ -76,7 +76,7 @@ class Calibration:
 @kernel
 def _add(error: float, deviation: float, sums: NDArray[np.float64]) -> None:
     sums[0] += 1
-    # An error of next to 0 is 0 deviations, however small these are.
+    # A negligible error is 0 deviations, however small they are.
     if error > _TINY:
         sums[1] += (error / max(deviation, _TINY)) ** 2
     sums[2] += error <= max(deviation, _TINY)
@@ -97,7 +97,7 @@ def add_errors(
     Parameters
     ----------
     image, sigma, truth : np.ndarray [shape=(taxels,), dtype=float32]
-        Estimate, its standard deviation and what really was there [counts].
+        Estimate, its standard deviation and the truth [counts].
     live : np.ndarray [shape=(taxels,), dtype=bool]
         Only these count.
     threshold : float
@@ -113,7 +113,7 @@ def add_errors(
 
 
 def summary(sums: NDArray[np.float64]) -> dict[str, Any] | None:
-    """What the report says of the sums; None where nothing was added: the method gives no standard deviations."""
+    """Summary for the report; None where nothing was added, as for methods without standard deviations."""
     if not sums[:, 0].any():
         return None
     return {name: _of(row) for name, row in zip(ROWS, sums.tolist(), strict=True)}

@@ -16,11 +16,11 @@ from acts_tools.evaluate.images.tasks import evaluate_shown, require_methods
 
 def add_parser(commands: Any) -> None:
     """Add ``acts evaluate events``."""
-    parser = commands.add_parser("events", help="on simulated bounces, slides and taps")
+    parser = commands.add_parser("events", help="score recovery on simulated bounces, slides and taps")
     parser.add_argument("--event", nargs="+", default=list(EVENTS), choices=tuple(EVENTS), help="default: all")
     options.add_arguments(parser, noise_counts=3.0)
     parser.add_argument(
-        "--recordings", type=options.at_least_one, metavar="N", help="of each kind (default: what steadies the figures)"
+        "--recordings", type=options.at_least_one, metavar="N", help="per kind (default: enough for steady figures)"
     )
     parser.set_defaults(evaluate=_run)
 

@@ -1,4 +1,4 @@
-"""`acts evaluate objects`: support accuracy over M on the objects of the contact model, as the paper's figure 4E."""
+"""`acts evaluate objects`: support accuracy over M on the objects of the contact model, like the paper's figure 4E."""
 
 from __future__ import annotations
 
@@ -26,15 +26,15 @@ def add_parser(commands: Any) -> None:
     parser = commands.add_parser(
         "objects",
         help="support accuracy over M on simulated presses of 30 objects",
-        description="Press every object at a random place, turn and depth, down and up again. Compare the paper's "
-        "method and linear interpolation, each with three ways of sampling, with tracking and a method of ours on the "
-        "same frames, all of them from first to last touch.",
+        description="Press every object down and up again at a random position, angle and depth. Compare the paper's "
+        "method and linear interpolation, each with three sampling schemes, with a method of ours with tracking on "
+        "the same frames, from first to last touch.",
     )
     parser.add_argument("--m", nargs="+", type=int, default=list(_M), help="taxels per frame (default: %(default)s)")
     parser.add_argument("--objects", nargs="+", default=list(OBJECTS), metavar="NAME", help="default: all 30")
     parser.add_argument("--ours", default=options.METHOD, choices=method_names(), help="default: %(default)s")
     parser.add_argument(
-        "--presses", type=options.at_least_one, default=1, metavar="N", help="of each object (default: %(default)s)"
+        "--presses", type=options.at_least_one, default=1, metavar="N", help="per object (default: %(default)s)"
     )
     options.add_common_arguments(parser, noise_counts=3.0, onset_s=0.0)
     parser.add_argument("--picture", type=Path, metavar="PNG", help="draw the curves")
@@ -49,7 +49,7 @@ def _run(arguments: argparse.Namespace) -> int:
     require_writable(arguments.picture)
     dictionary = options.dictionary(arguments)
     items = [object_named(name) for name in arguments.objects]
-    # Noise is added by the sampling.
+    # The sampler adds the noise.
     model = ContactModel(config=FoamConfig(noise_counts=0.0), seed=arguments.seed)
     live = np.ones((model.geometry.rows, model.geometry.cols), dtype=bool)
     recordings = [
@@ -76,7 +76,7 @@ def _print_curves(ms: list[int], curves: dict[str, list[float | None]]) -> None:
 
 
 def _draw(path: Path, ms: list[int], curves: dict[str, list[float | None]]) -> None:
-    # Imported here: it takes long, and only this needs it.
+    # Imported here, because it is slow to import.
     import matplotlib
 
     matplotlib.use("Agg")

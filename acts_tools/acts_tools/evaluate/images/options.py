@@ -1,4 +1,4 @@
-"""The part of the command line that all evaluations share."""
+"""Command-line options that all evaluations share."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from acts_tools.evaluate.estimators.methods import method_names
 from acts_tools.evaluate.images.recovery import FOLLOW_COUNTS, Task
 
 METHOD = "acts"
-"""Recovers unless another method is asked for."""
+"""Default method."""
 
 _SCHEME, _M = "tracking", 55
 _OPTIONS_OF_THEIR_OWN = ("dictionary", "patch_step")
 
 
 def add_arguments(parser: argparse.ArgumentParser, **defaults: float) -> None:
-    """Add how a frame is sampled, recovered and scored; `defaults` are those of settings of `Task`, where others."""
-    # Given again, each adds to what it named before; defaults are put in by `tasks`, or they would be added to.
+    """Add options of sampling, recovery and scoring; `defaults` replace those of `Task`."""
+    # Repeated options accumulate; `tasks` sets the defaults, which argparse would extend otherwise.
     parser.add_argument("--scheme", nargs="+", action="extend", choices=tuple(SCHEMES), help=f"default: {_SCHEME}")
     parser.add_argument("--m", nargs="+", action="extend", type=int, help=f"taxels per frame (default: {_M})")
     parser.add_argument("--method", nargs="+", action="extend", choices=method_names(), help=f"default: {METHOD}")
@@ -33,7 +33,7 @@ def add_arguments(parser: argparse.ArgumentParser, **defaults: float) -> None:
 def add_common_arguments(parser: argparse.ArgumentParser, **defaults: float) -> None:
     """Add everything but schemes, M and methods; see `add_arguments`."""
     parser.add_argument(
-        "--dictionary", metavar="FILE", help="of the methods that use a learnt one (default: the shipped)"
+        "--dictionary", metavar="FILE", help="dictionary, for methods that use one (default: the shipped one)"
     )
     for name, info in describe(Task).items():
         default = defaults.get(name, default_of(Task, name))
@@ -48,7 +48,7 @@ def add_common_arguments(parser: argparse.ArgumentParser, **defaults: float) -> 
         "--search-counts",
         type=int,
         metavar="X",
-        help="counts above which the sampling searches around a taxel or follows it (default: "
+        help="counts above which the sampling searches around or follows a taxel (default: "
         f"{FOLLOW_COUNTS} for tracking, as --touch-counts for the others)",
     )
     parser.add_argument(
@@ -57,7 +57,7 @@ def add_common_arguments(parser: argparse.ArgumentParser, **defaults: float) -> 
         type=_method_setting,
         default=[],
         metavar="NAME=VALUE",
-        help="a setting of a method, by the name of its parameter (docs/reference.md, reconstruction)",
+        help="set a parameter of a method (docs/reference.md, reconstruction)",
     )
     for own in OWN_SETTINGS:
         parser.add_argument(
@@ -67,8 +67,8 @@ def add_common_arguments(parser: argparse.ArgumentParser, **defaults: float) -> 
             metavar="X",
             help=f"{own.parameter_description} (default: %(default)s)",
         )
-    parser.add_argument("--seed", type=int, default=1, metavar="X", help="of everything random (default: %(default)s)")
-    parser.add_argument("--json", type=Path, metavar="OUT", help="write the results here, too")
+    parser.add_argument("--seed", type=int, default=1, metavar="X", help="random seed (default: %(default)s)")
+    parser.add_argument("--json", type=Path, metavar="OUT", help="also write the results to a JSON file")
 
 
 def _method_setting(word: str) -> tuple[str, SettingValue]:
@@ -85,7 +85,7 @@ def _method_setting(word: str) -> tuple[str, SettingValue]:
 
 
 def at_least_one(word: str) -> int:
-    """A whole number above 0, for argparse."""
+    """A positive integer, for argparse."""
     number = int(word)
     if number < 1:
         raise argparse.ArgumentTypeError(f"{word}: allowed is 1 or more")
@@ -93,12 +93,12 @@ def at_least_one(word: str) -> int:
 
 
 def dictionary(arguments: argparse.Namespace) -> Dictionary:
-    """The learnt dictionary that was asked for."""
+    """The chosen dictionary."""
     return dictionary_named(arguments.dictionary or str(shipped_dictionary_path()))
 
 
 def task(arguments: argparse.Namespace, scheme: str, m: int, method: str, shape: tuple[int, ...] = (32, 32)) -> Task:
-    """What the arguments say of one scheme, M and method on an array of `shape`.
+    """Task of one scheme, M and method on an array of `shape`.
 
     Raises
     ------
@@ -123,7 +123,7 @@ def task(arguments: argparse.Namespace, scheme: str, m: int, method: str, shape:
 
 
 def tasks(arguments: argparse.Namespace, shape: tuple[int, ...] = (32, 32)) -> list[Task]:
-    """Every scheme with every M and every method."""
+    """Tasks of every scheme with every M and every method."""
     return [
         task(arguments, scheme, m, method, shape)
         for scheme in arguments.scheme or [_SCHEME]
@@ -133,7 +133,7 @@ def tasks(arguments: argparse.Namespace, shape: tuple[int, ...] = (32, 32)) -> l
 
 
 def as_report(arguments: argparse.Namespace) -> dict[str, object]:
-    """What a report says of the arguments."""
+    """The arguments, for a report."""
     own = (setting.parameter for setting in OWN_SETTINGS)
     used = {name: getattr(arguments, name) for name in (*describe(Task), *own, "search_counts", "seed")}
     return {**used, "dictionary": arguments.dictionary or "shipped", "set": dict(arguments.set)}

@@ -1,6 +1,6 @@
-"""Samples recordings as a board would, has a method recover them, and scores every frame.
+"""Sample recordings like a board, recover them by a method, and score every frame.
 
-What the scores mean is told in docs/recovery.md.
+docs/recovery.md explains the scores.
 """
 
 from __future__ import annotations
@@ -25,17 +25,17 @@ from acts_tools.evaluate.images.scores import FRAME_SCORES, INVENTED, FrameScore
 from acts_tools.evaluate.images.truth import ContactStart, contact_starts, interpolate
 
 SAMPLE_US = 17.877
-"""Published time of one measurement: 55,936 a second."""
+"""Published time of one measurement [us]: 55,936 per second."""
 
 _IMAGES_BETWEEN_SHOWS = 500
 
 FOLLOW_COUNTS = 15
-"""Above it tracking follows a taxel: just above the noise of a reading (docs/recovery.md)."""
+"""Threshold above which tracking follows a taxel, just above the noise of a reading (docs/recovery.md)."""
 
 
 @dataclass(frozen=True)
 class Recording:
-    """What was on the skin, in one piece.
+    """One continuous recording of the skin.
 
     Attributes
     ----------
@@ -54,12 +54,12 @@ class Recording:
 
 @dataclass(frozen=True)
 class Task:
-    """One line of the report.
+    """Settings of one line of the report.
 
     Attributes
     ----------
     sampling : SamplingConfig
-        Its `threshold_counts` is the search's.
+        Settings of the sampling; its `threshold_counts` is that of the search.
     method : str
         See `acts_tools.evaluate.estimators.methods.METHODS`.
     rate_hz, touch_counts, sample_us, noise_counts, onset_s, patch_step : see below
@@ -69,14 +69,14 @@ class Task:
 
     sampling: SamplingConfig
     method: str
-    rate_hz: float = setting(1000.0, "most frames sampled per second; many taxels take longer", minimum=0.1)
+    rate_hz: float = setting(1000.0, "largest frame rate; frames of many taxels take longer", minimum=0.1)
     touch_counts: int = setting(50, "a taxel above is pressed", minimum=0, maximum=COUNT_MAX)
     sample_us: float = setting(SAMPLE_US, "time of one measurement", minimum=0.01)
     noise_counts: float = setting(
         0.0, "standard deviation of noise that is added to every measurement", minimum=0, maximum=100
     )
-    onset_s: float = setting(0.020, "how long a contact counts as new", minimum=0)
-    patch_step: int = setting(4, "taxels from patch to patch, in the methods that use patches", minimum=1, maximum=64)
+    onset_s: float = setting(0.020, "time for which a contact counts as new", minimum=0)
+    patch_step: int = setting(4, "taxels between patches, for methods that use patches", minimum=1, maximum=64)
     settings: tuple[tuple[str, SettingValue], ...] = ()
 
     def __post_init__(self) -> None:
@@ -84,18 +84,18 @@ class Task:
 
     @property
     def duration_s(self) -> float:
-        """From the beginning of the first measurement of a frame to the end of the last [s]."""
+        """Time from the start of a frame's first measurement to the end of its last [s]."""
         return float(self.sampling.frame_size * self.sample_us * 1e-6)
 
     @property
     def period_s(self) -> float:
-        """From frame to frame [s]."""
+        """Time between frames [s]."""
         return max(1.0 / self.rate_hz, self.duration_s)
 
 
 @dataclass(frozen=True)
 class _Frame:
-    """One recovered frame: its image, when it ended, and how it did."""
+    """One recovered frame: its image, its end, and its scores."""
 
     image: NDArray[np.float32]
     end_s: float
@@ -107,7 +107,7 @@ class _Frame:
 
 
 class _Notices:
-    """Which new contacts of a recording the images have shown so far, and how late."""
+    """Delays after which the images show the new contacts of a recording."""
 
     def __init__(self, recording: Recording, touch_counts: int) -> None:
         self._waiting = contact_starts(recording.frames, recording.live, touch_counts)
@@ -136,19 +136,19 @@ class _Notices:
         self._last_s = frame.end_s
 
     def end(self) -> None:
-        """Count the contacts that the recording's last image still did not show."""
+        """Count the contacts that not even the last image shows."""
         for start in self._open:
             self._count(start, self._last_s, False)
         self._open = []
 
     def _count(self, start: ContactStart, end_s: float, noticed: bool) -> None:
-        # One that went unnoticed is at least so late.
+        # For a contact that was never shown, this is a lower bound.
         (self.first_ms if start.alone else self.further_ms).append(1e3 * (end_s - start.onset / self._rate_hz))
         self.missed += not noticed
 
 
 def method_of(task: Task, dictionary: Dictionary) -> Method:
-    """Make what recovers the images of a task.
+    """Make the recovery method of a task.
 
     Raises
     ------
@@ -161,7 +161,7 @@ def method_of(task: Task, dictionary: Dictionary) -> Method:
 
 
 def images(recordings: Iterable[Recording], task: Task) -> int:
-    """How many images `evaluate` recovers, give or take one a recording."""
+    """Number of images that `evaluate` recovers, to within one per recording."""
     return sum(
         1 + max(0, int(((len(recording.frames) - 1) / recording.rate_hz - task.duration_s) / task.period_s))
         for recording in recordings
@@ -171,15 +171,15 @@ def images(recordings: Iterable[Recording], task: Task) -> int:
 def evaluate(
     recordings: Iterable[Recording], task: Task, dictionary: Dictionary, show: Callable[[int], None] = lambda _: None
 ) -> dict[str, Any]:
-    """Score one task on recordings of one size; `show` is told now and then how many images there are.
+    """Score one task on recordings of one size; `show` is regularly called with the number of images so far.
 
     Returns
     -------
     dict
-        An entry of the report's `results`: plain numbers, None where there is nothing to tell.
+        An entry of the report's `results`: plain numbers, or None where there is no value.
     """
     method = method_of(task, dictionary)
-    # The first call may compile.
+    # The first call may compile kernels.
     nothing = np.zeros(task.sampling.m, dtype=np.uint16)
     method.step(np.arange(task.sampling.m, dtype=np.uint16), nothing, 0.0, task.duration_s)
     settled, onset = FrameScores(), FrameScores()
@@ -232,7 +232,7 @@ def evaluate(
 
 
 def _for_recording(task: Task, which: int, recording: Recording) -> Task:
-    """The task with a seed of its own for each single frame: else one and the same random draw would see them all."""
+    """The task with another seed for each single frame; otherwise all frames would be sampled at the same taxels."""
     if len(recording.frames) > 1:
         return task
     sampling = replace(task.sampling, seed=(task.sampling.seed + which) % 2**64)
@@ -240,7 +240,7 @@ def _for_recording(task: Task, which: int, recording: Recording) -> Task:
 
 
 def _play(recording: Recording, task: Task, method: Method) -> Iterator[_Frame]:
-    """Sample and recover from the beginning to the end; at least one frame, for which the last is held."""
+    """Sample and recover a recording; at least one frame, with the last image held constant."""
     sampler = sampler_of(task.sampling, task.noise_counts)
     frames = np.ascontiguousarray(recording.frames)
     flat = frames.reshape(len(frames), -1)

@@ -22,7 +22,7 @@ from acts_tools.train import model_frames
 
 def add_parser(commands: Any) -> None:
     """Add ``acts evaluate recovery``."""
-    parser = commands.add_parser("recovery", help="on recordings, or on single presses of the contact model")
+    parser = commands.add_parser("recovery", help="score recovery on recordings, or on presses of the contact model")
     source = parser.add_mutually_exclusive_group(required=True)
     source.add_argument(
         "--frames",
@@ -31,15 +31,13 @@ def add_parser(commands: Any) -> None:
         help="`frames` (n, rows, cols) of 0 to 1023 counts with `rate_hz`; optionally `live`, `start`, `length`",
     )
     source.add_argument(
-        "--presses", type=options.at_least_one, metavar="N", help="N still presses of the objects of the contact model"
+        "--presses", type=options.at_least_one, metavar="N", help="N static presses of the contact model's objects"
     )
     options.add_arguments(parser)
     parser.add_argument(
-        "--peaks", action="store_true", help="of each recording only one sampled frame, at its moment of most counts"
+        "--peaks", action="store_true", help="of each recording only one sampled frame, at its largest sum of counts"
     )
-    parser.add_argument(
-        "--every", type=options.at_least_one, default=1, metavar="N", help="only every Nth recording, for a quick look"
-    )
+    parser.add_argument("--every", type=options.at_least_one, default=1, metavar="N", help="only every Nth recording")
     parser.set_defaults(evaluate=_run)
 
 
@@ -71,7 +69,7 @@ def _recordings(arguments: argparse.Namespace) -> Sequence[Recording]:
 
 
 def _tell_without_contact(path: Path, recordings: Sequence[Recording], touch_counts: int) -> None:
-    """Say so where nothing is ever pressed: scored is then only what is invented, mostly by mistake."""
+    """Warn if no taxel is ever pressed: only invented contacts are then scored, which is rarely intended."""
     largest = max(int(recording.frames.max(axis=0)[recording.live].max(initial=0)) for recording in recordings)
     if largest <= touch_counts:
         print(f"warning: {path}: {without_contact(largest, touch_counts)}, or a lower --touch-counts", file=sys.stderr)

@@ -1,4 +1,4 @@
-"""Scores of recovered images against the truth. `docs/recovery.md` tells what each of them means."""
+"""Scores of recovered images by comparison with the truth. `docs/recovery.md` explains them."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from acts_core.kernels import kernel
 
 _ERROR, _SUPPORT, _COP, _TOUCH_COP, INVENTED = range(5)
 FRAME_SCORES = 5
-"""Numbers that `score_image` writes."""
+"""Number of scores that `score_image` writes."""
 
 
 @kernel
@@ -31,20 +31,20 @@ def score_image(
     image, truth : np.ndarray [shape=(taxels,), dtype=float32]
         Counts.
     live : np.ndarray [shape=(taxels,), dtype=bool]
-        Only these are scored.
+        Only these taxels are scored.
     cols : int
-        Of the array.
+        Columns of the array.
     threshold : float
         A taxel above it is pressed [counts].
     out : np.ndarray [shape=(FRAME_SCORES,), dtype=float64]
-        Written. When the truth holds a contact: relative error; support accuracy; error of the centre of pressure
-        over all counts, and over pressed taxels [taxels], NaN where the image has none. Always: the share of the
-        taxels at or below half the threshold that the image shows as pressed.
+        Overwritten. If the truth has a contact: relative error; support accuracy; error of the centre of pressure
+        over all counts, and over pressed taxels [taxels], NaN where the image has none. Always: of the taxels at or
+        below half the threshold, the share that the image shows as pressed.
 
     Returns
     -------
     bool
-        Whether the truth holds a contact.
+        Whether the truth has a contact.
     """
     n = 0
     agree = 0
@@ -109,14 +109,14 @@ class FrameScores:
         self._n = 0
 
     def add(self, scores: NDArray[np.float64]) -> None:
-        """Take what `score_image` wrote."""
+        """Add the scores of `score_image`."""
         if self._n == len(self._table):
             self._table = np.concatenate((self._table, np.empty_like(self._table)))
         self._table[self._n] = scores
         self._n += 1
 
     def summary(self) -> dict[str, Any]:
-        """What the report says of these frames; numbers are None where there is no frame."""
+        """Summary for the report; numbers are None where there is no frame."""
         table = self._table[: self._n]
         cop, touch = table[:, _COP], table[:, _TOUCH_COP]
         return {

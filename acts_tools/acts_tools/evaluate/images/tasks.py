@@ -1,4 +1,4 @@
-"""Evaluating task after task: how far it is on a terminal, a line for each on stdout, all of them in the JSON file."""
+"""Evaluate several tasks, with progress on a terminal, a line per task on stdout, and all in the JSON file."""
 
 from __future__ import annotations
 
@@ -14,19 +14,19 @@ from acts_tools.progress import Progress
 def evaluate_shown(
     recordings: Sequence[Recording], task: Task, dictionary: Dictionary, title: str = ""
 ) -> dict[str, Any]:
-    """`evaluate`, showing on a terminal how far it is."""
+    """`evaluate` with a progress bar on a terminal."""
     name = f"{title}{task.sampling.scheme}, M = {task.sampling.m}, {task.method}"
     with Progress(name, images(recordings, task)) as progress:
         return evaluate(recordings, task, dictionary, progress.show)
 
 
 def require_methods(tasks: Sequence[Task], dictionary: Dictionary) -> None:
-    """Make every method once: what does not fit the array is told before the first of them has worked for minutes.
+    """Make every method once, so that one that does not fit the array fails before the first has run for minutes.
 
     Raises
     ------
     ArrayError
-        When the patches of one do not fit.
+        When the patches of a method do not fit.
     """
     for task in {task.method: task for task in tasks}.values():
         method_of(task, dictionary)

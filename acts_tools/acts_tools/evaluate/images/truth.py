@@ -1,4 +1,4 @@
-"""What really was on the skin while a recording is sampled: frames between frames, and when contacts begin."""
+"""The truth while a recording is sampled: interpolated frames, and the starts of contacts."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from acts_core.kernels import kernel
 
 @kernel
 def interpolate(frames: NDArray[np.uint16], position: float, out: NDArray[np.float32]) -> None:
-    """Write the image that an ADC would read at one instant.
+    """Interpolate the image that an ADC would read at one time.
 
     Parameters
     ----------
     frames : np.ndarray [shape=(n, taxels), dtype=uint16]
     position : float
-        In frames; the first and the last are held.
+        Time in frames; constant before the first and after the last.
     out : np.ndarray [shape=(taxels,), dtype=float32]
-        Written: whole counts, interpolated linearly between the frames before and after.
+        Overwritten: rounded counts, interpolated linearly between the frames before and after.
     """
     last = len(frames) - 1
     position = min(max(position, 0.0), float(last))
@@ -36,18 +36,18 @@ def interpolate(frames: NDArray[np.uint16], position: float, out: NDArray[np.flo
 
 @dataclass(frozen=True)
 class ContactStart:
-    """A place that begins to be pressed while nothing touches it or its neighbours.
+    """A region that becomes pressed while neither it nor its neighbours were pressed.
 
     Attributes
     ----------
     onset : float
-        When its first taxel passes the threshold, in frames of the recording.
+        Time at which its first taxel exceeds the threshold, in frames of the recording.
     end : float
-        The last frame of the recording in which one of its taxels is pressed without a break.
+        Last frame of the recording up to which one of its taxels is pressed without interruption.
     alone : bool
         Whether nothing else was pressed in the frame before.
     taxels : np.ndarray [shape=(k,), dtype=int64]
-        Its taxels in the first recorded frame that shows it, and those of their neighbours that are scored.
+        Its taxels in the first recorded frame with it, and their scored neighbours.
     """
 
     onset: float
@@ -61,7 +61,7 @@ _CHUNK = 4096
 
 
 def contact_starts(frames: NDArray[np.uint16], live: NDArray[np.bool_], threshold_counts: int) -> list[ContactStart]:
-    """Every new contact of a recording, also those beside one that is there already; not those of its first frame.
+    """Every new contact of a recording, also beside existing contacts, but not those of its first frame.
 
     Parameters
     ----------
@@ -80,7 +80,7 @@ def contact_starts(frames: NDArray[np.uint16], live: NDArray[np.bool_], threshol
             if (blob & near_before).any():
                 continue
             before, now = frames[number - 1][blob].astype(float), frames[number][blob].astype(float)
-            # Rounded up: the threshold itself is no touch, and images hold whole counts.
+            # Rounded up: a taxel at the threshold is not pressed, and images have integer counts.
             share = float(np.min((threshold_counts + 0.5 - before) / (now - before)))
             end = number
             while end + 1 < len(frames) and (frames[end + 1][blob] > threshold_counts).any():
@@ -92,8 +92,8 @@ def contact_starts(frames: NDArray[np.uint16], live: NDArray[np.bool_], threshol
 
 
 def _with_new_touch(frames: NDArray[np.uint16], live: NDArray[np.bool_], threshold_counts: int) -> Iterator[int]:
-    """Numbers of the frames that press a taxel which the one before did not: most need no further look."""
-    # In pieces: the whole compared at once would double the memory of a long recording.
+    """Indices of frames with a pressed taxel that was not pressed before; all others can be skipped."""
+    # In pieces, because a comparison at once would double the memory of a long recording.
     for begin in range(0, len(frames), _CHUNK):
         pressed = (frames[begin : begin + _CHUNK + 1] > threshold_counts) & live
         any_new = (pressed[1:] & ~pressed[:-1]).any(axis=(1, 2))

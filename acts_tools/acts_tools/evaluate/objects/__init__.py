@@ -1,1 +1,1 @@
-"""How well objects are told apart: the paper's classification and ours on the same presses."""
+"""Evaluation of classification: the paper's and ours on the same presses."""

@@ -1,8 +1,8 @@
-"""Which object presses: the paper's SRC and ours on the same presses of simulated objects, over M and over time.
+"""Accuracy of the paper's SRC and of ours on the same presses of simulated objects, over M and over time.
 
-The paper's method: adaptive sampling, each frame alone (`Classifier`). Ours: tracking sampling, what is
-known of several frames (`ImageClassifier`). Both sample the same recordings through the firmware's own
-sampler with frames that begin at the same times, and know the objects from the same library presses.
+The paper's method: adaptive sampling, each frame alone (`Classifier`). Ours: tracking sampling, and the fused image of
+several frames (`ImageClassifier`). Both sample the same recordings by the firmware's sampler with frames that begin at
+the same times, and have libraries from the same presses.
 """
 
 from __future__ import annotations
@@ -38,38 +38,38 @@ from acts_tools.evaluate.shares import wilson
 
 PAPER, ACTS = "paper", "acts"
 TOUCH_COUNTS = 60
-"""The paper's touch: its library, samples and search know nothing below. Contact is said to begin there."""
+"""The paper's touch threshold: its library, samples and search ignore lower counts. Contact begins there."""
 
 TIMES_MS = (2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 25, 30, 40, 50, 60, 80)
 MIDDLE_MS = 60.0
-"""When a press is held: the time of the accuracy over M."""
+"""Time after contact at which a press is held, for the accuracy over M [s]."""
 
 M_OVER_TIME = 64
 MS = (42, 48, 56, 64, 88, 128, 256, 512)
 _BEFORE_S = 0.100
-"""Untouched before a press, so that tracking has walked the skin."""
+"""Time without touch before a press, in which tracking scans the skin [s]."""
 
 _LISTEN_S = 0.025
-"""How long before the first answer that is asked for our method begins to classify; it forgets faster."""
+"""Time for which our method classifies before the first scored answer [s]; its memory is shorter."""
 
 
 class Contender(Protocol):
-    """A way to sample and to classify."""
+    """A method of sampling and classification."""
 
     sampling: SamplingConfig
     spent_us: list[float]
-    """Processor time that each answer in contact took, without the recovery of its image [us]."""
+    """Processor time of each answer in contact, without the recovery of its image [us]."""
 
     def reset(self) -> None:
-        """Another recording begins."""
+        """Prepare for another recording."""
 
     def update(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float) -> None:
-        """Take a frame of samples of which no answer is needed."""
+        """Update by a frame of samples, without an answer."""
 
     def answer(
         self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float
     ) -> int | None:
-        """Take a frame of samples and return the class; None where nothing presses."""
+        """Update by a frame of samples and return the class; None without a contact."""
 
 
 class PerFrameSrc:
@@ -98,7 +98,7 @@ class PerFrameSrc:
 
 
 class FusedImage:
-    """Ours: tracking sampling, all that is known of the skin."""
+    """Our method: tracking sampling, classification of the fused image."""
 
     def __init__(
         self, library: ObjectLibrary, m: int, config: ImageClassifierConfig | None = None, *, period_s: float
@@ -135,7 +135,7 @@ class FusedImage:
 
 
 class Registered:
-    """Any classifier of the node (docs/extending.md): tracking sampling and fusion, as `FusedImage`."""
+    """Any other classifier of the node (docs/extending.md), with tracking sampling and fusion like `FusedImage`."""
 
     def __init__(self, kind: type[ObjectRecogniser], library: ObjectLibrary, m: int) -> None:
         config = ImageClassifierConfig()
@@ -167,12 +167,12 @@ class Registered:
 
 
 def contenders(coarse: ObjectLibrary, fine: ObjectLibrary, m: int) -> dict[str, Contender]:
-    """All classifiers by name: the paper's, ours, and what else the node offers.
+    """All classifiers by name: the paper's, ours, and further ones of the node.
 
     Parameters
     ----------
     coarse, fine : ObjectLibrary
-        Of the same presses: without what is below the paper's touch, and with it.
+        Libraries of the same presses: without counts below the paper's touch threshold, and with them.
     m : int
         Taxels per frame.
     """
@@ -192,7 +192,7 @@ def _answer(result: Classification, began_s: float, spent_us: list[float]) -> in
 
 
 def frame_period_s(m: int, rate_hz: float = 1000.0) -> float:
-    """From frame to frame [s]: as fast as asked, or as fast as `m` measurements go."""
+    """Time between frames [s]: that of `rate_hz`, or that of `m` measurements if it is longer."""
     return max(1 / rate_hz, m * SAMPLE_US * 1e-6)
 
 
@@ -205,7 +205,7 @@ def answers(
     *,
     run_up_s: float | None = None,
 ) -> list[int | None]:
-    """Play a recording; the last answer that is there at each of some times since contact.
+    """Play a recording; return the last answer that is available at each of some times since contact.
 
     Parameters
     ----------
@@ -214,23 +214,23 @@ def answers(
     recorded_hz : float
         Frames of the recording per second.
     contact_s : float
-        When contact begins [s]; then a frame of samples begins, too.
+        Time at which contact begins [s]; a frame of samples begins at the same time.
     times_s : sequence of float
-        Since contact, rising [s].
+        Increasing times since contact [s].
     run_up_s : float, optional
-        How much is played before contact [s]; everything by default.
+        Time that is played before contact [s]; by default all of it.
 
     Returns
     -------
     list of int or None [len(times_s)]
-        Classes; None where nothing was seen to press.
+        Classes; None where no contact was detected.
     """
     m = contender.sampling.m
     period_s, step_s = frame_period_s(m), SAMPLE_US * 1e-6
     run_up_s = contact_s if run_up_s is None else run_up_s
     contender.reset()
     sampler = BoardSampler(contender.sampling)
-    # The number of the last frame whose answer is there at each time; frame 0 begins with the contact.
+    # Number of the last frame whose answer is available at each time; frame 0 begins with the contact.
     wanted = [int(np.floor((time_s - m * step_s) / period_s + 1e-6)) for time_s in times_s]
     listen = wanted[0] - int(_LISTEN_S / period_s)
     found: dict[int, int | None] = {}
@@ -247,14 +247,14 @@ def answers(
 
 @dataclass(frozen=True)
 class Trials:
-    """What is pressed how often.
+    """Numbers of arms and presses.
 
     Attributes
     ----------
     arms : int
-        Arms, each with its own skin, spots and library.
+        Number of arms, each with its own skin, spots and library.
     presses : int
-        Of every object on every arm.
+        Presses of every object on every arm.
     columns : int
         Library presses of every object on every arm, none of them among `presses`.
     seed : int
@@ -271,7 +271,7 @@ class Trials:
 
 @dataclass
 class Score:
-    """How often a method was right: one row a press, one column a question."""
+    """Correct answers of a method: one row per press, one column per question."""
 
     rows: list[list[bool]] = field(default_factory=list)
 
@@ -296,14 +296,13 @@ def run_trials(
     times_ms: Sequence[float] = TIMES_MS,
     show: Callable[[float], None] = lambda _: None,
 ) -> dict[str, Any]:
-    """Press, sample, classify; `show` is told the share of the presses that is done.
+    """Press, sample and classify; `show` is called with the share of the presses that is done.
 
     Returns
     -------
     dict
-        `over_m` and `over_time`: by method ("paper", "acts", further ones of the node) a list of accuracies.
-        `frame_us`: by method `median` and `p99` of the processor time that the classification of a frame took, at
-        `M_OVER_TIME`.
+        `over_m` and `over_time`: a list of accuracies by method ("paper", "acts", further ones of the node).
+        `frame_us`: `median` and `p99` of the processor time to classify a frame by method, at `M_OVER_TIME`.
     """
     spent_us: dict[str, list[float]] = defaultdict(list)
     over_m: dict[str, dict[int, Score]] = defaultdict(lambda: {m: Score() for m in ms})

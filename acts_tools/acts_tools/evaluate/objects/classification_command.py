@@ -1,4 +1,4 @@
-"""`acts evaluate classification`: which object presses, by the paper's SRC and by ours, on the same presses."""
+"""`acts evaluate classification`: accuracy of the paper's SRC and of ours on the same presses."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ def add_parser(commands: Any) -> None:
     """Add ``acts evaluate classification``."""
     parser = commands.add_parser(
         "classification",
-        help="which object presses: accuracy over M and over time since contact",
-        description="Press 30 simulated objects again and again, or take labelled recordings (--frames), and tell "
-        "which one it is: by the paper's method (adaptive sampling, SRC on each frame alone) and by ours (tracking, "
-        "all that is known of the skin), on the same frames and with the same library.",
+        help="score the classification of objects, over M and over time since contact",
+        description="Press 30 simulated objects repeatedly, or read labelled recordings (--frames), and classify the "
+        "object by the paper's method (adaptive sampling, SRC on each frame alone) and by ours (tracking, fused "
+        "image), on the same frames and with the same library.",
     )
     parser.add_argument(
         "--frames",
@@ -40,7 +40,7 @@ def add_parser(commands: Any) -> None:
     )
     for name, text in (
         ("arms", "simulated arms, each with a skin, spots and a library of its own"),
-        ("presses", "of every object on every arm"),
+        ("presses", "presses of every object on every arm"),
         ("columns", "presses of every object in the library of an arm"),
     ):
         parser.add_argument(
@@ -51,8 +51,8 @@ def add_parser(commands: Any) -> None:
         )
     parser.add_argument("--objects", nargs="+", default=list(OBJECTS), metavar="NAME", help="default: all 30")
     for name, text in (
-        ("miss_taxels", "how far presses miss their spot, standard deviation [taxels]"),
-        ("miss_deg", "how far they miss their turn, standard deviation [degrees]"),
+        ("miss_taxels", "standard deviation of a press's position about its spot [taxels]"),
+        ("miss_deg", "standard deviation of the angle of a press [degrees]"),
     ):
         default = default_of(PressingConfig, name)
         parser.add_argument(
@@ -62,9 +62,9 @@ def add_parser(commands: Any) -> None:
             metavar="X",
             help=f"{text} (default: %(default)s)",
         )
-    parser.add_argument("--seed", type=int, default=1, metavar="X", help="of everything random (default: %(default)s)")
-    parser.add_argument("--json", type=Path, metavar="OUT", help="write the results here, too")
-    parser.add_argument("--picture", type=Path, metavar="PNG", help="draw both curves (not of --frames)")
+    parser.add_argument("--seed", type=int, default=1, metavar="X", help="random seed (default: %(default)s)")
+    parser.add_argument("--json", type=Path, metavar="OUT", help="also write the results to a JSON file")
+    parser.add_argument("--picture", type=Path, metavar="PNG", help="draw both curves (not with --frames)")
     parser.set_defaults(evaluate=_run)
 
 

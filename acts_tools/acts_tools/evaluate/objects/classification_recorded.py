@@ -1,4 +1,4 @@
-"""Which object is grasped, on labelled recordings: the paper's SRC, ours, and nearest neighbour on full frames."""
+"""Classification of labelled recordings: the paper's SRC, ours, and nearest neighbour on full frames."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from acts_tools.evaluate.objects.classification import (
 
 NEAREST = "nearest"
 _RUN_UP_S = 1.0
-"""Played before the frame that is classified."""
+"""Time that is played before the classified frame [s]."""
 
 
 def run_recorded(
@@ -28,13 +28,13 @@ def run_recorded(
 ) -> dict[str, Any]:
     """Classify the strongest frame of every recording by the strongest frames of other recordings.
 
-    The first half of each object's recordings, as they follow one another in the file, is the library; the rest is
-    classified. Recordings without a touch in their strongest frame are left out. `show` is told the share that is done.
+    The first half of each object's recordings, in the order of the file, is the library; the rest is classified.
+    Recordings without a touch in their strongest frame are skipped. `show` is called with the share that is done.
 
     Returns
     -------
     dict
-        `over_m`: by method a list of accuracies; `library`, `presses`, `classes`: how many.
+        `over_m`: a list of accuracies by method; `library`, `presses`, `classes`: their numbers.
 
     Raises
     ------
@@ -74,7 +74,7 @@ def run_recorded(
                 start, length = recorded.start[number], recorded.length[number]
                 frames = np.ascontiguousarray(flat[start : start + length])
                 peak_s = (peaks[number] - start) / recorded.rate_hz
-                # The last frame of samples that ends by the strongest moment; a recording's first frame is held before.
+                # The last frame of samples that ends by the strongest frame; the first frame is held before.
                 before_s = min(peak_s, _RUN_UP_S)
                 found = answers(contender, frames, recorded.rate_hz, peak_s, [0.0], run_up_s=before_s)
                 right += found[0] == wanted
@@ -84,7 +84,7 @@ def run_recorded(
 
 
 def _split(recorded: FramesFile, touched: Sequence[bool]) -> tuple[list[int], list[int]]:
-    """Numbers of the recordings that are known, and of those asked about."""
+    """Indices of the recordings in the library, and of those to classify."""
     known, asked = [], []
     for label in sorted(set(recorded.label)):
         own = [n for n, other in enumerate(recorded.label) if other == label and touched[n]]

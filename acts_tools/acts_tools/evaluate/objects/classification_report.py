@@ -11,14 +11,14 @@ PUBLISHED_OVER_M = {42: 0.756, 48: 0.849, 56: 0.901, 64: 0.934, 88: 0.991, 128: 
 """Accuracy of SRC with adaptive sampling over M (paper, Fig. 4F)."""
 
 PUBLISHED_AT_20_MS = 0.886
-"""The same 20 ms after first contact, M = 64 (paper, Fig. 4G); a running mean over the frames since contact."""
+"""Accuracy 20 ms after first contact, M = 64 (paper, Fig. 4G); a running mean over the frames since contact."""
 
 _COLOURS = {"paper": "tab:blue", "acts": "tab:red"}
 _NAMES = {"paper": "adaptive, SRC a frame", "acts": "tracking, fused image"}
 
 
 def table(results: dict[str, list[dict[str, Any]]], question: str, heading: str) -> str:
-    """One row a question, one column a method: accuracy and its 95 % interval."""
+    """One row per question, one column per method: accuracy and its 95 % interval."""
     methods = list(results)
     lines = [f"| {heading} | " + " | ".join(methods) + " |", "|---" * (len(methods) + 1) + "|"]
     for row in zip(*results.values(), strict=True):
@@ -28,20 +28,20 @@ def table(results: dict[str, list[dict[str, Any]]], question: str, heading: str)
 
 
 def times(frame_us: dict[str, dict[str, float] | None]) -> str:
-    """One line: how long each method took for a frame."""
+    """One line with the time of each method for a frame."""
     taken = (f"{method} {us['median']:.0f}, {us['p99']:.0f}" for method, us in frame_us.items() if us)
     return f"processor time to classify a frame, median and p99 [us]: {'; '.join(taken)}"
 
 
 def draw(path: Path, results: dict[str, Any], m_over_time: int) -> None:
-    """Draw accuracy over M and over time since contact, with their intervals, into a PNG file.
+    """Draw accuracy over M and over time since contact, with their intervals, to a PNG file.
 
     Raises
     ------
     RecordingError
         When it cannot be written.
     """
-    # Imported here: it takes long, and only this needs it.
+    # Imported here, because it is slow to import.
     import matplotlib
 
     matplotlib.use("Agg")

@@ -1,1 +1,1 @@
-"""Recordings that others have published, in their own formats."""
+"""Readers of public recordings in their original formats."""

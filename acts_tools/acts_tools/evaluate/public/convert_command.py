@@ -1,4 +1,4 @@
-"""`acts evaluate convert`: public recordings in the form that the other commands read."""
+"""`acts evaluate convert`: convert public recordings to the format of the other commands."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ def add_parser(commands: Any) -> None:
     """Add ``acts evaluate convert``."""
     parser = commands.add_parser(
         "convert",
-        help="turn public recordings into files that can be evaluated",
-        description="Read the recordings of a repository that others have published, and write them as `frames` with "
-        "`rate_hz`, `live`, `start`, `length` and `label`. docs/recovery.md tells where to have them.",
+        help="convert public recordings to files that can be evaluated",
+        description="Read the recordings of a public repository, and write them as `frames` with `rate_hz`, `live`, "
+        "`start`, `length` and `label`. docs/recovery.md says where to get them.",
     )
-    parser.add_argument("which", choices=tuple(_SETS), help="which recordings")
-    parser.add_argument("source", type=Path, metavar="FOLDER", help="the repository they are published in, cloned")
+    parser.add_argument("which", choices=tuple(_SETS), help="set of recordings")
+    parser.add_argument("source", type=Path, metavar="FOLDER", help="clone of their repository")
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help="npz file to write")
     parser.set_defaults(evaluate=_run)
 
@@ -51,7 +51,7 @@ def _run(arguments: argparse.Namespace) -> int:
 
 
 _Recordings = tuple[list[tuple[str, NDArray[np.uint16]]], NDArray[np.bool_], float]
-"""Label and frames of each, where there is a taxel, frames per second."""
+"""Label and frames of each recording, mask of existing taxels, frames per second."""
 
 
 def _grasps(source: Path) -> _Recordings:

@@ -1,6 +1,6 @@
 """Recordings of two insoles of 33 x 15 cells: github.com/JunjianChi/ISCAS_2025_Insole.
 
-A file is CSV; the columns `Matrix_0` and `Matrix_1` hold the cells of the feet, row by row, with commas between.
+A file is CSV; the columns `Matrix_0` and `Matrix_1` contain the cells of the feet, row by row, separated by commas.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ RECORDINGS = (
     "walking_cjj_neiba.csv",
     "walking_wu_2.csv",
 )
-"""Those of `Experiment_Dataset` that the tables are about."""
+"""Files of `Experiment_Dataset` that the tables of docs/recovery.md use."""
 
 _FEET = ("Matrix_0", "Matrix_1")
 
@@ -36,12 +36,12 @@ def read(path: Path) -> NDArray[np.uint16]:
     Returns
     -------
     np.ndarray [shape=(2, n, 33, 15), dtype=uint16]
-        Of one foot, and of the other; counts of 10 bits.
+        Frames of one foot and of the other; counts of 10 bits.
 
     Raises
     ------
     RecordingError
-        When the file cannot be read, or holds something else.
+        When the file cannot be read, or has other content.
     """
     feet: tuple[list[NDArray[np.int64]], ...] = ([], [])
     try:

@@ -1,7 +1,7 @@
 """Recordings of a SDH-2 hand with six Weiss DSA arrays: github.com/peter-kiechle/tactile-sensors.
 
-A file is bzip2 of XML. A frame of it is the hexadecimal digits of big-endian 32-bit floats: a number below 0 stands for
-so many zeros, any other for the 12 bits of one texel. The texels of the six arrays follow one another, each row by row.
+A file is XML compressed by bzip2. A frame is a text of big-endian 32-bit floats in hexadecimal digits: a number -n
+stands for n zeros, any other for the 12 bits of one texel. The six arrays follow one another, each row by row.
 """
 
 from __future__ import annotations
@@ -47,9 +47,9 @@ OBJECTS = (
     "wooden_block_flat",
     "wooden_block_small",
 )
-"""The 18 of the 36 objects in `python/classification/training_grasp_profiles_thesis` that the tables are about."""
+"""18 of the 36 objects in `python/classification/training_grasp_profiles_thesis`, which docs/recovery.md uses."""
 
-# Rows, columns, and where the first texel lies on the picture; apart, so that no contact spans two of them.
+# Rows, columns, and position of the first texel in the picture; apart, so that no contact spans two arrays.
 _ARRAYS = ((14, 6, 17, 2), (13, 6, 2, 2), (14, 6, 17, 13), (13, 6, 2, 13), (14, 6, 17, 24), (13, 6, 2, 24))
 _PLACES = np.concatenate(
     [((top + np.arange(rows)[:, None]) * SIDE + left + np.arange(cols)).ravel() for rows, cols, top, left in _ARRAYS]
@@ -58,7 +58,7 @@ _UNPACKED_BYTES_MAX = 64_000_000
 
 
 def live() -> NDArray[np.bool_]:
-    """Where the picture has a texel; np.ndarray [shape=(32, 32)]."""
+    """Mask of the picture's texels; np.ndarray [shape=(32, 32), dtype=bool]."""
     result = np.zeros(SIDE * SIDE, dtype=bool)
     result[_PLACES] = True
     return result.reshape(SIDE, SIDE)

@@ -1,1 +1,1 @@
-"""How soon slip is told, on recordings of full frames and on sampled ones."""
+"""Evaluation of slip detection, on recordings of full frames and on sampled frames."""

@@ -1,8 +1,8 @@
-"""`acts evaluate slip`: where slip is told in recordings of full frames.
+"""`acts evaluate slip`: detect slip in recordings of full frames.
 
-Recordings of slip have no labels, so no share of right answers can be given. Two things are counted: how often slip is
-told at all, and how often while the grip is steady, where nothing should be told. A picture shows the path of the
-centre of pressure with what was told on it.
+Recordings of slip have no labels, so no accuracy can be given. Two things are counted: how often slip is detected at
+all, and how often while the grip is steady, where there should be none. A picture shows the path of the centre of
+pressure with the detections.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from acts_recon.slip import SlipConfig, SlipDetector
 from acts_tools.evaluate import report
 from acts_tools.output_file import require_writable
 
-# A grip is steady where its force stays within this part of its largest for so long before and after.
+# A grip is steady where its force changes by less than this share of its largest, for this time before and after.
 _STEADY_SHARE = 0.05
 _STEADY_S = 0.26
 _SMALLEST_SIDE = 3
@@ -37,13 +37,13 @@ class PatchResult:
     Attributes
     ----------
     patch : int
-        Number of the patch, in the order of `patches`.
+        Index of the patch, in the order of `patches`.
     pressed, told, steady, told_while_steady : int
-        Frames in which something pressed; of these, those in which slip was told; those with a steady grip; both.
+        Number of frames with pressure; of these, those with slip; those with a steady grip; those with both.
     events : list of (float, float, float)
-        Begin and end of slip [s], and the largest distance within a window [taxels].
+        Start and end of slip [s], and the largest distance within a window [taxels].
     path : list of (float, float, float, bool)
-        Time [s], row and column of the centre of pressure, whether slip was told; of the frames in which it pressed.
+        Time [s], row and column of the centre of pressure, and whether there was slip, of each frame with pressure.
     """
 
     patch: int
@@ -59,15 +59,15 @@ def add_parser(commands: Any) -> None:
     """Add ``acts evaluate slip``."""
     parser = commands.add_parser(
         "slip",
-        help="where slip is told in recordings, and how often in a steady grip",
-        description="Watch every patch of a recording for motion along the skin. Patches are the connected parts of "
-        "the live taxels. Without labels it is counted how often slip is told, and how often while the grip is steady.",
+        help="detect slip in recordings, and count detections in a steady grip",
+        description="Detect motion along the skin on every patch of a recording. Patches are the connected parts of "
+        "the live taxels. Without labels, it counts the frames with slip, and those with slip in a steady grip.",
     )
     parser.add_argument("--frames", type=Path, required=True, metavar="FILE.npz", help="full frames (docs/recovery.md)")
     parser.add_argument("--rate-hz", type=float, metavar="R", help="frames per second, where the file does not say")
-    parser.add_argument("--pitch-m", type=float, default=ArrayGeometry().pitch_m, metavar="P", help="of the taxels [m]")
+    parser.add_argument("--pitch-m", type=float, default=ArrayGeometry().pitch_m, metavar="P", help="taxel pitch [m]")
     parser.add_argument(
-        "--noise-counts", type=float, default=1.5, metavar="S", help="of a taxel (default: %(default)s)"
+        "--noise-counts", type=float, default=1.5, metavar="S", help="noise of a taxel (default: %(default)s)"
     )
     for name, info in describe(SlipConfig).items():
         default = default_of(SlipConfig, name)
@@ -78,8 +78,8 @@ def add_parser(commands: Any) -> None:
             metavar="X",
             help=f"{info.description} (default: %(default)s)",
         )
-    parser.add_argument("--json", type=Path, metavar="OUT", help="write the results here, too")
-    parser.add_argument("--picture", type=Path, metavar="PNG", help="draw paths and what was told")
+    parser.add_argument("--json", type=Path, metavar="OUT", help="also write the results to a JSON file")
+    parser.add_argument("--picture", type=Path, metavar="PNG", help="draw paths and detected slip")
     parser.set_defaults(evaluate=_run)
 
 
@@ -89,7 +89,7 @@ def patches(live: NDArray[np.bool_]) -> list[tuple[slice, slice]]:
     Raises
     ------
     RecordingError
-        When one is no rectangle of 3 x 3 taxels or more.
+        When one is not a rectangle of at least 3 x 3 taxels.
     """
     labels, count = ndimage.label(live)
     found = []
@@ -109,7 +109,7 @@ def patches(live: NDArray[np.bool_]) -> list[tuple[slice, slice]]:
 def watch(
     images: NDArray[np.float32], rate_hz: float, detector: SlipDetector, min_counts: float, patch: int = 0
 ) -> PatchResult:
-    """Follow one patch through one recording; `images` [shape=(n, rows, cols)] are its counts."""
+    """Detect slip on one patch in one recording; `images` [shape=(n, rows, cols)] are its counts."""
     result = PatchResult(patch)
     sums = images.sum(axis=(1, 2))
     steady = _steady(sums, max(1, round(_STEADY_S * rate_hz)))
@@ -119,7 +119,7 @@ def watch(
     for k, image in enumerate(images):
         time_s = k / rate_hz
         slip = detector.step(time_s, image)
-        # While it is held for a moment, no motion is told any more.
+        # For some time after a slip, the report is held without further motion.
         told = slip.distance_taxels > 0.0
         if sums[k] >= min_counts:
             result.pressed += 1
@@ -140,7 +140,7 @@ def watch(
 
 
 def _steady(sums: NDArray[np.float32], reach: int) -> NDArray[np.bool_]:
-    """Where the sum of counts changes little, `reach` frames before and after included."""
+    """Mask of frames where the sum of counts changes little, from `reach` frames before to `reach` frames after."""
     size = 2 * reach + 1
     if len(sums) < size:
         return np.zeros(len(sums), dtype=bool)
@@ -214,8 +214,8 @@ def _line(name: str, entry: dict[str, object]) -> str:
 
 
 def _draw(path: Path, watched: list[tuple[str, list[PatchResult]]]) -> None:
-    """The path of the centre of pressure over time, of the recordings with most slip; red where it was told."""
-    # Imported here: it takes long, and only this needs it.
+    """Draw the path of the centre of pressure over time of the recordings with most slip; slip is red."""
+    # Imported here, because it is slow to import.
     import matplotlib
 
     matplotlib.use("Agg")
