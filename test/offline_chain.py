@@ -25,12 +25,13 @@ from acts_control.ball.controller import BallController, ControlInput, Controlle
 from acts_control.robots.ur import UrConfig
 from acts_core.array import COUNT_MAX, ArrayGeometry
 from acts_core.robots import ur5e
-from acts_core.sampling import Sampler, SamplingConfig, measure_in
+from acts_core.sampling import SamplingConfig
 from acts_recon.settings import ReconstructionSettings
 from acts_sim.ball.ball_plate import JointMotion
 from acts_sim.ball.world import Phase, World, WorldConfig
 from acts_sim.ur.joints import JointState, Servo
 from acts_tools.demo.ball.recording import Recording
+from acts_tools.evaluate.images.board_sampler import BoardSampler
 
 STEP_S = 0.001
 _SPEED_LIMIT_RAD_S = np.pi
@@ -77,7 +78,7 @@ def run(chain: Chain, limit_s: float = 60.0) -> Recording:
     rng = np.random.default_rng(chain.seed)
     geometry = ArrayGeometry()
     world = World(chain.world)
-    sampler = Sampler(
+    sampler = BoardSampler(
         SamplingConfig(chain.scheme, geometry.rows, geometry.cols, 55, threshold_counts=chain.threshold_counts)
     )
     recovery = ReconstructionSettings(method=chain.method).recovery()
@@ -100,8 +101,8 @@ def run(chain: Chain, limit_s: float = 60.0) -> Recording:
 
         noisy = world.counts + rng.normal(0.0, chain.noise_counts, world.counts.shape)
         counts = np.clip(np.rint(noisy), 0, COUNT_MAX).astype(np.uint16)
-        indices, values = sampler.frame(measure_in(counts.reshape(geometry.rows, geometry.cols)))
         # Here a frame is taken at one instant.
+        indices, values = sampler.frame(counts.reshape(1, geometry.rows, geometry.cols), 0.0, 0.0)
         contact = recovery.step(indices, values, now_ms * STEP_S, 0.0)
         stamp_ns = now_ms * 1_000_000
         measurement = ContactMeasurement(stamp_ns, contact.in_contact, contact.x_m, contact.y_m, contact.force_n)

@@ -42,22 +42,22 @@ class Wiring:
     stuck: dict[tuple[int, int], float] = field(default_factory=dict)
     address_bit: int | None = None
 
-    def seen(self, image: NDArray[np.float64]) -> NDArray[np.float64]:
-        """What the board sees of an image."""
-        image = image.copy()
-        for taxel in self.dead:
-            image[taxel] = 0
-        for taxel, counts in self.stuck.items():
-            image[taxel] = counts
-        image[list(self.open_rows)] = 0
-        image[:, list(self.open_cols)] = 0
+    def seen(self, images: NDArray[np.float64]) -> NDArray[np.float64]:
+        """What the board sees of images (n, rows, cols)."""
+        images = images.copy()
+        for row, col in self.dead:
+            images[:, row, col] = 0
+        for (row, col), counts in self.stuck.items():
+            images[:, row, col] = counts
+        images[:, list(self.open_rows)] = 0
+        images[:, :, list(self.open_cols)] = 0
         for group in self.short_rows:
-            image[list(group)] = image[list(group)].sum(axis=0)
+            images[:, list(group)] = images[:, list(group)].sum(axis=1, keepdims=True)
         for group in self.short_cols:
-            image[:, list(group)] = image[:, list(group)].sum(axis=1, keepdims=True)
+            images[:, :, list(group)] = images[:, :, list(group)].sum(axis=2, keepdims=True)
         if self.address_bit is not None:
-            image = image[:, np.arange(image.shape[1]) & ~(1 << self.address_bit)]
-        return np.clip(image, 0, 1023)
+            images = images[:, :, np.arange(images.shape[2]) & ~(1 << self.address_bit)]
+        return np.clip(images, 0, 1023)
 
 
 class Skin:
@@ -83,15 +83,12 @@ class Skin:
         """Raster frames, or of `m` random taxels, each measured at its own time."""
         record = FrameRecord(self.rows, self.cols)
         size = self.rows * self.cols
+        each = np.arange(self.rows)
+        shares = (each / self.rows)[:, None, None]
         for k in range(n):
             begin, end = (self.field(min(k + step, n) / n) if touched else 0 * self.knobs for step in (0, 1))
             # Row after row, each at its own time: a shorted row conducts what the other has at that moment.
-            image = np.array(
-                [
-                    self.wiring.seen(self.offset * (self.knobs > 0) + begin + row / self.rows * (end - begin))[row]
-                    for row in range(self.rows)
-                ]
-            )
+            image = self.wiring.seen(self.offset * (self.knobs > 0) + begin + shares * (end - begin))[each, each]
             counts = np.clip(np.rint(image + self.rng.normal(0, 1.5, image.shape)), 0, 1023).astype(np.uint16).ravel()
             indices = np.arange(size) if m is None else self.rng.permutation(size)[:m]
             duration_us = round(len(indices) * SAMPLE_US)
