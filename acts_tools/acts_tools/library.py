@@ -19,8 +19,8 @@ def add_parser(subparsers: Any) -> None:
     parser = subparsers.add_parser(
         "library",
         help="write a library of known objects for the classification",
-        description="Write the file that the node reconstruction reads to tell objects apart (its parameter "
-        "object_library). Of every labelled recording of an npz file it takes the strongest frame, if touched; "
+        description="Write the file by which the node reconstruction classifies objects (its parameter "
+        "object_library). It uses the strongest frame of every labelled recording of an npz file with a touch; "
         "without --frames it presses simulated objects.",
     )
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help="library file to write")
@@ -31,20 +31,20 @@ def add_parser(subparsers: Any) -> None:
         "--objects", nargs="+", action="extend", metavar="NAME", help="only these objects or labels (default: all)"
     )
     parser.add_argument(
-        "--presses", type=_at_least_one, default=5, metavar="N", help="of each simulated object (default: %(default)s)"
+        "--presses", type=_at_least_one, default=5, metavar="N", help="per simulated object (default: %(default)s)"
     )
-    parser.add_argument("--seed", type=int, default=0, metavar="X", help="of simulated presses (default: %(default)s)")
+    parser.add_argument("--seed", type=int, default=0, metavar="X", help="seed of the presses (default: %(default)s)")
     parser.add_argument(
         "--touch-counts",
         type=int,
         default=ImageClassifierConfig().touch_counts,
         metavar="X",
-        help="counts at or below are taken as 0 (default: %(default)s)",
+        help="lower or equal counts are set to 0 (default: %(default)s)",
     )
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Write a library as the command line says; returns the exit code.
+    """Write a library and return the exit code.
 
     Raises
     ------

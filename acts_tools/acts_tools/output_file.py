@@ -1,4 +1,4 @@
-"""Where results are to be written."""
+"""Check of output files."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from acts_core.errors import RecordingError
 
 
 def require_writable(path: Path | None) -> None:
-    """Tell before the work that its results cannot be written; nothing is told for None.
+    """Raise an error, before any work, if a file for results cannot be written; None is allowed.
 
-    A file that is there stays as it is.
+    An existing file is not changed.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""How every latency is summed up."""
+"""Percentiles, as in all summaries of latencies."""
 
 from __future__ import annotations
 
@@ -9,19 +9,19 @@ PERCENTILES = (("median", 50.0), ("p99", 99.0), ("p99_9", 99.9))
 
 
 def percentiles(values: ArrayLike, decimals: int = 3) -> dict[str, float | None]:
-    """Median, 99 % and 99.9 % of some values.
+    """Median, 99 % and 99.9 % of values.
 
     Parameters
     ----------
     values : array_like [shape=(n,)]
-        In any unit, which is that of the result.
+        Values in any unit; the result has the same.
     decimals : int
-        Where the result is rounded.
+        Number of decimals of the result.
 
     Returns
     -------
     dict of str to float or None
-        Under ``median``, ``p99`` and ``p99_9``; None where there are no values.
+        Keys are ``median``, ``p99`` and ``p99_9``; values are None where there are none.
     """
     known = np.asarray(values, dtype=np.float64)
     if not known.size:

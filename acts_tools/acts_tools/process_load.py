@@ -1,7 +1,7 @@
-"""CPU load of a process tree, a name for each process.
+"""CPU load of a process tree, by process name.
 
-Not from the times in ``/proc/PID/stat``: where the kernel counts by ticks, a process that wakes a thousand times a
-second for a tenth of a tick is seen by none of them, or by all. Each process's own clock counts what it really ran.
+It reads each process's CPU clock, not ``/proc/PID/stat``: where the kernel counts by ticks, a process that wakes 1000
+times a second for a tenth of a tick may be counted at none of them, or at all.
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ class LoadMeter:
     Parameters
     ----------
     pid : int
-        The process at the root.
+        Process id of the root.
     root_name : str
-        What its own load is reported as.
+        Name of the root in the result.
     """
 
     def __init__(self, pid: int, root_name: str = "launch") -> None:
@@ -36,12 +36,12 @@ class LoadMeter:
         self._started_s = 0.0
 
     def start(self) -> None:
-        """Begin to count. Processes started later are counted from their own start."""
+        """Start counting. Processes that start later are counted from their start."""
         self._started_s = time.monotonic()
         self._before = {process: _cpu_s(process) for process in self._processes()}
 
     def percent(self) -> dict[str, float]:
-        """Load since `start` by process name [% of one core]; processes that have ended are left out."""
+        """Load since `start` by process name [% of one core], without processes that have ended."""
         elapsed_s = max(time.monotonic() - self._started_s, 1e-9)
         loads: dict[str, float] = defaultdict(float)
         for process in self._processes():
@@ -60,7 +60,7 @@ class LoadMeter:
 
 
 def cpu_s(pid: int) -> float:
-    """CPU time that a process has used, with all its threads, also those that have ended [s].
+    """CPU time of a process, including all its threads, also those that have ended [s].
 
     Raises
     ------
@@ -74,7 +74,7 @@ def cpu_s(pid: int) -> float:
     try:
         return time.clock_gettime(clock.value)
     except OSError as error:
-        # It has ended since.
+        # It has just ended.
         raise ProcessLookupError(errno.ESRCH, os.strerror(errno.ESRCH), pid) from error
 
 

@@ -1,4 +1,4 @@
-"""How far a long work is: a tqdm bar on a terminal, a few lines or nothing elsewhere."""
+"""Progress of a long task: a tqdm bar on a terminal, a few lines or nothing elsewhere."""
 
 from __future__ import annotations
 
@@ -9,25 +9,25 @@ from typing import TextIO
 from tqdm import tqdm
 
 _LINES = 10
-"""Lines at most where there is no terminal."""
+"""Largest number of lines without a terminal."""
 
 
 class Progress:
-    """Shows how much of a work is done while it is entered.
+    """Context that shows the progress of a task.
 
     Parameters
     ----------
     title : str
-        What is being done.
+        Name of the task.
     total : int
-        Steps, at least 1.
+        Number of steps, at least 1.
     done : int
-        Steps done before; the time that is left is estimated from the others.
+        Steps that were done before; they are excluded from the estimate of the remaining time.
     keep : bool
-        Leave the bar on the terminal, and print at most ten lines where there is none. False: clear the bar in the end,
-        and print nothing where there is no terminal.
+        True: leave the bar on the terminal, and print at most ten lines without a terminal. False: clear the bar at the
+        end, and print nothing without a terminal.
     stream : TextIO or None
-        Where to write; None for standard error.
+        Output; None for standard error.
     """
 
     def __init__(
@@ -51,7 +51,7 @@ class Progress:
         )
 
     def show(self, done: float, note: str = "") -> None:
-        """Show that so many steps are done, and a note on the last of them."""
+        """Show the number of steps that are done, and a note on the last one."""
         done = min(done, self._total)
         if self._print_lines:
             lines = int(done * _LINES // self._total)

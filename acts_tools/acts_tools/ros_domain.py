@@ -1,4 +1,4 @@
-"""A ROS domain of one's own, so that a run neither disturbs nor is disturbed by what else runs here."""
+"""A free ROS domain, so that a run and other nodes on this machine do not affect each other."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ _DOMAIN_IDS = range(215, 232)
 
 
 def use_free_domain() -> None:
-    """Set ``ROS_DOMAIN_ID`` for this process and its children, unless somebody has chosen one.
+    """Set ``ROS_DOMAIN_ID`` for this process and its children, unless it is set.
 
     Raises
     ------
@@ -23,10 +23,10 @@ def use_free_domain() -> None:
 
 
 def free_domain_id() -> int:
-    """A domain that nobody on this machine uses.
+    """A domain that no process on this machine uses.
 
-    The highest ones, because nobody counts up to them; their ports lie above Linux's ephemeral ones. One is free where
-    nobody has the port of its first participant.
+    It tries the highest ones, which are rarely used and whose ports are above Linux's ephemeral ports. A domain is free
+    if the port of its first participant is free.
 
     Raises
     ------

@@ -1,16 +1,16 @@
-"""Where the files of a run live that processes share and that go with it."""
+"""The folder for temporary files that the processes of a run share."""
 
 from __future__ import annotations
 
 import os
 from pathlib import Path
 
-# A run takes some 2 MB for each skin.
+# A run needs about 2 MB for each skin.
 _NEEDED_BYTES = 1 << 24
 
 
 def shared_memory(shared: Path = Path("/dev/shm")) -> Path | None:
-    """The folder in memory, where there is one with room that may be written to; None lets `tempfile` choose."""
+    """A folder in memory that is writable and has space; None, for which `tempfile` chooses, if there is none."""
     if not (shared.is_dir() and os.access(shared, os.W_OK)):
         return None
     status = os.statvfs(shared)

@@ -26,10 +26,10 @@ from acts_tools.training.frames import Source, model_frames, recorded_frames
 __all__ = ["add_parser", "choose_patches", "model_frames", "run"]
 
 _PLACES_PER_PATCH = 40
-"""Places tried for every patch wanted: most of the skin is untouched in most frames."""
+"""Number of positions that are tried per patch: most of the skin is untouched in most frames."""
 
 _DISTINCT_OF_PATCHES = 2.5
-"""Patches kept for pruning, for every one wanted."""
+"""Number of patches before pruning, per patch after it."""
 
 
 def add_parser(subparsers: Any) -> None:
@@ -38,8 +38,8 @@ def add_parser(subparsers: Any) -> None:
         "train",
         help="train a dictionary for the reconstruction",
         description="Learn a dictionary by K-SVD and write it to a file that the node reconstruction reads (its "
-        "parameter dictionary). Frames come from the contact model, or from recordings. Interrupted, the same command "
-        "goes on from the last finished iteration, which is kept beside the output (FILE.partial).",
+        "parameter dictionary). Frames come from the contact model, or from recordings. After an interruption, the "
+        "same command continues from the last finished iteration, which is saved in FILE.partial.",
     )
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help="dictionary file to write")
     parser.add_argument(
@@ -51,20 +51,23 @@ def add_parser(subparsers: Any) -> None:
         help="learn from recordings, not the contact model: npz files with `frames` (n, rows, cols), or bags with full "
         "frames (images in mono16, or samples of the scheme raster)",
     )
-    parser.add_argument("--topic", default="", help="of the bags (default: the only one that has full frames)")
+    parser.add_argument("--topic", default="", help="topic of the bags (default: the only one with full frames)")
     parser.add_argument(
         "--objects", nargs="+", action="extend", metavar="NAME", help="objects of the contact model (default: all)"
     )
     parser.add_argument("--presses", type=int, default=3000, help="frames of the contact model (default: %(default)s)")
-    parser.add_argument("--seed", type=int, default=0, help="of everything random (default: %(default)s)")
-    parser.add_argument("--patches", type=int, default=15000, help="most patches to learn from (default: %(default)s)")
+    parser.add_argument("--seed", type=int, default=0, help="random seed (default: %(default)s)")
+    parser.add_argument("--patches", type=int, default=15000, help="largest number of patches (default: %(default)s)")
     parser.add_argument("--patch-size", type=int, default=8, help="side of a patch in taxels (default: %(default)s)")
     parser.add_argument(
         "--min-active", type=int, default=4, help="pressed taxels that a patch needs (default: %(default)s; paper: 16)"
     )
-    parser.add_argument("--touch-counts", type=float, default=60.0, help="pressed is above (default: %(default)s)")
+    parser.add_argument("--touch-counts", type=float, default=60.0, help="touch threshold (default: %(default)s)")
     parser.add_argument(
-        "--coherence", type=float, default=0.99, help="patches more alike than this are pruned (default: %(default)s)"
+        "--coherence",
+        type=float,
+        default=0.99,
+        help="patches with a larger coherence are pruned (default: %(default)s)",
     )
     for name, text in (
         ("atoms", "number of atoms"),
@@ -76,7 +79,7 @@ def add_parser(subparsers: Any) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Train as the command line says; returns the exit code.
+    """Train a dictionary and return the exit code.
 
     Raises
     ------
@@ -105,7 +108,7 @@ def run(arguments: argparse.Namespace) -> int:
         "patch_coherence": arguments.coherence,
         **settings,
     }
-    # Everything that the result depends on; the patches stand for the frames and for how they were chosen.
+    # Everything that the result depends on; the patches' hash covers the frames and the choice of patches.
     checkpoint = Checkpoint(
         arguments.output.with_name(arguments.output.name + ".partial"),
         {**settings, "patches_sha256": hashlib.sha256(patches.tobytes()).hexdigest()},
@@ -127,7 +130,7 @@ def run(arguments: argparse.Namespace) -> int:
             atoms = learn_dictionary(patches, config, rng=rng, progress=show, save=checkpoint.save, resume=state)
     except KeyboardInterrupt:
         if checkpoint.path.exists():
-            print(f"interrupted; {checkpoint.path} holds what is done: the same command goes on", file=sys.stderr)
+            print(f"interrupted; progress is saved in {checkpoint.path}: the same command continues", file=sys.stderr)
         raise
     provenance = f"Learnt by K-SVD (acts train) from {source.description}."
     dictionary = Dictionary(atoms, arguments.patch_size, settings, provenance)
@@ -139,7 +142,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _source(arguments: argparse.Namespace) -> tuple[Source, dict[str, Any]]:
-    """The frames, and the settings they were made with."""
+    """The frames, and the settings of their source."""
     if arguments.frames is not None:
         recorded = recorded_frames(arguments.frames, arguments.topic)
         largest = int(recorded.frames.max(initial=0))
@@ -167,7 +170,7 @@ def choose_patches(
     coherence: float,
     rng: np.random.Generator,
 ) -> NDArray[np.float32]:
-    """At most `n_patches` patches of frames, pressed enough and no two alike (paper, "Tactile Dictionary Learning").
+    """Choose at most `n_patches` pressed patches of frames, no two alike (paper, "Tactile Dictionary Learning").
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""`acts view`: a page in the browser that shows what the skins feel."""
+"""`acts view`: a page in the browser that shows the skins."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from acts_core.skin import LAYOUTS
 
 _EPILOG = """\
 examples:
-  acts view                          every skin that is found, at http://127.0.0.1:8080/
-  acts view plate --port 9000        this one
-  acts view --bag touch              a bag with samples, with pause and seek; needs nothing that runs
-  acts view --npz FILE.npz           likewise of frames in an npz file
-  acts view --board auto             the board that is plugged in, without a driver
+  acts view                          every skin in the graph, at http://127.0.0.1:8080/
+  acts view plate --port 9000        this skin
+  acts view --bag touch              a bag with samples, with pause and seek, without ROS nodes
+  acts view --npz FILE.npz           the same for frames in an npz file
+  acts view --board auto             the connected board, without a driver
   acts view --control                the page can tare, set the sampling, start and stop balancing and grasps
-  acts view --host 0.0.0.0           also for other machines: the address that is printed has a token that lets them in
+  acts view --host 0.0.0.0           also for other machines: the printed address contains a token for access
 
 docs/view.md explains the page.
 """
@@ -26,8 +26,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser = subparsers.add_parser(
         "view",
         help="show touch on a page in the browser",
-        description="Serve a page that shows what the skins feel: image, contacts, plots, diagnostics; or what a "
-        "recording holds, or a board sends. It only listens, unless --control is given. Ctrl-C ends it.",
+        description="Serve a page that shows image, contacts, plots and diagnostics of the skins, of a recording or of "
+        "a board. It only listens, unless --control is given. Ctrl-C ends it.",
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
@@ -37,13 +37,16 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     source.add_argument("--npz", type=Path, metavar="FILE", help="show samples or full frames of an npz file")
     source.add_argument("--board", metavar="PORT", help="show the board at a port: a path, auto, or serial:NUMBER")
     parser.add_argument(
-        "--layout", default="square", help=f"of a recording or board: {', '.join(LAYOUTS)}, or a file (square)"
+        "--layout", default="square", help=f"layout of a recording or board: {', '.join(LAYOUTS)}, or a file (square)"
     )
     parser.add_argument(
-        "--size", type=int, nargs=2, default=(32, 32), metavar=("ROWS", "COLS"), help="of a board (32 32)"
+        "--size", type=int, nargs=2, default=(32, 32), metavar=("ROWS", "COLS"), help="size of a board (32 32)"
     )
     parser.add_argument(
-        "--protocol", default="binary", choices=("binary", "raster_ascii"), help="of a board, as the driver's (binary)"
+        "--protocol",
+        default="binary",
+        choices=("binary", "raster_ascii"),
+        help="protocol of a board, as in the driver (binary)",
     )
     parser.add_argument(
         "--control",
@@ -55,8 +58,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Show until told to stop; the exit code."""
-    # Late: they take time that the other commands need not spend.
+    """Show until told to stop, and return the exit code."""
+    # Imported here, because they are slow to import and other commands do not need them.
     from acts_core.stop_signals import StopSignals
 
     if arguments.bag or arguments.npz or arguments.board:
@@ -70,7 +73,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _show_local(arguments: argparse.Namespace, signals: object) -> int:
-    """Show a recording or a board; the exit code."""
+    """Show a recording or a board, and return the exit code."""
     from acts_core.stop_signals import StopSignals
     from acts_driver.settings import DriverSettings
     from acts_view.local.show import log, show

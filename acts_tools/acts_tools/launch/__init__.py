@@ -1,5 +1,5 @@
-"""A small interpreter of the XML launch subset that ROS 2 packages use, for machines without `ros2 launch`.
+"""An interpreter of the subset of XML launch files that ROS 2 packages use, for machines without `ros2 launch`.
 
-`parser` turns a file into the actions of `model`, `evaluate` turns those and the arguments into processes to start,
-`processes` runs them, and `command` is what `acts launch` calls. The subset is described in docs/launch.md.
+`parser` converts a file to the actions of `model`, `evaluate` converts those and the arguments to processes to start,
+`acts_ros.processes` runs them, and `command` is `acts launch`. docs/launch.md describes the subset.
 """

@@ -24,10 +24,10 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "launch",
         help="start the nodes of a launch file",
         description="Start the nodes of an XML launch file and stop them together (Ctrl-C). "
-        "Where `ros2 launch` is installed, it does the work.",
-        epilog="Exit code: 0 when all nodes ended in order, 1 when one died or the launch file is wrong.",
+        "Where `ros2 launch` is installed, it is used.",
+        epilog="Exit code: 0 when all nodes ended in order, 1 when one died or the launch file is invalid.",
     )
-    parser.add_argument("package", help="package that holds the launch file, or the path of a launch file")
+    parser.add_argument("package", help="package of the launch file, or path of a launch file")
     parser.add_argument("words", nargs="*", metavar="file | name:=value", help="launch file, then its arguments")
     what = parser.add_mutually_exclusive_group()
     what.add_argument(
@@ -37,12 +37,12 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument(
         "--own",
         action="store_true",
-        help=f"do not hand over to `ros2 launch` where it is installed (also with {_OWN_VARIABLE}=1)",
+        help=f"do not use `ros2 launch` where it is installed (also with {_OWN_VARIABLE}=1)",
     )
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Run ``acts launch``; the exit code as in its help."""
+    """Run ``acts launch`` and return its exit code."""
     own = arguments.own or os.environ.get(_OWN_VARIABLE, "") not in ("", "0")
     if not own and real_launch_installed():
         return _hand_over(arguments)
@@ -59,7 +59,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def real_launch_installed() -> bool:
-    """Whether ``ros2 launch`` can take over."""
+    """Whether ``ros2 launch`` is installed."""
     return shutil.which("ros2") is not None and all(
         importlib.util.find_spec(module) is not None for module in ("ros2launch", "launch_ros", "launch_xml")
     )
@@ -92,7 +92,7 @@ def _hand_over(arguments: argparse.Namespace) -> int:
 
 
 def _find_file(package: str, words: list[str]) -> tuple[Path, list[str]]:
-    """The launch file and the words that are left; a path wins over a package of the same name."""
+    """The launch file and the remaining words; a path has precedence over a package of the same name."""
     from acts_ros.processes import packages
 
     if Path(package).is_file():
@@ -107,7 +107,7 @@ def _find_file(package: str, words: list[str]) -> tuple[Path, list[str]]:
 
 
 def _launch(file: Path, values: dict[str, str], only_print: bool) -> int:
-    # Late: listing arguments needs none of it.
+    # Imported here, because listing arguments does not need it.
     from acts_ros.processes.console import Console, make_log_folder
     from acts_ros.processes.launcher import Launcher
     from acts_tools.launch.evaluate import evaluate
@@ -136,7 +136,7 @@ def _launch(file: Path, values: dict[str, str], only_print: bool) -> int:
 
 
 def _require_declared(given: set[str], declared: set[str]) -> None:
-    """Raise where an argument is misspelt: what it was to change would silently stay as it is."""
+    """Raise for a misspelt argument, which would silently have no effect."""
     for name in sorted(given - declared):
         nearest = get_close_matches(name, sorted(declared), n=1)
         hint = f"did you mean '{nearest[0]}'? " if nearest else ""

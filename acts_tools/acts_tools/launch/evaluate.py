@@ -1,4 +1,4 @@
-"""Actions and arguments to the processes that are to be started. Nothing is started here."""
+"""Evaluate actions and arguments to a plan of processes, without starting them."""
 
 from __future__ import annotations
 
@@ -39,14 +39,14 @@ _OUTPUTS = ("screen", "log", "both")
 
 @dataclass
 class Plan:
-    """What a launch file comes to.
+    """Result of evaluating a launch file.
 
     Attributes
     ----------
     processes : list of Process
         In the order in which they are to be started.
     warnings : list of str
-        What is likely a mistake, but none that the real launch refuses.
+        Probable mistakes that the real launch accepts.
     declared : set of str
         Names of the arguments that the file and those it includes declare.
     """
@@ -64,9 +64,9 @@ def evaluate(file: Path, arguments: Mapping[str, str], environment: Mapping[str,
     file : Path
         The launch file.
     arguments : mapping of str to str
-        Values of its arguments; what is not declared becomes a variable nevertheless, as in the real launch.
+        Values of its arguments; undeclared ones become variables as well, as in the real launch.
     environment : mapping of str to str
-        Where packages are looked up, and what the processes get plus the file's `set_env`.
+        Environment to find packages in, and of the processes, with the file's `set_env` added.
     parameter_folder : Path
         Existing folder for the params files made from `param name value`.
 
@@ -78,7 +78,7 @@ def evaluate(file: Path, arguments: Mapping[str, str], environment: Mapping[str,
     Raises
     ------
     LaunchError
-        Anything wrong in the file or those it includes, with file and line.
+        For an error in the file or those it includes, with file and line.
     """
     actions = parse_file(file)
     _check_required(actions, given=list(arguments), where=f"{file}: ")
@@ -88,7 +88,7 @@ def evaluate(file: Path, arguments: Mapping[str, str], environment: Mapping[str,
 
 
 def declarations(actions: tuple[AnyAction, ...], conditional: bool = False) -> Iterator[tuple[DeclareArgument, bool]]:
-    """The arguments a file declares itself, each with whether a condition decides about it."""
+    """The arguments that a file declares itself, each with whether it depends on a condition."""
     for action in actions:
         under_condition = conditional or action.condition is not None
         if isinstance(action, DeclareArgument):
@@ -107,7 +107,7 @@ def _check_required(actions: tuple[AnyAction, ...], given: list[str], where: str
 
 
 class _Evaluator:
-    """Visits actions one after the other, as the real launch does, and collects the processes."""
+    """Visits actions in order, like the real launch, and collects the processes."""
 
     def __init__(self, parameter_folder: Path) -> None:
         self.plan = Plan()
@@ -149,7 +149,7 @@ class _Evaluator:
             raise LaunchError(f"the launch file to include does not exist: '{file}'")
         if not file.name.endswith(".xml"):
             raise LaunchError(f"cannot include '{file}': acts launch reads XML launch files only")
-        # Included files change the variables of this scope, and their arguments stay set, as in the real launch.
+        # As in the real launch, included files change the variables of this scope, and their arguments stay set.
         inner = Scope(scope.variables, scope.environment, file.absolute())
         actions = parse_file(inner.file)
         values = [(substitutions.perform(name, inner), value) for name, value in action.arguments]

@@ -1,4 +1,4 @@
-"""What a parsed launch file is: a list of actions, each with its place in the file and an optional condition."""
+"""Model of a parsed launch file: a list of actions, each with its place in the file and an optional condition."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class Condition:
 
 @dataclass(frozen=True, kw_only=True)
 class Action:
-    """What all actions have."""
+    """Fields of all actions."""
 
     place: Place
     condition: Condition | None = None
@@ -28,12 +28,12 @@ class Action:
 
 @dataclass(frozen=True, kw_only=True)
 class DeclareArgument(Action):
-    """`arg`: something the user of the file may choose; without a default it is required.
+    """`arg`: an argument of the launch file; without a default it is required.
 
     Attributes
     ----------
     choices : tuple of str
-        All that it may be; empty: anything.
+        Allowed values; empty for any value.
     """
 
     name: str
@@ -52,7 +52,7 @@ class SetVariable(Action):
 
 @dataclass(frozen=True, kw_only=True)
 class SetEnvironment(Action):
-    """`set_env`: an environment variable of what is started from here on, up to the end of the scope."""
+    """`set_env`: an environment variable of processes that are started from here on, up to the end of the scope."""
 
     name: Template
     value: Template
@@ -67,7 +67,7 @@ class PushNamespace(Action):
 
 @dataclass(frozen=True, kw_only=True)
 class Group(Action):
-    """`group`: when scoped, variables, environment and namespace are afterwards what they were before."""
+    """`group`: if scoped, variables, environment and namespace are restored after it."""
 
     scoped: bool
     actions: tuple[AnyAction, ...]
@@ -83,7 +83,7 @@ class Include(Action):
 
 @dataclass(frozen=True)
 class ParameterFile:
-    """`param from`: a params file, passed on as it is."""
+    """`param from`: a params file, passed on unchanged."""
 
     place: Place
     path: Template
@@ -96,7 +96,7 @@ class ParameterValue:
     Attributes
     ----------
     content : Content
-        The value before its substitutions are known.
+        Value before substitution.
     type_name : str or None
         The `type` attribute; None and "yaml" let YAML decide.
     """
@@ -116,7 +116,7 @@ class Node(Action):
     package : Template or None
         None when `executable` is a path or a program on the PATH.
     arguments : tuple of Template
-        Words of the command line, each of which stays one word whatever its substitutions yield.
+        Words of the command line; each stays one word whatever the values of its substitutions.
     respawn_delay_s : float
         From the end of the process to its next start [s].
     """
@@ -135,7 +135,7 @@ class Node(Action):
 
 @dataclass(frozen=True, kw_only=True)
 class Executable(Action):
-    """`executable`: a process that is no ROS node, and is given nothing of ROS.
+    """`executable`: a process that is no ROS node and gets no ROS arguments.
 
     Attributes
     ----------

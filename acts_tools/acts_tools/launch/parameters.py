@@ -1,4 +1,4 @@
-"""Values of `param` tags: the types YAML or the `type` attribute gives them, as launch_ros does it."""
+"""Values of `param` tags, with types from YAML or the `type` attribute, as in launch_ros."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from acts_tools.launch.substitutions import Scope, Template
 
 Scalar: TypeAlias = "bool | int | float | str"
 Content: TypeAlias = "Template | bool | int | float | list[Template | bool | int | float]"
-"""A value before its substitutions are known: all text is a template."""
+"""A value before substitution: all text is a template."""
 
 _SCALARS: dict[str, type] = {"str": str, "bool": bool, "int": int, "float": float}
 _LISTS = {f"list_of_{name}": name for name in _SCALARS}
 TYPE_NAMES = (*_SCALARS, *_LISTS, "yaml")
-"""What the `type` attribute may be."""
+"""Allowed values of the `type` attribute."""
 
 
 def read(text: str, type_name: str | None) -> Content:
-    """Read the value of a parameter as it stands in the file.
+    """Read the value of a parameter in the file.
 
     Parameters
     ----------
@@ -33,7 +33,7 @@ def read(text: str, type_name: str | None) -> Content:
     Raises
     ------
     LaunchError
-        The value does not fit the type whatever the substitutions yield.
+        The value cannot be of the type, whatever the values of its substitutions.
     """
     value = _coerce(text, type_name, embedded=True)
     if isinstance(value, list):
@@ -51,12 +51,12 @@ def read(text: str, type_name: str | None) -> Content:
 
 
 def evaluate(content: Content, type_name: str | None, scope: Scope) -> Scalar | list[Scalar]:
-    """The value of a parameter, its substitutions performed.
+    """The value of a parameter after substitution.
 
     Raises
     ------
     LaunchError
-        A substitution fails, or yields what does not fit the type.
+        A substitution fails, or its value is not of the type.
     """
     if isinstance(content, list):
         item_type = _LISTS.get(type_name or "")
@@ -64,7 +64,7 @@ def evaluate(content: Content, type_name: str | None, scope: Scope) -> Scalar | 
         for item in content:
             if isinstance(item, tuple):
                 text = substitutions.perform(item, scope)
-                # Text of the file itself has had its type from YAML already.
+                # YAML has already given a type to text of the file itself.
                 value = text if _is_plain_text(item) else coerce(text, item_type)
                 if isinstance(value, list):
                     raise _mismatch(text, type_name)
@@ -86,7 +86,7 @@ def coerce(text: str, type_name: str | None) -> Scalar | list[Scalar]:
     Parameters
     ----------
     text : str
-        All of it, substitutions performed.
+        Text after substitution.
     type_name : str or None
         One of `TYPE_NAMES`; None as "yaml".
 
@@ -99,7 +99,7 @@ def coerce(text: str, type_name: str | None) -> Scalar | list[Scalar]:
 
 
 def _coerce(text: str, type_name: str | None, embedded: bool) -> Scalar | list[Scalar]:
-    """`embedded`: text that does not fit may still become fitting by its substitutions, and is kept as text."""
+    """With `embedded`, text of another type is kept, because its substitutions may still give the right type."""
     if type_name is None or type_name == "yaml":
         return _yaml(text, type_name, embedded)
     if type_name in _LISTS:

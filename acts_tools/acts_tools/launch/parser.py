@@ -1,4 +1,4 @@
-"""XML launch files to actions. What is not in the supported subset is refused by name, in the real launch's words."""
+"""Parse XML launch files to actions. Unsupported features are refused by name, with the messages of the real launch."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def parse_file(path: Path) -> tuple[AnyAction, ...]:
     Raises
     ------
     LaunchError
-        It cannot be read, is not valid, or holds something outside of the supported subset; with file and line.
+        It cannot be read, is not valid, or uses an unsupported feature; with file and line.
     """
     root = read_xml(path)
     if root.tag != "launch":
@@ -257,7 +257,7 @@ def _parameter(element: Element) -> ParameterFile | ParameterValue:
 
 
 def _command_line(text: str | None) -> tuple[Template, ...]:
-    """Words of `args`: text is split as a shell does it, the value of a substitution never."""
+    """Words of `args`: text is split like in a shell, but values of substitutions are not split."""
     if text is None:
         return ()
     words: list[Template] = []

@@ -12,7 +12,7 @@ from acts_core.errors import LaunchError
 
 @dataclass(frozen=True)
 class Place:
-    """Where something stands."""
+    """A file and line."""
 
     file: Path
     line: int
@@ -27,7 +27,7 @@ class PlacedError(LaunchError):
 
 @contextmanager
 def located(place: Place) -> Iterator[None]:
-    """Put a place before the message of a launch error that names none yet: the innermost place wins."""
+    """Put a place before the message of a launch error without one; so the innermost place is kept."""
     try:
         yield
     except PlacedError:

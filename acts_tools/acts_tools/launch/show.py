@@ -1,4 +1,4 @@
-"""The arguments of a launch file, listed as `ros2 launch --show-args` does it."""
+"""List the arguments of a launch file in the format of `ros2 launch --show-args`."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ from acts_tools.launch.substitutions import Scope
 
 
 def show_arguments(file: Path, environment: Mapping[str, str]) -> str:
-    """Describe the arguments of a launch file and of what it includes.
+    """Describe the arguments of a launch file and of those it includes.
 
     Parameters
     ----------
     file : Path
         The launch file.
     environment : mapping of str to str
-        Where packages of included files are looked up.
+        Environment to find packages of included files in.
 
     Returns
     -------
     str
-        Name, description and default of each; a star marks those that only matter under a condition.
+        Name, description and default of each; a star marks those that depend on a condition.
     """
     lines = ["Arguments (pass arguments as '<name>:=<value>'):"]
     seen: set[str] = set()
@@ -58,7 +58,7 @@ def _collect(
             try:
                 included = Path(substitutions.perform(action.file, scope))
             except LaunchError:
-                continue  # which file that is depends on arguments
+                continue  # the file depends on arguments
             if included.is_file() and included not in within:
                 inner = Scope({}, scope.environment, included)
                 yield from _collect(parse_file(included), inner, under_condition, (*within, included))

@@ -14,7 +14,7 @@ from acts_ros.processes import packages
 
 @dataclass(frozen=True)
 class Text:
-    """Text that stands for itself, escapes already resolved."""
+    """Literal text, with escapes resolved."""
 
     text: str
 
@@ -33,12 +33,12 @@ Template: TypeAlias = "tuple[Text | Substitution, ...]"
 
 @dataclass
 class Scope:
-    """Where substitutions take their values from.
+    """Values for substitutions.
 
     Attributes
     ----------
     variables : dict of str to str
-        Launch arguments and variables; `ros_namespace` is the namespace pushed so far, as in the real launch.
+        Launch arguments and variables; `ros_namespace` is the present namespace, as in the real launch.
     environment : dict of str to str
         Environment of the processes started from here on.
     file : Path
@@ -56,7 +56,7 @@ def parse(text: str) -> Template:
     Parameters
     ----------
     text : str
-        As it stands in an attribute.
+        Text of an attribute.
 
     Returns
     -------
@@ -66,13 +66,13 @@ def parse(text: str) -> Template:
     Raises
     ------
     LaunchError
-        Not well formed, or a substitution outside of the supported ones; the message points at the place.
+        The text is not well formed, or has an unsupported substitution; the message points at it.
     """
     return _Parser(text).template()
 
 
 def describe(template: Template) -> str:
-    """How the real launch shows a default that is not known before launching, such as ``LaunchConfig('x') + '/a'``."""
+    """The real launch's description of a default that is unknown before launch, like ``LaunchConfig('x') + '/a'``."""
     return " + ".join(
         f"'{piece.text}'" if isinstance(piece, Text) else _SUBSTITUTIONS[piece.name].describe(piece.arguments)
         for piece in template
@@ -107,7 +107,7 @@ def unescape(text: str) -> str:
 
 @dataclass(frozen=True)
 class _Kind:
-    """What one substitution takes and does."""
+    """Arguments and function of one kind of substitution."""
 
     arguments: range
     complaint: str
@@ -170,10 +170,10 @@ _SUBSTITUTIONS: dict[str, _Kind] = {
 
 
 class _Parser:
-    """Recursive descent over one attribute value.
+    """Recursive descent parser of one attribute value.
 
-    The grammar is that of the real launch: outside of substitutions everything but ``$(`` is text; the arguments of a
-    substitution are separated by exactly one space, and one that holds spaces is quoted as a whole.
+    The grammar is that of the real launch. Outside of substitutions everything but ``$(`` is text. The arguments of a
+    substitution are separated by exactly one space; an argument with spaces must be quoted as a whole.
     """
 
     def __init__(self, text: str) -> None:
@@ -185,7 +185,7 @@ class _Parser:
         return pieces or (Text(""),)
 
     def _pieces(self, end: str) -> Template:
-        """Text and substitutions up to an unescaped `end`, which is left to the caller ("" for the end of the text)."""
+        """Text and substitutions up to an unescaped `end` ("" for the end of the text), which is not consumed."""
         pieces: list[Text | Substitution] = []
         start = self._at
         while self._at < len(self._text) and (not end or self._text[self._at] != end):
@@ -199,11 +199,11 @@ class _Parser:
         return tuple(pieces)
 
     def _opens(self) -> bool:
-        """Whether a substitution starts here; also after two backslashes the real launch sees none."""
+        """Whether a substitution starts here; as in the real launch, not even after two backslashes."""
         return self._text.startswith("$(", self._at) and not self._text.endswith("\\", 0, self._at)
 
     def _step(self) -> int:
-        """A backslash takes the character after it along."""
+        """Length of the next character; a backslash escapes the one after it."""
         return 2 if self._text[self._at] == "\\" and self._at + 1 < len(self._text) else 1
 
     def _flush(self, pieces: list[Text | Substitution], start: int) -> None:
@@ -235,7 +235,7 @@ class _Parser:
         return Substitution(name, tuple(arguments))
 
     def _argument(self, forbidden: str) -> Template:
-        """One argument; inside of quotes (`forbidden`) that sort of quote must not appear again unescaped."""
+        """One argument; inside of quotes (`forbidden`), the same quote must be escaped."""
         quote = self._peek()
         if not forbidden and quote in ("'", '"'):
             self._at += 1
@@ -253,7 +253,7 @@ class _Parser:
                 pieces_list.append(self._substitution(forbidden))
                 start = self._at
             else:
-                # A backslash does not protect a space here.
+                # A backslash does not escape a space here.
                 self._at += 1 if self._text.startswith("\\ ", self._at) else self._step()
         self._flush(pieces_list, start)
         if not pieces_list:

@@ -1,4 +1,4 @@
-"""XML elements that know the line they stand on, and which of their attributes have been read."""
+"""XML elements with their lines, which record the attributes that have been read."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ class Element:
     Attributes
     ----------
     tag : str
-        Its name.
+        Name of the tag.
     place : Place
-        Where it starts.
+        Place of its start.
     """
 
     tag: str
@@ -29,26 +29,26 @@ class Element:
     _read: set[str] = field(default_factory=set)
 
     def get(self, name: str) -> str | None:
-        """Value of an attribute, None when it is not given."""
+        """Value of an attribute; None if it is not given."""
         self._read.add(name)
         return self.attributes.get(name)
 
     def require(self, name: str) -> str:
-        """Value of an attribute that has to be there."""
+        """Value of a required attribute."""
         value = self.get(name)
         if value is None:
             raise self.error(f"Attribute '{name}' of type '<class 'str'>' not found in Entity '{self.tag}'")
         return value
 
     def take(self, *tags: str) -> list[Element]:
-        """The children, all of which have to be of these tags."""
+        """The children; refuse those with other tags."""
         unexpected = sorted({child.tag for child in self.children} - set(tags))
         if unexpected:
             raise self.error(f"Unexpected nested tag(s) found in `{self.tag}`: {_braces(unexpected)}")
         return self.children
 
     def finish(self) -> None:
-        """Refuse attributes that nobody has asked for."""
+        """Refuse attributes that have not been read."""
         unexpected = sorted(set(self.attributes) - self._read)
         if unexpected:
             raise self.error(
@@ -57,7 +57,7 @@ class Element:
             )
 
     def error(self, message: str) -> PlacedError:
-        """An error that says where."""
+        """An error with the place of this element."""
         return PlacedError(f"{self.place}: {message}")
 
 

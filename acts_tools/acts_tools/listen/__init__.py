@@ -1,1 +1,1 @@
-"""`acts listen`: what of a topic arrives here, and how late."""
+"""`acts listen`: measure loss and delay of topics on this machine."""

@@ -1,4 +1,4 @@
-"""What has arrived of one topic: how much, what is missing, how late; arithmetic only."""
+"""Statistics of the messages of one topic: received, missing, and their delay. Does not depend on ROS."""
 
 from __future__ import annotations
 
@@ -11,22 +11,22 @@ from acts_core.runtime import StreamCounter
 
 @dataclass(frozen=True)
 class Interval:
-    """How a topic arrived since the previous one.
+    """Statistics of a topic since the previous interval.
 
     Attributes
     ----------
     seconds : float
-        Its length [s].
+        Length of the interval [s].
     received : int
-        Messages in it.
+        Messages received.
     lost : int or None
-        Missing by their sequence numbers in it; None for messages without numbers.
+        Messages missing by their sequence numbers; None for messages without numbers.
     median_ms, largest_ms : float or None
-        Age of the messages at their arrival, by their stamps [ms]; None without stamps.
+        Age of the messages at arrival, by their stamps [ms]; None without stamps.
     total_received, total_lost
-        The same counts since the beginning.
+        The same counts since the start.
     silent_s : float or None
-        Since the last message [s]; None before the first.
+        Time since the last message [s]; None before the first.
     """
 
     seconds: float
@@ -46,7 +46,7 @@ class Arrivals:
     Attributes
     ----------
     begin_s : float
-        On the clock of all other times given to it [s].
+        Start, on the same clock as all other times [s].
     """
 
     begin_s: float
@@ -58,7 +58,7 @@ class Arrivals:
     _ages_s: list[float] = field(default_factory=list)
 
     def add(self, now_s: float, sequence: int | None, age_s: float | None) -> None:
-        """Note a message; `sequence` and `age_s` [s] where it has them."""
+        """Add a message; `sequence` and `age_s` [s] are None where it has none."""
         self._received += 1
         self._last_s = now_s
         if age_s is not None:
@@ -67,7 +67,7 @@ class Arrivals:
             self._counter.step(sequence, 0.0)
 
     def take(self, now_s: float) -> Interval:
-        """What came since the last call."""
+        """Statistics since the last call."""
         self._counter.take_latencies()
         is_numbered = self._counter.received > 0
         ages_ms = np.array(self._ages_s) * 1e3

@@ -1,4 +1,4 @@
-"""`acts listen TOPIC...`: what arrives on this machine, what is missing and how late it is, once a second."""
+"""`acts listen TOPIC...`: print once a second what arrives on this machine, what is missing, and its delay."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ _EVERY_MIN_S = 0.05
 
 _EPILOG = """\
 examples:
-  acts listen /plate/contact                   how the 1 kHz stream arrives here
-  acts listen /plate/samples /diagnostics      also what the nodes complain about
+  acts listen /plate/contact                   loss and delay of the 1 kHz stream
+  acts listen /plate/samples /diagnostics      also warnings and errors of the nodes
 
-The age of a message runs from its stamp to its arrival here: on two machines it is as right as their clocks agree.
+The age of a message is the time from its stamp to its arrival: on two machines it is as accurate as their clocks agree.
 docs/two_machines.md explains the rest.
 """
 
@@ -30,25 +30,25 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     """Add ``listen`` to the acts command."""
     parser = subparsers.add_parser(
         "listen",
-        help="tell what of a topic arrives here, and how late",
-        description="Count what arrives of some topics, what is missing by the messages' numbers, and how old the "
-        "messages are. Topics may appear later. Ctrl-C ends it.",
+        help="measure loss and delay of a topic on this machine",
+        description="Count the messages of topics that arrive and those that are missing by their numbers, and "
+        "measure their age. Topics may appear later. Ctrl-C ends it.",
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("topics", nargs="+", metavar="TOPIC", help="topics, such as /plate/contact")
     parser.add_argument("-d", "--duration", type=float, metavar="SECONDS", help="end by itself after this time")
-    parser.add_argument("--every", type=float, default=1.0, metavar="SECONDS", help="between two reports (1)")
+    parser.add_argument("--every", type=float, default=1.0, metavar="SECONDS", help="time between two reports (1)")
     parser.add_argument("--json", action="store_true", help="reports as lines of JSON")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Listen; 0 when something arrived on every topic."""
+    """Listen; return 0 if messages arrived on every topic."""
     if not arguments.every >= _EVERY_MIN_S:
         raise SettingsError(f"--every {arguments.every:g}: at least {_EVERY_MIN_S:g} s are needed")
     if arguments.duration is not None and not 0 < arguments.duration < float("inf"):
         raise SettingsError(f"--duration {arguments.duration:g} is not a positive time in seconds")
-    # Late: they take time that the other commands need not spend.
+    # Imported here, because they are slow to import and other commands do not need them.
     import rclpy
     from rclpy.signals import SignalHandlerOptions
 
@@ -98,7 +98,7 @@ def _print(topics: list[str], intervals: dict[str, Interval], listener: Listener
 
 
 def in_words(interval: Interval | None) -> str:
-    """One line about a topic; None where nobody publishes it."""
+    """One line about a topic; `interval` is None where there is no publisher."""
     if interval is None:
         return "no publisher found yet"
     if not interval.received:

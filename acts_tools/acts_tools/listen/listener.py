@@ -1,4 +1,4 @@
-"""Subscribe to topics as they appear, and note what arrives of them."""
+"""Subscribe to topics as they appear, and count their messages."""
 
 from __future__ import annotations
 
@@ -18,21 +18,21 @@ _NS_PER_S = 1_000_000_000
 
 
 class Listener:
-    """Listens to topics of a graph with the quality of service of their publishers.
+    """Subscribes to topics with the quality of service of their publishers.
 
     Parameters
     ----------
     node : Node
-        Subscribes; somebody else spins it.
+        Node of the subscriptions; the caller spins it.
     topics : sequence of str
         Full names.
 
     Attributes
     ----------
     arrivals : dict of str to Arrivals
-        By topic, for those that have appeared.
+        Statistics of the topics that have appeared, by topic.
     complaints : dict of str to str
-        What the components that have last reported a warning or an error on a topic of diagnostics said, by name.
+        Message of every component whose last report on a diagnostics topic is a warning or an error, by its name.
     """
 
     def __init__(self, node: Node, topics: Sequence[str]) -> None:
@@ -42,7 +42,7 @@ class Listener:
         self._topics = topics
 
     def discover(self) -> None:
-        """Subscribe to what has newly appeared. Call it now and then."""
+        """Subscribe to new topics; to be called regularly."""
         if len(self.arrivals) == len(self._topics):
             return
         types = dict(self._node.get_topic_names_and_types())

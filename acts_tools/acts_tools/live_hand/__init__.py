@@ -1,1 +1,1 @@
-"""A simulated hand that runs as its launch file starts it: told what to do, watched, recorded."""
+"""A simulated hand that runs from its launch file: commanded, observed and recorded."""

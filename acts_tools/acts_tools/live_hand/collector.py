@@ -1,4 +1,4 @@
-"""The node that watches a simulated hand and fills a `HandRecording`."""
+"""The node that observes a simulated hand and fills a `HandRecording`."""
 
 from __future__ import annotations
 
@@ -19,40 +19,40 @@ from acts_sim.hand import TruthFollower
 from acts_sim.shared import TimedRingReader
 from acts_tools.live_hand.recording import HandRecording, StatusSample
 
-# Of the most frequent topic twice as many as come in a second.
+# Twice the number of messages per second of the most frequent topic.
 _DEPTH = 2048
-# One of so many messages of regions is taken apart: at 1 kHz a hundred a second.
+# One in this many messages of regions is decoded: at 1 kHz a hundred a second.
 _EVERY = 10
 _FRESH_S = 0.1
 
 
 def seconds(stamp: object) -> float:
-    """A message stamp as seconds."""
+    """A message stamp in seconds [s]."""
     return stamp.sec + stamp.nanosec * 1e-9  # type: ignore[attr-defined,no-any-return]
 
 
 class HandCollector(PollingNode):
-    """Subscribes to what is scored and shown; read ten times a second, it wakes nobody in between.
+    """Subscribes to the topics that are scored and shown, and polls them ten times a second.
 
     Parameters
     ----------
     namespace : str
-        Of the hand.
+        Namespace of the hand.
     run_dir : Path
-        Where `hand_world` has its rings.
+        Folder of the rings of `hand_world`.
     recording : HandRecording
-        Filled from now on.
+        Recording to fill.
     layout_name : str
-        Of the skin.
+        Name of the skin's layout.
 
     Attributes
     ----------
     status : StatusSample or None
-        The newest.
+        The newest status.
     touch_age_s : float
-        As the hand last said.
+        Age of touch in the newest status [s].
     fresh_s : float
-        For how long it has said that touch comes.
+        Time for which the hand has reported fresh touch [s].
     """
 
     def __init__(
@@ -67,7 +67,7 @@ class HandCollector(PollingNode):
         skin = layout(layout_name)
         recording.patches = tuple(patch.name for patch in skin.patches)
         self._taxels = int(skin.taxels.size)
-        # Stamps are of the system's clock, the world's times of the one that never jumps.
+        # Stamps are of the system's clock, the world's times of CLOCK_MONOTONIC.
         self._clock_offset_s = (time.time_ns() - time.monotonic_ns()) * 1e-9
         self._run_dir = run_dir
         self._truth: TruthFollower | None = None
@@ -80,7 +80,7 @@ class HandCollector(PollingNode):
         }
 
     def take_in(self) -> None:
-        """Work on what has come since the last call, which is a second ago at most."""
+        """Process the messages since the last call, which must be at most a second ago."""
         recording = self.recording
         self._take_truth()
         for message, _ in self._statuses.take_all():
@@ -105,12 +105,12 @@ class HandCollector(PollingNode):
                 self._take_regions(data)
 
     def ask(self, name: str) -> Future:
-        """Call a service of the hand; the future is done once it has answered."""
+        """Call a service of the hand; the future is done when it has replied."""
         return self._triggers[name].call_async(Trigger.Request())
 
     @property
     def is_served(self) -> bool:
-        """Whether the hand's services are there."""
+        """Whether the hand's services are available."""
         return all(service.service_is_ready() for service in self._triggers.values())
 
     def _take_truth(self) -> None:
@@ -119,7 +119,7 @@ class HandCollector(PollingNode):
                 self._field = TimedRingReader(self._run_dir / "field.ring", self._taxels)
                 self._truth = TruthFollower(self._run_dir / "truth.ring", len(self.recording.patches))
             except ActsError:
-                return  # not there yet
+                return  # the ring does not exist yet
         times_ns, rows = self._truth.new()
         if len(times_ns):
             self.recording.truth_times.append(np.asarray(times_ns * 1e-9, dtype=np.float64))
@@ -132,6 +132,6 @@ class HandCollector(PollingNode):
         try:
             message = read_regions(data)
         except PacketError as error:
-            self.get_logger().warning(f"left out: {error}", throttle_duration_sec=1.0)
+            self.get_logger().warning(f"message ignored: {error}", throttle_duration_sec=1.0)
             return
         self.recording.regions.append((message.stamp_ns * 1e-9 - self._clock_offset_s, message.regions))

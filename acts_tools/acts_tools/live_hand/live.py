@@ -1,4 +1,4 @@
-"""A simulated hand with its skin and reflexes, all its processes, from their start to their end."""
+"""A simulated hand with its skin and reflexes in all their processes, from their start to their end."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from acts_tools.live_hand.collector import HandCollector
 from acts_tools.live_hand.recording import HandRecording
 from acts_tools.process_load import LoadMeter
 
-# On a machine that compiles for the first time and has other work besides, a minute was not enough.
+# On a busy machine that compiles the kernels for the first time, a minute was not enough.
 _START_TIMEOUT_S = 180.0
 _SETTLED_S = 0.5
 _ANSWER_TIMEOUT_S = 10.0
@@ -37,14 +37,14 @@ STATES = {
 
 
 class LiveHand:
-    """Made by `live_hand`.
+    """Commands a running hand; made by `live_hand`.
 
     Parameters
     ----------
     collector : HandCollector
     control : ControlClient
     watcher : Watcher
-        Takes in what comes while something is waited for.
+        Processes messages while waiting.
 
     Attributes
     ----------
@@ -59,26 +59,26 @@ class LiveHand:
 
     @property
     def state(self) -> int:
-        """Of the hand, as in acts_msgs/HandStatus."""
+        """State of the hand, as in acts_msgs/HandStatus."""
         return self._collector.status.state if self._collector.status else HandStatus.STATE_STOPPED
 
     def do(self, line: str, mark: str = "") -> float:
-        """Let something happen to the hand or its object; the time of it [s]."""
+        """Send a command for the hand or its object; return the time [s]."""
         now_s = self._mark(mark)
         self._control.do(line)
         return now_s
 
     def ask(self, name: str, mark: str = "") -> float:
-        """Call the hand's service grasp, release or stop; the time of it [s].
+        """Call the hand's service grasp, release or stop; return the time [s].
 
         Raises
         ------
         LaunchError
-            When it refuses or does not answer.
+            When it refuses or does not reply.
         """
         now_s = self._mark(mark)
         answer = self._collector.ask(name)
-        # The watcher reads topics; answers of services come by the executor.
+        # The watcher polls topics, but replies of services need the executor.
         deadline_s = time.monotonic() + _ANSWER_TIMEOUT_S
         while not answer.done() and time.monotonic() < deadline_s:
             rclpy.spin_once(self._collector, timeout_sec=0.05)
@@ -88,15 +88,15 @@ class LiveHand:
         return now_s
 
     def until(self, condition: Callable[[], bool], timeout_s: float) -> bool:
-        """Go on until something is the case; whether it was in time."""
+        """Wait until a condition is true; return whether it was in time."""
         return self._watcher.until(condition, timeout_s)
 
     def until_state(self, *states: int, timeout_s: float = 15.0) -> bool:
-        """Go on until the hand is in one of some states; whether it was in time."""
+        """Wait until the hand is in one of some states; return whether it was in time."""
         return self.until(lambda: self.state in states, timeout_s)
 
     def run(self, duration_s: float) -> None:
-        """Go on for a time [s]."""
+        """Wait for a time [s]."""
         end_s = time.monotonic() + duration_s
         self.until(lambda: time.monotonic() >= end_s, 2.0 * duration_s + 5.0)
 
@@ -116,30 +116,30 @@ def live_hand(
     stop: StopFlag,
     line: Callable[[HandCollector], str] = lambda _collector: "",
 ) -> Iterator[LiveHand]:
-    """Launch a simulated hand and wait until it feels and its torque is on; at the end all of it is stopped.
+    """Launch a simulated hand and wait until it has touch and torque; stop it at the end of the block.
 
     Parameters
     ----------
     arguments : mapping of str to str
-        Of the launch file, besides run_dir and namespace.
+        Launch arguments besides run_dir and namespace.
     recording : HandRecording
-        Filled meanwhile; the load of the processes at the end.
+        Recording to fill; the load of the processes is added at the end.
     run_dir : Path
-        Folder for what the processes share.
+        Folder for files that the processes share.
     log_path : Path
-        Takes what the launch prints.
+        File for the output of the launch.
     stop : StopFlag
-        Set when a person wants it to end (KeyboardInterrupt).
+        Set when the user wants to stop (KeyboardInterrupt).
     line : callable
-        The status line.
+        Returns the status line.
 
     Raises
     ------
     LaunchError
-        When the launch has ended, or the hand is not there in time.
+        When the launch has ended, or the hand is not ready in time.
     """
     words = [f"{name}:={value}" for name, value in {**arguments, "run_dir": str(run_dir)}.items()]
-    # One hand comes after another.
+    # The previous hand may still be ending.
     with launched("hand_reflexes.launch.xml", words, log_path, niceness=0) as launch:
         middleware.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
         collector = HandCollector(NAMESPACE, run_dir, recording)

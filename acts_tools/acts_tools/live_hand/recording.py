@@ -1,4 +1,4 @@
-"""What a run of a simulated hand leaves behind, as plain arrays on one axis of time: CLOCK_MONOTONIC in seconds."""
+"""The recorded data of a run of a simulated hand. All times are CLOCK_MONOTONIC [s]."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class StatusSample:
-    """What the hand has said of itself.
+    """A status of the hand.
 
     Attributes
     ----------
@@ -25,9 +25,9 @@ class StatusSample:
         As in acts_msgs/HandStatus.
     reason : str
     active : tuple of str
-        Reflexes that ask for something.
+        Active reflexes.
     events : dict of str to int
-        How often each has been set off.
+        Number of times that each reflex was triggered.
     """
 
     time_s: float
@@ -39,27 +39,27 @@ class StatusSample:
 
 @dataclass
 class HandRecording:
-    """Everything that is scored and drawn.
+    """All data that are scored and drawn.
 
     Attributes
     ----------
     patches : tuple of str
         Names of the skin's patches, in the layout's order.
     truth_times, truth_rows : list of arrays
-        What was true: times [s] and rows as `acts_sim.hand.truth` has them, piece by piece.
+        The true state in pieces: times [s], and rows as in `acts_sim.hand.truth`.
     regions : list of (float, list of RegionContact)
-        Time of a frame [s], and what every patch felt; one frame in ten.
+        Time of a frame [s], and the contact on every patch; one frame in ten.
     fields : list of (float, np.ndarray [shape=(taxels,)])
-        What the taxels read before noise [counts], ten times a second.
+        Counts of the taxels before noise, ten times a second.
     statuses : list of StatusSample
     regions_received : int
         Messages on the topic `regions`.
     durations_s, latencies_s : list of arrays
-        Of cycles of the hand, and from the last measurement to the goals [s].
+        Durations of the hand's cycles, and times from the last measurement to the goals [s].
     cpu_percent : dict of str to float
         Mean load of every process [% of one core].
     marks : list of (float, str)
-        When something was made to happen [s], and what.
+        Time [s] and name of every commanded event.
     """
 
     patches: tuple[str, ...] = ()
@@ -82,7 +82,7 @@ class HandRecording:
         }
 
     def truth_between(self, begin_s: float = -np.inf, end_s: float = np.inf) -> tuple[Array, Array]:
-        """Times and rows of the truth in a span, both of length n."""
+        """Times and rows of the truth in an interval, both of length n."""
         if not self.truth_times:
             return np.empty(0), np.empty((0, PATCHES_FROM))
         times_s, rows = np.concatenate(self.truth_times), np.concatenate(self.truth_rows)
@@ -91,11 +91,11 @@ class HandRecording:
 
 
 def column(rows: Array, name: str) -> Array:
-    """A quantity of rows of truth, see `acts_sim.hand.truth.COLUMN`; shape (n,) where it is a single number."""
+    """A quantity of rows of truth, see `acts_sim.hand.truth.COLUMN`; shape (n,) for a single number."""
     values = rows[:, COLUMN[name]]
     return values[:, 0] if values.shape[1] == 1 else values
 
 
 def patch_column(rows: Array, name: str) -> Array:
-    """What touches each patch, see `acts_sim.hand.truth.PATCH_COLUMNS`; shape (n, patches)."""
+    """A quantity of every patch, see `acts_sim.hand.truth.PATCH_COLUMNS`; shape (n, patches)."""
     return rows[:, PATCHES_FROM + PATCH_COLUMNS.index(name) :: len(PATCH_COLUMNS)]

@@ -1,7 +1,7 @@
-"""The rig of `acts evaluate hand` over the real interfaces: what `HandRig` is without wires, here is a running launch.
+"""The rig of `acts evaluate hand` over the real interfaces: like `HandRig`, but with a running launch.
 
-It tells what has happened a little later than it has, so that of every moment everything is known by then: truth comes
-out of a ring, what the hand says of itself and what its skin feels by topics.
+It is slightly behind the present, so that all data of its time have arrived: truth from a ring, status and regions
+from topics.
 """
 
 from __future__ import annotations
@@ -27,18 +27,18 @@ _GRAVITY_M_S2 = 9.81
 
 
 class LiveRig:
-    """A hand that runs by itself; time passes as it does.
+    """A running hand; time is real time.
 
     Parameters
     ----------
     hand : LiveHand
     config : HandWorldConfig
-        Of its world.
+        Settings of its world.
 
     Attributes
     ----------
     world : LiveWorld
-        What is true, and what can be made to happen.
+        The true state, and commands to the world.
     supervisor : LiveSupervisor
     reflexes : dict of str to LiveReflex
     """
@@ -47,7 +47,7 @@ class LiveRig:
         self._hand = hand
         self._recording = hand.recording
         self._pending: deque[tuple[float, Array]] = deque()
-        # What was before does not count.
+        # Ignore data from before.
         self._pieces = len(self._recording.truth_times)
         self._statuses = self._region_times = 0
         self._time_s = -math.inf
@@ -59,30 +59,30 @@ class LiveRig:
 
     @property
     def time_s(self) -> float:
-        """Of what is told now, CLOCK_MONOTONIC [s]."""
+        """Time of the present data, CLOCK_MONOTONIC [s]."""
         return self._time_s
 
     @property
     def state(self) -> HandState:
-        """Of the hand."""
+        """State of the hand."""
         return HandState(self._recording.statuses[self._statuses].state)
 
     @property
     def regions(self) -> list[RegionContact]:
-        """What the patches felt, at most a few hundredths of a second ago."""
+        """Contacts on the patches, a few hundredths of a second old at most."""
         regions = self._recording.regions
         return regions[self._region_times][1] if regions else []
 
     def step(self) -> None:
-        """Go on to the next moment, 2 ms later.
+        """Advance by 2 ms.
 
         Raises
         ------
         LaunchError
-            When nothing comes any more.
+            When no data arrive any more.
         """
         if not self._pending and not self._hand.until(self._fetch, _SILENCE_S):
-            raise LaunchError(f"the simulated hand has stood still for {_SILENCE_S:.0f} s")
+            raise LaunchError(f"no data from the simulated hand for {_SILENCE_S:.0f} s")
         self._time_s, self._row = self._pending.popleft()
         statuses, regions = self._recording.statuses, self._recording.regions
         while self._statuses + 1 < len(statuses) and statuses[self._statuses + 1].time_s <= self._time_s:
@@ -91,7 +91,7 @@ class LiveRig:
             self._region_times += 1
 
     def run(self, duration_s: float, until: object = None) -> bool:
-        """Go on for a time [s], or until something is the case; whether it was."""
+        """Run for a time [s], or until a condition is true; return whether it was."""
         end_s = self._time_s + duration_s
         while self._time_s < end_s:
             self.step()
@@ -100,28 +100,28 @@ class LiveRig:
         return False
 
     def grasp(self, timeout_s: float = 10.0) -> bool:
-        """Close the hand; whether it holds something then."""
+        """Close the hand; return whether it then holds something."""
         end_s = self._time_s + timeout_s
         self.supervisor.grasp()
         while self.run(end_s - self._time_s, self._has_closed) and self.state is HandState.STOPPED:
-            # A machine that stands still for a tenth of a second ends closing; as a person would, ask anew.
+            # A delay of the machine of a tenth of a second stops the grasp; try again, as a person would.
             self.supervisor.grasp()
         return self.state is HandState.HOLDING
 
     def object_m(self) -> NDArray[np.float64]:
-        """Where the object is, in the palm's frame [m]."""
+        """Position of the object in the palm's frame [m]."""
         return np.array(self.world.truth.object_position_m)
 
     def ask(self, name: str) -> None:
-        """Call a service of the hand, and go on to that moment."""
+        """Call a service of the hand, and advance to that time."""
         self._catch_up(self._hand.ask(name, name))
 
     def do(self, line: str, mark: str) -> None:
-        """Let something happen, and go on to that moment."""
+        """Send a command to the world, and advance to that time."""
         self._catch_up(self._hand.do(line, mark))
 
     def events(self, reflex: str) -> int:
-        """How often a reflex has been set off."""
+        """Number of times that a reflex was triggered."""
         return self._recording.statuses[self._statuses].events.get(reflex, 0)
 
     def truth(self) -> HandTruth:
@@ -139,7 +139,7 @@ class LiveRig:
             self.step()
 
     def _fetch(self) -> bool:
-        """Take the pieces of truth that are old enough; whether there is something to tell."""
+        """Read the pieces of truth that are old enough; return whether there are data."""
         recording, known_s = self._recording, time.monotonic() - _BEHIND_S
         while self._pieces < len(recording.truth_times) and recording.truth_times[self._pieces][-1] < known_s:
             times_s, rows = recording.truth_times[self._pieces], recording.truth_rows[self._pieces]
@@ -150,31 +150,31 @@ class LiveRig:
 
 @dataclass(frozen=True)
 class LiveSupervisor:
-    """What the running hand can be asked for."""
+    """Commands to the running hand."""
 
     rig: LiveRig
 
     def grasp(self) -> str:
-        """Close until something is gripped; always nothing, for what is refused raises."""
+        """Start a grasp. Returns an empty reason, because a refusal raises an error."""
         self.rig.ask("grasp")
         return ""
 
 
 @dataclass(frozen=True)
 class LiveReflex:
-    """What a reflex of the running hand says."""
+    """State of a reflex of the running hand."""
 
     rig: LiveRig
     name: str
 
     @property
     def events(self) -> int:
-        """How often it has been set off."""
+        """Number of times that it was triggered."""
         return self.rig.events(self.name)
 
 
 class LiveWorld:
-    """As much of `HandWorld` as scenarios use."""
+    """The part of `HandWorld` that scenarios use."""
 
     def __init__(self, rig: LiveRig, config: HandWorldConfig) -> None:
         thing = None
@@ -197,19 +197,19 @@ class LiveWorld:
 
     @property
     def down(self) -> Array:
-        """Where down is in the palm's frame; np.ndarray [shape=(3,)], a unit vector."""
+        """Direction of gravity in the palm's frame; np.ndarray [shape=(3,)], a unit vector."""
         gravity = np.array(self.truth.gravity_m_s2)
         return np.asarray(gravity / np.linalg.norm(gravity))
 
 
 @dataclass(frozen=True)
 class LiveHolder:
-    """What holds the object besides the hand."""
+    """The springs that hold the object besides the hand."""
 
     rig: LiveRig
 
     def let_go(self) -> None:
-        """Hold it no longer."""
+        """Release the object."""
         self.rig.do("let_go", "let go")
 
     def move(self, by_m: Array, turn_rad: Array, duration_s: float) -> None:
@@ -220,7 +220,7 @@ class LiveHolder:
 
 @dataclass(frozen=True)
 class LiveDisturbances:
-    """What else happens to the object."""
+    """Forces on the object."""
 
     rig: LiveRig
 
@@ -236,7 +236,7 @@ class LiveDisturbances:
 
 @dataclass(frozen=True)
 class LiveTip:
-    """What the skin is poked with."""
+    """The tip that pokes the skin."""
 
     rig: LiveRig
 
@@ -250,7 +250,7 @@ class LiveTip:
         row: float | None = None,
         col: float | None = None,
     ) -> None:
-        """See `acts_sim.hand.tip.Tip.poke`; it always begins 5 mm above the skin."""
+        """See `acts_sim.hand.tip.Tip.poke`; it always starts 5 mm above the skin."""
         where = "" if row is None or col is None else f" {row:.3f} {col:.3f}"
         numbers = f"{1e3 * radius_m:g} {1e3 * speed_m_s:g} {1e3 * travel_m:g}"
         self.rig.do(f"poke {patch} {numbers}{where}", f"poke {patch}")

@@ -1,4 +1,4 @@
-"""Launches a simulated hand for every rig that a scenario asks for."""
+"""Launch a simulated hand for every rig of a scenario."""
 
 from __future__ import annotations
 
@@ -23,23 +23,23 @@ from acts_tools.run_folder import shared_memory
 
 
 class LiveRigs:
-    """Makes rigs, one after the other: each ends when the next is made, and the last at the end of the block.
+    """Makes rigs one after another: each is stopped when the next is made, and the last at the end of the block.
 
     Parameters
     ----------
     log_path : Path
-        Takes what the launch prints.
+        File for the output of the launch.
     stop : StopFlag
-        Set when a person wants it to end (KeyboardInterrupt).
+        Set when the user wants to stop (KeyboardInterrupt).
     line : callable
-        The status line.
+        Returns the status line.
 
     Attributes
     ----------
     recording : HandRecording
-        Of the newest rig; complete once that has ended.
+        Recording of the newest rig; complete when that has ended.
     world : HandWorldConfig
-        Of that rig.
+        Settings of that rig's world.
     """
 
     def __init__(
@@ -53,7 +53,7 @@ class LiveRigs:
         self._stack = ExitStack()
 
     def __enter__(self) -> LiveRigs:
-        """Nothing runs yet."""
+        """Does not launch anything yet."""
         return self
 
     def __exit__(
@@ -91,7 +91,7 @@ class LiveRigs:
 
 
 def _params_file(folder: Path, options: RigOptions) -> Path:
-    """The shipped parameters, and those of the options."""
+    """Write a params file with the shipped parameters and those of the options."""
     shipped = Path(get_package_share_directory("acts_config")) / "params" / "hand_reflexes.yaml"
     own = {"reconstruction": {"touch_counts": round(options.touch_counts), **asdict(options.slip)}}
     if options.settings:

@@ -1,1 +1,1 @@
-"""`acts selftest`: is the board, its wiring and its skin sound?"""
+"""`acts selftest`: test a board, its wiring and its skin."""

@@ -1,4 +1,4 @@
-"""`acts selftest`: is the board, its wiring and its skin sound?"""
+"""`acts selftest`: test a board, its wiring and its skin."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ if TYPE_CHECKING:
 
 _EPILOG = """\
 examples:
-  acts selftest                                          the only Teensy plugged in
+  acts selftest                                          the only connected Teensy
   acts selftest /dev/ttyACM0 --touch-s 30
   acts selftest --sim --hardware-fault open-row=5        what a broken row looks like
 
-The exit code is 1 when something is faulty, and 0 also where there are only warnings. Stop the driver first: a port
-belongs to one process. docs/selftest.md explains every item.
+The exit code is 1 if something is faulty, and 0 if there are only warnings. Stop the driver first: only one process
+can use a port. docs/selftest.md explains every item.
 """
 
 
@@ -44,14 +44,14 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     )
     parser.add_argument("port", nargs="?", default="auto", help="a path, auto (default) or serial:NUMBER")
     parser.add_argument(
-        "--protocol", default="binary", help="what the board speaks: binary, raster_ascii or your own (binary)"
+        "--protocol", default="binary", help="protocol of the board: binary, raster_ascii or your own (binary)"
     )
-    parser.add_argument("--rows", type=_side, default=32, help="of the array, with raster_ascii and --sim (32)")
-    parser.add_argument("--cols", type=_side, default=32, help="of the array, with raster_ascii and --sim (32)")
-    parser.add_argument("--baud", type=_baud, default=115200, help="of no effect on USB boards (115200)")
+    parser.add_argument("--rows", type=_side, default=32, help="rows of the array, with raster_ascii and --sim (32)")
+    parser.add_argument("--cols", type=_side, default=32, help="columns of the array, with raster_ascii and --sim (32)")
+    parser.add_argument("--baud", type=_baud, default=115200, help="baud rate; no effect on USB boards (115200)")
     parser.add_argument("--untouched-s", type=_seconds, default=4.0, metavar="S", help="time untouched (4)")
     parser.add_argument("--touch-s", type=_seconds, metavar="S", help="time to roll a hand over the skin (20; --sim 6)")
-    parser.add_argument("--no-touch", action="store_true", help="leave that out: nothing is said of the wiring")
+    parser.add_argument("--no-touch", action="store_true", help="skip the touch: the wiring is not tested")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the report, with all maps, as JSON")
     parser.add_argument(
         "--picture", type=Path, metavar="FILE", default=Path("out/selftest.png"), help="PNG (out/selftest.png)"
@@ -62,18 +62,18 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         action="append",
         default=[],
         metavar="FAULT",
-        help="break its wiring; see virtual_board --help",
+        help="fault of its wiring; see virtual_board --help",
     )
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Test, report; 1 when something is faulty."""
+    """Test and report; return 1 if something is faulty."""
     if arguments.hardware_fault and not arguments.sim:
         raise ActsError("--hardware-fault breaks the wiring of a virtual board: give --sim as well")
     with _ended_by_signals(), ExitStack() as stack:
         skin = _simulated(arguments, stack) if arguments.sim else None
         test = _test(arguments, skin)
-    # Not at the top: matplotlib takes a second.
+    # Imported here, because matplotlib takes a second.
     from acts_driver.selftest import Level
     from acts_tools.selftest.picture import draw
 
@@ -159,7 +159,7 @@ def _tell(words: str) -> None:
 
 
 class _Countdown:
-    """Tells the seconds that are left, where a person looks on."""
+    """Prints the remaining seconds on a terminal."""
 
     def __init__(self, seconds: float) -> None:
         self._end_s = time.monotonic() + seconds
@@ -175,7 +175,7 @@ class _Countdown:
 
 @contextmanager
 def _ended_by_signals() -> Iterator[None]:
-    """A signal to end unwinds everything, so that the board gets its settings back, as Ctrl-C does by itself."""
+    """Let stop signals raise an exception, like Ctrl-C, so that the board gets its settings back."""
 
     def unwind(number: int, frame: FrameType | None) -> None:
         raise KeyboardInterrupt

@@ -1,4 +1,4 @@
-"""The picture of a self-test: noise, baseline and response of every taxel, with what is faulty marked."""
+"""The picture of a self-test: noise, baseline and response of every taxel, with faults marked."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _LINE_CHARACTERS = 56
 
 
 def draw(test: SelfTest, path: Path) -> None:
-    """Draw a self-test into a PNG file; its folder is made."""
+    """Draw a self-test to a PNG file; its folder is made."""
     figure = plt.figure(figsize=(15, 9.2), layout="constrained")
     grid = figure.add_gridspec(2, 3, height_ratios=[1.25, 1], width_ratios=[1, 1, 1.3])
     figure.suptitle(f"Self-test of {test.board}: {test.verdict}", fontsize=14, color=_COLOURS[test.level])
@@ -82,7 +82,7 @@ def _draw_map(
 
 
 def _runs(lines: tuple[int, ...]) -> list[tuple[int, int]]:
-    """First and last of neighbouring lines."""
+    """First and last line of each group of neighbouring lines."""
     runs: list[tuple[int, int]] = []
     for line in lines:
         if runs and runs[-1][1] == line - 1:
@@ -142,7 +142,7 @@ def _draw_findings(axes: Any, findings: list[Finding]) -> None:
             0.0, y, finding.level.name, color=_COLOURS[finding.level], weight="bold", fontsize=9, va="top"
         )
         words = axes.text(0.16, y, text, fontsize=9, va="top")
-        # They may be longer than the axes are wide, which must not push the other axes together.
+        # Texts wider than their axes must not shrink the other axes.
         level.set_in_layout(False)
         words.set_in_layout(False)
         y -= 0.068

@@ -1,4 +1,4 @@
-"""What a self-test found, as text and as JSON."""
+"""Result of a self-test, as text and as JSON."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _WIDTH = 16
 
 @dataclass(frozen=True, eq=False)
 class SelfTest:
-    """All of one self-test; `touch` is None where the skin was not to be touched."""
+    """Result of one self-test; `touch` is None where it was skipped."""
 
     board: str
     rows: int
@@ -30,12 +30,12 @@ class SelfTest:
 
     @property
     def level(self) -> Level:
-        """The worst finding."""
+        """Level of the worst finding."""
         return max((finding.level for finding in self.findings), default=Level.PASS)
 
     @property
     def verdict(self) -> str:
-        """All of it in one line."""
+        """Summary in one line."""
         counts = {level: sum(finding.level is level for finding in self.findings) for level in Level}
         if self.level is Level.PASS:
             return f"PASS: {len(self.findings)} items, nothing found"
@@ -52,7 +52,7 @@ class SelfTest:
         return "\n".join([*lines, "", self.verdict])
 
     def to_json(self) -> str:
-        """The report for a program; maps are lists of rows, with null where nothing is known."""
+        """The report for a program; maps are lists of rows, with null for unknown values."""
         timing = self.timing
         late_us = timing.late_us
         content: dict[str, Any] = {

@@ -1,4 +1,4 @@
-"""A board for the time of a self-test: frames out of it, settings into it, its own settings back at the end."""
+"""Access to a board during a self-test: read frames, change settings, and restore them at the end."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _LOOK_S = 0.1
 
 
 class BoardReader:
-    """Reads one board; use it in a ``with``.
+    """Reads one board; a context manager.
 
     Parameters
     ----------
@@ -33,16 +33,16 @@ class BoardReader:
     protocol : str
         A name of `acts_driver.protocols.PROTOCOLS`.
     rows, cols : int
-        Size of the array, for protocols that do not tell it.
+        Size of the array, for protocols that do not report it.
     baud : int
-        Bits per second; of no effect on USB boards.
+        Baud rate [bit/s]; no effect on USB boards.
     """
 
     def __init__(self, port: str, protocol: str, rows: int, cols: int, baud: int = 115200) -> None:
         self._source = SerialSource(port, baud)
         kind = protocol_named(protocol)
         self._takes_commands = kind.takes_commands
-        # More patient than the driver: full frames come slowly, and nothing else waits.
+        # Longer timeouts than in the driver, because full frames are slow.
         self._link = BoardLink(self._source.write, reply_timeout_s=_REPLY_S, tries=_TRIES)
         self._decoder = kind.decoder(rows, cols, self._link.receive)
         self._batches: queue.SimpleQueue[tuple[list[SampleFrame], int]] = queue.SimpleQueue()
@@ -60,16 +60,16 @@ class BoardReader:
 
     @property
     def name(self) -> str:
-        """What a person calls the port."""
+        """Name of the port, for messages."""
         return self._source.name
 
     @property
     def has_board_clock(self) -> bool:
-        """Whether the frames carry a clock."""
+        """Whether frames have a board time."""
         return self._decoder.has_board_clock
 
     def query(self) -> BoardState | None:
-        """The board's state; None where it does not understand commands."""
+        """The board's state; None where it has no commands."""
         if not self._takes_commands:
             return None
         try:
@@ -79,17 +79,17 @@ class BoardReader:
 
     @contextmanager
     def full_frames(self, own: BoardSettings) -> Iterator[BoardSettings]:
-        """Let the board measure all taxels of every frame, as fast as it can; its `own` settings come back at the end.
+        """Let the board measure full frames as fast as it can; restore its `own` settings at the end of the block.
 
         Yields
         ------
         BoardSettings
-            What is in force; `own` where the board does not do it.
+            Settings in force; `own` where the board cannot do it.
 
         Raises
         ------
         NoAnswerError, PortError
-            The board has stopped answering, or is gone.
+            The board does not reply, or its port was lost.
         """
         wanted = replace(own, scheme="raster", output="samples", frame_period_us=0)
         try:
@@ -102,12 +102,12 @@ class BoardReader:
             self._link.configure(own)
 
     def first_frame(self) -> SampleFrame:
-        """The next frame but a few, which may have been measured under other settings.
+        """The next frame, after a few that may have been measured with other settings.
 
         Raises
         ------
         PortError
-            When none comes.
+            When no frame arrives.
         """
         seen: list[SampleFrame] = []
         self._read_while(lambda: len(seen) <= _SETTLE_FRAMES, lambda frame, arrival_ns: seen.append(frame), _SILENT_S)
@@ -119,7 +119,7 @@ class BoardReader:
         return seen[-1]
 
     def record(self, rows: int, cols: int, seconds: float, on_frame: Callable[[FrameRecord], None]) -> FrameRecord:
-        """Keep the frames of some seconds; frames of another size are left out.
+        """Record frames for some seconds, ignoring frames of another size.
 
         Parameters
         ----------
@@ -142,13 +142,13 @@ class BoardReader:
     def _read_while(
         self, condition: Callable[[], bool], take: Callable[[SampleFrame, int], None], longest_s: float
     ) -> None:
-        """Take the frames that come from now on."""
+        """Process frames that arrive from now on."""
         while not self._batches.empty():
             self._batches.get()
         end_s = time.monotonic() + longest_s
         while condition() and time.monotonic() < end_s:
             if self._reader.problem or self._reader.reconnects:
-                raise PortError(f"{self._reader.problem or f'port {self.name} was lost'}; begin again")
+                raise PortError(f"{self._reader.problem or f'port {self.name} was lost'}; start the test again")
             try:
                 frames, arrival_ns = self._batches.get(timeout=_LOOK_S)
             except queue.Empty:

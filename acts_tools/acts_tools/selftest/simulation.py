@@ -1,4 +1,4 @@
-"""A virtual board for the self-test, with broken wiring if asked for, and a knobbly roller in place of the hand."""
+"""A virtual board for the self-test, optionally with faulty wiring, and a rough roller in place of the hand."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ _LEAST_SHARE = 0.35
 
 @dataclass(frozen=True)
 class SimulatedSkin:
-    """A virtual board that runs.
+    """A running virtual board.
 
     Attributes
     ----------
     port : str
-        Where to open it.
+        Its port.
     ring : Path
-        What presses its skin; nothing does while the file is missing.
+        Ring with the counts of its skin; the skin is untouched while the file is missing.
     """
 
     port: str
@@ -38,20 +38,20 @@ class SimulatedSkin:
 
     @contextmanager
     def rolled(self, rows: int, cols: int, seconds: float) -> Iterator[None]:
-        """Roll over the whole skin from now on for `seconds`, once along the columns and once along the rows."""
+        """Roll over the whole skin for `seconds`, once along the columns and once along the rows."""
         fields = roller_fields(rows, cols, max(round((seconds - 2 * _LEAD_S) / _STEP_S), 10))
         begin_ns = time.monotonic_ns() + int(_LEAD_S * 1e9)
         with TimedRingWriter(self.ring, rows * cols, slots=len(fields) + 1) as writer:
-            # All of the future at once: the board interpolates, and nobody has to keep up with it.
+            # Written in advance: the board interpolates, and no process needs to keep up with it.
             for step, field in enumerate(fields):
                 writer.write(begin_ns + int(step * _STEP_S * 1e9), field.ravel())
             yield
 
 
 def roller_fields(rows: int, cols: int, steps: int) -> NDArray[np.float64]:
-    """Counts of every taxel while a roller goes over the skin, beginning and ending with none.
+    """Counts of every taxel while a roller moves over the skin, starting and ending untouched.
 
-    The roller is knobbly, as a hand is: with a smooth one all lines along it would respond as one.
+    The roller is rough, like a hand: with a smooth one all lines along it would have the same response.
 
     Returns
     -------
@@ -62,7 +62,7 @@ def roller_fields(rows: int, cols: int, steps: int) -> NDArray[np.float64]:
     half = steps // 2
     for first, n, side, axis in ((0, half, cols, 1), (half, steps - half, rows, 0)):
         rough = np.pad(rng.normal(size=(rows, cols)), 1, mode="wrap")
-        # Each with some of its neighbours: knobs of about two taxels.
+        # Averaged over neighbours: bumps of about two taxels.
         knobs = sum(
             rough[r : r + rows, c : c + cols] * (2.0 if (r, c) == (1, 1) else 0.6) for r in range(3) for c in range(3)
         )
@@ -80,7 +80,7 @@ def roller_fields(rows: int, cols: int, steps: int) -> NDArray[np.float64]:
 
 @contextmanager
 def simulated_skin(folder: Path, rows: int, cols: int, protocol: str, faults: Sequence[str]) -> Iterator[SimulatedSkin]:
-    """Run a virtual board with broken wiring (see ``docs/virtual_board.md``, broken wiring).
+    """Run a virtual board with faulty wiring (see ``docs/virtual_board.md``).
 
     Raises
     ------

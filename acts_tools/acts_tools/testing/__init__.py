@@ -1,1 +1,1 @@
-"""What launch tests are written with: `launch_runner`. For tests only."""
+"""Tools for launch tests, see `launch_runner`. For tests only."""

@@ -1,4 +1,4 @@
-"""The launch tests' second back-end: the real `launch_pytest`, in the process of the tests."""
+"""The second back-end of launch tests: the real `launch_pytest`, in the process of the tests."""
 
 from __future__ import annotations
 
@@ -31,13 +31,13 @@ _STOPPED_CODES = (0, -signal.SIGINT, -signal.SIGTERM, 128 + signal.SIGINT, 128 +
 
 
 class ServiceLaunch(Launched):
-    """A launch by the real launch service; `description` is what it is given."""
+    """A launch by the real launch service of `description`."""
 
     def __init__(self, launch_file: LaunchFile) -> None:
         super().__init__(launch_file.domain_id)
         self._text: list[str] = []
         self._context: LaunchContext | None = None
-        # Changed by the launch's thread, looked at by the test's.
+        # Written by the launch's thread, read by the test's.
         self._lock = threading.Lock()
         self._alive: set[int] = set()
         self._failed: set[int] = set()
@@ -49,7 +49,7 @@ class ServiceLaunch(Launched):
                 RegisterEventHandler(OnProcessIO(on_stdout=self._on_output, on_stderr=self._on_output)),
                 RegisterEventHandler(OnProcessStart(on_start=self._on_start)),
                 RegisterEventHandler(OnProcessExit(on_exit=self._on_exit)),
-                # Before the file: otherwise one that cannot be evaluated leaves the test waiting for ever.
+                # Before the file: otherwise the test would wait for ever for a file that cannot be evaluated.
                 launch_pytest.actions.ReadyToTest(),
                 IncludeLaunchDescription(
                     AnyLaunchDescriptionSource(str(_path(launch_file))),
@@ -95,7 +95,7 @@ class ServiceLaunch(Launched):
     def _on_start(self, event: Any, _context: LaunchContext) -> None:
         with self._lock:
             self._alive.add(event.pid)
-            # Started again: what it died of before is forgiven, as `respawn` wants it.
+            # Restarted by `respawn`: its earlier exit code does not count.
             self._failed.discard(id(event.action))
             self._text.append(f"[{event.process_name}]: process started with pid [{event.pid}]\n")
 
@@ -136,7 +136,7 @@ def make_test(fixture: Any) -> Callable[[Callable[..., None]], Callable[..., Non
                 body(**{**kwargs, name: run})
             finally:
                 run.close()
-                # Shown by pytest where the test has failed.
+                # pytest shows it if the test has failed.
                 print(run.output)
 
         marked: Callable[..., None] = pytest.mark.launch(fixture=fixture)(test)

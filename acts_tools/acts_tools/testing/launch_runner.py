@@ -1,4 +1,4 @@
-"""Launch tests with one body for two back-ends: real `launch_pytest` where it is installed, `acts launch` elsewhere.
+"""Launch tests for two back-ends: the real `launch_pytest` where it is installed, `acts launch` elsewhere.
 
     @launch_fixture
     def tactile() -> LaunchFile:
@@ -40,7 +40,7 @@ def launched(
     environment: Mapping[str, str] | None = None,
     **arguments: str,
 ) -> Iterator[ProcessLaunch]:
-    """Run a launch file with `acts launch` for the length of a block.
+    """Run a launch file by `acts launch` for the length of a block.
 
     Parameters
     ----------
@@ -62,14 +62,14 @@ def _running(launch_file: LaunchFile) -> Iterator[ProcessLaunch]:
             yield run
         finally:
             run.close()
-            # Shown by pytest where the test has failed: an assertion of a fixture's user is not seen here.
+            # pytest shows it if the test has failed; a failed assertion of the test is not visible here.
             print(run.output)
 
 
 def launch_fixture(function: Callable[..., LaunchFile]) -> Any:
-    """Make a pytest fixture of a function that returns a `LaunchFile`: it runs for the length of the test.
+    """Make a pytest fixture from a function that returns a `LaunchFile`, which runs for the length of the test.
 
-    The function may use other fixtures. The test has to be decorated with `launch_test`.
+    The function may use other fixtures. The test must be decorated with `launch_test`.
     """
     if HAS_LAUNCH_PYTEST:
         from acts_tools.testing.launch_pytest_backend import make_fixture
@@ -85,7 +85,7 @@ def launch_fixture(function: Callable[..., LaunchFile]) -> Any:
 
 
 def launch_test(fixture: Any) -> Callable[[Callable[..., None]], Callable[..., None]]:
-    """Mark a test that takes a `launch_fixture`, under the fixture's name, as a `Launched`."""
+    """Decorate a test that has a `launch_fixture` as an argument of the fixture's name, of type `Launched`."""
     if HAS_LAUNCH_PYTEST:
         from acts_tools.testing.launch_pytest_backend import make_test
 

@@ -1,4 +1,4 @@
-"""A launch that is tested: what it is given, and what a test may ask of it; here with `acts launch` in a process."""
+"""A launch under test: its description, its interface to tests, and its implementation by `acts launch`."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _SHOWN_LINES = 60
 
 @dataclass(frozen=True)
 class LaunchFile:
-    """What a launch test starts.
+    """The launch file of a test, with its arguments.
 
     Attributes
     ----------
@@ -45,12 +45,12 @@ class LaunchFile:
     environment: Mapping[str, str] = field(default_factory=dict)
 
     def added_environment(self) -> dict[str, str]:
-        """What the processes get besides the environment of the test."""
+        """Variables of the processes in addition to the environment of the test."""
         return {"ROS_DOMAIN_ID": str(self.domain_id), "PYTHONUNBUFFERED": "1", **self.environment}
 
 
 class Launched(ABC):
-    """A launch that is running: look at it, wait for things, stop it."""
+    """A running launch: inspect it, wait for conditions, stop it."""
 
     def __init__(self, domain_id: int) -> None:
         self._domain_id = domain_id
@@ -59,16 +59,16 @@ class Launched(ABC):
     @property
     @abstractmethod
     def output(self) -> str:
-        """Everything that its processes and the launch itself have written so far."""
+        """All output of its processes and the launch itself so far."""
 
     @property
     @abstractmethod
     def running(self) -> bool:
-        """Whether it has not ended yet."""
+        """Whether it is running."""
 
     @abstractmethod
     def stop(self, timeout_s: float = 30.0) -> int:
-        """Stop it as Ctrl-C does.
+        """Stop it like Ctrl-C.
 
         Returns
         -------
@@ -84,7 +84,7 @@ class Launched(ABC):
         return self._probe
 
     def wait_for(self, predicate: Callable[[], bool], timeout_s: float = 30.0, what: str = "a condition") -> None:
-        """Wait until a condition holds; fails at the deadline, or as soon as the launch has ended without it."""
+        """Wait until a condition is true; fail at the deadline, or when the launch has ended."""
         self._wait(predicate, timeout_s, what, while_running=True)
 
     def _wait(self, predicate: Callable[[], bool], timeout_s: float, what: str, while_running: bool) -> None:
@@ -101,25 +101,25 @@ class Launched(ABC):
         self.wait_for(lambda: text in self.output, timeout_s, f"`{text}` in the output")
 
     def wait_for_node(self, name: str, timeout_s: float = 30.0) -> None:
-        """Wait until a node of a full name such as ``/plate/driver`` is there."""
+        """Wait until there is a node with a full name, such as ``/plate/driver``."""
         self._show_on_failure(lambda: self.probe.wait_for_node(name, timeout_s))
 
     def wait_for_publisher(self, topic: str, timeout_s: float = 30.0) -> None:
-        """Wait until somebody publishes a topic."""
+        """Wait until a topic has a publisher."""
         self._show_on_failure(lambda: self.probe.wait_for_publisher(topic, timeout_s))
 
     def wait_for_message(self, topic: str, message_type: type, timeout_s: float = 30.0) -> Any:
-        """The first message that arrives on a topic, subscribed to with its publishers' quality of service."""
+        """The first message on a topic, with the quality of service of its publishers."""
         return self._show_on_failure(lambda: self.probe.wait_for_message(topic, message_type, timeout_s))
 
     def wait_for_messages(self, topic: str, message_type: type, count: int, timeout_s: float = 30.0) -> list[Any]:
-        """The first messages that arrive on a topic."""
+        """The first messages on a topic."""
         messages = self._show_on_failure(lambda: self.probe.wait_for_messages(topic, message_type, count, timeout_s))
         assert isinstance(messages, list)
         return messages
 
     def close(self) -> None:
-        """Leave nothing behind."""
+        """Stop everything that is left."""
         if self._probe is not None:
             self._probe.close()
             self._probe = None
@@ -146,7 +146,7 @@ class ProcessLaunch(Launched):
     launch_file : LaunchFile
         What to start.
     folder : Path
-        Where the output is kept.
+        Folder for the output.
     """
 
     def __init__(self, launch_file: LaunchFile, folder: Path) -> None:
@@ -182,7 +182,7 @@ class ProcessLaunch(Launched):
         return self.wait(timeout_s)
 
     def wait(self, timeout_s: float = 30.0) -> int:
-        """Exit code, once it has ended by itself."""
+        """Wait until it has ended by itself, and return its exit code."""
         try:
             return self.process.wait(timeout_s)
         except subprocess.TimeoutExpired:

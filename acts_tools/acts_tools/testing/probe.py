@@ -1,4 +1,4 @@
-"""Look into a running ROS graph from a test: wait for publishers and messages, with deadlines and never a sleep."""
+"""Observe a running ROS graph in a test: wait for publishers and messages, with deadlines and without sleeps."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ _TURN_S = 0.05
 
 
 class Probe:
-    """A node of its own context, so that tests with different domain ids do not meet.
+    """A node in its own context, so that tests with different domain ids do not affect each other.
 
     Parameters
     ----------
     domain_id : int
-        ROS domain to look into.
+        ROS domain.
     while_waiting : callable
-        Called again and again while waiting; raises to end a wait that has become hopeless.
+        Called repeatedly while waiting; may raise to end a useless wait.
     """
 
     def __init__(self, domain_id: int, while_waiting: Callable[[], None] = lambda: None) -> None:
@@ -36,7 +36,7 @@ class Probe:
         self._executor.add_node(self.node)
 
     def close(self) -> None:
-        """Leave the graph."""
+        """Destroy the node and its context."""
         self._executor.shutdown()
         self.node.destroy_node()
         self._context.try_shutdown()
@@ -52,12 +52,12 @@ class Probe:
         self.close()
 
     def wait_for(self, predicate: Callable[[], bool], timeout_s: float, what: str) -> None:
-        """Handle callbacks until a condition holds.
+        """Run callbacks until a condition is true.
 
         Raises
         ------
         AssertionError
-            It does not hold within `timeout_s` [s]; the message says `what` was awaited.
+            It is not true within `timeout_s` [s]; the message contains `what`.
         """
         deadline_s = time.monotonic() + timeout_s
         while not predicate():
@@ -66,18 +66,18 @@ class Probe:
             self._executor.spin_once(timeout_sec=_TURN_S)
 
     def wait_for_publisher(self, topic: str, timeout_s: float = 30.0) -> None:
-        """Wait until somebody publishes a topic."""
+        """Wait until a topic has a publisher."""
         self.wait_for(lambda: self.node.count_publishers(topic) > 0, timeout_s, f"a publisher of {topic}")
 
     def wait_for_node(self, name: str, timeout_s: float = 30.0) -> None:
-        """Wait until a node of a full name such as ``/plate/driver`` is there."""
+        """Wait until there is a node with a full name, such as ``/plate/driver``."""
         namespace, _, short = name.rpartition("/")
         wanted = (short, namespace or "/")
-        # It is announced apart from its topics, often later than the first messages.
+        # A node is announced separately from its topics, often after the first messages.
         self.wait_for(lambda: wanted in self.node.get_node_names_and_namespaces(), timeout_s, f"the node {name}")
 
     def wait_for_messages(self, topic: str, message_type: type, count: int, timeout_s: float = 30.0) -> list[Any]:
-        """Subscribe with the publishers' own quality of service and wait for some messages."""
+        """Subscribe with the quality of service of the publishers, and wait for some messages."""
         self.wait_for_publisher(topic, timeout_s)
         received: list[Any] = []
         offers = self.node.get_publishers_info_by_topic(topic)
@@ -89,5 +89,5 @@ class Probe:
         return received[:count]
 
     def wait_for_message(self, topic: str, message_type: type, timeout_s: float = 30.0) -> Any:
-        """The first message that arrives on a topic."""
+        """The first message on a topic."""
         return self.wait_for_messages(topic, message_type, 1, timeout_s)[0]

@@ -1,1 +1,1 @@
-"""What `acts train` is made of: where frames come from, checkpoints, and showing how far it is."""
+"""Parts of `acts train`: sources of frames, and checkpoints."""

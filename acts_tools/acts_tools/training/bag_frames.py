@@ -1,4 +1,4 @@
-"""Full frames out of a bag: images in counts, or samples of whole frames."""
+"""Read full frames from a bag: images in counts, or samples of full frames."""
 
 from __future__ import annotations
 
@@ -29,27 +29,27 @@ _NEEDED = (
 def bag_frames(path: Path, topic: str = "") -> tuple[NDArray[np.uint16], str]:
     """Read all full frames of one topic.
 
-    From samples the baseline is subtracted that the bag holds beside them (topic ``baseline`` of the same skin), as the
-    reconstruction does; images have had theirs subtracted.
+    From samples the baseline in the bag (topic ``baseline`` of the same skin) is subtracted, as in the reconstruction.
+    The baseline of images is subtracted already.
 
     Parameters
     ----------
     path : Path
         Folder in rosbag2's layout, or an MCAP file.
     topic : str
-        Full name; empty for the only one that has full frames.
+        Full name; empty for the only one with full frames.
 
     Returns
     -------
     frames : np.ndarray [shape=(n, rows, cols), dtype=uint16]
         Counts, 0 to 1023.
     topic : str
-        Where they are from.
+        Topic of the frames.
 
     Raises
     ------
     RecordingError
-        There is no bag, it is damaged, or no topic (several, where none was named) has full frames.
+        There is no bag, it is damaged, or no topic (or several, where none was given) has full frames.
     """
     require_rosbags()
     # Imports rosbags, which a ROS installation need not have.
@@ -85,7 +85,7 @@ def bag_frames(path: Path, topic: str = "") -> tuple[NDArray[np.uint16], str]:
 
 
 def _is_full(bag: Any, path: Path, topic: str, kind: str) -> bool:
-    """Whether the first message of a topic holds a full frame."""
+    """Whether the first message of a topic contains a full frame."""
     if kind == _IMAGE:
         first = next(messages(bag, path, topic, Image), None)
         return first is not None and first.encoding == "mono16"

@@ -1,4 +1,4 @@
-"""What an interrupted training left behind, so that the same command goes on from there."""
+"""Checkpoint of an interrupted training, from which the same command continues."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ from acts_recon.learning import KsvdState
 
 @dataclass(frozen=True)
 class Checkpoint:
-    """The file beside the output that holds the last finished iteration.
+    """A file beside the output with the last finished iteration.
 
     Attributes
     ----------
     path : Path
-        The output's name and ``.partial``.
+        Path of the output with the suffix ``.partial``.
     settings : mapping
-        Plain values, in which everything that the result depends on is named, the data by their hash.
+        Plain values of everything that the result depends on, with a hash of the data.
     """
 
     path: Path
@@ -42,7 +42,7 @@ class Checkpoint:
         )
 
     def save(self, state: KsvdState) -> None:
-        """Replace the file at once: whenever the power goes, there is the old one or the new one.
+        """Replace the file atomically: after a power failure there is either the old file or the new one.
 
         Raises
         ------
@@ -59,7 +59,7 @@ class Checkpoint:
             },
         )
         try:
-            # On the disk before it takes the old one's place: else the power might take both.
+            # Sync before the rename, as a power failure could otherwise lose both files.
             with fresh.open("rb") as file:
                 os.fsync(file.fileno())
             fresh.replace(self.path)
@@ -67,12 +67,12 @@ class Checkpoint:
             raise RecordingError(f"{self.path}: cannot be written ({error.strerror})") from error
 
     def load(self) -> KsvdState | None:
-        """What is there; None when there is nothing.
+        """Load the state; None if there is no file.
 
         Raises
         ------
         RecordingError
-            The file is damaged, or belongs to a training with other settings or other data.
+            The file is damaged, or is of a training with other settings or data.
         """
         if not self.path.exists():
             return None
@@ -82,7 +82,7 @@ class Checkpoint:
             iteration = int(content["iteration"])
         except (TypeError, ValueError) as error:
             raise RecordingError(f"{self.path}: damaged ({error}); {self._file.remedy}") from error
-        # Through JSON, as those of the file went: a tuple comes back as a list.
+        # Convert to JSON and back like the settings in the file: tuples become lists.
         here = json.loads(json.dumps(dict(self.settings)))
         others = [
             f"{name} {found.get(name)} there, {here.get(name)} here"
@@ -97,5 +97,5 @@ class Checkpoint:
         return KsvdState(iteration, np.asarray(content["atoms"], dtype=np.float32))
 
     def remove(self) -> None:
-        """Remove the file, which the finished output makes needless."""
+        """Remove the file after the output was written."""
         self.path.unlink(missing_ok=True)

@@ -1,4 +1,4 @@
-"""Full frames to learn from: of recordings (npz files and bags) and of the contact model."""
+"""Full frames for training, from recordings (npz files and bags) or from the contact model."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ from acts_sim.pressing import ContactModel, ContactObject
 
 @dataclass(frozen=True)
 class Source:
-    """Frames and where they are from.
+    """Frames and a description of their source.
 
     Attributes
     ----------
     frames : np.ndarray [shape=(n, rows, cols), dtype=uint16]
         Counts, 0 to 1023.
     description : str
-        For the dictionary's provenance.
+        Text for the dictionary's provenance.
     """
 
     frames: NDArray[np.uint16]
@@ -32,7 +32,7 @@ class Source:
 
 
 def is_bag(path: Path) -> bool:
-    """Whether a path is to be read as a bag: a folder, or a file of one of rosbag2's storages."""
+    """Whether a path is a bag: a folder, or a file of one of rosbag2's storages."""
     return path.is_dir() or path.suffix in (".mcap", ".db3")
 
 
@@ -44,12 +44,12 @@ def recorded_frames(paths: Sequence[Path], topic: str = "") -> Source:
     paths : sequence of Path
         npz files with `frames`, or bags (see `acts_tools.training.bag_frames`).
     topic : str
-        Of the bags; empty for the only one that has full frames.
+        Topic of the bags; empty for the only one with full frames.
 
     Raises
     ------
     RecordingError
-        One cannot be read, has no full frames, or frames of another size.
+        A file cannot be read, has no full frames, or has frames of another size.
     """
     if topic and not any(map(is_bag, paths)):
         raise RecordingError(f"--topic {topic}: none of the recordings is a bag; leave it out")
@@ -76,9 +76,9 @@ def recorded_frames(paths: Sequence[Path], topic: str = "") -> Source:
 def model_frames(
     objects: list[ContactObject], presses: int, seed: int, show: Callable[[int], None] = lambda _: None
 ) -> NDArray[np.uint16]:
-    """Frames of random presses of objects in turn; np.ndarray [shape=(presses, 32, 32), dtype=uint16].
+    """Frames of random presses of each object in turn; np.ndarray [shape=(presses, 32, 32), dtype=uint16].
 
-    `show` is told how many there are, after each.
+    `show` is called with the number of frames after each.
     """
     model = ContactModel(seed=seed)
     frames = []

@@ -1,1 +1,1 @@
-"""Two machines on one: network namespaces and a cable between them that can be slow, lossy or cut."""
+"""Two simulated machines: network namespaces, and a cable between them that can be slow, lossy or cut."""

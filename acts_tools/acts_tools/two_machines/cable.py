@@ -1,12 +1,12 @@
-"""The process that makes two machines and is the cable between them: `python3 -m acts_tools.two_machines.cable`.
+"""The process that makes two machines and the cable between them: `python3 -m acts_tools.two_machines.cable`.
 
-Each machine is a process that waits in a network and a mount namespace of its own, with the one end of the cable, an
-address, and its own shared memory and machine id, by which the middleware tells one machine from another. All of it
-ends with the process. The first line on standard output names the two processes, or the error; every line on standard
-input is `Conditions` in JSON and is answered by the `Traffic` of both ends.
+Each machine is a process that waits in a network and a mount namespace of its own, with one end of the cable, an
+address, its own shared memory, and its own machine id, by which the middleware distinguishes machines. All of it ends
+with the process. The first line on standard output names the two processes, or the error. Every line on standard input
+is `Conditions` in JSON; the reply is the `Traffic` of both ends.
 
-Frames pass through this process, not through netem: that is missing in some kernels, and here the seed decides what
-gets lost.
+Frames pass through this process instead of netem, because some kernels lack netem, and here the seed determines which
+frames are lost.
 """
 
 from __future__ import annotations
@@ -35,19 +35,19 @@ from acts_tools.two_machines.conditions import Conditions, Traffic
 
 INTERFACE = "cable0"
 ADDRESSES = ("10.77.0.1", "10.77.0.2")
-"""Of the near and the far machine; they exist in the namespaces only."""
+"""Addresses of the near and the far machine, which exist in the namespaces only."""
 
 _CLONE_NEWNET, _CLONE_NEWNS = 0x40000000, 0x00020000
 _TUNSETIFF, _IFF_TAP, _IFF_NO_PI = 0x400454CA, 0x0002, 0x1000
 _FRAME_BYTES = 65536
 _MACHINE_ID = Path("/etc/machine-id")
-# What a network card holds; frames beyond are dropped as by a full queue.
+# Queue length of a network card; a full queue drops frames.
 _QUEUE_FRAMES = 20_000
 
 
 @dataclass
 class _End:
-    """One end of the cable, and what is on its way from there."""
+    """One end of the cable, and the frames on their way from there."""
 
     tap: int
     rng: random.Random
@@ -70,11 +70,11 @@ class Cable:
 
     @property
     def traffic(self) -> list[Traffic]:
-        """Of the near and the far end."""
+        """Traffic of the near and the far end."""
         return [end.traffic for end in self._ends]
 
     def carry(self) -> float | None:
-        """Take in what there is, hand out what is due; seconds until the next frame is due, None without one."""
+        """Read available frames and write those that are due; return the time to the next one [s], None without one."""
         now_s = time.monotonic()
         for end in self._ends:
             self._take_in(end, now_s)
@@ -108,7 +108,7 @@ def _hand_out(end: _End, tap: int) -> None:
 
 
 def _make_machine(address: str) -> tuple[int, int]:
-    """Start a process in namespaces of its own; its process id and its end of the cable."""
+    """Start a process in namespaces of its own; return its process id and its end of the cable."""
     ours, theirs = socket.socketpair()
     stay_alive_with_us = leave_with_parent(os.getpid())
     pid = os.fork()
@@ -121,7 +121,7 @@ def _make_machine(address: str) -> tuple[int, int]:
         except (OSError, subprocess.CalledProcessError) as error:
             theirs.send(_in_words(error).encode())
             os._exit(1)
-        # The descriptors of the cable's own input and output must not be held open from here.
+        # This process must not keep the cable's standard input and output open.
         signal.signal(signal.SIGTERM, signal.SIG_DFL)
         signal.pause()
         os._exit(0)
@@ -134,7 +134,7 @@ def _make_machine(address: str) -> tuple[int, int]:
 
 
 def _settle_in(address: str) -> int:
-    """Make this process a machine; its interface."""
+    """Make this process a machine; return the descriptor of its interface."""
     libc = ctypes.CDLL(None, use_errno=True)
     if libc.unshare(_CLONE_NEWNET | _CLONE_NEWNS) != 0:
         raise OSError(ctypes.get_errno(), "a network namespace cannot be made")
@@ -144,7 +144,7 @@ def _settle_in(address: str) -> int:
         ["ip", "link", "set", "lo", "up"],
         ["ip", "address", "add", f"{address}/24", "dev", INTERFACE],
         ["ip", "link", "set", INTERFACE, "up"],
-        # Changes of ours stay ours.
+        # Keep changes of mounts in this namespace.
         ["mount", "--make-rprivate", "/"],
         ["mount", "-t", "tmpfs", "tmpfs", "/dev/shm"],
     ]
@@ -164,7 +164,7 @@ def _in_words(error: OSError | subprocess.CalledProcessError) -> str:
 
 
 def main() -> int:
-    """Lay the cable and serve it until standard input ends; the exit code."""
+    """Make the cable, serve it until standard input ends, and return the exit code."""
     try:
         machines = [_make_machine(address) for address in ADDRESSES]
     except OSError as error:
@@ -180,7 +180,7 @@ def main() -> int:
             line = sys.stdin.readline()
             if not line:
                 return 0
-            # What came before a change still meets the old conditions.
+            # Frames from before a change still get the old conditions.
             cable.carry()
             cable.conditions = Conditions(**json.loads(line))
             print(json.dumps([asdict(traffic) for traffic in cable.traffic]), flush=True)

@@ -1,4 +1,4 @@
-"""What the cable does to frames, and what it has counted."""
+"""Conditions of the cable, and its counts."""
 
 from __future__ import annotations
 
@@ -7,16 +7,16 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Conditions:
-    """State of the cable, the same in both directions.
+    """Conditions of the cable, the same in both directions.
 
     Attributes
     ----------
     delay_s : float
-        From one end to the other [s].
+        Delay from one end to the other [s].
     loss : float
-        Share of the frames that get lost, 0 to 1.
+        Share of frames that are lost, 0 to 1.
     cut : bool
-        Whether nothing passes.
+        Whether all frames are lost.
     """
 
     delay_s: float = 0.0
@@ -26,14 +26,14 @@ class Conditions:
 
 @dataclass
 class Traffic:
-    """Ethernet frames that entered one end of the cable since it was laid.
+    """Counts of Ethernet frames that entered one end of the cable since its start.
 
     Attributes
     ----------
     frames, sent_bytes : int
-        All of them, header included, as an interface counts them.
+        All frames, and their bytes with headers, as an interface counts them.
     dropped : int
-        Those that did not come out at the other end.
+        Frames that did not reach the other end.
     """
 
     frames: int = 0

@@ -1,4 +1,4 @@
-"""`acts listen` on one of the machines, and what it reports."""
+"""`acts listen` on one of the machines, and its reports."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from acts_tools.listen.arrivals import Interval
 from acts_tools.two_machines.machines import Machine
 
 EVERY_S = 0.2
-"""Between two reports [s]."""
+"""Time between two reports [s]."""
 
 _POLL_S = 0.02
 _LOG_LINES = 5
@@ -29,32 +29,32 @@ class Report:
     Attributes
     ----------
     topics : dict of str to Interval
-        Those that have appeared.
+        Intervals of the topics that have appeared.
     complaints : dict of str to str
-        What nodes warn of on /diagnostics, by their names.
+        Warnings and errors of nodes on /diagnostics, by their names.
     """
 
     topics: dict[str, Interval]
     complaints: dict[str, str]
 
     def received(self, topic: str) -> int:
-        """Messages since the beginning."""
+        """Messages since the start."""
         return self.topics[topic].total_received if topic in self.topics else 0
 
     def lost(self, topic: str) -> int:
-        """Missing messages since the beginning."""
+        """Missing messages since the start."""
         return self.topics[topic].total_lost or 0 if topic in self.topics else 0
 
 
 class Ear:
-    """What a running `acts listen` has written so far.
+    """Reads the reports of a running `acts listen`.
 
     Parameters
     ----------
     path : Path
-        The file that it writes to.
+        File of its output.
     check : callable
-        Raises when waiting is in vain.
+        Raises an error when waiting is useless.
     """
 
     def __init__(self, path: Path, check: Callable[[], None]) -> None:
@@ -64,7 +64,7 @@ class Ear:
         self._rest = b""
 
     def wait_for(self, condition: Callable[[Report], bool], timeout_s: float, what: str) -> Report:
-        """The first report from now on that a condition is true for.
+        """The first report from now on for which a condition is true.
 
         Raises
         ------
@@ -83,7 +83,7 @@ class Ear:
             time.sleep(_POLL_S)
 
     def collect(self, count: int, timeout_s: float) -> list[Report]:
-        """The next reports, without the present one, which has begun already."""
+        """The next reports, without the present one, whose interval has already begun."""
         reports: list[Report] = []
 
         def is_enough(report: Report) -> bool:
@@ -118,7 +118,7 @@ def ear(
     log: Path,
     variables: Mapping[str, str] = MappingProxyType({}),
 ) -> Iterator[Ear]:
-    """Listen on a machine, with more environment variables, for the length of a block."""
+    """Listen on a machine for the length of a block, with additional environment variables."""
     words = [sys.executable, "-m", "acts_tools", "listen", "--json", "--every", str(EVERY_S), *topics]
     with machine.running(words, domain_id, log, variables) as process:
 

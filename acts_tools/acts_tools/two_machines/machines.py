@@ -1,4 +1,4 @@
-"""Start programs on two machines and disturb the cable between them."""
+"""Run programs on two machines, and change the conditions of their cable."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ _STOP_TIMEOUT_S = 20.0
 
 
 class TwoMachines:
-    """Two machines, the near one with the board and the far one, and their cable.
+    """Two machines, of which the near one has the board, and their cable.
 
     Parameters
     ----------
     cable : subprocess.Popen
-        The process that `acts_tools.two_machines.cable` describes.
+        The process of `acts_tools.two_machines.cable`.
     pids : sequence of int
-        The processes in the machines' namespaces.
+        Process ids in the machines' namespaces.
     """
 
     def __init__(self, cable: subprocess.Popen[str], pids: Sequence[int]) -> None:
@@ -39,12 +39,12 @@ class TwoMachines:
         self.near, self.far = (Machine(pid) for pid in pids)
 
     def set_conditions(self, conditions: Conditions) -> None:
-        """Change the cable, from now on."""
+        """Change the conditions of the cable."""
         self._conditions = conditions
         self._ask()
 
     def traffic(self) -> tuple[Traffic, Traffic]:
-        """What the near and the far machine have sent so far."""
+        """Traffic that the near and the far machine have sent so far."""
         return self._ask()
 
     def _ask(self) -> tuple[Traffic, Traffic]:
@@ -58,23 +58,23 @@ class TwoMachines:
 
 @dataclass(frozen=True)
 class Machine:
-    """One of them.
+    """One of the two machines.
 
     Attributes
     ----------
     pid : int
-        A process in its namespaces.
+        Id of a process in its namespaces.
     """
 
     pid: int
 
     def command(self, words: Sequence[str]) -> list[str]:
-        """The command line that runs a program there; the process that is started becomes the program."""
+        """The command line that runs a program there by exec, so that the process id is that of the program."""
         user = [] if os.geteuid() == 0 else ["--user", "--preserve-credentials"]
         return ["nsenter", "--target", str(self.pid), *user, "--net", "--mount", "--", *words]
 
     def environment(self, domain_id: int) -> dict[str, str]:
-        """What programs there have to be started with to find those of the other one."""
+        """Environment for programs there to find those of the other machine."""
         return {
             **os.environ,
             "ROS_DOMAIN_ID": str(domain_id),
@@ -86,7 +86,7 @@ class Machine:
     def running(
         self, words: Sequence[str], domain_id: int, log: Path, variables: Mapping[str, str] = MappingProxyType({})
     ) -> Iterator[subprocess.Popen[bytes]]:
-        """Run a program there for the length of a block, with more environment variables; it writes to a file."""
+        """Run a program there for the length of a block, with additional environment variables and output to a file."""
         with log.open("wb") as output:
             process = subprocess.Popen(
                 self.command(words),
@@ -110,12 +110,12 @@ class Machine:
 
 @contextmanager
 def two_machines() -> Iterator[TwoMachines]:
-    """Two machines for the length of a block; nothing of them is left afterwards.
+    """Make two machines for the length of a block.
 
     Raises
     ------
     LaunchError
-        Where the system does not allow them; says what it takes.
+        When the system does not allow them; the message says what is needed.
     """
     packages = sorted({package for tool, package in _TOOLS.items() if shutil.which(tool) is None})
     if packages:

@@ -1,8 +1,8 @@
-"""`acts evaluate slip-sampled`: how soon slip is told on the patches of a skin whose taxels are measured in turn.
+"""`acts evaluate slip-sampled`: delay of slip detection on a skin whose taxels are measured in turn.
 
-All patches of a layout are pressed by made contacts. What lies on one of them begins to move, and it is taken how long
-after 0.2 mm slip is told there; and in a steady hold, and while all contacts close, how often it is told though nothing
-moves. Everything between is what runs: the board's sampler, fusion over time, regions.
+All patches of a layout are pressed by simulated contacts. The contact on one patch begins to move, and the time from
+0.2 mm of motion to the detection of slip is measured. Detections without motion are counted in a steady hold and while
+all contacts close. The whole chain is used: the board's sampler, fusion over time, regions.
 """
 
 from __future__ import annotations
@@ -38,23 +38,25 @@ def add_parser(commands: Any) -> None:
     """Add ``acts evaluate slip-sampled``."""
     parser = commands.add_parser(
         "slip-sampled",
-        help="how soon slip is told where few taxels are measured in a frame",
-        description="Press all patches of a layout by made contacts, sample them by tracking 1000 times a second, fuse "
-        "the samples, and look for slip: its delay after 0.2 mm of motion on one patch, and what is told while "
-        "nothing moves.",
+        help="measure the delay of slip detection where few taxels are measured per frame",
+        description="Press all patches of a layout by simulated contacts, sample them by tracking at 1 kHz, fuse the "
+        "samples, and detect slip: measure its delay after 0.2 mm of motion on one patch, and count detections "
+        "without motion.",
     )
     parser.add_argument("--layout", default="leap_right", metavar="L", help="name or file (default: %(default)s)")
     parser.add_argument("--m", type=int, nargs="+", default=[55, 128], help="taxels per frame (default: 55 128)")
     parser.add_argument(
-        "--seeds", type=int, default=6, metavar="N", help="times 3 kinds of contact (default: %(default)s)"
+        "--seeds", type=int, default=6, metavar="N", help="seeds for each of 3 kinds of contact (default: %(default)s)"
     )
-    parser.add_argument("--hold-s", type=float, default=60.0, metavar="T", help="steady hold (default: %(default)s)")
-    parser.add_argument("--json", type=Path, metavar="OUT", help="write the results here, too")
+    parser.add_argument(
+        "--hold-s", type=float, default=60.0, metavar="T", help="time of the hold (default: %(default)s)"
+    )
+    parser.add_argument("--json", type=Path, metavar="OUT", help="also write the results to a JSON file")
     parser.set_defaults(evaluate=_run)
 
 
 class Skin:
-    """A contact on every patch, somewhere in its middle part."""
+    """A contact on every patch, at a random position near its centre."""
 
     def __init__(self, skin: Layout, shape: str, seed: int) -> None:
         rng = np.random.default_rng(seed)
@@ -64,11 +66,11 @@ class Skin:
         ]
         self._pictures: dict[int, Array] = {}
         self.moving = int(rng.integers(len(skin.patches)))
-        # An edge shows no motion along itself.
+        # Motion of an edge along itself is not visible.
         self.angle = math.pi / 2 if shape == "edge" else float(rng.uniform(0, 2 * math.pi))
 
     def at(self, time_s: float, moved_m: float = 0.0) -> Array:
-        """Counts of all taxels, while all contacts close and then hold; what lies on one patch has moved."""
+        """Counts of all taxels while all contacts close and then hold; the contact on one patch has moved."""
         frame = min(round(time_s / _FRAME_S), _CLOSING_FRAMES)
         if frame not in self._pictures:
             force = frame / _CLOSING_FRAMES
@@ -88,8 +90,8 @@ class Skin:
 
 
 def _press(shape: str, patch: SkinPatch, at: Array, move: Array, radius_m: float) -> Array:
-    """Relative pressure of a contact `at` so large a part of the patch's half size from its middle, and moved [m]."""
-    parts = np.linspace(-0.4, 0.4, 5)  # a taxel feels the mean over its area
+    """Relative pressure of a contact at `at` [half sizes of the patch], moved by `move` [m]."""
+    parts = np.linspace(-0.4, 0.4, 5)  # a taxel reads the mean over its area
     x = patch.geometry.x_m(np.add.outer(np.arange(patch.cols), parts).ravel())
     y = patch.geometry.y_m(np.add.outer(np.arange(patch.rows), parts).ravel())
     x = x - at[0] * patch.cols * patch.pitch_m / 2 - move[0]
@@ -107,7 +109,7 @@ def _press(shape: str, patch: SkinPatch, at: Array, move: Array, radius_m: float
 def told(
     skin: Layout, m: int, seed: int, seconds: float, picture_at: Callable[[float], Array]
 ) -> list[tuple[float, int]]:
-    """When slip begins to be told [s], and on which patch."""
+    """Time [s] and patch of every start of slip."""
     config = SamplingConfig(scheme="tracking", m=m, threshold_counts=50, seed=seed + 1)
     sampler = BoardSampler(config, _NOISE_COUNTS)
     fusion = FusionEstimator(skin.geometry(), FusionConfig(noise_counts=_NOISE_COUNTS), skin)
@@ -129,7 +131,7 @@ def told(
 
 
 def _delay_ms(skin: Skin, m: int, seed: int, way_m: Callable[[float], float], noticed_s: float) -> tuple[float, int]:
-    """Delay after 0.2 mm [ms], inf: never; and how often slip was told where nothing moved."""
+    """Delay after 0.2 mm [ms], inf for never; and number of detections without motion."""
     begin_s = 0.3 + seed * _FRAME_S
 
     def picture_at(time_s: float) -> Array:
@@ -144,7 +146,9 @@ def _delay_ms(skin: Skin, m: int, seed: int, way_m: Callable[[float], float], no
 def _run(arguments: argparse.Namespace) -> int:
     results = report.Results(arguments.json, {"layout": arguments.layout, "hold_s": arguments.hold_s})
     skin = layout(arguments.layout)
-    print("| M | told after 0.2 mm: median, last [ms] | false slips while closing | in the hold |\n|---|---|---|---|")
+    print(
+        "| M | detected after 0.2 mm: median, last [ms] | false slips while closing | in the hold |\n|---|---|---|---|"
+    )
     motions: list[tuple[Callable[[float], float], float]] = [
         *((lambda t, v=v: v * t, _NOTICED_M / v) for v in _SPEEDS_M_S),
         *((lambda t, a=a: 0.5 * a * t * t, math.sqrt(2 * _NOTICED_M / a)) for a in _ACCELERATIONS_M_S2),
