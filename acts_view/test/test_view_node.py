@@ -34,6 +34,7 @@ from acts_view.skin.snapshot import SkinShape
 DOMAIN_ID = 176
 DEADLINE_S = 30.0
 SHAPE = {"layout": "leap_right", "rows": 32, "cols": 32, "pitch_m": 0.0, "row_pitch_m": 0.0, "touch_counts": 50}
+SHAPE |= {"force_full_scale_counts": 1000.0, "force_dead_n": 0.01, "force_half_n": 0.5, "force_response": ""}
 
 
 class Bench:

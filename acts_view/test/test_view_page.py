@@ -141,6 +141,24 @@ def test_a_taxel_tells_its_value_to_mouse_and_keyboard(
     assert pointed.inner_text() == ""
 
 
+def test_the_image_is_shown_in_newtons(play: Callable[..., Player], open_page: Callable[..., Page]) -> None:
+    page = open_page(play())
+    page.keyboard.press("n")
+    expect(page.locator(".legend .unit")).to_have_text("N")
+    # 768 of 1023 counts by the default response: 0.005 N + 0.3 N * 768 / 255.
+    expect(page.locator(".top")).to_have_text("0.91")
+    page.focus("canvas.marks")
+    for _ in range(2):
+        page.keyboard.press("ArrowUp")
+    expect(page.locator(".pointed")).to_contain_text("0.000 N (0 counts)")
+    # 800 counts are 1.08 N, more than the top of the fixed scale; the adaptive one goes up to it.
+    np.testing.assert_allclose(taxel_colours(page)[ROW, COL], [0xFD, 0xE7, 0x25], atol=2)
+    page.select_option("#scale", "adaptive")
+    expect(page.locator(".top")).to_have_text("1.08")
+    page.select_option("#unit", "counts")
+    expect(page.locator(".top")).to_have_text("800")
+
+
 def test_choices_act_and_survive_a_reload(play: Callable[..., Player], open_page: Callable[..., Page]) -> None:
     page = open_page(play())
     page.keyboard.press("s")

@@ -61,6 +61,10 @@ class LocalSkin:
             pitch_m=settings.pitch_m,
             row_pitch_m=settings.row_pitch_m,
             touch_counts=settings.touch_counts,
+            force_full_scale_counts=settings.force_full_scale_counts,
+            force_dead_n=settings.force_dead_n,
+            force_half_n=settings.force_half_n,
+            force_response=settings.force_response,
         )
 
     def take(self, frames: Sequence[tuple[SampleFrame, int]], now_ns: int | None) -> None:

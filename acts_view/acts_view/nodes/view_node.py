@@ -37,7 +37,8 @@ _TEXT = 500
 _CONTACT_TYPE = "acts_msgs/msg/Contact"
 _CONTACT_TOPIC = "/contact"
 # As SkinShape has them.
-_SHAPE_PARAMETERS = ("layout", "rows", "cols", "pitch_m", "row_pitch_m", "touch_counts")
+_FORCE_PARAMETERS = ("force_full_scale_counts", "force_dead_n", "force_half_n", "force_response")
+_SHAPE_PARAMETERS = ("layout", "rows", "cols", "pitch_m", "row_pitch_m", "touch_counts", *_FORCE_PARAMETERS)
 
 
 class ViewNode(PollingNode):

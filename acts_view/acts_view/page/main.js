@@ -10,7 +10,7 @@ import { next, onChange, set, settings } from "./settings.js";
 
 const TICK_MS = 50;
 const STATES = { connecting: "connecting", live: "connected", gone: "server gone, trying again" };
-const KEYS = { s: "scale", m: "colours", i: "smooth", c: "contacts", u: "unsure", d: "theme" };
+const KEYS = { s: "scale", n: "unit", m: "colours", i: "smooth", c: "contacts", u: "unsure", d: "theme" };
 
 const panels = new Map();
 const diagnostics = new Diagnostics(document.getElementById("diagnostics"));
@@ -61,14 +61,14 @@ function hold(held) {
 }
 
 function show() {
-  for (const name of ["scale", "colours", "window"]) byId(name).value = settings[name];
+  for (const name of ["scale", "unit", "colours", "window"]) byId(name).value = settings[name];
   for (const name of ["smooth", "contacts", "unsure"]) byId(name).setAttribute("aria-pressed", String(settings[name]));
   byId("theme").textContent = `Theme: ${settings.theme}`;
   document.documentElement.dataset.theme = settings.theme;
   for (const one of panels.values()) one.redraw();
 }
 
-for (const name of ["scale", "colours", "window"]) byId(name).onchange = (event) => set(name, event.target.value);
+for (const name of ["scale", "unit", "colours", "window"]) byId(name).onchange = (event) => set(name, event.target.value);
 for (const name of ["smooth", "contacts", "unsure", "theme"]) byId(name).onclick = () => next(name);
 byId("pause").onclick = () => hold(!isHeld);
 document.addEventListener("keydown", (event) => {

@@ -3,6 +3,7 @@
 const KEY = "acts_view";
 const CHOICES = {
   scale: ["fixed", "adaptive"],
+  unit: ["counts", "newtons"],
   colours: ["viridis", "cividis", "greys"],
   window: ["5", "10", "30", "60"],
   smooth: [false, true],

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from numpy.typing import NDArray
 
 from acts_core.array import MAX_SIDE
 from acts_core.errors import ActsError, ArrayError
-from acts_core.skin import Layout, layout
+from acts_core.skin import ForceResponse, Layout, force_table, layout
 from acts_view.skin.arrangement import arrangement
 from acts_view.skin.history import COLUMNS
 from acts_view.web.codec import encode
@@ -89,6 +90,10 @@ class SkinShape:
         As `Layout.geometry` takes them; 0: the layout's own [m].
     touch_counts : int
         Above which a taxel is pressed.
+    force_full_scale_counts, force_dead_n, force_half_n : float
+        As `ForceResponse` has them.
+    force_response : str
+        Path of a measured one, used instead; empty for none.
 
     Raises
     ------
@@ -102,6 +107,10 @@ class SkinShape:
     pitch_m: float = 0.0
     row_pitch_m: float = 0.0
     touch_counts: int = 60
+    force_full_scale_counts: float = ForceResponse.full_scale_counts
+    force_dead_n: float = ForceResponse.dead_n
+    force_half_n: float = ForceResponse.half_n
+    force_response: str = ""
 
     def __post_init__(self) -> None:
         # Whoever plays the node reconstruction says them.
@@ -122,6 +131,9 @@ def describe_skin(name: str, shape: SkinShape) -> dict[str, Any]:
         # A layout file of another machine: its picture can be shown, its patches not.
         found = layout("square", shape.rows, shape.cols)
         note = f"drawn as the plain picture: {error}"
+    force_n = _force_n(shape)
+    if force_n is None:
+        note = "; ".join(filter(None, [note, f"no newtons: {shape.force_response} cannot be read here"]))
     geometry = found.geometry(shape.pitch_m, shape.row_pitch_m)
     return {
         "type": "skin",
@@ -133,8 +145,23 @@ def describe_skin(name: str, shape: SkinShape) -> dict[str, Any]:
         "pitch_m": geometry.pitch_m,
         "row_pitch_m": geometry.pitch_y_m,
         "touch_counts": shape.touch_counts,
+        "force_n": force_n,
         "patches": _patches(found, shape),
     }
+
+
+def _force_n(shape: SkinShape) -> list[float] | None:
+    """Force of a taxel at 0 to 1023 counts [N]; None where its measured response is not on this machine."""
+    try:
+        response = (
+            ForceResponse.from_file(Path(shape.force_response))
+            if shape.force_response
+            else ForceResponse(shape.force_full_scale_counts, shape.force_dead_n, shape.force_half_n)
+        )
+    except ActsError:
+        return None
+    # 0 counts are no force, whatever the limit from above.
+    return [0.0, *(round(float(one), 5) for one in force_table(response)[1:-1])]
 
 
 def _patches(found: Layout, shape: SkinShape) -> list[dict[str, Any]]:

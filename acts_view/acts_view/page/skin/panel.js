@@ -130,9 +130,10 @@ export class Panel {
   }
 
   #showTop() {
-    const top = String(Math.round(this.view.taxels.top));
-    const element = this.find(".top");
-    if (element.textContent !== top) element.textContent = top;
+    const { top, unit } = this.view.taxels;
+    const words = unit === "counts" ? String(Math.round(top)) : top.toFixed(2);
+    if (this.find(".top").textContent !== words) this.find(".top").textContent = words;
+    if (this.find(".unit").textContent !== unit) this.find(".unit").textContent = unit;
   }
 
   #showNumbers() {

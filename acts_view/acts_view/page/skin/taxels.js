@@ -4,12 +4,16 @@ import { settings } from "../settings.js";
 import { STEPS, table } from "./colours.js";
 
 const COUNT_MAX = 1023;
-const LEAST_TOP = 100; // an adaptive scale does not show noise as touch
+const FIXED_TOP_COUNTS = 768; // of a scale in newtons: above it a count stands for ever more force
+const LEAST_TOP_COUNTS = 100; // an adaptive scale does not show noise as touch
+
+const COUNTS = Uint16Array.from({ length: COUNT_MAX + 1 }, (_, counts) => counts);
 
 export class Taxels {
   constructor(canvas) {
     this.canvas = canvas;
     this.top = COUNT_MAX;
+    this.unit = "counts";
     this.tiles = [];
   }
 
@@ -30,6 +34,7 @@ export class Taxels {
   draw(image, confidence) {
     const context = this.canvas.getContext("2d");
     const colours = table(settings.colours);
+    const values = this.valuesOf();
     this.#scale(image);
     context.clearRect(0, 0, this.canvas.width, this.canvas.height);
     context.imageSmoothingEnabled = settings.smooth;
@@ -39,8 +44,8 @@ export class Taxels {
       for (let row = patch.first_row; row < patch.end_row; row += 1) {
         let place = row * this.geometry.shape.cols + patch.first_col;
         for (let col = patch.first_col; col < patch.end_col; col += 1, place += 1, at += 1) {
-          const counts = image ? image[place] : 0;
-          const colour = colours[Math.min(STEPS - 1, Math.round((counts / this.top) * (STEPS - 1)))];
+          const value = image ? values[image[place]] : 0;
+          const colour = colours[Math.min(STEPS - 1, Math.round((value / this.top) * (STEPS - 1)))];
           // The upper byte is opacity.
           words[at] = confidence ? ((colour & 0xffffff) | ((40 + 0.843 * confidence[place]) << 24)) >>> 0 : colour;
         }
@@ -50,13 +55,25 @@ export class Taxels {
     }
   }
 
+  /** What is shown of each count from 0 on: itself, or its force [N] where the skin tells it. */
+  valuesOf() {
+    const { force_n } = this.geometry.shape;
+    return settings.unit === "newtons" && force_n ? force_n : COUNTS;
+  }
+
   #scale(image) {
+    const values = this.valuesOf();
+    const unit = values === COUNTS ? "counts" : "N";
+    const isOther = unit !== this.unit;
+    this.unit = unit;
     if (settings.scale === "fixed" || !image) {
-      this.top = COUNT_MAX;
+      this.top = values === COUNTS ? COUNT_MAX : values[FIXED_TOP_COUNTS];
       return;
     }
-    let largest = LEAST_TOP;
-    for (const counts of image) if (counts > largest) largest = counts;
+    let most = LEAST_TOP_COUNTS;
+    for (const counts of image) if (counts > most) most = counts;
+    const largest = values[most];
+    if (isOther) this.top = largest;
     // Up at once, down slowly: the picture does not flicker.
     this.top = largest > this.top ? largest : Math.max(largest, 0.97 * this.top);
   }

@@ -104,7 +104,8 @@ export class SkinView {
     const words = [`row ${row}, column ${col}`];
     const patch = this.geometry.patchOf(this.pointed);
     if (patch && this.geometry.patches.length > 1) words.push(patch.name.replaceAll("_", " "));
-    words.push(`${image[place]} counts`);
+    const { force_n } = this.geometry.shape;
+    words.push(settings.unit === "newtons" && force_n ? `${force_n[image[place]].toFixed(3)} N (${image[place]} counts)` : `${image[place]} counts`);
     const confidence = this.#array("confidence");
     if (confidence) words.push(uncertainty(confidence[place]));
     this.onPoint(words.join(" · "));
