@@ -1,7 +1,7 @@
 # make demo and make test do all the set-up they need, in this checkout, and say what they do.
 # `make PYTHON=/path/to/python3 ...` chooses the interpreter.
 
-.PHONY: help setup demo demo-hand bench firmware test lint format clean
+.PHONY: help setup demo demo-hand bench firmware test test-quick lint format clean
 
 help:
 	@echo "make demo    ball balancing with simulated skin, ball and UR5e (DEMO_SECONDS=30); writes out/"
@@ -9,6 +9,7 @@ help:
 	@echo "make bench   throughput, CPU and latency of the sensing end, about five minutes; writes out/bench.json"
 	@echo "make firmware  cross-compile the Teensy's firmware, check that it fits (needs gcc-arm-none-eabi)"
 	@echo "make test    linters and the whole test suite"
+	@echo "make test-quick  ruff and the tests that take no time, for every day"
 	@echo "make lint    linters and type checks only"
 	@echo "make format  format Python and C++"
 	@echo "make setup   only the set-up: virtual environment, ROS 2 wheels, colcon build"
@@ -31,6 +32,9 @@ firmware:
 
 test:
 	@./acts run python3 scripts/check.py
+
+test-quick:
+	@./acts run python3 scripts/check.py --quick
 
 lint:
 	@./acts run python3 scripts/check.py --lint

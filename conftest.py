@@ -41,7 +41,7 @@ def recording_path() -> Callable[[str], Path]:
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Keep a file's tests on one process, since they share a ROS domain; all of the driver's share a range of them."""
     for item in items:
-        package = item.path.parent.parent.name
+        package = item.path.relative_to(item.config.rootpath).parts[0]
         item.add_marker(pytest.mark.xdist_group(package if package == "acts_driver" else str(item.path)))
 
 

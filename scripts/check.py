@@ -1,4 +1,4 @@
-"""Linters, type checks and the test suite; `make test`, `make lint` and `make format` run it in the environment."""
+"""Linters, type checks and the test suite; `make test`, `test-quick`, `lint` and `format` run it in the environment."""
 
 from __future__ import annotations
 
@@ -92,11 +92,15 @@ def side_by_side() -> list[str]:
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--lint", action="store_true", help="linters only")
+    parser.add_argument("--quick", action="store_true", help="ruff, and the tests that are not marked slow")
     parser.add_argument("--format", action="store_true", help="format the sources and stop")
     parser.add_argument("pytest", nargs="*", help="arguments for pytest, after --")
     arguments = parser.parse_args()
     if arguments.format:
         return 0 if reformat() else 1
+    if arguments.quick:
+        passed = run("ruff: rules", ["ruff", "check", "."])
+        return 0 if test(["-m", "not slow", *arguments.pytest]) and passed else 1
     missing = [tool for tool in ("ruff", "mypy", "clang-format") if shutil.which(tool) is None]
     if missing:
         # A sourced ROS installation need not have them; the bare machine's set-up always does.

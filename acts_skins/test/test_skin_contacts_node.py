@@ -27,6 +27,8 @@ from acts_msgs.msg import Contact, Contacts, SkinContacts, SkinState, TrackedCon
 from acts_ros import qos
 from acts_ros.messages.cdr import header_bytes
 
+pytestmark = pytest.mark.slow
+
 DEADLINE_S = 60.0
 
 SKINS = """

@@ -26,6 +26,8 @@ from acts_ros import qos
 from acts_skins.skin_processes import SkinProcesses
 from acts_skins.skins_file import read_skins
 
+pytestmark = pytest.mark.slow
+
 DEADLINE_S = 120.0
 TWO = """
 skins:

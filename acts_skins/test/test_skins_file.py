@@ -17,6 +17,8 @@ from acts_driver.settings import DriverSettings
 from acts_skins.skins_file import SkinsFile, read_skins
 from acts_skins.tactile_parameters import tactile_parameters
 
+pytestmark = pytest.mark.slow
+
 POSE = "pose: {parent: torso, position_m: [0.1, 0.2, 0.3], rpy_rad: [0, 0, 1.5]}"
 
 

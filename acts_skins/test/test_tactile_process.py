@@ -26,6 +26,8 @@ from acts_core.errors import REFUSED_EXIT_CODE
 from acts_msgs.msg import Contact, TactileSamples
 from acts_ros import qos
 
+pytestmark = pytest.mark.slow
+
 DEADLINE_S = 90.0
 
 

@@ -4,6 +4,10 @@ import os
 import subprocess
 import sys
 
+import pytest
+
+pytestmark = pytest.mark.slow
+
 # Everything from bytes of the board to the contact, and what listeners add to it.
 HOT_PATH = """
 import sys

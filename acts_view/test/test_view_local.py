@@ -27,6 +27,8 @@ from acts_view.local.show import show
 from acts_view.local.sources import LocalSource, open_recorded
 from acts_view.web.requests import Request, read_request
 
+pytestmark = pytest.mark.slow
+
 DEADLINE_S = 30.0
 ROW, COL = 10, 20
 

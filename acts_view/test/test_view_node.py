@@ -31,6 +31,8 @@ from acts_view.nodes.view_node import ViewNode
 from acts_view.settings import ViewSettings
 from acts_view.skin.snapshot import SkinShape
 
+pytestmark = pytest.mark.slow
+
 DOMAIN_ID = 176
 DEADLINE_S = 30.0
 SHAPE = {"layout": "leap_right", "rows": 32, "cols": 32, "pitch_m": 0.0, "row_pitch_m": 0.0, "touch_counts": 50}

@@ -17,7 +17,7 @@ from acts_view.web.server import ViewServer
 if TYPE_CHECKING:
     from playwright.sync_api import Page
 
-pytestmark = needs_browser
+pytestmark = [needs_browser, pytest.mark.slow]
 
 ROW, COL = 8, 20
 PERIOD_S = 1 / 30

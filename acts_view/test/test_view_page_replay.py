@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import pytest
 from test_view_local import Shown, write_frames
 from view_browser import expect, needs_browser
 
@@ -15,7 +16,7 @@ from acts_view.local.sources import open_recorded
 if TYPE_CHECKING:
     from playwright.sync_api import Page
 
-pytestmark = needs_browser
+pytestmark = [needs_browser, pytest.mark.slow]
 
 
 def test_a_recording_is_held_and_one_can_go_anywhere_in_it(tmp_path: Path, open_page: Callable[..., Page]) -> None:

@@ -1,0 +1,407 @@
+"""The control loop's thread on an arm in this process: every way from connecting to a stop."""
+
+import itertools
+import threading
+import time
+from collections.abc import Callable, Iterator
+
+import pytest
+
+from acts_control.ball import Ball, BallReport, ControlLoop, LoopConfig, Phase, Reference, ReferenceReport
+from acts_control.ball.controller import BallController
+from acts_control.robots import with_robots
+from acts_control.robots.base import CommandRefusedError, RobotReading, RobotStoppedError
+from acts_control.robots.ur import UrConfig
+from acts_core.errors import RobotError, SettingsError
+
+pytestmark = pytest.mark.slow
+
+DEADLINE_S = 20.0
+ORDERLY_END = ["end_tilting", "release", "disconnect"]
+
+
+class ArmInProcess:
+    """A plate on two joints that follows at once; notes the calls; can be made to fail."""
+
+    address = "in this process"
+
+    def __init__(self) -> None:
+        self.q = (0.1, 0.0)
+        self.calls: list[str] = []
+        self.commands: list[tuple[float, float]] = []
+        self.connect_errors: list[RobotError] = []
+        self.connected = True
+        self.stopped = ""
+        self.frozen = False
+        self.moves = True
+        self.refuses: Callable[[], None] | None = None
+        # What is asked of it never gets done while set.
+        self.is_busy = False
+        self._time = itertools.count()
+        self._timestamp = 0.0
+
+    def connect(self, is_wanted: Callable[[], bool]) -> None:
+        self.calls.append("connect")
+        if self.connect_errors:
+            raise self.connect_errors.pop(0)
+
+    def read(self) -> RobotReading:
+        if not self.frozen:
+            self._timestamp = 0.002 * next(self._time)
+        return RobotReading(self.connected, self._timestamp, self.q, max(map(abs, self.q)), self.q, self.stopped)
+
+    def begin_levelling(self) -> float:
+        self.calls.append("begin_levelling")
+        if self.moves:
+            self.q = (0.0, 0.0)
+        return DEADLINE_S
+
+    def end_levelling(self) -> None:
+        self.calls.append("end_levelling")
+
+    def tilt(self, tilt_x_rad: float, tilt_y_rad: float) -> tuple[float, ...]:
+        if self.refuses:
+            self.refuses()
+        self.q = (tilt_x_rad, tilt_y_rad)
+        self.commands.append(self.q)
+        return self.q
+
+    def end_tilting(self) -> None:
+        self.calls.append("end_tilting")
+
+    def release(self) -> None:
+        self.calls.append("release")
+
+    def disconnect(self) -> None:
+        self.calls.append("disconnect")
+
+
+Make = Callable[..., ControlLoop]
+
+
+def wait_for(condition: Callable[[], bool], what: str) -> None:
+    deadline = time.monotonic() + DEADLINE_S
+    while not condition():
+        assert time.monotonic() < deadline, f"waited in vain for: {what}"
+        time.sleep(0.002)
+
+
+@pytest.fixture
+def arm() -> ArmInProcess:
+    return ArmInProcess()
+
+
+@pytest.fixture
+def make(arm: ArmInProcess) -> Iterator[Make]:
+    loops: list[ControlLoop] = []
+
+    def make_one(**settings: object) -> ControlLoop:
+        # Loaded machines: touch may be late here without that being the test's subject.
+        defaults: dict[str, object] = {"connect_retry_s": 0.05, "touch_stale_after_s": 1.0, "touch_stop_after_s": 5.0}
+        loop = ControlLoop(LoopConfig(**(defaults | settings)), arm, time.time_ns)
+        loops.append(loop)
+        loop.launch()
+        return loop
+
+    yield make_one
+    for loop in loops:
+        loop.close()
+
+
+def feel(loop: ControlLoop, x_m: float = 0.02, age_s: float = 0.0) -> None:
+    """A ball at rest, and the centre as reference."""
+    now_ns = time.time_ns()
+    loop.ball = BallReport(now_ns - round(age_s * 1e9), True, Ball(x_m, 0.0, 0.0, 0.0))
+    loop.reference = ReferenceReport(now_ns, Reference(0.0, 0.0))
+
+
+def balance(loop: ControlLoop) -> None:
+    """Keep touch fresh until the loop is closed and the plate tilted."""
+
+    def tilted() -> bool:
+        feel(loop)
+        return loop.status.phase is Phase.BALANCING and abs(loop.status.tilt_commanded_rad[1]) > 0.02
+
+    wait_for(tilted, f"balancing, {loop.status}")
+
+
+def await_stop(loop: ControlLoop) -> str:
+    wait_for(lambda: loop.status.phase is Phase.STOPPED, f"a stop, {loop.status}")
+    return loop.status.reason
+
+
+def test_from_connecting_to_balancing_and_back_to_level(arm: ArmInProcess, make: Make) -> None:
+    loop = make()
+    wait_for(lambda: loop.status.phase is Phase.WAITING, "waiting")
+    assert arm.calls == ["connect", "begin_levelling"]
+    assert loop.status.reason == "waiting for touch"
+    balance(loop)
+    assert loop.status.error_m == pytest.approx((0.02, 0.0), abs=1e-3)
+    # A ball at +x is brought back by a tilt about -y.
+    assert arm.commands[-1][1] < 0.0
+    assert loop.stop("stopped by request")
+    assert await_stop(loop) == "stopped by request"
+    wait_for(lambda: arm.calls[-3:] == ORDERLY_END, "the end of the connection")
+    assert arm.commands[-1] == pytest.approx((0.0, 0.0), abs=1e-5)
+    assert not loop.stop("again")
+    assert loop.start()
+    assert not loop.start()
+    wait_for(lambda: arm.calls.count("begin_levelling") == 2, "a second start")
+
+
+def test_limits_and_gains_change_while_balancing(arm: ArmInProcess, make: Make) -> None:
+    loop = make()
+    balance(loop)
+    loop.change(LoopConfig(max_tilt_rad=0.01, max_tilt_rate_rad_s=0.2, touch_stale_after_s=1.0, touch_stop_after_s=5.0))
+    changed_at = len(arm.commands)
+
+    def limited() -> bool:
+        feel(loop)
+        return loop.status.tilt_commanded_rad[1] == pytest.approx(-0.01, abs=1e-5)
+
+    wait_for(limited, f"the new limit, {loop.status}")
+    assert loop.status.phase is Phase.BALANCING
+    tilts = [y for _, y in arm.commands[changed_at - 1 :]]
+    # 1 rad/s to begin with, in steps of four periods at most.
+    assert max(abs(b - a) for a, b in itertools.pairwise(tilts)) < 0.04
+    loop.change(LoopConfig(kp=0.0, kd=0.0, ki=0.0, touch_stale_after_s=1.0, touch_stop_after_s=5.0))
+
+    def level() -> bool:
+        feel(loop)
+        return loop.status.tilt_commanded_rad == pytest.approx((0.0, 0.0), abs=1e-5)
+
+    wait_for(level, f"a level plate, {loop.status}")
+
+
+def test_a_robot_that_is_not_there_yet_is_tried_again(arm: ArmInProcess, make: Make) -> None:
+    arm.connect_errors = [RobotError("no UR controller at 127.0.2.9"), RobotError("no UR controller at 127.0.2.9")]
+    loop = make(connect_retry_s=0.2)
+    wait_for(lambda: "127.0.2.9" in loop.status.reason, "the error in the status")
+    assert loop.status.phase is Phase.CONNECTING
+    wait_for(lambda: loop.status.phase is Phase.WAITING, "waiting")
+    assert arm.calls.count("connect") == 3
+
+
+def test_connecting_can_be_given_up(arm: ArmInProcess, make: Make) -> None:
+    arm.connect_errors = [RobotError("not there")] * 1000
+    loop = make(connect_retry_s=60.0)
+    wait_for(lambda: loop.status.reason == "not there", "the error in the status")
+    loop.stop("stopped by request")
+    assert await_stop(loop) == "stopped by request"
+
+
+def test_a_robot_held_by_a_safety_function_is_not_waited_for(arm: ArmInProcess, make: Make) -> None:
+    # It would begin to move at the moment a person releases it.
+    arm.connect_errors = [RobotStoppedError("protective stop")]
+    loop = make()
+    assert await_stop(loop) == "protective stop"
+    assert "begin_levelling" not in arm.calls
+
+
+def test_without_autostart_nothing_moves_until_it_is_asked_for(arm: ArmInProcess, make: Make) -> None:
+    loop = make(autostart=False)
+    assert (loop.status.phase, loop.status.reason) == (Phase.STOPPED, "not started")
+    assert arm.calls == []
+    assert loop.start()
+    wait_for(lambda: loop.status.phase is Phase.WAITING, "waiting")
+
+
+def test_homing_can_be_broken_off(arm: ArmInProcess, make: Make) -> None:
+    arm.moves = False
+    loop = make()
+    wait_for(lambda: "begin_levelling" in arm.calls, "homing")
+    loop.stop("stopped by request")
+    assert await_stop(loop) == "stopped by request"
+    wait_for(lambda: arm.calls[-1] == "disconnect", "the end of the connection")
+    assert arm.calls == ["connect", "begin_levelling", "end_levelling", "release", "disconnect"]
+
+
+@pytest.mark.parametrize(
+    ("fault", "value", "words"),
+    [
+        ("stopped", "robot: protective stop", "robot: protective stop"),
+        ("stopped", "the robot's program is not running (stopped)", "the robot's program is not running (stopped)"),
+        ("q", (float("nan"), 0.0), "the robot reports joint angles (nan, 0.0)"),
+        ("q", (0.0, 0.0, 0.0), "the robot reports 3 joints"),
+        ("connected", False, "connection to the robot lost"),
+        ("frozen", True, "no data from the robot for"),
+    ],
+)
+@pytest.mark.parametrize("when", ["homing", "balancing"])
+def test_a_robot_that_stops_gets_no_further_command(
+    arm: ArmInProcess, make: Make, fault: str, value: object, words: str, when: str
+) -> None:
+    arm.moves = when == "balancing"
+    loop = make()
+    if when == "balancing":
+        balance(loop)
+    else:
+        wait_for(lambda: "begin_levelling" in arm.calls, "homing")
+    setattr(arm, fault, value)
+    assert await_stop(loop).startswith(words)
+    sent = len(arm.commands)
+    loop.close()
+    # Neither the end of tilting nor a release: nothing is sent any more.
+    assert arm.calls == ["connect", "begin_levelling", "disconnect"]
+    assert len(arm.commands) == sent
+
+
+@pytest.mark.parametrize(("stopped", "words"), [("", "tilt refused"), ("protective stop", "protective stop")])
+def test_a_refused_command_ends_motion_with_the_reason_if_there_is_one(
+    arm: ArmInProcess, make: Make, stopped: str, words: str
+) -> None:
+    loop = make()
+    balance(loop)
+
+    def refuse() -> None:
+        # The command is refused before the stop is told.
+        arm.stopped = stopped
+        raise RobotError("tilt refused")
+
+    arm.refuses = refuse
+    assert await_stop(loop) == words
+    loop.close()
+    assert arm.calls == ["connect", "begin_levelling", "disconnect"]
+
+
+def test_stale_touch_levels_the_plate_and_ends_the_servo(arm: ArmInProcess, make: Make) -> None:
+    loop = make(touch_stale_after_s=0.1, touch_stop_after_s=0.3)
+    balance(loop)
+    reason = await_stop(loop)
+    assert reason.startswith("touch is stale: the newest is")
+    wait_for(lambda: arm.calls[-3:] == ORDERLY_END, "the end of the connection")
+    assert arm.commands[-1] == pytest.approx((0.0, 0.0), abs=1e-5)
+
+
+def test_a_command_that_is_not_finite_ends_motion_and_is_not_sent(
+    arm: ArmInProcess, make: Make, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    loop = make()
+    balance(loop)
+    monkeypatch.setattr(BallController, "step", lambda self, inputs, dt: (float("nan"), 0.0))
+    assert "tilt = (nan, 0.0)" in await_stop(loop)
+    wait_for(lambda: arm.calls[-3:] == ORDERLY_END, "the end of the connection")
+    assert all(angle == angle for command in arm.commands for angle in command)
+
+
+def test_a_single_bad_command_levels_the_plate(arm: ArmInProcess, make: Make, monkeypatch: pytest.MonkeyPatch) -> None:
+    loop = make()
+    balance(loop)
+    step = BallController.step
+    left = [1]
+
+    def once_bad(self: BallController, inputs: object, dt: float) -> tuple[float, float]:
+        tilt = step(self, inputs, dt)  # type: ignore[arg-type]
+        if left:
+            left.pop()
+            return (0.3, 0.0)
+        return tilt
+
+    monkeypatch.setattr(BallController, "step", once_bad)
+    assert "rad off the level pose" in await_stop(loop)
+    assert arm.commands[-1] == pytest.approx((0.0, 0.0), abs=1e-5)
+    assert max(abs(command[0]) for command in arm.commands) < 0.2
+
+
+@pytest.mark.parametrize(("times", "last_words"), [(1, "joint 4 is too far"), (2, "joint 4 is still too far")])
+def test_what_the_robots_own_check_refuses_levels_the_plate_or_ends_motion_at_once(
+    arm: ArmInProcess, make: Make, times: int, last_words: str
+) -> None:
+    loop = make()
+    balance(loop)
+    words = ["joint 4 is too far", "joint 4 is still too far"][:times]
+
+    def refuse() -> None:
+        if words:
+            raise CommandRefusedError(words.pop(0))
+
+    arm.refuses = refuse
+    assert await_stop(loop) == last_words
+    wait_for(lambda: arm.calls[-3:] == ORDERLY_END, "the end of the connection")
+    is_level = arm.commands[-1] == pytest.approx((0.0, 0.0), abs=1e-5)
+    assert is_level is (times == 1)
+
+
+def test_a_mistake_in_the_program_still_ends_the_robots_program(
+    arm: ArmInProcess, make: Make, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    loop = make()
+    balance(loop)
+    monkeypatch.setattr("threading.excepthook", lambda arguments: None)
+    monkeypatch.setattr(BallController, "step", lambda self, inputs, dt: 1 / 0)
+    assert await_stop(loop) == "the control loop failed"
+    wait_for(lambda: arm.calls[-2:] == ["release", "disconnect"], "the end of the robot's program")
+    assert not loop.start()
+
+
+def test_a_robot_that_does_not_end_its_motion_is_cut_off(
+    arm: ArmInProcess, make: Make, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("acts_control.ball.loop._ENDING_TIMEOUT_S", 0.1)
+    loop = make()
+    balance(loop)
+    arm.is_busy = True
+    loop.stop("stopped by request")
+    assert loop.is_stopping
+    assert await_stop(loop) == "the robot has not ended its motion within 0.1 s"
+    assert not loop.is_stopping
+    loop.close()
+    assert arm.calls[-2:] == ["end_tilting", "disconnect"]
+
+
+def test_a_program_that_cannot_be_ended_is_told(arm: ArmInProcess, make: Make, monkeypatch: pytest.MonkeyPatch) -> None:
+    loop = make()
+    balance(loop)
+
+    def fail() -> None:
+        raise RobotError("gone")
+
+    monkeypatch.setattr(arm, "release", fail)
+    loop.stop("stopped by request")
+    assert await_stop(loop) == "stopped by request; the robot's program may still run: gone"
+
+
+def test_the_end_is_told_before_the_connection_is_cut(
+    arm: ArmInProcess, make: Make, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    loop = make()
+    balance(loop)
+    cut = threading.Event()
+    monkeypatch.setattr(arm, "disconnect", lambda: cut.wait(DEADLINE_S))
+    arm.frozen = True
+    assert await_stop(loop).startswith("no data from the robot for")
+    assert not loop.stop("again")
+    # Asked for meanwhile, and begun when the old connection is gone.
+    assert loop.start()
+    assert not loop.start()
+    assert arm.calls.count("connect") == 1
+    arm.frozen = False
+    cut.set()
+    wait_for(lambda: arm.calls.count("connect") == 2, "a new connection")
+
+
+def test_closing_stops_the_robot_in_order(arm: ArmInProcess, make: Make) -> None:
+    loop = make()
+    balance(loop)
+    loop.close()
+    assert (loop.status.phase, loop.status.reason) == (Phase.STOPPED, "shutting down")
+    assert arm.calls[-3:] == ORDERLY_END
+    assert arm.commands[-1] == pytest.approx((0.0, 0.0), abs=1e-5)
+
+
+def test_settings_of_the_robot_are_checked() -> None:
+    with pytest.raises(SettingsError, match="control_rate_hz = 300: allowed is 125, 250, 500"):
+        UrConfig(control_rate_hz=300)
+    with pytest.raises(SettingsError, match=r"tilted by 1\.571 rad"):
+        UrConfig(level_q_rad=(0.0, -1.5708, 1.5708, -1.5708, 0.0, 0.0))
+    with pytest.raises(SettingsError, match="6 values"):
+        UrConfig(level_q_rad=(0.0,))
+
+
+@pytest.mark.parametrize("robot_ip", ["192.168.1.10", "127.evil.example.com", "localhost", '127."', ""])
+def test_for_a_simulated_skin_only_a_robot_of_this_machine_is_controlled(robot_ip: str) -> None:
+    for settings in (UrConfig, with_robots(LoopConfig)):
+        with pytest.raises(SettingsError, match=r"nothing is controlled.*sim:=false"):
+            settings(robot_ip=robot_ip, loopback_only=True)
+        assert settings(robot_ip="127.0.6.5", loopback_only=True).robot_ip == "127.0.6.5"
+        assert settings(robot_ip=robot_ip).robot_ip == robot_ip

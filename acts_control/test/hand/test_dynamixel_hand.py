@@ -1,0 +1,273 @@
+"""The LEAP hand's motors through the real `dynamixel_sdk`, on the simulated bus behind a pseudo-terminal."""
+
+from __future__ import annotations
+
+import json
+import math
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from acts_control.hand.description import LEAP_RIGHT, HandDescription, Joint
+from acts_control.hand.motors import DynamixelConfig, DynamixelHand, HandError, HandLostError, HandReading
+from acts_core.errors import SettingsError
+from acts_sim.dynamixel import ask_once
+
+pytestmark = pytest.mark.slow
+
+DEADLINE_S = 30.0
+# Half of how long an answer is waited for: a loaded machine is slow.
+TIMEOUT_MS = 150.0
+
+
+class Bus:
+    """The simulated motors."""
+
+    def __init__(self, folder: Path, *options: str) -> None:
+        self.link, self.control = folder / "hand", folder / "control"
+        self.process = subprocess.Popen(
+            [
+                *(sys.executable, "-m", "acts_ros.executables.program", "acts_sim.dynamixel.main"),
+                *("--link", str(self.link)),
+                *("--control", str(self.control), "--return-delay", "0", *options),
+            ],
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+        assert self.process.stdout is not None
+        self.process.stdout.readline()
+
+    def command(self, line: str) -> str:
+        return ask_once(self.control, line)
+
+    def motors(self) -> list[dict[str, Any]]:
+        return list(json.loads(self.command("state"))["motors"])
+
+    def hand(self, **settings: Any) -> DynamixelHand:
+        config = DynamixelConfig(port=str(self.link), answer_timeout_ms=TIMEOUT_MS, **settings)
+        return DynamixelHand(LEAP_RIGHT, config)
+
+    def close(self) -> None:
+        self.process.send_signal(signal.SIGINT)
+        assert self.process.wait(DEADLINE_S) == 0
+
+
+@pytest.fixture
+def bus(tmp_path: Path) -> Iterator[Bus]:
+    bus = Bus(tmp_path)
+    yield bus
+    bus.close()
+
+
+def reading_where(hand: DynamixelHand, condition: Callable[[HandReading], bool]) -> HandReading:
+    end_s = time.monotonic() + DEADLINE_S
+    while True:
+        reading = hand.read()
+        if condition(reading):
+            return reading
+        assert time.monotonic() < end_s, reading
+
+
+def test_the_hand_is_found_enabled_moved_and_released(bus: Bus) -> None:
+    hand = bus.hand()
+    assert hand.connect() == []
+    assert {motor["torque_enable"] for motor in bus.motors()} == {0}
+    assert {motor["operating_mode"] for motor in bus.motors()} == {5}
+    hand.enable()
+    at_first = hand.read()
+    assert at_first.q_rad == pytest.approx([0.0] * 16, abs=0.01)  # motors open at pi
+    assert at_first.faults == ("",) * 16
+    wanted = [0.1 + 0.02 * k for k in range(16)]
+    hand.command(wanted)
+    reached = reading_where(
+        hand, lambda it: it.q_rad == pytest.approx(wanted, abs=0.02) and max(map(abs, it.qd_rad_s)) == 0.0
+    )
+    assert len(reached.current_ma) == 16
+    hand.release()
+    assert {motor["torque_enable"] for motor in bus.motors()} == {0}
+    hand.close()
+
+
+def test_torque_that_a_crashed_program_left_on_is_no_obstacle(bus: Bus) -> None:
+    first = bus.hand()
+    first.connect()
+    first.enable()
+    first.close()
+    assert {motor["torque_enable"] for motor in bus.motors()} == {1}
+    second = bus.hand(max_current_ma=200)
+    assert second.connect() == []
+    assert {(motor["torque_enable"], motor["goal_current"]) for motor in bus.motors()} == {(0, 200)}
+    second.close()
+
+
+def test_goals_are_clipped_and_what_is_not_finite_is_never_sent(bus: Bus) -> None:
+    hand = bus.hand()
+    hand.connect()
+    hand.enable()
+    for angles in ([math.nan] * 16, [0.0] * 15, [0.0] * 15 + [math.inf]):
+        with pytest.raises(HandError, match="16 finite numbers"):
+            hand.command(angles)
+    assert {motor["goal_position"] for motor in bus.motors()} == {2048}
+    hand.command([100.0] * 16)
+    hand.read()  # behind the command on the bus
+    for motor, joint in zip(bus.motors(), LEAP_RIGHT.joints, strict=True):
+        assert motor["goal_position"] == round((math.pi + joint.upper_rad) * 4096 / math.tau)
+    hand.close()
+
+
+def test_missing_motors_are_named(bus: Bus) -> None:
+    bus.command("lose 3")
+    bus.command("lose 12")
+    with pytest.raises(HandError, match=r"motors 3 \(index_dip\), 12 \(thumb_cmc\) do not answer"):
+        bus.hand().connect()
+
+
+def test_an_overload_is_read_and_recovered_by_starting_anew(bus: Bus) -> None:
+    hand = bus.hand()
+    hand.connect()
+    hand.enable()
+    bus.command("overload 6")
+    reading = hand.read()
+    assert [k for k, fault in enumerate(reading.faults) if fault] == [6]
+    assert reading.faults[6] == "overload"
+    hand.recover(6)
+    assert hand.read().faults == ("",) * 16
+    hand.enable()
+    motor = bus.motors()[6]
+    assert (motor["torque_enable"], motor["operating_mode"], motor["goal_current"]) == (1, 5, 350)
+    hand.close()
+
+
+def test_a_motor_that_had_switched_itself_off_is_started_anew_at_the_start(bus: Bus) -> None:
+    bus.command("overheat 9")
+    hand = bus.hand()
+    assert hand.connect() == ["motor 9 (ring_mcp_forward) had switched itself off; it has been started anew"]
+    assert hand.read().faults == ("",) * 16
+    hand.close()
+
+
+def test_a_motor_that_is_lost_while_it_moves_is_an_error_and_comes_back(bus: Bus) -> None:
+    hand = bus.hand()
+    hand.connect()
+    bus.command("lose 5")
+    with pytest.raises(HandError, match="the motors did not answer"):
+        hand.read()
+    with pytest.raises(HandError, match=r"motors 5 \(middle_mcp_forward\) did not answer when they were switched off"):
+        hand.release()
+    bus.command("find 5")
+    reading_where(hand, lambda it: len(it.q_rad) == 16)
+    hand.close()
+
+
+def test_a_cable_torn_off_is_told_and_the_hand_connects_again(bus: Bus) -> None:
+    hand = bus.hand()
+    hand.connect()
+    bus.command("unplug")
+    with pytest.raises(HandLostError, match="is the cable plugged in"):
+        hand.read()
+    with pytest.raises(HandLostError, match="not connected"):
+        hand.command([0.0] * 16)
+    with pytest.raises(HandError, match="cannot be opened"):
+        hand.connect()
+    bus.command("plug_in")
+    assert hand.connect() == []
+    hand.enable()
+    assert hand.read().faults == ("",) * 16
+    hand.close()
+
+
+def test_motors_stop_by_themselves_when_they_hear_nothing(bus: Bus) -> None:
+    hand = bus.hand(motor_watchdog_s=0.1)
+    hand.connect()
+    hand.enable()
+    hand.command([0.3] * 16)
+    end_s = time.monotonic() + DEADLINE_S
+    while {motor["bus_watchdog"] for motor in bus.motors()} != {255}:
+        assert time.monotonic() < end_s
+    hand.enable()  # sets them going again
+    hand.command([0.1] * 16)
+    reading_where(hand, lambda it: it.q_rad == pytest.approx([0.1] * 16, abs=0.02))
+    hand.close()
+
+
+def test_motors_that_their_watchdog_has_stopped_are_set_up_anew(bus: Bus) -> None:
+    first = bus.hand(motor_watchdog_s=0.1)
+    first.connect()
+    first.enable()
+    end_s = time.monotonic() + DEADLINE_S
+    while {motor["bus_watchdog"] for motor in bus.motors()} != {255}:
+        assert time.monotonic() < end_s
+    first.close()
+    second = bus.hand(motor_watchdog_s=0.1, max_current_ma=200)
+    second.connect()
+    assert {(motor["bus_watchdog"], motor["goal_current"]) for motor in bus.motors()} == {(0, 200)}
+    second.enable()
+    second.close()
+
+
+def test_the_return_delay_is_told_and_set_where_that_is_wanted(tmp_path: Path) -> None:
+    bus = Bus(tmp_path, "--return-delay", "250")
+    try:
+        hand = bus.hand()
+        assert ["16 motors wait before they answer" in told for told in hand.connect()] == [True]
+        hand.close()
+        hand = bus.hand(set_return_delay=True)
+        assert hand.connect() == ["the return delay of 16 motors has been set to 0 in their EEPROM"]
+        hand.close()
+        assert bus.hand().connect() == []
+    finally:
+        bus.close()
+
+
+def test_a_port_that_is_none_and_a_rate_nobody_knows_are_refused(tmp_path: Path, bus: Bus) -> None:
+    with pytest.raises(HandError, match="cannot be opened"):
+        DynamixelHand(LEAP_RIGHT, DynamixelConfig(port=str(tmp_path / "nothing"))).connect()
+    with pytest.raises(HandError, match="baud = 12345"):
+        bus.hand(baud=12345).connect()
+
+
+def test_a_bus_that_another_program_moves_is_refused_with_its_name_and_goes_on(bus: Bus) -> None:
+    first = bus.hand(motor_watchdog_s=0.0)
+    first.connect()
+    first.enable()
+    with pytest.raises(HandError, match=rf"is held by .*process {bus.process.pid}.*obeys one program"):
+        bus.hand().connect()
+    first.command([0.1] * 16)
+    reading_where(first, lambda reading: reading.q_rad == pytest.approx([0.1] * 16, abs=0.02))
+    first.close()
+    second = bus.hand()
+    second.connect()
+    second.close()
+
+
+@pytest.mark.parametrize("port", ["/dev/ptmx", "/dev/zero", "/dev/null", "/", "/etc/hostname"])
+def test_what_is_no_port_is_refused(port: str) -> None:
+    with pytest.raises(HandError, match=port):
+        DynamixelHand(LEAP_RIGHT, DynamixelConfig(port=port)).connect()
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"lower_rad": 1.0},
+        {"upper_rad": math.nan},
+        {"direction": 0},
+        {"motor_id": 253},
+        {"gain_scale": 0.0},
+    ],
+)
+def test_a_joint_that_cannot_be_is_refused(change: dict[str, Any]) -> None:
+    values: dict[str, Any] = {"name": "a", "motor_id": 0, "lower_rad": -1.0, "upper_rad": 1.0, **change}
+    with pytest.raises(SettingsError, match="joint a"):
+        Joint(**values)
+
+
+def test_no_two_joints_share_a_motor() -> None:
+    with pytest.raises(SettingsError, match="may occur twice"):
+        HandDescription("hand", (Joint("a", 1, 0.0, 1.0), Joint("b", 1, 0.0, 1.0)))

@@ -1,0 +1,243 @@
+"""The loop and the node of a hand, on the simulated bus; ROS_DOMAIN_ID 206 and 207."""
+
+from __future__ import annotations
+
+import math
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+import rclpy
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from sensor_msgs.msg import JointState
+from std_srvs.srv import Trigger
+from test_dynamixel_hand import DEADLINE_S, TIMEOUT_MS, Bus
+
+from acts_control.hand.control import HandLoop, HandLoopConfig, HandPhase
+from acts_control.hand.description import LEAP_RIGHT
+from acts_control.hand.motors import HandError
+
+pytestmark = pytest.mark.slow
+
+Spin = Callable[[Callable[[], bool]], None]
+
+DOMAIN_ID = 206
+CMD_LEAP_DOMAIN_ID = 207
+
+
+@pytest.fixture
+def bus(tmp_path: Path) -> Iterator[Bus]:
+    bus = Bus(tmp_path)
+    yield bus
+    bus.close()
+
+
+class Running:
+    """A loop on the bus, and what it has logged."""
+
+    def __init__(self, bus: Bus, **settings: float) -> None:
+        self.log: list[tuple[str, str]] = []
+        # The motors' own watchdog is off: a loaded machine holds a loop up for longer.
+        hand = bus.hand(motor_watchdog_s=0.0)
+        config = HandLoopConfig(silence_s=2.0, connect_retry_s=0.05, **settings)
+        self.loop = HandLoop(LEAP_RIGHT, hand, config, lambda *told: self.log.append(told))
+        self.loop.launch()
+
+    def until(self, condition: Callable[[], bool]) -> None:
+        end_s = time.monotonic() + DEADLINE_S
+        while not condition():
+            assert time.monotonic() < end_s, (self.loop.status, self.log)
+            time.sleep(0.005)
+
+    def until_phase(self, phase: HandPhase) -> None:
+        self.until(lambda: self.loop.status.phase is phase)
+
+
+@pytest.fixture
+def running(bus: Bus) -> Iterator[Running]:
+    running = Running(bus)
+    yield running
+    running.loop.close()
+    assert {motor["torque_enable"] for motor in bus.motors()} == {0}
+
+
+def torques(bus: Bus) -> set[float]:
+    return {motor["torque_enable"] for motor in bus.motors()}
+
+
+def test_a_command_is_followed_no_faster_than_allowed_and_kept(bus: Bus) -> None:
+    running = Running(bus, max_speed_rad_s=1.0)
+    try:
+        running.until_phase(HandPhase.ENABLED)
+        begin_s = time.monotonic()
+        seen = [0.0]
+
+        def arrived() -> bool:
+            running.loop.command({"index_pip": 0.5})
+            seen.append(running.loop.status.goal_rad[2])
+            # The first step may stand for four periods that had passed before.
+            assert seen[-1] <= 1.0 * (time.monotonic() - begin_s) + 0.05
+            return seen[-1] == pytest.approx(0.5)
+
+        running.until(arrived)
+        assert running.loop.status.goal_rad[3] == pytest.approx(0.0, abs=0.01)  # nobody asked for it
+        running.until(lambda: running.loop.status.reason == "holding")
+        assert running.loop.status.goal_rad[2] == pytest.approx(0.5)
+    finally:
+        running.loop.close()
+    assert torques(bus) == {0}
+
+
+def test_without_commands_the_goals_stand_still_half_way(running: Running) -> None:
+    running.until_phase(HandPhase.ENABLED)
+    running.loop.command({"ring_pip": 1.8})
+    running.until(lambda: running.loop.status.reason == "moving as commanded")
+    running.until(lambda: running.loop.status.reason == "holding")
+    stood_rad = running.loop.status.goal_rad[10]
+    cycles = running.loop.status.cycles
+    running.until(lambda: running.loop.status.cycles > cycles + 20)
+    assert running.loop.status.goal_rad[10] == stood_rad
+
+
+def test_names_and_numbers_that_cannot_be_are_refused_and_change_nothing(running: Running) -> None:
+    running.until_phase(HandPhase.ENABLED)
+    with pytest.raises(HandError, match="no joint little_pip; its joints are index_mcp_side"):
+        running.loop.command({"little_pip": 0.1, "index_pip": 0.4})
+    with pytest.raises(HandError, match="index_pip = nan"):
+        running.loop.command({"ring_pip": 0.4, "index_pip": math.nan})
+    assert running.loop.status.reason == "holding"
+
+
+def test_the_hand_is_released_and_enabled_again(bus: Bus, running: Running) -> None:
+    running.until_phase(HandPhase.ENABLED)
+    assert torques(bus) == {1}
+    running.loop.release()
+    running.until_phase(HandPhase.RELEASED)
+    assert torques(bus) == {0}
+    assert running.loop.enable() == ""
+    running.until_phase(HandPhase.ENABLED)
+    assert torques(bus) == {1}
+
+
+def test_an_overload_is_recovered_once_and_given_up_the_second_time(bus: Bus, running: Running) -> None:
+    running.until_phase(HandPhase.ENABLED)
+    bus.command("overload 6")
+    running.until(lambda: running.loop.status.recovered == 1 and running.loop.status.phase is HandPhase.ENABLED)
+    assert torques(bus) == {1}
+    bus.command("overload 6")
+    running.until_phase(HandPhase.GIVEN_UP)
+    assert running.loop.status.reason == "middle_pip: overload, 2 times within a minute; ~/enable to go on"
+    assert torques(bus) == {0}
+    assert running.loop.enable() == ""  # a person has looked after it
+    running.until_phase(HandPhase.ENABLED)
+    assert torques(bus) == {1}
+
+
+def test_a_cable_torn_off_and_put_back_ends_with_an_enabled_hand(bus: Bus, running: Running) -> None:
+    running.until_phase(HandPhase.ENABLED)
+    bus.command("unplug")
+    running.until_phase(HandPhase.CONNECTING)
+    bus.command("plug_in")
+    running.until_phase(HandPhase.ENABLED)
+    assert any("is the cable plugged in" in sentence for _, sentence in running.log)
+
+
+def test_a_motor_that_falls_silent_is_waited_for_and_named(bus: Bus, running: Running) -> None:
+    running.until_phase(HandPhase.ENABLED)
+    bus.command("lose 14")
+    running.until(lambda: "motors 14 (thumb_mcp) do not answer" in running.loop.status.reason)
+    assert running.loop.status.unanswered >= 1
+    bus.command("find 14")
+    running.until_phase(HandPhase.ENABLED)
+
+
+@contextmanager
+def node_and_user(
+    domain_id: int, *parameters: str, program: str = "hand"
+) -> Iterator[tuple[subprocess.Popen[str], Node, Spin]]:
+    """The node as a process, a user's node, and how to wait for something."""
+    process = subprocess.Popen(
+        [
+            *(sys.executable, "-c", f"from acts_control.programs import {program}; raise SystemExit({program}())"),
+            "--ros-args",
+            *(word for parameter in parameters for word in ("-p", parameter)),
+        ],
+        env={**os.environ, "ROS_DOMAIN_ID": str(domain_id)},
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    context = Context()
+    rclpy.init(context=context, domain_id=domain_id)
+    node = rclpy.create_node("user", context=context)
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+
+    def until(condition: Callable[[], bool]) -> None:
+        end_s = time.monotonic() + DEADLINE_S
+        while not condition():
+            assert time.monotonic() < end_s
+            assert process.poll() is None
+            executor.spin_once(timeout_sec=0.05)
+
+    try:
+        yield process, node, until
+    finally:
+        process.kill()
+        process.wait()
+        executor.shutdown()
+        node.destroy_node()
+        context.try_shutdown()
+
+
+def test_the_node_publishes_joint_states_follows_commands_and_ends_in_order(bus: Bus) -> None:
+    parameters = (f"port:={bus.link}", f"answer_timeout_ms:={TIMEOUT_MS}", "silence_s:=2.0")
+    with node_and_user(DOMAIN_ID, *parameters) as (process, node, until):
+        states: list[JointState] = []
+        node.create_subscription(JointState, "joint_states", states.append, 10)
+        commands = node.create_publisher(JointState, "hand/command", 10)
+        release = node.create_client(Trigger, "hand/release")
+
+        def arrived() -> bool:
+            commands.publish(JointState(name=["thumb_cmc", "nobody"], position=[0.7, 0.1]))  # left out, and told
+            commands.publish(JointState(name=["thumb_cmc"], position=[0.3]))
+            return bool(states) and abs(states[-1].position[12] - 0.3) < 0.02
+
+        until(arrived)
+        assert list(states[-1].name) == LEAP_RIGHT.names
+        assert release.wait_for_service(DEADLINE_S)
+        answer = release.call_async(Trigger.Request())
+        until(answer.done)
+        assert answer.result().success
+        until(lambda: torques(bus) == {0})
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=DEADLINE_S)
+        assert process.returncode == 0
+        assert "a command was left out: the hand has no joint nobody" in errors
+
+
+def test_the_leap_team_s_own_node_is_commanded_within_the_same_limits() -> None:
+    with node_and_user(CMD_LEAP_DOMAIN_ID, "interface:=cmd_leap") as (process, node, until):
+        sent: list[JointState] = []
+        node.create_subscription(JointState, "cmd_leap", sent.append, 10)
+        commands = node.create_publisher(JointState, "hand/command", 10)
+
+        def arrived() -> bool:
+            commands.publish(JointState(name=["index_pip", "thumb_cmc"], position=[0.2, -9.0]))
+            if not sent:
+                return False
+            motors = sent[-1].position
+            return bool(abs(motors[2] - math.pi - 0.2) < 1e-6 and abs(motors[12] - math.pi + 0.349) < 1e-6)
+
+        until(arrived)
+        assert list(sent[-1].position[:2]) == pytest.approx([math.pi, math.pi])
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=DEADLINE_S)
+        assert process.returncode == 0

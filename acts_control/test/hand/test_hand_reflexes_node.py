@@ -1,0 +1,119 @@
+"""The node `hand_reflexes` as a process, on the simulated bus, with made touch; ROS_DOMAIN_ID 215."""
+
+from __future__ import annotations
+
+import signal
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from diagnostic_msgs.msg import DiagnosticArray
+from hand_rig import all_regions, region
+from rclpy.node import Node
+from std_srvs.srv import Trigger
+from test_dynamixel_hand import DEADLINE_S, TIMEOUT_MS, Bus
+from test_hand_loop import Spin, node_and_user
+
+from acts_control.hand.description import LEAP_RIGHT
+from acts_core.skin import RegionContact as Touch
+from acts_msgs.msg import HandStatus, HandTiming, RegionContact, RegionContacts
+from acts_ros.qos import STREAM
+
+pytestmark = pytest.mark.slow
+
+DOMAIN_ID = 215
+GRIPPED = [region(f"{finger}_distal", 0.8) for finger in LEAP_RIGHT.fingers]
+TIP = region("index_distal", 0.5, 1, sharpness=10.0)
+
+
+@pytest.fixture
+def bus(tmp_path: Path) -> Iterator[Bus]:
+    bus = Bus(tmp_path)
+    yield bus
+    bus.close()
+
+
+def message_of(touch: Touch) -> RegionContact:
+    message = RegionContact(
+        name=touch.name,
+        link=touch.link,
+        active_taxels=touch.active_taxels,
+        force=touch.force_n,
+        area=touch.area_m2,
+        peak=touch.peak_n,
+        concentration=touch.concentration,
+        sharpness=touch.sharpness,
+        slip=touch.slip_m,
+        slipping=touch.slipping,
+    )
+    message.centre.x, message.centre.y, message.centre.z = touch.centre_m
+    message.normal.x, message.normal.y, message.normal.z = touch.normal
+    return message
+
+
+def test_the_hand_grasps_avoids_and_opens_by_touch_and_ends_in_order(bus: Bus) -> None:
+    parameters = (
+        *(f"port:={bus.link}", f"answer_timeout_ms:={TIMEOUT_MS}", "silence_s:=2.0", "motor_watchdog_s:=0.0"),
+        *("touch_stale_after_s:=2.0", "close_speed_rad_s:=4.0", "rate_hz:=100.0", "reflexes:=sharp slip"),
+    )
+    with node_and_user(DOMAIN_ID, *parameters, program="hand_reflexes") as (process, node, until):
+        statuses: list[HandStatus] = []
+        reports: list[DiagnosticArray] = []
+        node.create_subscription(HandStatus, "hand/status", statuses.append, 10)
+        timings: list[HandTiming] = []
+        node.create_subscription(DiagnosticArray, "/diagnostics", reports.append, 10)
+        node.create_subscription(HandTiming, "hand/timing", timings.append, 10)
+        regions = node.create_publisher(RegionContacts, "regions", STREAM)
+
+        def feel(*touches: Touch) -> None:
+            message = RegionContacts(regions=[message_of(one) for one in all_regions(*touches)])
+            message.header.stamp = node.get_clock().now().to_msg()
+            regions.publish(message)
+
+        def until_state(state: int, *touches: Touch) -> HandStatus:
+            def there() -> bool:
+                feel(*touches)
+                return bool(statuses) and statuses[-1].state == state
+
+            until(there)
+            return statuses[-1]
+
+        def called(name: str) -> Trigger.Response:
+            return answer_of(node, until, name)
+
+        until_state(HandStatus.STATE_STOPPED)
+        until(lambda: statuses[-1].steps > 0)
+        # Touch has to be there before the hand may close.
+        until(lambda: not feel() and statuses[-1].touch_age < 1.0)
+        assert called("grasp").success
+        until_state(HandStatus.STATE_CLOSING)
+        until(lambda: not feel() and statuses[-1].goals[2] > 0.4)
+        held = until_state(HandStatus.STATE_HOLDING, *GRIPPED)
+        assert held.reason.startswith("gripped by index")
+        avoiding = until_state(HandStatus.STATE_AVOIDING, TIP, *GRIPPED[1:])
+        assert list(avoiding.active) == ["sharp"]
+        assert dict(zip(avoiding.reflexes, avoiding.events, strict=True))["sharp"] == 1
+        assert called("release").success
+        opening = until_state(HandStatus.STATE_OPEN)
+        assert len(opening.goals) == 16
+        until(lambda: any(dict_of(report).get("hand") == "OPEN" for report in reports))
+        until(lambda: not feel() and any(timing.latencies for timing in timings))
+        told = next(timing for timing in timings if timing.latencies)
+        assert all(duration > 0.0 for duration in told.durations)
+        assert 0 < len(told.latencies) <= len(told.durations) <= told.cycles
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=DEADLINE_S)
+        assert process.returncode == 0
+    assert {motor["torque_enable"] for motor in bus.motors()} == {0}
+
+
+def answer_of(node: Node, until: Spin, name: str) -> Trigger.Response:
+    client = node.create_client(Trigger, f"hand_reflexes/{name}")
+    assert client.wait_for_service(DEADLINE_S)
+    answer = client.call_async(Trigger.Request())
+    until(answer.done)
+    return answer.result()
+
+
+def dict_of(report: DiagnosticArray) -> dict[str, str]:
+    return {value.key: value.value for status in report.status for value in status.values}

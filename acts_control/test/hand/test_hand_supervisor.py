@@ -1,0 +1,245 @@
+"""What the hand is about, and what ends or interrupts it."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hand_rig import RigidHand, all_regions, region
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from acts_control.hand.description import LEAP_RIGHT
+from acts_control.hand.nodes.reflexes_node import HandReflexesSettings
+from acts_control.hand.reflexes import REFLEXES, HandState, make_reflexes
+from acts_control.hand.reflexes.sharp_avoidance import SharpAvoidance, SharpAvoidanceConfig
+from acts_control.hand.reflexes.slip_prevention import SlipPrevention, SlipPreventionConfig
+from acts_core.skin import RegionContact
+
+pytestmark = pytest.mark.slow
+
+TIP = region("index_distal", 0.5, 1, sharpness=10.0)
+GRIPPED = [region(f"{finger}_distal", 0.8) for finger in LEAP_RIGHT.fingers]
+
+
+def a_hand(**settings: float) -> RigidHand:
+    sharp, slip = SharpAvoidance(SharpAvoidanceConfig()), SlipPrevention(SlipPreventionConfig())
+    hand = RigidHand(("slip", slip), ("sharp", sharp), **settings)
+    hand.supervisor.restart(recovered=False)
+    hand.step([])
+    return hand
+
+
+def a_hand_of_all_reflexes() -> RigidHand:
+    hand = RigidHand(*make_reflexes(" ".join(REFLEXES), HandReflexesSettings()).items(), grip_settle_s=0.02)
+    hand.supervisor.restart(recovered=False)
+    return hand
+
+
+def a_holding_hand() -> RigidHand:
+    hand = a_hand(grip_settle_s=0.02)
+    assert hand.supervisor.grasp() == ""
+    assert hand.step(GRIPPED, steps=20) is HandState.HOLDING
+    return hand
+
+
+def test_it_stands_still_until_it_is_told_what_to_do() -> None:
+    hand = a_hand()
+    assert hand.step([], steps=50) is HandState.STOPPED
+    assert not hand.goal.any()
+
+
+def test_grasp_closes_each_finger_until_it_feels_enough_and_then_holds() -> None:
+    hand = a_hand(grip_settle_s=0.02)
+    hand.supervisor.grasp()
+    assert hand.step([], steps=250) is HandState.CLOSING
+    index, ring = hand.angle("index_pip"), hand.angle("ring_pip")
+    assert index > LEAP_RIGHT.postures["pregrasp"][2]
+    assert hand.step([region("index_distal", 0.8)], steps=25) is HandState.CLOSING
+    assert hand.angle("index_pip") == pytest.approx(index, abs=0.03)
+    assert hand.angle("ring_pip") > ring + 0.05
+    assert hand.step(GRIPPED, steps=20) is HandState.HOLDING
+    assert "gripped by index, middle, ring, thumb" in hand.supervisor.status.reason
+    held = hand.goal.copy()
+    hand.step(GRIPPED, steps=100)
+    assert hand.goal == pytest.approx(held)
+
+
+def test_a_hand_that_finds_nothing_opens_again() -> None:
+    hand = a_hand(close_speed_rad_s=8.0)
+    hand.supervisor.grasp()
+    for _ in range(600):
+        if hand.step([]) is HandState.OPEN:
+            break
+    assert hand.supervisor.status.reason == "nothing was gripped"
+    hand.step([], steps=600)
+    assert hand.goal == pytest.approx(LEAP_RIGHT.postures["open"], abs=1e-3)
+
+
+def test_release_opens_and_stop_stands_still_at_any_time() -> None:
+    hand = a_holding_hand()
+    hand.supervisor.release()
+    assert hand.step([], steps=5) is HandState.OPEN
+    hand.supervisor.stop()
+    assert hand.step([]) is HandState.STOPPED
+    stood = hand.goal.copy()
+    hand.step([], steps=50)
+    assert hand.goal == pytest.approx(stood)
+
+
+def test_a_tip_is_avoided_while_the_other_fingers_hold_and_then_the_hand_holds_on() -> None:
+    hand = a_holding_hand()
+    before = hand.goal.copy()
+    assert hand.step([TIP, *GRIPPED[1:]], steps=10) is HandState.AVOIDING
+    assert hand.supervisor.status.active == ("sharp",)
+    opened = [k for k, joint in enumerate(LEAP_RIGHT.joints) if joint.name in LEAP_RIGHT.fingers["index"].closes]
+    assert (hand.goal[opened] < before[opened] - 0.02).all()
+    others = [k for k in range(16) if k not in opened]
+    assert hand.goal[others] == pytest.approx(before[others])
+    assert hand.step(GRIPPED[1:], steps=200) is HandState.HOLDING
+
+
+def test_touch_that_stops_while_closing_stops_the_hand() -> None:
+    hand = a_hand()
+    hand.supervisor.grasp()
+    hand.step([], steps=50)
+    assert hand.step(None, steps=60) is HandState.STOPPED
+    assert hand.supervisor.status.reason == "touch is stale while closing; grasp anew"
+    stood = hand.goal.copy()
+    hand.step([], steps=50)
+    assert hand.goal == pytest.approx(stood)
+
+
+def test_touch_that_stops_while_holding_leaves_the_grip_as_it_is_and_comes_back() -> None:
+    hand = a_holding_hand()
+    held = hand.goal.copy()
+    assert hand.step(None, steps=60) is HandState.HOLDING
+    assert "no reflex acts" in hand.supervisor.status.reason
+    assert hand.supervisor.status.is_stale
+    assert hand.goal == pytest.approx(held)
+    slips = region("index_distal", 0.8, slip_m=3e-4, slipping=True)
+    hand.step([slips, *GRIPPED[1:]], steps=3)
+    assert (hand.goal > held + 1e-3).any()
+
+
+def test_without_touch_nothing_is_grasped_but_the_hand_opens() -> None:
+    hand = a_hand()
+    hand.step(None, steps=60)
+    assert "is the skin's topic `regions` published?" in hand.supervisor.grasp()
+    assert hand.supervisor.release() == ""
+    assert hand.step(None, steps=20) is HandState.OPEN
+    assert hand.angle("thumb_cmc") > 0.01
+
+
+@pytest.mark.parametrize(
+    "broken",
+    [
+        region("index_distal", math.nan),
+        region("index_distal", 0.5, centre_m=(0.0, math.inf, 0.0)),
+        region("index_distal", 0.5, slip_m=math.nan, slipping=True),
+    ],
+)
+def test_touch_with_numbers_that_are_not_finite_counts_as_not_come(broken: RegionContact) -> None:
+    hand = a_holding_hand()
+    held = hand.goal.copy()
+    hand.step([broken], steps=40)
+    assert hand.supervisor.status.refused == 40
+    assert hand.supervisor.status.is_stale
+    assert hand.goal == pytest.approx(held)
+
+
+def test_a_finger_that_presses_with_more_than_is_allowed_gives_way_whatever_is_asked() -> None:
+    hand = a_holding_hand()
+    before = hand.goal.copy()
+    slips = region("index_distal", 60.0, slip_m=3e-4, slipping=True)
+    hand.step([slips], steps=3)
+    assert hand.angle("index_pip") < before[2]
+
+
+def test_old_touch_is_not_taken_for_new() -> None:
+    hand = a_holding_hand()
+    hand.supervisor.touch(all_regions(TIP), hand.now_s - 1.0, hand.now_s)
+    assert hand.step(GRIPPED) is HandState.HOLDING
+
+
+def test_after_a_failed_motor_what_was_held_is_gripped_anew() -> None:
+    hand = a_holding_hand()
+    hand.supervisor.restart(recovered=True)
+    hand.step(GRIPPED)
+    assert hand.supervisor.status.state is HandState.CLOSING
+    hand = a_holding_hand()
+    hand.supervisor.restart(recovered=False)
+    assert hand.step(GRIPPED) is HandState.STOPPED
+
+
+def test_patches_that_the_hand_does_not_have_are_left_out() -> None:
+    hand = a_hand()
+    hand.step([region("index_distal", 0.1)._replace(name="little_distal", slipping=True)])
+    assert np.isfinite(hand.goal).all()
+
+
+def test_a_finger_that_cannot_come_into_its_shape_does_not_keep_the_hand_from_closing() -> None:
+    hand = a_hand()
+    hand.stops["thumb_cmc"] = 0.2
+    hand.supervisor.grasp()
+    hand.step([], steps=600)
+    assert hand.angle("ring_pip") > LEAP_RIGHT.postures["pregrasp"][10] + 0.2
+
+
+@pytest.mark.parametrize("ahead_s", [0.5, 3600.0, math.inf, math.nan])
+def test_touch_from_the_future_counts_as_not_come_and_keeps_none_that_follows_from_counting(ahead_s: float) -> None:
+    hand = a_holding_hand()
+    hand.supervisor.touch(all_regions(TIP), hand.now_s + ahead_s, hand.now_s)
+    assert hand.step(GRIPPED, steps=5) is HandState.HOLDING
+    assert hand.supervisor.status.refused == 1
+    assert hand.supervisor.status.touch_age_s < 0.01
+    assert hand.step([TIP, *GRIPPED[1:]], steps=5) is HandState.AVOIDING
+
+
+any_number = st.floats(width=32) | st.sampled_from([0.0, -1.0, 1e-30, 1e5, -1e6, 1e30])
+any_vector = st.tuples(any_number, any_number, any_number)
+any_region = st.builds(
+    RegionContact,
+    name=st.sampled_from([*LEAP_RIGHT.regions, "", "/", "nobody"]),
+    link=st.sampled_from([*LEAP_RIGHT.links, "", "nobody"]),
+    active_taxels=st.integers(0, 65535),
+    force_n=any_number,
+    centre_m=any_vector,
+    normal=any_vector,
+    area_m2=any_number,
+    peak_n=any_number,
+    spread_m=any_number,
+    concentration=any_number,
+    sharpness=any_number,
+    motion_m_s=any_vector,
+    slip_m=any_number,
+    slipping=st.booleans(),
+)
+
+
+@settings(max_examples=150, deadline=None)
+@given(
+    touches=st.lists(st.tuples(st.lists(any_region, max_size=6), st.floats()), min_size=1, max_size=6),
+    grasps=st.booleans(),
+)
+def test_whatever_touch_says_the_goals_stay_within_limits_and_rate_and_the_hand_holds_again(
+    touches: list[tuple[list[RegionContact], float]], grasps: bool
+) -> None:
+    hand = a_hand_of_all_reflexes()
+    hand.step(GRIPPED, steps=3)
+    if grasps:
+        hand.supervisor.grasp()
+        hand.step(GRIPPED, steps=20)
+    lower = np.array([joint.lower_rad for joint in LEAP_RIGHT.joints])
+    upper = np.array([joint.upper_rad for joint in LEAP_RIGHT.joints])
+    for regions, ahead_s in touches:
+        before = hand.goal.copy()
+        hand.supervisor.touch(regions, hand.now_s + ahead_s, hand.now_s)
+        hand.step(None)
+        assert ((lower <= hand.goal) & (hand.goal <= upper)).all()
+        assert np.abs(hand.goal - before).max() <= 0.2
+    hand.step(GRIPPED, steps=30)
+    assert not hand.supervisor.status.is_stale
+    assert hand.supervisor.grasp() == ""
+    assert hand.step(GRIPPED, steps=40) is HandState.HOLDING

@@ -1,0 +1,51 @@
+"""The example of docs/reflexes.md: a reflex of one's own, in one file and one line."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+from hand_rig import RigidHand, region, sensed
+
+from acts_control.hand.description import LEAP_RIGHT
+from acts_control.hand.reflexes import Reflex, registry
+from acts_core.settings import describe
+
+PAGE = Path(__file__).resolve().parents[3] / "docs" / "reflexes.md"
+
+
+@pytest.fixture
+def own() -> type[Reflex]:
+    (code,) = re.findall(r"```python\n(.*?)```", PAGE.read_text(), re.DOTALL)
+    names: dict[str, object] = {"__name__": __name__}
+    exec(compile(code, str(PAGE), "exec"), names)
+    kind = names["TapToOpen"]
+    assert isinstance(kind, type)
+    assert issubclass(kind, Reflex)
+    return kind
+
+
+def test_the_reflex_of_the_documentation_opens_a_hand_that_is_tapped(own: type[Reflex]) -> None:
+    reflex = own(own.Config())
+    assert reflex.step(sensed(region("palm", 2.0), time_s=1.0)) is None
+    hand = RigidHand(("tap", reflex), grip_settle_s=0.02)
+    hand.step([])
+    hand.supervisor.grasp()
+    gripped = [region(f"{finger}_distal", 0.8) for finger in LEAP_RIGHT.fingers]
+    hand.step(gripped, steps=20)
+    held = hand.goal.copy()
+    hand.step([*gripped, region("palm", 8.0)], steps=20)
+    assert hand.supervisor.status.events == {"tap": 1}
+    assert (hand.goal < held - 0.05).sum() >= 9
+
+
+def test_one_line_makes_it_known_and_its_settings_parameters(
+    own: type[Reflex], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from acts_control.hand.nodes import reflexes_node
+
+    monkeypatch.setitem(registry.REFLEXES, "tap", own)
+    settings = reflexes_node.settings_class()
+    assert "tap_force_n" in describe(settings)
+    assert list(registry.make_reflexes("sharp tap", settings())) == ["sharp", "tap"]

@@ -1,0 +1,337 @@
+"""The reflexes and the step rule, on made contacts."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hand_rig import DT_S, NAMES, region, sensed
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from acts_control.hand.control.step_rule import StepRule, StepRuleConfig
+from acts_control.hand.description import LEAP_RIGHT
+from acts_control.hand.reflexes import REFLEXES, HandToHandConfig, Wish, make_reflexes
+from acts_control.hand.reflexes.aiming import approaches, radius_on_palm, reach
+from acts_control.hand.reflexes.hand_to_hand import HandToHand
+from acts_control.hand.reflexes.sharp_avoidance import SharpAvoidance, SharpAvoidanceConfig
+from acts_control.hand.reflexes.slip_prevention import SlipPrevention, SlipPreventionConfig
+from acts_control.hand.reflexes.sphere_balancing import fitted_sphere
+from acts_control.hand.reflexes.trapping import Trapping, TrappingConfig
+from acts_core.errors import SettingsError
+from acts_core.skin import RegionContact
+
+pytestmark = pytest.mark.slow
+
+PIP, DIP = NAMES.index("index_pip"), NAMES.index("index_dip")
+
+
+def joints_of(finger: str) -> list[int]:
+    return [NAMES.index(name) for name in LEAP_RIGHT.fingers[finger].closes]
+
+
+# --- the step rule
+
+
+def goals(wishes: list[Wish], goal: float = 0.3, q: float = 0.3, current: float = 0.0, **config: float) -> np.ndarray:
+    rule = StepRule(LEAP_RIGHT, StepRuleConfig(**config))
+    return rule.goals(np.full(16, goal), np.full(16, q), np.full(16, current), wishes, DT_S)
+
+
+def test_a_step_moves_a_goal_as_far_as_one_at_60_hz_in_the_same_time() -> None:
+    wish = Wish(np.eye(16)[PIP] * 2.0, "", at_once=True)
+    moved = goals([wish], base_step_rad=0.02) - 0.3
+    assert moved[PIP] == pytest.approx(2.0 * 0.02 * 60.0 * DT_S)
+    assert np.count_nonzero(moved) == 1
+
+
+def test_the_number_of_steps_rises_as_shaped_for_each_motor() -> None:
+    rule = StepRule(LEAP_RIGHT, StepRuleConfig(steps_rise_per_s=100.0, base_step_rad=0.01))
+    goal, seen = np.zeros(16), []
+    for _ in range(4):
+        goal = rule.goals(goal, goal, np.zeros(16), [Wish(np.full(16, 1.0), "")], DT_S)
+        seen.append(goal[PIP])
+    assert np.diff([0.0, *seen]) / (0.01 * 60 * DT_S) == pytest.approx([0.4, 0.8, 1.0, 1.0])
+
+
+def test_claimed_joints_are_left_alone_by_those_that_come_after() -> None:
+    claimed = np.zeros(16, dtype=bool)
+    claimed[PIP] = True
+    first = Wish(np.eye(16)[PIP] * -1.0, "", claimed, at_once=True)
+    moved = goals([first, Wish(np.ones(16), "", at_once=True)]) - 0.3
+    assert moved[PIP] < 0.0
+    assert moved[DIP] > 0.0
+
+
+@settings(max_examples=100, deadline=None)
+@given(
+    steps=st.lists(st.floats(allow_nan=True, allow_infinity=True), min_size=16, max_size=16),
+    q=st.floats(-0.3, 1.5),
+    goal=st.floats(-3.0, 3.0),
+    current=st.floats(-2000.0, 2000.0),
+)
+def test_goals_are_finite_within_limits_and_near_their_joints_whatever_is_asked(
+    steps: list[float], q: float, goal: float, current: float
+) -> None:
+    moved = goals([Wish(np.array(steps), "", at_once=True)], goal, q, current, max_lead_rad=0.1)
+    for joint, angle in zip(LEAP_RIGHT.joints, moved, strict=True):
+        assert joint.clipped(angle) == angle
+        assert abs(angle - joint.clipped(q)) <= 0.1 / joint.gain_scale + 1e-12
+
+
+def test_a_motor_at_its_current_limit_is_closed_no_further_but_may_open() -> None:
+    closing, opening = Wish(np.ones(16), "", at_once=True), Wish(-np.ones(16), "", at_once=True)
+    assert goals([closing], current=349.0) == pytest.approx(np.full(16, 0.3))
+    assert (goals([opening], current=349.0) < 0.3).all()
+
+
+# --- slip
+
+
+def slipping(name: str, distance_m: float) -> RegionContact:
+    return region(name, 0.5, slip_m=distance_m, slipping=True)
+
+
+def test_all_fingers_that_touch_grip_up_while_the_object_moves_and_not_longer() -> None:
+    reflex = SlipPrevention(SlipPreventionConfig(slip_quiet_s=0.01))
+    held = [region("thumb_distal", 0.5), region("middle_distal", 0.5)]
+    assert reflex.step(sensed(region("index_distal", 0.5), *held)) is None
+    wish = reflex.step(sensed(slipping("index_distal", 2e-4), *held, time_s=0.004))
+    assert wish is not None
+    assert wish.at_once
+    for finger in ("index", "middle", "thumb"):
+        assert (wish.steps[joints_of(finger)] > 0.0).all()
+    assert not wish.steps[joints_of("ring")].any()
+    # It is told on, for the window still holds the motion, but nothing moves any more.
+    assert reflex.step(sensed(slipping("index_distal", 2e-4), *held, time_s=0.010)) is not None
+    assert reflex.step(sensed(slipping("index_distal", 2e-4), *held, time_s=0.020)) is None
+    assert reflex.events == 1
+
+
+def test_the_added_grip_is_eased_slowly_to_a_share_and_not_below_where_it_slipped_again() -> None:
+    reflex = SlipPrevention(SlipPreventionConfig(slip_keep_s=0.5, slip_kept_share=0.5, slip_ease_steps=0.2))
+    reflex.step(sensed(slipping("index_distal", 2e-4)))
+    time_s = 0.0
+    while time_s < 3.0:
+        time_s += DT_S
+        wish = reflex.step(sensed(region("index_distal", 0.5), time_s=time_s))
+        if 0.02 < time_s < 0.5:
+            assert wish is None
+    assert reflex.state.added == pytest.approx(0.5 * reflex.state.peak)
+    eased = reflex.state.added
+    reflex.step(sensed(slipping("index_distal", 2e-4), time_s=time_s))
+    assert reflex.events == 2
+    assert reflex.state.floor == pytest.approx(eased)
+
+
+def test_the_grip_that_is_added_has_an_end() -> None:
+    reflex = SlipPrevention(SlipPreventionConfig(slip_max_added_steps=3.0))
+    for k in range(100):
+        reflex.step(sensed(slipping("index_distal", 1e-4 * (k + 1)), time_s=k * DT_S))
+    assert reflex.state.added == pytest.approx(3.0)
+
+
+# --- sharp
+
+
+def tip_in(name: str) -> RegionContact:
+    """What a region feels of a tip."""
+    return region(name, 0.5, 1, sharpness=10.0)
+
+
+def test_only_what_is_surely_a_tip_is_avoided() -> None:
+    reflex = SharpAvoidance(SharpAvoidanceConfig(sharp_min_sharpness=3.0, sharp_touches=2))
+    for sharpness in (2.9, 3.1, 2.9, 3.1):
+        assert reflex.step(sensed(region("index_distal", 0.5, 1, sharpness=sharpness))) is None
+    assert reflex.step(sensed(region("index_distal", 0.5, 1, sharpness=3.1))) is not None
+
+
+def test_the_finger_at_a_tip_opens_at_once_and_the_others_keep_what_they_have() -> None:
+    reflex = SharpAvoidance(SharpAvoidanceConfig())
+    wish = reflex.step(sensed(tip_in("index_distal"), region("middle_distal", 0.8)))
+    assert wish is not None
+    assert wish.at_once
+    assert wish.avoids
+    assert (wish.steps[joints_of("index")] < 0.0).all()
+    others = [k for k in range(16) if k not in joints_of("index")]
+    assert not wish.steps[others].any()
+    assert wish.claimed is not None
+    assert np.flatnonzero(wish.claimed).tolist() == joints_of("index")
+    # It stays away for a while, then is free again.
+    assert reflex.step(sensed(time_s=0.4)) is not None
+    assert reflex.step(sensed(time_s=0.6)) is None
+    assert reflex.events == 1
+
+
+def test_a_finger_opens_so_far_and_no_farther() -> None:
+    reflex = SharpAvoidance(SharpAvoidanceConfig(sharp_open_rad=0.2))
+    reflex.step(sensed(tip_in("index_distal")))
+    wish = reflex.step(sensed(tip_in("index_distal"), goal_rad=np.full(16, 0.05), time_s=0.1))
+    assert wish is not None
+    assert not wish.steps.any()
+
+
+def test_a_tip_in_the_palm_opens_all_fingers() -> None:
+    reflex = SharpAvoidance(SharpAvoidanceConfig())
+    wish = reflex.step(sensed(tip_in("palm")))
+    assert wish is not None
+    for finger in LEAP_RIGHT.fingers:
+        assert (wish.steps[joints_of(finger)] < 0.0).all()
+
+
+# --- sphere
+
+
+def test_a_sphere_is_fitted_to_places_and_normals() -> None:
+    centre, radius = np.array([0.01, -0.02, -0.07]), 0.031
+    normals = np.array([[0.0, 0.0, -1.0], [-1.0, 0.0, 0.0], [0.0, 0.6, 0.8]])
+    points = centre - radius * normals
+    found, size = fitted_sphere(points, normals, np.array([1.0, 0.5, 2.0]), 0.03)
+    assert size == pytest.approx(radius, abs=5e-4)
+    assert found == pytest.approx(centre, abs=5e-4)
+
+
+def test_contacts_that_say_nothing_of_the_size_leave_the_usual_one() -> None:
+    normals = np.array([[0.0, 0.0, -1.0], [0.0, 0.0, -1.0]])
+    _, size = fitted_sphere(np.zeros((2, 3)), normals, np.ones(2), 0.03)
+    assert size == pytest.approx(0.03)
+
+
+@settings(max_examples=50, deadline=None)
+@given(
+    radius_m=st.floats(0.006, 0.045),
+    angles=st.lists(st.tuples(st.floats(-3.1, 3.1), st.floats(-0.5, 1.5)), min_size=1, max_size=4),
+)
+def test_the_palm_and_one_finger_tell_how_large_a_sphere_is(radius_m: float, angles: list[tuple]) -> None:
+    at, up = np.array([-0.04, -0.03, -0.0345]), np.array([0.0, 0.0, -1.0])
+    away = [np.array([np.cos(a) * np.cos(h), np.sin(a) * np.cos(h), -np.sin(h)]) for a, h in angles]
+    points = [at + radius_m * (up + direction) for direction in away]
+    assert radius_on_palm(at, up, points) == pytest.approx(radius_m, rel=1e-6)
+
+
+def test_a_finger_that_touches_the_palms_height_says_nothing_of_a_radius() -> None:
+    at, up = np.array([-0.04, -0.03, -0.0345]), np.array([0.0, 0.0, -1.0])
+    assert radius_on_palm(at, up, [at + np.array([0.03, 0.0, 0.0])]) is None
+
+
+@pytest.mark.parametrize("off_m", [-0.02, 0.0, 0.02])
+def test_the_side_on_which_the_palm_is_touched_tells_from_where_fingers_come(off_m: float) -> None:
+    at, up = np.array([-0.044, -0.037 + off_m, -0.0345]), np.array([0.0, 0.0, -1.0])
+    found = approaches(sensed(), at, up)
+    assert {finger: one.part for finger, one in found.items()} == {
+        "index": "beside",
+        "middle": "over",
+        "ring": "beside",
+        "thumb": "against",
+    }
+    for one in found.values():
+        assert one.side @ up == pytest.approx(0.0)
+        assert np.linalg.norm(one.on_sphere(up, 0.02)) == pytest.approx(1.0)
+    assert found["index"].side[1] > 0.0 > found["ring"].side[1]
+    assert found["thumb"].side @ found["middle"].side < -0.5
+    # The thumb turns to the side on which it lies.
+    assert found["thumb"].side[1] * off_m >= 0.0
+
+
+@pytest.mark.parametrize("finger", ["index", "middle", "thumb"])
+def test_a_fingertip_reaches_a_point_within_its_limits(finger: str) -> None:
+    q, up = np.array(LEAP_RIGHT.postures["cup"]), np.array([0.0, 0.0, -1.0])
+    at = np.array([-0.044, -0.035, -0.0345])
+    approach = approaches(sensed(), at, up)[finger]
+    away = approach.on_sphere(up, 0.035)
+    to = at + 0.035 * (up + away)
+    region_of = LEAP_RIGHT.regions[f"{finger}_distal"]
+    lower, upper = (
+        np.array([getattr(joint, name) for joint in LEAP_RIGHT.joints]) for name in ("lower_rad", "upper_rad")
+    )
+    for _ in range(1500):
+        now = sensed(q_rad=q)
+        q = np.clip(q + DT_S * reach(now, finger, to, -away, 0.15), lower, upper)
+    left = sensed(q_rad=q).pose.point(region_of.link, region_of.centre_m) - to
+    assert np.linalg.norm(left) < 0.006
+
+
+def test_a_small_sphere_is_pressed_where_it_is_and_slip_has_no_say() -> None:
+    reflex = Trapping(TrappingConfig())
+    pose = sensed().pose
+    tip = LEAP_RIGHT.regions["middle_distal"]
+    # The tip is 20 mm above where the palm is touched: on a sphere of 10 mm.
+    at = pose.point(tip.link, tip.centre_m)
+    held = region("middle_distal", 0.3, centre_m=tip.centre_m, normal=tip.normal)
+    palm = region("palm", 0.2, centre_m=(at[0], at[1], at[2] + 0.020), normal=(0.0, 0.0, -1.0))
+    wish = reflex.step(sensed(palm, held))
+    assert wish is not None
+    assert reflex.radius_m == pytest.approx(0.010, abs=1e-6)
+    assert {NAMES[k].split("_")[0] for k in np.flatnonzero(wish.steps)} == {"middle"}
+    assert wish.claimed is not None
+    assert wish.claimed.all()
+
+
+def test_what_is_larger_is_not_trapped() -> None:
+    reflex = Trapping(TrappingConfig())
+    tip = LEAP_RIGHT.regions["middle_distal"]
+    at = sensed().pose.point(tip.link, tip.centre_m)
+    palm = region("palm", 1.0, centre_m=(at[0], at[1], at[2] + 0.060), normal=(0.0, 0.0, -1.0))
+    assert reflex.step(sensed(palm, region("middle_distal", 0.3, centre_m=tip.centre_m, normal=tip.normal))) is None
+
+
+# --- hand to hand
+
+
+def test_force_goes_from_phalanges_with_much_to_those_with_little() -> None:
+    reflex = HandToHand(HandToHandConfig(hand_to_hand_force_n=1.0))
+    wish = reflex.step(sensed(region("index_proximal", 3.0), region("index_medial", 0.2)))
+    assert wish is not None
+    assert wish.steps[NAMES.index("index_mcp_forward")] < 0.0
+    assert wish.steps[PIP] > 0.0
+    assert wish.steps[DIP] > 0.0  # looks for touch
+    assert not wish.steps[joints_of("ring")].any()
+
+
+@pytest.mark.parametrize(
+    "contact",
+    [
+        region("ring_medial", 12.0),
+        # 3 N on a taxel of 9 mm^2 are 3.3e5 N/m^2.
+        region("ring_medial", 4.0, 4, peak_n=3.0),
+    ],
+)
+def test_a_finger_gives_way_above_the_comfort_limit_of_force_or_pressure(contact: RegionContact) -> None:
+    reflex = HandToHand(HandToHandConfig(hand_to_hand_max_force_n=10.0, hand_to_hand_max_pressure_n_m2=3e5))
+    wish = reflex.step(sensed(contact))
+    assert wish is not None
+    assert (wish.steps[joints_of("ring")] < 0.0).all()
+    assert reflex.state.yielded == 1
+
+
+# --- all of them
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    data=st.lists(
+        st.tuples(
+            st.sampled_from(list(LEAP_RIGHT.regions)),
+            st.floats(0.0, 200.0),
+            st.integers(1, 64),
+            st.tuples(*[st.floats(-0.2, 0.2)] * 3),
+            st.floats(0.0, 0.02),
+        ),
+        max_size=13,
+    ),
+    q=st.lists(st.floats(-0.3, 1.8), min_size=16, max_size=16),
+)
+def test_no_reflex_answers_with_what_is_not_finite(data: list[tuple], q: list[float]) -> None:
+    pressed = [
+        region(name, force, taxels, centre_m=centre, slip_m=slip, slipping=slip > 0.0)
+        for name, force, taxels, centre, slip in data
+    ]
+    for name, kind in REFLEXES.items():
+        reflex = kind(kind.Config())
+        for k in range(3):
+            wish = reflex.step(sensed(*pressed, time_s=k * DT_S, q_rad=np.array(q)))
+            assert wish is None or np.isfinite(wish.steps).all(), name
+
+
+def test_a_reflex_that_does_not_exist_is_refused_with_the_nearest_name() -> None:
+    with pytest.raises(SettingsError, match="did you mean 'sphere'"):
+        make_reflexes("slip sphre", None)

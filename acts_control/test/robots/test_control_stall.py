@@ -1,0 +1,291 @@
+"""A robot controller that stands still for a while (SIGSTOP), or is lost at a bad moment, against the simulated UR5e.
+
+ROS_DOMAIN_ID 170, robot addresses 127.0.17.1 to 127.0.17.19.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack
+from pathlib import Path
+
+import pytest
+from control_rig import Bench, Process, RollingBall, SimulatedRobot, node_command, wait_for
+from diagnostic_msgs.msg import DiagnosticArray
+
+import acts_control.robots.ur.robot
+from acts_control.ball import Ball, BallReport, ControlLoop, LoopConfig, Phase
+from acts_control.ball.controller import ReferenceReport
+from acts_control.ball.pid import Reference
+from acts_control.robots import with_robots
+from acts_control.robots.base import RobotReading
+from acts_control.robots.ur import UrRobot
+from acts_core.robots import ur5e
+from acts_msgs.msg import BalanceStatus
+
+pytestmark = pytest.mark.slow
+
+# Within it the end of motion must have been told: a few steps after it counts as stale where the machine is not loaded.
+# What waited for the library took 6 s.
+TOLD_WITHIN_S = 4.0
+
+# From the last reading to the moment of the stall, and on to the end of the robot's first cycle after it.
+SETTLED_S = 0.1
+
+CLEAR, MOVE_J, SERVO_J = "command 0", "command 1", "command 11"
+
+
+class Arm(UrRobot):
+    """Remembers the robot's time when it was last read."""
+
+    time_s = 0.0
+
+    def read(self) -> RobotReading:
+        reading = super().read()
+        self.time_s = reading.time_s
+        return reading
+
+    @property
+    def is_over(self) -> bool:
+        """Whether the process of the last connection has ended."""
+        return self._process is not None and self._process.poll() is not None
+
+
+class Rig:
+    """A simulated robot, and a control loop that balances a ball that never comes to rest."""
+
+    def __init__(
+        self, host: str, stack: ExitStack, stale_after_s: float = 0.8, simulated: SimulatedRobot | None = None
+    ) -> None:
+        self.simulated = simulated or stack.enter_context(SimulatedRobot(host))
+        config = with_robots(LoopConfig)(
+            robot_ip=host,
+            robot_stale_after_s=stale_after_s,
+            touch_stale_after_s=1.0,
+            connect_retry_s=0.1,
+            homing_speed_rad_s=2.0,
+        )
+        self.arm = Arm(config)
+        self.loop = ControlLoop(config, self.arm, time.time_ns)
+        self.loop.look = self._feel
+        stack.callback(self.loop.close)
+        self.loop.launch()
+
+    def _feel(self, _phase: Phase) -> None:
+        now_ns = time.time_ns()
+        self.loop.ball = BallReport(now_ns, True, Ball(0.02, 0.01, 0.0, 0.0))
+        self.loop.reference = ReferenceReport(now_ns, Reference(0.0, 0.0))
+
+    def await_phase(self, phase: Phase, timeout_s: float = 30.0) -> str:
+        wait_for(lambda: self.loop.status.phase is phase, f"{phase.name}, {self.loop.status}", timeout_s)
+        return self.loop.status.reason
+
+    def balance(self) -> None:
+        """Until the plate is tilted."""
+        self.await_phase(Phase.BALANCING)
+        wait_for(lambda: abs(self.loop.status.tilt_measured_rad[1]) > 0.02, "a tilt")
+
+    def pause(self) -> None:
+        """Let the controller stand still."""
+        self.simulated.process.send_signal(signal.SIGSTOP)
+
+    def resume(self) -> None:
+        """Let it go on."""
+        self.simulated.process.send_signal(signal.SIGCONT)
+
+    def orders_since(self, time_s: float) -> list[str]:
+        """What clients have told the robot after a moment of the robot's time."""
+        return [words for at_s, _port, words in self.simulated.orders() if at_s > time_s]
+
+    def await_time(self, seconds: float) -> None:
+        """Let robot time pass."""
+        end_s = float(self.simulated.state()["time_s"]) + seconds
+        wait_for(lambda: float(self.simulated.state()["time_s"]) > end_s, "the robot's time to pass")
+
+
+def stall(rig: Rig, stall_s: float, meanwhile: Callable[[Rig], None]) -> tuple[float, tuple[float, ...]]:
+    """Stand still for so long, or until that is told; the robot's time just after it, and the last command [rad]."""
+    rig.balance()
+    paused_s = time.monotonic()
+    rig.pause()
+    assert rig.await_phase(Phase.STOPPED, TOLD_WITHIN_S).startswith("no data from the robot for 0.")
+    told_s = time.monotonic() - paused_s
+    assert told_s > 0.1
+    wait_for(lambda: rig.arm.is_over, "the end of the connection", TOLD_WITHIN_S)
+    stalled_s, aim = rig.arm.time_s, rig.loop.status.joints
+    assert not rig.loop.stop("stopped by request")
+    meanwhile(rig)
+    time.sleep(max(stall_s - (time.monotonic() - paused_s), 0.0))
+    rig.resume()
+    return stalled_s + SETTLED_S, aim
+
+
+def nothing(rig: Rig) -> None:
+    """Wait."""
+
+
+def start_and_stop(rig: Rig) -> None:
+    """Ask to go on, and take it back."""
+    assert rig.loop.start()
+    assert not rig.loop.start()
+    rig.await_phase(Phase.CONNECTING, TOLD_WITHIN_S)
+    assert rig.loop.stop("stopped by request")
+    assert rig.await_phase(Phase.STOPPED) == "stopped by request"
+
+
+def start(rig: Rig) -> None:
+    """Ask to go on."""
+    assert rig.loop.start()
+
+
+CASES = [(0.3, nothing), (1.0, start), (5.0, start_and_stop), (5.0, start)]
+if os.environ.get("ACTS_LONG_FAULTS"):
+    # Every stall alone, and with what may be asked for meanwhile; the longest lasts 20 s.
+    CASES = [
+        (stall_s, meanwhile) for meanwhile in (nothing, start_and_stop, start) for stall_s in (0.3, 1.0, 5.0, 20.0)
+    ]
+
+
+@pytest.mark.parametrize("cases", [CASES[first : first + 4] for first in range(0, len(CASES), 4)])
+def test_after_a_stall_only_what_is_asked_for_is_commanded(cases: list[tuple[float, Callable[[Rig], None]]]) -> None:
+    def scenario(number: int, stall_s: float, meanwhile: Callable[[Rig], None]) -> None:
+        with ExitStack() as stack:
+            # On a loaded machine robots stand still for a while anyway.
+            rig = Rig(f"127.0.17.{number}", stack, stale_after_s=min(0.8, stall_s - 0.1))
+            ended_s, aim = stall(rig, stall_s, meanwhile)
+            if meanwhile is start:
+                began_anew(rig, ended_s)
+                return
+            rig.await_time(1.0)
+            assert rig.orders_since(ended_s) == []
+            # The arm has come to where it was last told to be, and the robot's program has not been touched.
+            state = rig.simulated.state()
+            assert state["q_rad"] == pytest.approx(aim, abs=1e-3)
+            assert state["runtime"] == "PLAYING"
+            assert rig.loop.status.phase is Phase.STOPPED
+            assert rig.loop.start()
+            rig.await_phase(Phase.BALANCING)
+
+    # At the same time: most of what they do is waiting.
+    with ThreadPoolExecutor(len(cases)) as pool:
+        for future in [pool.submit(scenario, number, *case) for number, case in enumerate(cases, 1)]:
+            future.result()
+
+
+def began_anew(rig: Rig, ended_s: float) -> None:
+    """One program, by us, and from there on what this loop sends: to the level pose first."""
+    rig.await_phase(Phase.BALANCING)
+    orders = rig.orders_since(ended_s)
+    assert orders.count("program rtde_control") == 1
+    begin = orders.index("program rtde_control")
+    assert [words for words in orders[begin + 1 :] if words != CLEAR][:2] == [MOVE_J, SERVO_J]
+    assert not {MOVE_J, SERVO_J} & set(orders[:begin])
+
+
+def test_a_stall_while_connecting_holds_up_nobody(monkeypatch: pytest.MonkeyPatch) -> None:
+    with ExitStack() as stack:
+        host = "127.0.17.10"
+        simulated = stack.enter_context(SimulatedRobot(host))
+        probe = acts_control.robots.ur.robot.probe
+        timeout_s = acts_control.robots.ur.robot._CONNECT_TIMEOUT_S
+        monkeypatch.setattr(acts_control.robots.ur.robot, "_CONNECT_TIMEOUT_S", 0.5)
+
+        def probe_and_pause(host: str) -> None:
+            probe(host)
+            # At the worst moment: the library connects next, and waits for an answer with Python's lock in its hand.
+            simulated.process.send_signal(signal.SIGSTOP)
+
+        monkeypatch.setattr(acts_control.robots.ur.robot, "probe", probe_and_pause)
+        rig = Rig(host, stack, simulated=simulated)
+        wait_for(lambda: "watch: no answer" in rig.loop.status.reason, f"the reason, {rig.loop.status}")
+        assert rig.loop.status.phase is Phase.CONNECTING
+        assert rig.arm.is_over
+        monkeypatch.setattr(acts_control.robots.ur.robot, "probe", probe)
+        wait_for(lambda: "does it stand still?" in rig.loop.status.reason, f"the reason, {rig.loop.status}")
+        monkeypatch.setattr(acts_control.robots.ur.robot, "_CONNECT_TIMEOUT_S", timeout_s)
+        rig.resume()
+        rig.balance()
+
+
+def test_a_connection_whose_process_dies_is_lost() -> None:
+    with ExitStack() as stack:
+        rig = Rig("127.0.17.11", stack)
+        rig.balance()
+        assert rig.arm._process is not None
+        rig.arm._process.send_signal(signal.SIGSEGV)
+        assert "has ended (SIGSEGV)" in rig.await_phase(Phase.STOPPED)
+        assert rig.loop.start()
+        rig.balance()
+
+
+def test_a_controller_that_stalls_while_motion_ends_is_lost_too() -> None:
+    with ExitStack() as stack:
+        rig = Rig("127.0.17.12", stack)
+        rig.balance()
+        assert rig.loop.stop("stopped by request")
+        assert rig.loop.is_stopping
+        rig.pause()
+        assert rig.await_phase(Phase.STOPPED, TOLD_WITHIN_S + 1.0).startswith("no data from the robot")
+        rig.resume()
+
+
+def test_the_robots_program_ends_when_our_process_is_killed() -> None:
+    program = """
+import os, signal, sys
+from acts_control.robots.ur import UrConfig, UrRobot
+robot = UrRobot(UrConfig(robot_ip=sys.argv[1]))
+robot.connect(lambda: True)
+robot.tilt(0.0, 0.0)
+while robot.is_busy:
+    pass
+os.kill(os.getpid(), signal.SIGKILL)
+"""
+    with SimulatedRobot("127.0.17.13") as simulated:
+        result = subprocess.run([sys.executable, "-c", program, simulated.host], timeout=30.0, check=False)
+        assert result.returncode == -signal.SIGKILL
+        wait_for(lambda: simulated.state()["runtime"] == "STOPPED", "the end of the robot's program")
+        assert any(words == SERVO_J for _at_s, _port, words in simulated.orders())
+
+
+def test_the_node_tells_a_stall_and_answers_during_it(tmp_path: Path) -> None:
+    settings = tmp_path / "params.yaml"
+    settings.write_text("/**/ball_control:\n  ros__parameters: {touch_stale_after_s: 1.0, robot_stale_after_s: 0.5}\n")
+    with SimulatedRobot("127.0.17.14") as robot, Bench(170) as bench, RollingBall(bench):
+        levels: list[tuple[int, str]] = []
+
+        def note(message: DiagnosticArray) -> None:
+            levels.extend((status.level[0], status.message) for status in message.status)
+
+        bench.node.create_subscription(DiagnosticArray, "/diagnostics", note, 10)
+        bench.start()
+        command = node_command("ball_balancing", "--set", f"ball_control.robot_ip={robot.host}")
+        with Process(*command, "--params-file", str(settings), domain=170):
+            bench.await_phase(BalanceStatus.STATE_BALANCING)
+            wait_for(lambda: abs(ur5e.tilt_of(robot.state()["q_rad"])[1]) > 0.005, "a tilt")
+            robot.process.send_signal(signal.SIGSTOP)
+            stopped = bench.await_phase(BalanceStatus.STATE_STOPPED, TOLD_WITHIN_S)
+            assert stopped.reason.startswith("no data from the robot for 0.")
+            wait_for(
+                lambda: any(level == 2 and "no data from the robot" in text for level, text in levels),
+                "the diagnostics",
+                TOLD_WITHIN_S,
+            )
+            answer = bench.call("stop")
+            assert not answer.success
+            assert answer.message.startswith("already stopped: no data from the robot")
+            assert bench.call("start").message == "started"
+            bench.await_phase(BalanceStatus.STATE_CONNECTING)
+            answer = bench.call("start")
+            assert (answer.success, answer.message.split(":")[0]) == (False, "already connecting")
+            wait_for(lambda: "does it stand still?" in bench.statuses[-1].reason, "the reason")
+            assert bench.call("stop").message == "stopping"
+            assert bench.await_phase(BalanceStatus.STATE_STOPPED).reason == "stopped by request"
+            robot.process.send_signal(signal.SIGCONT)
+            assert bench.call("start").success
+            bench.await_phase(BalanceStatus.STATE_BALANCING)

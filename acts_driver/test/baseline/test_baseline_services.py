@@ -1,0 +1,157 @@
+"""Calibrate and tare on the driver, over real DDS and a pseudo-terminal; ROS_DOMAIN_IDs 57 to 59, 146 and 147."""
+
+from __future__ import annotations
+
+import itertools
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from driver_rig import Rig
+from pty_board import PtyBoard
+from std_srvs.srv import Trigger
+
+from acts_core.errors import SettingsError
+from acts_core.frames import SampleFrame, Scheme
+from acts_driver.baseline import Baseline as SavedBaseline
+from acts_driver.baseline.baseline import BaselineSource
+from acts_msgs.msg import Baseline
+from acts_ros.qos import LATCHED
+
+pytestmark = pytest.mark.slow
+
+ROWS, COLS = 8, 6
+SIZE = ROWS * COLS
+FRAME_S = 0.01
+
+
+class Stream(threading.Thread):
+    """A board that sends 100 full frames a second of what `field` says."""
+
+    def __init__(self, board: PtyBoard) -> None:
+        super().__init__(daemon=True)
+        self.field = np.full(SIZE, 25, dtype=np.uint16)
+        self.board = board
+        self.ended = threading.Event()
+
+    def run(self) -> None:
+        sequence = 0
+        indices = np.arange(SIZE, dtype=np.uint16)
+        while not self.ended.wait(FRAME_S):
+            counts = self.field + np.uint16(sequence % 2)
+            board_us = (sequence + 1) * 10_000
+            self.board.write_frames(SampleFrame(sequence, board_us, 900, Scheme.RASTER, ROWS, COLS, 0, indices, counts))
+            sequence += 1
+
+
+@pytest.fixture
+def stream(tmp_path: Path) -> Iterator[Stream]:
+    with PtyBoard(tmp_path) as board:
+        stream = Stream(board)
+        yield stream
+        stream.ended.set()
+        if stream.is_alive():
+            stream.join()
+
+
+_domains = itertools.cycle([57, 58, 59, 146, 147])
+
+
+@pytest.fixture
+def rig() -> Iterator[Rig]:
+    rig = Rig(next(_domains))
+    yield rig
+    rig.close()
+
+
+def ask(rig: Rig, name: str) -> Trigger.Response:
+    client = rig.listener.create_client(Trigger, f"driver/{name}")
+    rig.spin_until(client.service_is_ready, "the service")
+    future = client.call_async(Trigger.Request())
+    rig.spin_until(future.done, "the answer")
+    rig.listener.destroy_client(client)
+    return future.result()
+
+
+def start(rig: Rig, stream: Stream, path: Path) -> list[Baseline]:
+    """A driver on the stream; what it publishes on `baseline`."""
+    rig.start_driver(port=stream.board.path, rows=ROWS, cols=COLS, frame_id="plate", calibration_file=path)
+    baselines: list[Baseline] = []
+    rig.listener.create_subscription(Baseline, "baseline", baselines.append, LATCHED)
+    return baselines
+
+
+def test_calibrate_and_tare(rig: Rig, stream: Stream, tmp_path: Path) -> None:
+    path = tmp_path / "skin.npz"
+    baselines = start(rig, stream, path)
+    answer = ask(rig, "calibrate")
+    assert not answer.success
+    assert "no frames so far" in answer.message
+    stream.start()
+    rig.spin_until(lambda: ask(rig, "calibrate").success, "a calibration")
+    rig.spin_until(lambda: bool(baselines), "the baseline")
+    first = baselines[0]
+    assert (first.rows, first.cols, first.source) == (ROWS, COLS, Baseline.SOURCE_CALIBRATION)
+    assert first.header.frame_id == "plate"
+    assert first.header.stamp.sec > 0
+    assert list(first.valid) == [True] * SIZE
+    assert np.abs(np.array(first.baseline) - 25.5).max() < 0.2
+    assert np.abs(np.array(first.noise) - 0.5).max() < 0.1
+    saved = SavedBaseline.load(path, ROWS, COLS)
+    assert saved.counts.ravel().tolist() == list(first.baseline)
+
+    # The skin is pressed: no calibration, but a tare. Samples stay raw.
+    stream.field = np.where(np.arange(SIZE) < 2 * COLS, 300, 25).astype(np.uint16)
+    rig.spin_until(lambda: bool(rig.samples) and max(rig.samples[-1].counts) >= 300, "the touch")
+    refused = ask(rig, "calibrate")
+    assert not refused.success
+    assert "the skin was touched" in refused.message
+    pressed = rig.samples[-1].header.stamp
+    rig.spin_until(lambda: rig.samples[-1].header.stamp.sec > pressed.sec + 1, "a second of touch")
+    assert ask(rig, "tare").success
+    rig.spin_until(lambda: baselines[-1].source == Baseline.SOURCE_TARE, "the tared baseline")
+    assert baselines[-1].baseline[0] == pytest.approx(300.5, abs=1)
+    assert max(rig.samples[-1].counts) >= 300
+    # A tare is not stored.
+    assert SavedBaseline.load(path, ROWS, COLS).counts[0, 0] == pytest.approx(25.5, abs=0.2)
+    status = rig.status_until(lambda status: status.get("baseline") == "tare", "the report")
+    assert status["baseline_taxels"] == str(SIZE)
+    assert {"baseline_below", "baseline_drift_per_min.median", "baseline_drift_per_min.largest"} <= status.keys()
+
+
+@pytest.mark.parametrize("service", ["calibrate", "tare"])
+def test_without_frames_the_past_is_not_taken_for_the_present(
+    rig: Rig, stream: Stream, tmp_path: Path, service: str
+) -> None:
+    start(rig, stream, tmp_path / "skin.npz")
+    stream.start()
+    rig.spin_until(lambda: ask(rig, "calibrate").success, "a calibration")
+    stream.ended.set()
+
+    def refused() -> bool:
+        answer = ask(rig, service)
+        return not answer.success and "no frames for" in answer.message
+
+    rig.spin_until(refused, "a refusal")
+
+
+def test_the_file_is_read_at_the_start(rig: Rig, stream: Stream, tmp_path: Path) -> None:
+    path = tmp_path / "skin.npz"
+    counts = np.full((ROWS, COLS), 12.5, dtype=np.float32)
+    tracked = SavedBaseline(counts, counts / 10, counts > 0, BaselineSource.CALIBRATION, time_ns=5 * 10**9)
+    tracked.save(path)
+    baselines = start(rig, stream, path)
+    rig.spin_until(lambda: bool(baselines), "the baseline of the file")
+    assert list(baselines[0].baseline) == [12.5] * SIZE
+    assert baselines[0].header.stamp.sec == 5
+    assert baselines[0].source == Baseline.SOURCE_FILE
+
+
+def test_a_file_of_another_skin_is_refused(rig: Rig, stream: Stream, tmp_path: Path) -> None:
+    path = tmp_path / "skin.npz"
+    counts = np.full((COLS, ROWS), 12.5, dtype=np.float32)
+    SavedBaseline(counts, counts / 10, counts > 0, BaselineSource.CALIBRATION, time_ns=0).save(path)
+    with pytest.raises(SettingsError, match="6 x 8 taxels, the array has 8 x 6"):
+        start(rig, stream, path)

@@ -1,0 +1,294 @@
+"""Recordings in place of a board: what comes out, in which order, when; and files that are none."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from driver_rig import Rig
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from pty_board import frame, wait_for
+from recorded import DEFINITION, write_bag
+
+from acts_core.errors import RecordingError, SettingsError
+from acts_core.frames import SampleFrame, Scheme
+from acts_core.sampling import Sampler, SamplingConfig, measure_in
+from acts_core.skin import layout
+from acts_core.wire import StreamDecoder
+from acts_driver.port import Reader
+from acts_driver.replay import ReplayOptions, ReplaySource, open_recording
+from acts_driver.replay.recordings import RecordedSamples
+from acts_driver.settings import DriverSettings
+from acts_driver.stream import FrameStream
+
+pytestmark = pytest.mark.slow
+
+MS = 1_000_000
+START_NS = 1_600_000_000 * 1_000_000_000
+
+
+class FixedRecording:
+    """Frames out of a list."""
+
+    def __init__(self, frames: list[SampleFrame]) -> None:
+        self._frames = frames
+
+    def frames(self) -> Iterator[SampleFrame]:
+        return iter(self._frames)
+
+
+def write_samples(path: Path, frames: list[SampleFrame], **others: object) -> Path:
+    content: dict[str, object] = {
+        "indices": np.array([one.indices for one in frames]),
+        "counts": np.array([one.counts for one in frames]),
+        "sequence": [one.sequence for one in frames],
+        "stamp_ns": [START_NS + one.board_us * 1000 for one in frames],
+        "scheme": "adaptive",
+        "duration_us": frames[0].duration_us,
+        **others,
+    }
+    np.savez(path, **{name: value for name, value in content.items() if value is not None})
+    return path
+
+
+def same(first: SampleFrame, second: SampleFrame) -> bool:
+    alike = all(
+        getattr(first, name) == getattr(second, name) for name in ("scheme", "rows", "cols", "duration_us", "sequence")
+    )
+    return alike and (first.indices == second.indices).all() and bool((first.counts == second.counts).all())
+
+
+@pytest.fixture
+def rig() -> Iterator[Rig]:
+    rig = Rig(34)
+    yield rig
+    rig.close()
+
+
+@pytest.mark.parametrize("kind", ["npz", "bag", "mcap"])
+def test_recorded_samples_come_back_as_they_were(kind: str, tmp_path: Path) -> None:
+    sent = [frame(k, m=7) for k in (0, 1, 2, 5, 6)]
+    if kind == "npz":
+        path = write_samples(tmp_path / "samples.npz", sent)
+    else:
+        stamped = [(one, START_NS + one.board_us * 1000) for one in sent]
+        path = write_bag(tmp_path / "bag", {"/plate/samples": stamped})
+        if kind == "mcap":
+            (path,) = path.glob("*.mcap")
+    recording = open_recording(ReplayOptions(path))
+    for _ in range(2):
+        found = list(recording.frames())
+        assert len(found) == len(sent)
+        assert all(map(same, found, sent))
+        assert np.diff([one.board_us for one in found]).tolist() == [1000, 1000, 3000, 1000]
+
+
+def test_full_frames_are_sampled_as_the_board_would(tmp_path: Path) -> None:
+    random = np.random.default_rng(3)
+    frames = random.integers(0, 1024, (3, 8, 6)).astype(np.uint16)
+    np.savez(tmp_path / "frames.npz", frames=frames, rate_hz=100.0)
+    sampling = SamplingConfig(scheme="tracking", rows=8, cols=6, m=12, threshold_counts=500)
+    parameters = DriverSettings(scheme="tracking", m=12, threshold_counts=500)
+    found = list(open_recording(ReplayOptions(tmp_path / "frames.npz", sampling=parameters.sampling)).frames())
+    # 30 ms at 1 kHz; the skin changes in a straight line from frame to frame and is held at the end.
+    assert len(found) == 30
+    sampler = Sampler(sampling)
+    for number, one in enumerate(found):
+        assert (one.sequence, one.scheme, one.rows, one.cols) == (number, Scheme.TRACKING, 8, 6)
+        at = min((number * 1e-3 + 12 * 17.877e-6) * 100, 2)
+        before = min(int(at), 1)
+        skin = np.rint(frames[before] + (at - before) * (frames[before + 1].astype(float) - frames[before]))
+        indices, counts = sampler.frame(measure_in(skin.astype(int)))
+        np.testing.assert_array_equal(one.indices, indices)
+        np.testing.assert_array_equal(one.counts, counts)
+    assert {b.board_us - a.board_us for a, b in itertools.pairwise(found)} == {1000}
+
+
+def test_full_frames_are_sampled_on_the_skin_that_they_are_of(tmp_path: Path) -> None:
+    insole = layout("insole")
+    picture = np.zeros((64, 16), np.uint16)
+    picture[10:16, 4:10] = 700
+    np.savez(tmp_path / "frames.npz", frames=insole.matrix(picture)[None].repeat(3, axis=0), rate_hz=100.0)
+    parameters = DriverSettings(scheme="adaptive", m=120, threshold_counts=60, layout="insole")
+    options = ReplayOptions(tmp_path / "frames.npz", sampling=parameters.sampling, skin_map=parameters.skin_map)
+    first = next(open_recording(options).frames())
+    # In the matrix the first 255 taxels of the search are all of the other half.
+    assert set(np.flatnonzero(picture)) <= set(insole.places[first.indices].tolist())
+
+
+def test_the_rate_of_full_frames_and_of_sampling_can_be_given(tmp_path: Path) -> None:
+    np.savez(tmp_path / "frames.npz", frames=np.zeros((4, 8, 6), np.uint16))
+    with pytest.raises(RecordingError, match="rate_hz is missing; set the parameter replay_frames_hz"):
+        open_recording(ReplayOptions(tmp_path / "frames.npz"))
+    slow = DriverSettings(scheme="raster").sampling
+    found = list(open_recording(ReplayOptions(tmp_path / "frames.npz", "", 40.0, slow, 200.0)).frames())
+    assert len(found) == 20
+    assert all(len(one.indices) == 48 for one in found)
+    # A frame takes the time of its measurements at least.
+    whole = SamplingConfig(scheme="raster", rows=8, cols=6)
+    fast = list(open_recording(ReplayOptions(tmp_path / "frames.npz", "", 40.0, lambda *_: whole, 1e6)).frames())
+    assert fast[1].board_us - fast[0].board_us == pytest.approx(48 * 17.877, abs=1)
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"counts": np.zeros((2, 3), int)}, "needed is"),
+        ({"counts": np.full((2, 5), 1024)}, "between 0 and 1023"),
+        ({"indices": np.zeros((2, 5), int)}, "none twice"),
+        ({"indices": np.arange(10).reshape(2, 5) + 1020}, "taxels of 32 x 32"),
+        ({"indices": np.zeros((2, 5))}, "whole numbers"),
+        ({"rows": 65}, "rows = 65"),
+        ({"scheme": "morse"}, "scheme morse"),
+        ({"scheme": 99}, "scheme 99"),
+        ({"sequence": [1]}, "2 whole numbers"),
+        ({"stamp_ns": [5, 4]}, "ascending"),
+        ({"stamp_ns": None}, "stamp_ns .* or rate_hz"),
+        ({"stamp_ns": None, "rate_hz": -1.0}, "stamp_ns .* or rate_hz"),
+        ({"indices": None}, "frames"),
+    ],
+)
+def test_samples_that_do_not_fit_together(changes: dict[str, object], words: str, tmp_path: Path) -> None:
+    path = write_samples(tmp_path / "samples.npz", [frame(0), frame(1)], **changes)
+    with pytest.raises(RecordingError, match=words) as caught:
+        open_recording(ReplayOptions(path))
+    assert "samples.npz" in str(caught.value)
+
+
+def test_files_that_are_no_recordings(tmp_path: Path) -> None:
+    def refused(path: Path, words: str, topic: str = "") -> None:
+        with pytest.raises(RecordingError, match=words):
+            open_recording(ReplayOptions(path, topic))
+
+    refused(tmp_path / "no.npz", "there is no recording .*no.npz")
+    (tmp_path / "text.npz").write_text("nothing")
+    refused(tmp_path / "text.npz", "not an npz file")
+    (tmp_path / "text.txt").write_text("nothing")
+    refused(tmp_path / "text.txt", r"needed is a bag \(folder or \.mcap\), or an \.npz file")
+    (tmp_path / "empty").mkdir()
+    refused(tmp_path / "empty", "no bag that can be read")
+    one = [(frame(0), START_NS)]
+    two = write_bag(tmp_path / "two", {"/left/samples": one, "/right/samples": one})
+    refused(two, "has /left/samples, /right/samples .*say which .*parameter replay_topic")
+    refused(two, "has no topic /middle", topic="/middle")
+    assert len(list(open_recording(ReplayOptions(two, "/right/samples")).frames())) == 1
+    other = DEFINITION.replace("uint16[] indices", "uint32[] indices")
+    refused(write_bag(tmp_path / "other", {"/plate/samples": one}, other), "recorded with another definition of")
+    refused(write_bag(tmp_path / "silent", {"/plate/samples": []}), "no messages on /plate/samples")
+    np.savez(tmp_path / "big.npz", frames=np.zeros((1, 65, 2), np.uint16), rate_hz=1.0)
+    refused(tmp_path / "big.npz", "65 x 2")
+    np.savez(tmp_path / "small.npz", frames=np.zeros((1, 2, 2), np.uint16), rate_hz=1.0)
+    with pytest.raises(SettingsError, match="m = 55"):
+        open_recording(ReplayOptions(tmp_path / "small.npz"))
+
+
+def drain(source: ReplaySource, count: int) -> tuple[list[SampleFrame], list[int]]:
+    """Frames and the stamps that the driver gives them."""
+    stream = FrameStream(32, 32)
+    accepted: list[tuple[SampleFrame, int]] = []
+    reader = Reader(source, StreamDecoder(), lambda frames, at_ns: accepted.extend(stream.accept(frames, at_ns)))
+    source.open()
+    reader.start(is_open=True)
+    source.begin()
+    wait_for(lambda: len(accepted) >= count, f"{count} frames")
+    reader.stop()
+    assert stream.statistics.restarts == stream.statistics.repeated == stream.clock.state.resets == 0
+    return [one for one, _ in accepted[:count]], [stamp_ns for _, stamp_ns in accepted[:count]]
+
+
+@pytest.mark.parametrize("speed", [1.0, 4.0])
+def test_stamps_advance_as_recorded_and_a_loop_goes_on(speed: float) -> None:
+    recorded = [frame(10 + k, board_us=7_000_000 + at) for k, at in enumerate((0, 10_000, 12_000, 40_000))]
+    source = ReplaySource("test", lambda: FixedRecording(recorded), speed=speed, delay_s=0.0)
+    frames, stamps_ns = drain(source, 10)
+    assert [one.sequence for one in frames] == list(range(10, 20))
+    steps_us = np.diff([one.board_us for one in frames])
+    # From the last to the first as from the last but one to the last.
+    assert steps_us.tolist() == [round(step / speed) for step in ([10_000, 2_000, 28_000, 28_000] * 3)[:9]]
+    assert (np.diff(stamps_ns) > 0).all()
+    for one, original in zip(frames, itertools.cycle(recorded), strict=False):
+        np.testing.assert_array_equal(one.counts, original.counts)
+
+
+@given(
+    st.lists(st.tuples(st.integers(0, 2**33), st.integers(0, 2**40)), min_size=1, max_size=20),
+    st.floats(0.01, 100.0),
+)
+@settings(max_examples=100, deadline=None)
+def test_the_replayed_clock_only_goes_forward(times: list[tuple[int, int]], speed: float) -> None:
+    recorded = [frame(sequence & 0xFFFF, board_us=at_us, m=1) for sequence, at_us in times]
+    source = ReplaySource("test", lambda: FixedRecording(recorded), speed=speed)
+    source.open()
+    decoder = StreamDecoder()
+    last_us = -1
+    for _ in range(3 * len(times)):
+        assert source._next is not None
+        (found,) = decoder.feed(source._next.data)
+        assert found.board_us > last_us
+        last_us = found.board_us
+        source._prepare()
+
+
+def test_without_a_loop_the_end_is_told() -> None:
+    source = ReplaySource("test", lambda: FixedRecording([frame(0), frame(1)]), loop=False, delay_s=0.0)
+    source.open()
+    assert source.read() == b""
+    assert "begins when" in source.silence
+    source.begin()
+    assert source.silence == ""
+    data = b""
+    while not source.silence:
+        data += source.read()
+    assert [one.sequence for one in StreamDecoder().feed(data)] == [0, 1]
+    assert source.silence == "the recording has ended"
+    assert source.read() == b""
+
+
+def test_damage_is_told_after_everything_before_it() -> None:
+    class Damaged:
+        def frames(self) -> Iterator[SampleFrame]:
+            yield frame(0)
+            raise RecordingError("the bag is damaged after 1 messages")
+
+    source = ReplaySource("test", Damaged, delay_s=0.0)
+    source.open()
+    source.begin()
+    assert [one.sequence for one in StreamDecoder().feed(source.read())] == [0]
+    assert source.silence == "the bag is damaged after 1 messages"
+
+
+def test_nodes_cannot_tell(rig: Rig, tmp_path: Path) -> None:
+    sent = [frame(k, m=55, board_us=1000 * k) for k in range(100)]
+    path = write_samples(tmp_path / "samples.npz", sent)
+    rig.start_driver(replay=path, replay_delay_s=0.0, replay_loop=False, autostart=False)
+    rig.wait_for_match()
+    assert rig.driver is not None
+    rig.driver.trigger_configure()
+    rig.driver.trigger_activate()
+    rig.spin_until(lambda: len(rig.samples) == 100, "all messages")
+    for message, one in zip(rig.samples, sent, strict=True):
+        assert (message.sequence, message.scheme, message.header.frame_id) == (one.sequence, 3, "plate")
+        np.testing.assert_array_equal(message.indices, one.indices)
+        np.testing.assert_array_equal(message.counts, one.counts)
+    status = rig.status_until(lambda status: "has ended" in status["message"], "the report of the end")
+    assert (status["level"], status["frames"], status["lost"], status["malformed"]) == ("2", "100", "0", "0")
+    assert status["port"] == f"recording {path}"
+
+
+def test_a_missing_recording_is_reported_and_waited_for(rig: Rig, tmp_path: Path) -> None:
+    path = tmp_path / "later.npz"
+    rig.start_driver(replay=path, replay_delay_s=0.0, reconnect_s=0.05)
+    status = rig.status_until(lambda status: status["level"] == "2", "the report")
+    assert "there is no recording" in status["message"]
+    write_samples(tmp_path / "new.npz", [frame(0), frame(1)]).rename(path)
+    rig.spin_until(lambda: len(rig.samples) > 3, "messages")
+
+
+def test_defaults_of_an_npz_file(tmp_path: Path) -> None:
+    np.savez(tmp_path / "s.npz", indices=[[3, 1]], counts=[[5, 6]], rate_hz=50, rows=2, cols=2)
+    (found,) = RecordedSamples.load(tmp_path / "s.npz").frames()
+    assert (found.sequence, found.board_us, found.scheme, found.duration_us) == (0, 0, Scheme.UNKNOWN, 36)

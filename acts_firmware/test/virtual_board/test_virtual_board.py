@@ -1,0 +1,252 @@
+"""The virtual board from outside: options, stream, pace, terminal."""
+
+import os
+import signal
+import subprocess
+import time
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+from board_process import BoardProcess
+from core_library import installed
+
+from acts_core.frames import SampleFrame, Scheme
+from acts_core.sampling import SCHEME_NUMBERS
+from acts_core.wire import RasterDecoder
+
+
+def check_stream(frames: list[SampleFrame]) -> None:
+    """No frame is lost but those that the board says it dropped, and each has its own time."""
+    for before, frame in pairwise(frames):
+        lost = frame.sequence - before.sequence - 1
+        assert lost == frame.overruns - before.overruns
+        assert frame.board_us > before.board_us
+        if lost == 0:
+            assert frame.board_us - before.board_us == 1000
+        assert len(set(frame.indices.tolist())) == len(frame.indices)
+
+
+def test_stream_of_the_published_settings(tmp_path: Path) -> None:
+    with BoardProcess(tmp_path) as board:
+        port = board.open_port()
+        assert os.read(port, 1) == b"\0"
+        frames = board.read_frames(300)
+    assert board.decoder.malformed == board.decoder.crc_errors == 0
+    check_stream(frames)
+    for frame in frames:
+        assert (frame.scheme, frame.rows, frame.cols) == (Scheme.ADAPTIVE, 32, 32)
+        assert len(frame.indices) == 55
+        assert frame.duration_us in (972, 973, 974)  # 973 us on a clock of whole microseconds
+        assert frame.board_us // 1000 == frame.sequence
+        assert frame.counts.max() < 10  # untouched: noise only
+
+
+@pytest.mark.parametrize(
+    ("scheme", "m"),
+    [("uniform", 48), ("random", 40), ("tracking", 60), ("hybrid", 80), ("adaptive", 120), ("raster", 176)],
+)
+def test_schemes_and_their_pace(tmp_path: Path, scheme: str, m: int) -> None:
+    with BoardProcess(tmp_path, "--scheme", scheme, "--m", m, "--rows", 11, "--cols=16", "--sample-us", 10) as board:
+        board.open_port()
+        frames = board.read_frames(20)
+    # A frame takes m * 10 us or the time the rate cap asks for, whichever is longer.
+    period_us = max(m * 10, 1000)
+    assert [len(frame.indices) for frame in frames] == [m] * len(frames)
+    assert {frame.scheme for frame in frames} == {SCHEME_NUMBERS[scheme]}
+    for before, frame in pairwise(frames):
+        steps = frame.sequence - before.sequence
+        assert abs(frame.board_us - before.board_us - steps * period_us) <= 1
+
+
+def test_published_raster_sketch(tmp_path: Path) -> None:
+    with BoardProcess(tmp_path, "--protocol", "raster_ascii") as board:
+        board.decoder = RasterDecoder()
+        board.open_port()
+        frames = board.read_frames(5)
+    assert board.decoder.malformed == 0
+    for frame in frames:
+        assert len(frame.counts) == 1024
+        assert frame.duration_us in (17508, 17509)
+
+
+def test_frames_go_on_while_nobody_reads(tmp_path: Path) -> None:
+    with BoardProcess(tmp_path, "--status-period-s", 0.05) as board:
+        while board.status()["frames"] < 100:
+            pass
+        board.open_port()
+        first = board.read_frames(1)[0]
+        assert first.sequence - first.overruns >= 100  # discarded, not dropped
+        board.close_port()
+        while board.status()["connected"]:
+            pass
+        beyond = board.status()["frames"] + 50
+        while board.status()["frames"] < beyond:
+            pass
+        # The next reader begins with a whole, new frame.
+        port = board.open_port()
+        assert os.read(port, 1) == b"\0"
+        frames = board.read_frames(50)
+        assert frames[0].sequence >= beyond
+        assert board.decoder.malformed == board.decoder.crc_errors == board.decoder.partial == 0
+        check_stream(frames)
+
+
+def test_a_port_that_is_not_read_drops_whole_frames_and_says_how_many(tmp_path: Path) -> None:
+    # Raster frames with little time each fill the queue in a fraction of a second.
+    options = ("--scheme", "raster", "--sample-us", 0.5, "--status-period-s", 0.05)
+    with BoardProcess(tmp_path, *options) as board:
+        board.open_port()
+        frames = board.read_frames(1)
+        while board.status()["overruns"] < 20:
+            pass
+        frames += board.read_frames(200)
+        assert frames[-1].overruns >= 20
+        assert board.decoder.malformed == board.decoder.crc_errors == 0
+        check_stream(frames)
+
+
+@pytest.mark.parametrize(("stall_s", "skips"), [(0.1, False), (0.8, True)])
+def test_a_stalled_board_catches_up_or_skips(tmp_path: Path, stall_s: float, skips: bool) -> None:
+    with BoardProcess(tmp_path) as board:
+        board.open_port()
+        frames = board.read_frames(20)
+        board.process.send_signal(signal.SIGSTOP)
+        due_ns = time.monotonic_ns() + int(stall_s * 1e9)
+        while time.monotonic_ns() < due_ns:
+            time.sleep(0.01)
+        board.process.send_signal(signal.SIGCONT)
+        while board.start["epoch_monotonic_ns"] + frames[-1].board_us * 1000 < due_ns:
+            frames += board.read_frames(1)
+    check_stream(frames)
+    if skips:
+        assert frames[-1].overruns > 0
+
+
+def test_what_the_host_sends_is_taken_and_disturbs_nothing(tmp_path: Path) -> None:
+    with BoardProcess(tmp_path) as board:
+        port = board.open_port()
+        os.set_blocking(port, False)
+        frames = board.read_frames(1)
+        sent = 0
+        while sent < 100_000:
+            try:
+                sent += os.write(port, b"\x03\x7f\r\n" * 250)
+            except BlockingIOError:
+                frames += board.read_frames(1)
+        frames += board.read_frames(20)
+        assert board.decoder.malformed == board.decoder.crc_errors == 0
+        check_stream(frames)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["--speed", "3"], "unknown option --speed"),
+        (["board"], "unknown option board"),
+        (["--rows", "65"], "--rows 65: allowed is a whole number from 1 to 64"),
+        (["--cols", "3x"], "--cols 3x"),
+        (["--m", "0"], "--m 0"),
+        (["--rows", "5", "--cols", "5"], "--m 55: an array of 5 x 5 has 25 taxels"),
+        (["--scheme", "spiral"], "adaptive, hybrid, random, raster, tracking, uniform"),
+        (["--scheme", "uniform", "--m", "53"], "--m 53: no uniform frame"),
+        (["--search-share", "0"], "--search-share 0: allowed is a number from 0.0001 to 1"),
+        (["--search-share", "1.01"], "--search-share 1.01"),
+        (["--adaptive-share", "0"], "--adaptive-share 0: allowed is a number from 0.0001 to 1"),
+        (["--threshold", "1024"], "--threshold 1024"),
+        (["--neighbour-order", "diagonal"], "columns, rows"),
+        (["--rate-hz", "nan"], "--rate-hz nan"),
+        (["--sample-us", "0"], "--sample-us 0"),
+        (["--noise-counts", "-1"], "--noise-counts -1"),
+        (["--seed", "-1"], "--seed -1"),
+        (["--protocol", "morse"], "binary, raster_ascii"),
+        (["--loop=yes"], "--loop takes no value"),
+        (["--m"], "--m needs a value"),
+        (["--m", "--ros-args"], "--m needs a value"),
+    ],
+)
+def test_refused_options(options: list[str], message: str) -> None:
+    result = subprocess.run([installed("virtual_board"), *options], capture_output=True, text=True, timeout=30)
+    assert result.returncode == 2
+    assert message in result.stderr
+
+
+def test_help_names_every_option() -> None:
+    result = subprocess.run([installed("virtual_board"), "--help"], capture_output=True, text=True, timeout=30)
+    assert result.returncode == 0
+    documented = (Path(__file__).resolve().parents[3] / "docs/virtual_board.md").read_text()
+    options = [line.split()[0] for line in result.stdout.splitlines() if line.startswith("  --")]
+    assert len(options) > 15
+    assert [option for option in options if f"`{option}" not in documented] == []
+
+
+def test_ros_arguments_are_left_alone(tmp_path: Path) -> None:
+    with BoardProcess(tmp_path, "--m", 10, "--ros-args", "-r", "__node:=board", "--speed") as board:
+        assert board.start["m"] == 10
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
+@pytest.mark.parametrize("rate_hz", [1000, 1])
+def test_ends_at_once_and_clears_its_link(tmp_path: Path, number: signal.Signals, rate_hz: int) -> None:
+    with BoardProcess(tmp_path, "--rate-hz", rate_hz) as board:
+        assert board.link.is_symlink()
+        assert str(board.link.readlink()) == board.start["port"]
+        board.open_port()
+        assert board.terminate(number) == 0
+        assert not board.link.is_symlink()
+        assert list(board.link.parent.iterdir()) == []
+
+
+def test_link_of_a_killed_board_is_replaced(tmp_path: Path) -> None:
+    with BoardProcess(tmp_path) as killed:
+        killed.terminate(signal.SIGKILL)
+        assert killed.link.is_symlink()
+    with BoardProcess(tmp_path) as board:
+        board.open_port()
+        board.read_frames(3)
+
+
+def refusal(link: Path) -> str:
+    command = [installed("virtual_board"), "--link", link]
+    result = subprocess.run(command, capture_output=True, text=True, timeout=30)
+    assert result.returncode == 1
+    return result.stderr
+
+
+def test_a_link_in_use_is_refused_with_the_name_of_the_board_that_has_it(tmp_path: Path) -> None:
+    with BoardProcess(tmp_path) as first:
+        said = refusal(first.link)
+        assert f"{first.link} is in use by process {first.process.pid} (" in said
+        assert "virtual_board --link" in said
+        assert "run_dir:=" in said
+        assert str(first.link.readlink()) == first.start["port"]
+        first.open_port()
+        first.read_frames(3)
+
+
+def test_the_links_folder_is_made_for_its_user_alone(tmp_path: Path) -> None:
+    with BoardProcess(tmp_path) as board:
+        assert board.link.parent.stat().st_mode & 0o777 == 0o700
+
+
+def test_folders_that_others_have_a_hand_in_are_refused(tmp_path: Path) -> None:
+    folder = tmp_path / "folder"
+    folder.mkdir()
+    (tmp_path / "run").symlink_to(folder)
+    assert "run is a symbolic link" in refusal(tmp_path / "run" / "board")
+    folder.chmod(0o777)
+    assert "anybody may write to the folder" in refusal(folder / "board")
+    folder.chmod(0o755)
+    if os.geteuid() == 0:
+        os.chown(folder, 1, 1)
+        assert "belongs to" in refusal(folder / "board")
+    assert list(folder.iterdir()) == []
+
+
+def test_a_file_in_place_of_the_link_is_kept(tmp_path: Path) -> None:
+    path = tmp_path / "notes.txt"
+    path.write_text("mine")
+    result = subprocess.run([installed("virtual_board"), "--link", path], capture_output=True, text=True, timeout=30)
+    assert result.returncode == 1
+    assert "something else than a symbolic link" in result.stderr
+    assert path.read_text() == "mine"

@@ -1,0 +1,246 @@
+"""The virtual board's faults, seen by a reader of bytes."""
+
+import itertools
+import json
+import os
+import subprocess
+import time
+from collections import Counter
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from board_process import DEADLINE_S, BoardProcess
+from core_library import installed
+
+from acts_core.frames import SampleFrame
+from acts_core.wire import BoardSettings, StreamDecoder, encode_configure
+
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture
+def board(tmp_path: Path) -> Iterator[BoardProcess]:
+    with BoardProcess(tmp_path, "--control", tmp_path / "control") as board:
+        board.open_port()
+        board.read_frames(20)
+        yield board
+
+
+def inject(board: BoardProcess, *faults: str) -> None:
+    (board.link.parent.parent / "control").write_text("".join(f"{fault}\n" for fault in faults))
+
+
+def event(board: BoardProcess, fault: str, *, over: bool) -> dict[str, Any]:
+    line = board.status()
+    assert (line["fault"], line["over"]) == (fault, over)
+    return line
+
+
+def play(board: BoardProcess, fault: str) -> list[SampleFrame]:
+    """Frames around a fault, from one before its request to 20 ms after its end."""
+    assert board.process.stdout is not None
+    os.set_blocking(board.process.stdout.fileno(), False)
+    frames = board.read_frames(1)
+    # None of them may be waiting from before a pause of this process.
+    while board.start["epoch_monotonic_ns"] + frames[-1].board_us * 1000 < time.monotonic_ns() - 5_000_000:
+        frames = board.read_frames(1)
+    inject(board, fault)
+    events: list[bytes] = []
+    deadline = time.monotonic() + DEADLINE_S
+    while len(events) < 2:
+        assert time.monotonic() < deadline, f"no end of {fault}"
+        frames += board.read_frames(1)
+        events += board.process.stdout.readlines()
+    end = json.loads(events[-1])
+    # By the board's clock: frames from before the fault may still be waiting to be read.
+    while end["epoch_monotonic_ns"] + frames[-1].board_us * 1000 < end["monotonic_ns"] + 20_000_000:
+        frames += board.read_frames(1)
+    return frames
+
+
+def missing(frames: list[SampleFrame]) -> int:
+    """Frames lost on the way: not those that the board itself dropped."""
+    first, last = frames[0], frames[-1]
+    return last.sequence - first.sequence + 1 - len(frames) - (last.overruns - first.overruns)
+
+
+def test_a_burst_of_garbage_costs_one_frame_at_most(board: BoardProcess) -> None:
+    frames = play(board, "garbage:5000")
+    assert missing(frames) <= 1
+    assert board.decoder.malformed + board.decoder.crc_errors > 0
+
+
+@pytest.mark.parametrize("fault", ["flip:1", "flip:20", "truncate:1"])
+def test_a_damaged_packet_is_no_frame(board: BoardProcess, fault: str) -> None:
+    assert 1 <= missing(play(board, fault)) <= 2
+    assert board.decoder.malformed + board.decoder.crc_errors >= 1
+
+
+def test_lost_bytes_take_the_packets_they_touch(board: BoardProcess) -> None:
+    assert 3 <= missing(play(board, "lose:1000")) <= 5
+
+
+def test_dropped_packets_are_gone(board: BoardProcess) -> None:
+    assert missing(play(board, "drop:7")) == 7
+    assert board.decoder.malformed == board.decoder.crc_errors == 0
+
+
+def test_doubled_packets_come_twice(board: BoardProcess) -> None:
+    counts = Counter(frame.sequence for frame in play(board, "double:5"))
+    assert Counter(counts.values())[2] == 5
+    assert max(counts.values()) == 2
+
+
+def test_a_rate_of_flips_ends_when_it_is_told_to(board: BoardProcess) -> None:
+    inject(board, "flip-rate:0.0005")  # about every second packet
+    before = board.decoder.malformed + board.decoder.crc_errors
+    frames = board.read_frames(100)
+    assert missing(frames) > 20
+    assert board.decoder.malformed + board.decoder.crc_errors > before + 10
+    inject(board, "flip-rate:0")
+    event(board, "flip-rate:0.0005", over=False)
+    event(board, "flip-rate:0", over=True)
+    last = board.read_frames(100)[-1]
+    assert missing([frame for frame in board.read_frames(100) if frame.sequence > last.sequence]) == 0
+
+
+def test_another_version_has_a_right_checksum(board: BoardProcess) -> None:
+    inject(board, "version:9")
+    while board.decoder.malformed < 10:
+        board.decoder.feed(board.read_bytes())
+    assert "version 9" in board.decoder.last_error
+    assert board.decoder.crc_errors == 0
+    inject(board, "version:1")
+    board.read_frames(10)
+
+
+def test_a_stalled_link_catches_up(board: BoardProcess) -> None:
+    frames = play(board, "stall:0.2")
+    assert missing(frames) == 0
+    assert board.decoder.malformed == board.decoder.crc_errors == 0
+
+
+def test_a_frozen_board_makes_no_frames(board: BoardProcess) -> None:
+    frames = play(board, "freeze:0.4")
+    assert missing(frames) == 0
+    steps = [after.board_us - before.board_us for before, after in itertools.pairwise(frames)]
+    assert max(steps) >= 399_000
+
+
+@pytest.mark.parametrize(("fault", "step_us"), [("jump:30", 30_000_000), ("jump:-2", 2**32 - 2_000_000)])
+def test_a_jump_of_the_clock(board: BoardProcess, fault: str, step_us: int) -> None:
+    frames = play(board, fault)
+
+    def largest_step_us() -> int:
+        return max(after.board_us - before.board_us for before, after in itertools.pairwise(frames))
+
+    # Frames from before the jump may still be waiting, and their clock does not tell.
+    deadline = time.monotonic() + DEADLINE_S
+    while largest_step_us() < 1_000_000 and time.monotonic() < deadline:
+        frames += board.read_frames(1)
+    assert step_us <= largest_step_us() < step_us + 1_000_000
+    assert missing(frames) == 0
+
+
+def read_to_the_end(board: BoardProcess) -> StreamDecoder:
+    """What the open port still gives before it is gone, in a decoder that saw it from its beginning."""
+    decoder = StreamDecoder()
+    try:
+        while data := board.read_bytes():
+            decoder.feed(data)
+    except OSError:
+        pass
+    return decoder
+
+
+def test_unplugged_in_the_middle_of_a_packet_and_back_under_another_name(board: BoardProcess) -> None:
+    port = board.start["port"]
+    inject(board, "unplug:0.1")
+    read_to_the_end(board)
+    began = event(board, "unplug:0.1", over=False)
+    over = event(board, "unplug:0.1", over=True)
+    assert over["monotonic_ns"] - began["monotonic_ns"] >= 100_000_000
+    assert str(board.link.readlink()) == over["port"] != port
+    board.close_port()
+    board.open_port()
+    frames = board.read_frames(20)
+    assert board.decoder.malformed == board.decoder.crc_errors == 0
+    # The board had power all the time.
+    assert frames[0].sequence > 100
+
+
+def test_a_reset_with_a_port_that_stays(board: BoardProcess) -> None:
+    inject(board, "reset")
+    first = board.read_until(lambda frame: frame.sequence < 5)
+    assert first.board_us < 1_000_000
+    began = event(board, "reset", over=False)
+    event(board, "reset", over=True)
+    assert began["port"] == board.start["port"]
+    assert began["epoch_monotonic_ns"] > board.start["epoch_monotonic_ns"]
+    assert board.decoder.malformed + board.decoder.crc_errors <= 1  # the packet that was cut
+
+
+def test_a_reset_with_a_port_that_goes(board: BoardProcess) -> None:
+    inject(board, "reset:0.05")
+    read_to_the_end(board)
+    event(board, "reset:0.05", over=False)
+    event(board, "reset:0.05", over=True)
+    board.close_port()
+    board.open_port()
+    frames = board.read_frames(3)
+    assert frames[0].board_us == frames[0].sequence * 1000 + frames[0].duration_us
+
+
+def test_a_reset_forgets_what_the_host_had_set(board: BoardProcess) -> None:
+    port = board.open_port()
+    os.write(port, encode_configure(1, BoardSettings(m=20)))
+    board.read_until(lambda frame: len(frame.indices) == 20)
+    inject(board, "reset")
+    first = board.read_until(lambda frame: frame.sequence < 5)
+    assert len(first.indices) == 55
+
+
+def test_a_schedule_on_the_command_line(tmp_path: Path) -> None:
+    with BoardProcess(tmp_path, "--fault", "unplug:0@0.3", "--fault", "freeze:0.01@0.1") as board:
+        for fault, over in (("freeze:0.01", False), ("freeze:0.01", True), ("unplug:0", False), ("unplug:0", True)):
+            last = event(board, fault, over=over)
+        assert last["monotonic_ns"] - board.start["epoch_monotonic_ns"] >= 300_000_000
+        board.open_port()
+        board.read_frames(3)
+
+
+def test_control_refuses_in_words_and_goes_with_the_board(tmp_path: Path) -> None:
+    with BoardProcess(tmp_path, "--control", tmp_path / "control") as board:
+        inject(board, "earthquake:9", "drop:0.5", "freeze:0")
+        event(board, "freeze:0", over=False)
+        assert "unknown fault 'earthquake'; allowed are unplug, reset," in board.errors.read_text()
+        assert "drop:0.5: allowed is a whole number N from 1 to 1000000" in board.errors.read_text()
+        assert board.terminate() == 0
+        assert not (tmp_path / "control").exists()
+
+
+@pytest.mark.parametrize(
+    ("fault", "message"),
+    [
+        ("flood", "unknown fault 'flood'"),
+        ("unplug:x", "unplug:x: allowed is a number S from 0 to 3600"),
+        ("unplug:-1", "unplug:-1: allowed is a number S from 0 to 3600"),
+        ("version:256", "allowed is a whole number V from 0 to 255"),
+        ("drop:1@-1", "seconds since the start"),
+        ("drop:1@", "drop:1@: the time after @ is in seconds"),
+    ],
+)
+def test_refused_faults(fault: str, message: str) -> None:
+    result = subprocess.run([installed("virtual_board"), "--fault", fault], capture_output=True, text=True, timeout=30)
+    assert result.returncode == 2
+    assert message in result.stderr
+
+
+def test_every_fault_is_documented() -> None:
+    result = subprocess.run([installed("virtual_board"), "--help"], capture_output=True, text=True, timeout=30)
+    documented = (Path(__file__).resolve().parents[3] / "docs/virtual_board.md").read_text()
+    faults = [line.split()[0] for line in result.stdout.split("faults:\n")[1].splitlines()]
+    assert len(faults) == 13
+    assert [fault for fault in faults if f"| `{fault}`" not in documented] == []

@@ -1,0 +1,126 @@
+"""Slip on patches whose taxels are measured in turn: through sampling, fusion and all that is pressed besides."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from acts_core.sampling import Sampler, SamplingConfig
+from acts_core.skin import ForceResponse, RegionContact, SkinPatch, layout
+from acts_recon.fusion import FusionEstimator
+from acts_recon.regions import Regions
+from acts_recon.slip import SlipConfig, SlipWatch
+from acts_recon.slip import watch_kernels as kernels
+
+pytestmark = pytest.mark.slow
+
+HAND = layout("leap_right")
+TIP = next(k for k, patch in enumerate(HAND.patches) if patch.name == "middle_distal")
+
+
+def skin(moved_m: float = 0.0, force: float = 1.0) -> NDArray[np.float64]:
+    """Every patch is pressed somewhere; what lies on one finger tip has moved along its columns."""
+    rng = np.random.default_rng(3)
+    picture = np.zeros((HAND.rows, HAND.cols))
+    for k, patch in enumerate(HAND.patches):
+        x, y = patch.geometry.x_m(np.arange(patch.cols)), patch.geometry.y_m(np.arange(patch.rows))
+        at_x, at_y = rng.uniform(-0.3, 0.3, 2) * (patch.cols * patch.pitch_m / 2, patch.rows * patch.row_pitch_m / 2)
+        radius_m = rng.uniform(0.005, 0.008) * (0.6 + 0.4 * force)
+        away = (x[None, :] - at_x - moved_m * (k == TIP)) ** 2 + (y[:, None] - at_y) ** 2
+        patch.of(picture)[:] = rng.uniform(400, 800) * force * np.exp(-2 * away / radius_m**2)
+    return picture
+
+
+def watched(m: int, seconds: float, skin_at: Callable[[float], NDArray[np.float64]]) -> list[list[RegionContact]]:
+    """What the regions say every 4 ms, sampled 1000 times a second with noise of 2 counts."""
+    sampler = Sampler(SamplingConfig(scheme="tracking", m=m, threshold_counts=50))
+    fusion = FusionEstimator(HAND.geometry(), layout=HAND)
+    regions = Regions(HAND, ForceResponse())
+    noise = np.random.default_rng(4).normal(0.0, 2.0, 100_003)
+    found, drawn = [], 0
+    for k in range(round(1000 * seconds)):
+        now = HAND.matrix(np.clip(skin_at(k * 1e-3), 0, 1023)).tolist()
+
+        def measure(row: int, col: int, now: list[list[float]] = now) -> int:
+            nonlocal drawn
+            drawn += 1
+            return min(max(round(now[row][col] + noise[drawn % len(noise)]), 0), 1023)
+
+        fusion.step(*sampler.frame(measure), k * 1e-3, 0.95e-3)
+        if k % 4 == 0:
+            found.append(list(regions.step(k * 1e-3, fusion.image, fusion.measured, fusion.age_s)))
+    return found
+
+
+@pytest.mark.parametrize(("m", "within_ms"), [(64, 15.0), (128, 10.0)])
+def test_slip_is_told_soon_though_few_taxels_are_measured_in_a_frame(m: int, within_ms: float) -> None:
+    begin_s, speed_m_s = 0.200, 0.03
+
+    def skin_at(time_s: float) -> NDArray[np.float64]:
+        return skin(max(time_s - begin_s, 0.0) * speed_m_s, force=min(time_s / 0.1, 1.0))
+
+    found = watched(m, 0.225, skin_at)
+    told_s = {patch: [0.004 * k for k, regions in enumerate(found) if regions[patch].slipping] for patch in range(13)}
+    assert [patch for patch, times in told_s.items() if times] == [TIP]
+    assert begin_s < told_s[TIP][0] <= begin_s + 0.0002 / speed_m_s + 1e-3 * within_ms
+
+
+def test_fingers_that_close_and_hold_do_not_slip() -> None:
+    found = watched(55, 0.45, lambda time_s: skin(force=min(time_s / 0.2, 1.0)))
+    assert all(region.in_contact for region in found[-1])
+    assert not any(region.slipping for regions in found for region in regions)
+
+
+def test_a_contact_that_the_border_cuts_grows_without_slipping_and_slips_where_its_force_stays() -> None:
+    patch = SkinPatch("one", 0, 8, 0, 8, pitch_m=0.003, row_pitch_m=0.003)
+    rows, cols = np.indices((8, 8))
+
+    def press(col: float, force: float, wide: float) -> NDArray[np.float32]:
+        square = (rows - 3.4) ** 2 + (cols - col) ** 2
+        return np.asarray(600 * force * np.exp(-square / (2 * wide**2)), dtype=np.float32)
+
+    def told(cut_taxels: float, image_at: Callable[[int], NDArray[np.float32]]) -> bool:
+        watch = SlipWatch(8, 8, [patch], SlipConfig(slip_cut_taxels=cut_taxels))
+        images = [image_at(k) for k in range(300)]
+        slips = [watch.step(k * 1e-3, image, np.array([image.sum()]))[0] for k, image in enumerate(images)]
+        return any(slip.slipping for slip in slips)
+
+    def grows(k: int) -> NDArray[np.float32]:
+        share = min(k / 250, 1.0)
+        return press(8.0, 0.2 + 0.8 * share, 1.2 + 0.4 * share)
+
+    assert told(0.0, grows)
+    assert not told(2.0, grows)
+    assert told(2.0, lambda k: press(8.0 - 0.01 * max(k - 100, 0), 1.0, 1.5))
+
+
+def by_numpy(time_s: float, memory: kernels.Memory, pressed: float, max_lag_s: float) -> tuple[NDArray, float]:
+    """The reference implementation: the image at the last measurement of a pressed taxel, and that moment."""
+    moment_s = max(memory.last_s[memory.last > pressed].min(initial=time_s), time_s - max_lag_s)
+    with np.errstate(invalid="ignore"):
+        share = (moment_s - memory.before_s) / (memory.last_s - memory.before_s)
+        between = memory.before + share * (memory.last - memory.before)
+    known = np.isfinite(memory.before_s) & (memory.last_s > moment_s)
+    return np.where(known, np.where(memory.before_s >= moment_s, memory.before, between), memory.last), moment_s
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_taxels_are_brought_to_one_moment_as_numpy_does(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    patch = SkinPatch("one", 0, 8, 0, 8)
+    watch = SlipWatch(8, 8, [patch], pressed_counts=60.0)
+    memory, counts = watch._memory, np.array([1e4])
+    for k in range(40):
+        time_s = 5.0 + 0.004 * k
+        age_s = rng.choice([0.001, 0.003, 0.009, 0.030, np.inf], (8, 8)).astype(np.float32)
+        values = rng.uniform(0, 300, (8, 8)).astype(np.float32)
+        newest_s = memory.past_s.max()
+        watch.step(time_s, values, counts, age_s)
+        expected, moment_s = by_numpy(time_s, memory, 60.0, watch.config.slip_max_lag_s)
+        np.testing.assert_allclose(memory.now, expected, rtol=1e-5, atol=1e-3)
+        assert memory.past_s.max() == max(moment_s, newest_s)
+        assert math.isfinite(moment_s)

@@ -1,0 +1,131 @@
+"""A node process from start to stop; ROS_DOMAIN_ID 11."""
+
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+pytestmark = pytest.mark.slow
+
+NODE = """
+import sys
+from acts_core import errors
+from acts_ros.executor import run
+from diagnostic_msgs.msg import DiagnosticArray
+from rclpy.node import Node
+
+class Example(Node):
+    def __init__(self):
+        super().__init__("example")
+        if "slow" in sys.argv:
+            print("starting", flush=True)
+            while True:
+                self.create_timer(1.0, self.tick)
+        if "fail" in sys.argv:
+            raise getattr(errors, sys.argv[-1])("rate_hz = 0: allowed is 1 to 1000")
+        self.create_timer(0.01, self.tick)
+        self.ticks = 0
+
+    def tick(self):
+        self.ticks += 1
+        if self.ticks == 3:
+            print("ticking", flush=True)
+
+    def begin(self):
+        print("begun", flush=True)
+
+    def close(self):
+        if "stubborn" in sys.argv:
+            print("closing", flush=True)
+            sys.stdin.readline()
+            # The context is there to the end: what ends motion may still tell of it.
+            self.get_logger().info("told")
+            self.create_publisher(DiagnosticArray, "told", 10).publish(DiagnosticArray())
+        print("closed", flush=True)
+
+sys.exit(run([Example]))
+"""
+
+
+@contextmanager
+def started(*arguments: str) -> Iterator[subprocess.Popen[str]]:
+    environment = {**os.environ, "ROS_DOMAIN_ID": "11", "ROS_PYTHON_CHECK_FIELDS": "1"}
+    with subprocess.Popen(
+        [sys.executable, "-c", NODE, *arguments],
+        env=environment,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as process:
+        try:
+            yield process
+        finally:
+            process.kill()
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_the_node_in_order(number: signal.Signals) -> None:
+    with started() as process:
+        assert process.stdout is not None
+        assert process.stdout.readline() == "begun\n"
+        assert process.stdout.readline() == "ticking\n"
+        process.send_signal(number)
+        output, errors = process.communicate(timeout=60)
+    assert (output, errors) == ("closed\n", "")
+    assert process.returncode == 0
+
+
+def test_a_signal_while_a_node_is_made_is_an_orderly_end() -> None:
+    with started("slow") as process:
+        assert process.stdout is not None
+        assert process.stdout.readline() == "starting\n"
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=60)
+    assert errors == ""
+    assert process.returncode == 0
+
+
+def test_signals_on_the_way_out_change_nothing() -> None:
+    with started("stubborn") as process:
+        assert process.stdout is not None
+        assert [process.stdout.readline() for _ in range(2)] == ["begun\n", "ticking\n"]
+        process.send_signal(signal.SIGINT)
+        assert process.stdout.readline() == "closing\n"
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGINT):
+            process.send_signal(number)
+        output, errors = process.communicate("go on\n", timeout=60)
+    assert output == "closed\n"
+    assert errors.count("\n") == 1
+    assert "told" in errors
+    assert process.returncode == 0
+
+
+def test_a_signal_during_the_imports_is_an_orderly_end(tmp_path: Path) -> None:
+    (tmp_path / "slow_module.py").write_text('print("importing", flush=True)\nwhile True:\n    pass\n')
+    with subprocess.Popen(
+        [sys.executable, "-m", "acts_ros.executables.program", "slow_module"],
+        env={**os.environ, "PYTHONPATH": f"{tmp_path}:{os.environ['PYTHONPATH']}"},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as process:
+        assert process.stdout is not None
+        assert process.stdout.readline() == "importing\n"
+        process.send_signal(signal.SIGINT)
+        assert process.communicate(timeout=60) == ("", "")
+    assert process.returncode == 0
+
+
+@pytest.mark.parametrize(("error", "code"), [("SettingsError", 2), ("DictionaryError", 2), ("RobotError", 1)])
+def test_an_error_at_start_is_one_line_and_the_exit_code_tells_whether_to_try_again(error: str, code: int) -> None:
+    with started("fail", error) as process:
+        output, errors = process.communicate(timeout=60)
+    assert process.returncode == code
+    assert errors == "error: rate_hz = 0: allowed is 1 to 1000\n"
+    assert output == ""

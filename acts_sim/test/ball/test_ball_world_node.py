@@ -1,0 +1,224 @@
+"""The node over real DDS, with a fake robot writing joints; ROS_DOMAIN_IDs 79, 100 and 101."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+import pytest
+import rclpy
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import PointStamped
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+
+from acts_core.errors import REFUSED_EXIT_CODE
+from acts_core.robots import ur5e
+from acts_core.skin import ForceResponse
+from acts_ros import qos
+from acts_sim.ball.joint_follower import JOINT_RING_WIDTH
+from acts_sim.shared import TimedRingReader, TimedRingWriter
+
+pytestmark = pytest.mark.slow
+
+DEADLINE_S = 40.0
+
+
+class Observer:
+    """What a demo sees of the node."""
+
+    def __init__(self, domain_id: int) -> None:
+        self.context = Context()
+        rclpy.init(context=self.context, domain_id=domain_id)
+        self.node = Node("observer", context=self.context)
+        self.executor = SingleThreadedExecutor(context=self.context)
+        self.executor.add_node(self.node)
+        self.truth: list[PointStamped] = []
+        self.reports: list[tuple[bytes, str, dict[str, str]]] = []
+        self.node.create_subscription(PointStamped, "/plate/ball/truth", self.truth.append, qos.STATE)
+        self.node.create_subscription(DiagnosticArray, "/diagnostics", self._on_diagnostics, 10)
+
+    def _on_diagnostics(self, message: DiagnosticArray) -> None:
+        for status in message.status:
+            assert status.name == "plate/ball_world"
+            self.reports.append((status.level, status.message, {item.key: item.value for item in status.values}))
+
+    def until(self, condition: Callable[[], bool], what: str) -> None:
+        deadline_s = time.monotonic() + DEADLINE_S
+        while not condition():
+            assert time.monotonic() < deadline_s, f"{what}; last reports {self.reports[-2:]}"
+            self.executor.spin_once(timeout_sec=0.02)
+
+    def until_reported(self, level: bytes, words: str) -> dict[str, str]:
+        seen = len(self.reports)
+        found: list[dict[str, str]] = []
+
+        def reported() -> bool:
+            found[:] = [values for at, message, values in self.reports[seen:] if at == level and words in message]
+            return bool(found)
+
+        self.until(reported, f"no report of {words!r}")
+        return found[-1]
+
+    def close(self) -> None:
+        self.executor.shutdown()
+        self.node.destroy_node()
+        rclpy.try_shutdown(context=self.context)
+
+
+@contextmanager
+def world(domain_id: int, folder: Path, *parameters: str) -> Iterator[subprocess.Popen[str]]:
+    arguments = [f"field_ring:={folder / 'run' / 'field.ring'}", f"joint_ring:={folder / 'joints.ring'}", *parameters]
+    command = [
+        sys.executable,
+        "-m",
+        "acts_ros.executables.program",
+        "acts_sim.ball.ball_world_node",
+        "--ros-args",
+        "-r",
+        "__ns:=/plate",
+    ]
+    for argument in arguments:
+        command += ["-p", argument]
+    environment = {**os.environ, "ROS_DOMAIN_ID": str(domain_id), "ROS_PYTHON_CHECK_FIELDS": "1"}
+    process = subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    try:
+        yield process
+    finally:
+        process.kill()
+        process.communicate()
+
+
+@pytest.fixture
+def observer(request: pytest.FixtureRequest) -> Iterator[Observer]:
+    observer = Observer(request.param)
+    yield observer
+    observer.close()
+
+
+def tilted(tilt_y_rad: float) -> np.ndarray:
+    q_rad = np.array(ur5e.LEVEL_Q_RAD)
+    q_rad[3], q_rad[4] = ur5e.wrist_angles_for_tilt(ur5e.LEVEL_Q_RAD, 0.0, tilt_y_rad)
+    return np.concatenate([q_rad, np.zeros(6)])
+
+
+def newest_in(reader: TimedRingReader) -> tuple[int, np.ndarray]:
+    newest = reader.newest()
+    assert newest is not None
+    return newest
+
+
+@pytest.mark.parametrize("observer", [100], indirect=True)
+def test_the_ball_follows_the_joints_and_presses_the_field(observer: Observer, tmp_path: Path) -> None:
+    with world(100, tmp_path, "start_after_s:=0.5", "replace_after_s:=0.2") as process:
+        # No robot yet: said, and the plate is level, so the ball stays where it was put.
+        observer.until_reported(b"\x01", "there is no joint ring")
+        observer.until(lambda: len(observer.truth) > 10, "no truth")
+        message = observer.truth[-1]
+        assert message.header.frame_id == "plate"
+        assert (message.point.x, message.point.y, message.point.z) == (0.020, -0.015, 0.0)
+        stamp_s = message.header.stamp.sec + message.header.stamp.nanosec * 1e-9
+        assert abs(stamp_s - time.time()) < DEADLINE_S
+
+        # The field: in the near future, with the weight and the place of the ball.
+        reader = TimedRingReader(tmp_path / "run" / "field.ring", 1024)
+        observer.until(lambda: newest_in(reader)[0] > time.monotonic_ns(), "the field is never ahead")
+        field_n = ForceResponse().force_n(newest_in(reader)[1]).reshape(32, 32)
+        assert field_n.sum() == pytest.approx(5.0, abs=0.3)
+        assert (field_n.sum(axis=0) * (np.arange(32) - 15.5)).sum() / field_n.sum() * 0.004375 == pytest.approx(
+            0.020, abs=0.0003
+        )
+
+        # A robot that tilts the plate: the ball rolls the right way and off; level again, it is put back.
+        with TimedRingWriter(tmp_path / "joints.ring", JOINT_RING_WIDTH) as joints:
+
+            def robot(values: np.ndarray, condition: Callable[[], bool]) -> Callable[[], bool]:
+                def done() -> bool:
+                    joints.write(time.monotonic_ns(), values)
+                    return condition()
+
+                return done
+
+            seen = len(observer.truth)
+            observer.until(robot(tilted(0.06), lambda: observer.truth[-1].point.x > 0.06), "it does not roll")
+            x_m = [message.point.x for message in observer.truth[seen:]]
+            assert x_m == sorted(x_m)
+            observer.until(robot(tilted(0.06), lambda: observer.reports[-1][2]["falls"] == "1"), "it does not fall")
+            level = tilted(0.0)
+            observer.until(robot(level, lambda: abs(observer.truth[-1].point.x - 0.020) < 1e-6), "it is not put back")
+            observer.until(robot(level, lambda: observer.reports[-1][0] == b"\x00"), "not well again")
+            assert observer.reports[-1][2]["joints"] == "following the robot"
+
+            # Joints of NaN are refused.
+            bad = np.full(JOINT_RING_WIDTH, np.nan)
+            observer.until(robot(bad, lambda: "NaN" in observer.reports[-1][1]), "NaN is not reported")
+            assert observer.reports[-1][0] == b"\x02"
+            assert int(observer.reports[-1][2]["joints_refused"]) > 0
+            assert np.isfinite(newest_in(reader)[1]).all()
+            observer.until(robot(level, lambda: observer.reports[-1][0] == b"\x00"), "not well after NaN")
+
+        # The robot ends and removes its ring, then another one starts in its place.
+        observer.until_reported(b"\x01", "the robot has stopped writing its joints")
+        with TimedRingWriter(tmp_path / "joints.ring", JOINT_RING_WIDTH) as joints:
+            observer.until(robot(level, lambda: observer.reports[-1][0] == b"\x00"), "the new robot is not followed")
+
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=20)
+        assert process.returncode == 0
+        assert "Traceback" not in errors
+        assert not (tmp_path / "run" / "field.ring").exists()
+
+
+@pytest.mark.parametrize(
+    ("parameter", "message"),
+    [
+        ("diametre_m:=0.05", "unknown key 'diametre_m'; did you mean 'diameter_m'?"),
+        ("rows:=0", "rows = 0: allowed is 1 to 64"),
+        ("diameter_m:=.nan", "diameter_m = nan: allowed is a finite number"),
+        ("field_ring:=/proc/nothing/field.ring", "the folder /proc/nothing cannot be made"),
+    ],
+)
+def test_a_wrong_parameter_ends_it_with_one_clear_line(tmp_path: Path, parameter: str, message: str) -> None:
+    with world(101, tmp_path, parameter) as process:
+        _, errors = process.communicate(timeout=40)
+        assert process.returncode == REFUSED_EXIT_CODE
+        assert message in errors
+        assert "Traceback" not in errors
+
+
+FAILING = """
+import sys
+from acts_sim.ball import ball_world_node
+from acts_sim.ball.world import World
+
+def step(self, joints, dt_s):
+    raise ZeroDivisionError("by mistake")
+
+World.step = step
+sys.argv[1:] = ["--ros-args", "-p", f"field_ring:={sys.argv[1]}/field.ring"]
+sys.exit(ball_world_node.main())
+"""
+
+
+def test_a_world_that_fails_ends_the_node(tmp_path: Path) -> None:
+    environment = {**os.environ, "ROS_DOMAIN_ID": "79", "ROS_PYTHON_CHECK_FIELDS": "1"}
+    finished = subprocess.run(
+        [sys.executable, "-c", FAILING, str(tmp_path)], env=environment, capture_output=True, text=True, timeout=60
+    )
+    assert finished.returncode == 1
+    assert "error: the world has stopped: ZeroDivisionError('by mistake')" in finished.stderr
+    assert not (tmp_path / "field.ring").exists()
+
+
+@pytest.mark.parametrize("observer", [103], indirect=True)
+def test_without_a_robot_nothing_is_amiss(observer: Observer, tmp_path: Path) -> None:
+    with world(103, tmp_path, "joint_ring:=none"):
+        values = observer.until_reported(b"\x00", "the ball is")
+        assert values["joints"] == "there is no robot"
+        observer.until(lambda: len(observer.truth) > 10, "no truth")

@@ -1,0 +1,155 @@
+"""What can be done to the simulated hand in words, and when the loop of its process leaves steps out."""
+
+from __future__ import annotations
+
+import math
+from contextlib import suppress
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hand_motors import AROUND_SPHERE, close, switch_on
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from acts_core.errors import SettingsError
+from acts_sim.hand import STEP_S, HandTruth, HandWorld, HandWorldConfig, TruthFollower, carry_out, row_width
+from acts_sim.hand.commands import COMMANDS
+from acts_sim.hand.process.loop import STEP_NS, HandLoop
+from acts_sim.shared import TimedRingReader, TimedRingWriter
+
+pytestmark = pytest.mark.slow
+
+
+def run(world: HandWorld, seconds: float) -> HandTruth:
+    for _ in range(round(seconds / STEP_S)):
+        world.step()
+    return world.truth
+
+
+@pytest.fixture(scope="module")
+def any_world() -> HandWorld:
+    return HandWorld(HandWorldConfig(object="small_sphere"))
+
+
+def test_the_other_hand_moves_by_20_mm_and_turns_by_20_degrees() -> None:
+    world = HandWorld(HandWorldConfig(object="other_hand", object_held=True, object_height_m=0.03))
+    start = run(world, 0.1)
+    carry_out(world, "move 0 20 0 0 0 20 0.5")
+    half = run(world, 0.25)
+    end = run(world, 0.5)
+    way = np.array(end.object_position_m) - start.object_position_m
+    assert way == pytest.approx((0.0, 0.020, 0.0), abs=5e-4)
+    assert half.object_position_m[1] - start.object_position_m[1] == pytest.approx(0.010, abs=0.002)
+    assert 2.0 * math.acos(end.object_quaternion[0]) == pytest.approx(math.radians(20.0), abs=0.01)
+    assert end.object_held
+
+
+def test_what_is_let_go_falls_out_of_an_open_hand_and_can_be_put_back() -> None:
+    world = HandWorld(HandWorldConfig(pose="palm_down", object_held=True))
+    assert not run(world, 0.2).object_lost
+    carry_out(world, "let_go")
+    lost = run(world, 0.5)
+    assert lost.object_lost
+    assert not lost.object_held
+    assert run(world, 0.1).object_position_m == pytest.approx(lost.object_position_m, abs=1e-6)
+    carry_out(world, "put 0 0")
+    assert not world.truth.object_lost
+    carry_out(world, "hold")
+    assert not run(world, 0.3).object_lost
+
+
+def test_a_load_grows_evenly_and_stays() -> None:
+    world = HandWorld(HandWorldConfig(pose="thumb_up", object="cylinder", object_held=True))
+    carry_out(world, "load 2 50")
+    assert run(world, 0.026).load_n == pytest.approx((0.0, -world.weight_n * 1.04, 0.0), rel=0.05)
+    assert run(world, 0.05).load_n == pytest.approx((0.0, -2.0 * world.weight_n, 0.0))
+    carry_out(world, "pull 0 0 0 10")
+    assert run(world, 0.05).load_n == pytest.approx((0.0, 0.0, 0.0))
+
+
+def test_a_shaken_hand_ends_where_it_was() -> None:
+    world = HandWorld(HandWorldConfig(object="none"))
+    before = world.truth.gravity_m_s2
+    carry_out(world, "shake y 5 4 0.6")
+    felt = np.array([run(world, STEP_S).gravity_m_s2[1] for _ in range(300)])
+    assert felt.max() == pytest.approx(0.005 * (2.0 * math.pi * 4.0) ** 2, rel=0.05)
+    assert felt.min() == pytest.approx(-felt.max(), rel=0.05)
+    assert run(world, 0.05).gravity_m_s2 == before
+
+
+def test_motors_fail_by_the_same_words_as_on_the_bus() -> None:
+    world = HandWorld(HandWorldConfig(object="none", overload_after_s=0.2))
+    switch_on(world)
+    carry_out(world, "lose 3")
+    assert world.bus.find(3) is None
+    carry_out(world, "find 3")
+    assert world.bus.find(3) is world.motors[3]
+    carry_out(world, "overheat 4")
+    assert world.motors[4]["torque_enable"] == 0
+    carry_out(world, "block 1")
+    world.motors[1].write(116, (3500).to_bytes(4, "little"))
+    run(world, 0.3)
+    assert world.motors[1]["hardware_error_status"] == 0x20  # stalled for too long, as was asked for
+    assert world.motors[2]["hardware_error_status"] == 0
+
+
+@given(st.sampled_from([one.split()[0] for one in COMMANDS]), st.lists(st.text("0123456789-.einfax_", max_size=6)))
+@settings(max_examples=150)
+def test_any_line_is_done_or_refused(any_world: HandWorld, word: str, rest: list[str]) -> None:
+    with suppress(SettingsError):
+        carry_out(any_world, " ".join([word, *rest]))
+    any_world.step()
+    assert np.isfinite(any_world.counts).all()
+    assert np.isfinite(any_world.truth.q_rad).all()
+    assert np.isfinite(any_world.truth.object_position_m).all()
+
+
+@pytest.mark.parametrize("name", ["small_sphere", "box", "cylinder", "other_hand"])
+def test_every_object_comes_to_rest_on_the_palm_with_its_weight(name: str) -> None:
+    world = HandWorld(HandWorldConfig(object=name))
+    truth = run(world, 0.5)
+    assert np.linalg.norm(truth.object_velocity_m_s) < 0.005
+    assert truth.patches["palm"].force_n == pytest.approx(world.weight_n, rel=0.05)
+
+
+def test_the_loop_writes_each_step_ahead_of_the_clock(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    now_ns = 10**12
+    monkeypatch.setattr("acts_sim.hand.process.loop.time.monotonic_ns", lambda: now_ns)
+    world = HandWorld(HandWorldConfig(object="none"))
+    patches = [patch.name for patch in world.layout.patches]
+    with (
+        TimedRingWriter(tmp_path / "field", 1024) as field,
+        TimedRingWriter(tmp_path / "truth", row_width(13)) as truth,
+    ):
+        loop = HandLoop(world, field, truth, 4_000_000)
+        follower = TruthFollower(tmp_path / "truth")
+        for _ in range(5):
+            loop.step(STEP_S)
+            now_ns += STEP_NS
+        times_ns, rows = follower.new()
+        assert times_ns.tolist() == [10**12 + 4_000_000 + k * STEP_NS for k in range(5)]
+        assert HandTruth.from_row(rows[-1], patches).time_s == pytest.approx(5 * STEP_S)
+        newest = TimedRingReader(tmp_path / "field", 1024).newest()
+        assert newest is not None
+        assert newest[0] == times_ns[-1]
+        assert (loop.statistics.steps, loop.statistics.late, loop.statistics.skipped) == (5, 0, 0)
+        now_ns += 300_000_000
+        loop.step(STEP_S)
+        assert follower.new()[0].tolist() == [now_ns + 4_000_000]
+        assert loop.statistics.skipped == 150
+
+
+@pytest.mark.parametrize(("name", "mass_kg"), [("small_sphere", 0.01), ("box", 0.06)])
+def test_a_light_object_squeezed_and_shaken_stays_within_reason(name: str, mass_kg: float) -> None:
+    world = HandWorld(HandWorldConfig(object=name, object_mass_kg=mass_kg, pose="thumb_up", object_held=True))
+    switch_on(world)
+    close(world, AROUND_SPHERE, 150, 50)
+    carry_out(world, "shake x 10 4 0.5")
+    fastest = max(float(np.linalg.norm(run(world, STEP_S).object_velocity_m_s)) for _ in range(300))
+    assert fastest < 1.0
+
+
+def test_a_mass_that_physics_cannot_follow_is_refused() -> None:
+    with pytest.raises(SettingsError, match="object_mass_kg"):
+        HandWorldConfig(object_mass_kg=0.001)

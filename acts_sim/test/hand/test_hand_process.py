@@ -1,0 +1,186 @@
+"""The process `hand_world`: the real `dynamixel_sdk` moves fingers, the ring tells what they feel. No ROS."""
+
+from __future__ import annotations
+
+import json
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from dynamixel_sdk import COMM_SUCCESS, GroupSyncRead, GroupSyncWrite, PacketHandler, PortHandler, port_handler
+from hand_motors import AROUND_SPHERE
+
+from acts_core.skin import layout
+from acts_sim.dynamixel import ask_once
+from acts_sim.hand import HandTruth, TruthFollower
+from acts_sim.shared import TimedRingReader
+
+pytestmark = pytest.mark.slow
+
+IDS = list(range(16))
+# The library waits for an answer for twice this and 2 ms [ms]; as it comes, it is too short for a loaded machine.
+port_handler.LATENCY_TIMER = 200
+PATCHES = [patch.name for patch in layout("leap_right").patches]
+
+
+class Rig:
+    """The process, its port as a user opens it, its rings."""
+
+    def __init__(self, folder: Path, *options: str) -> None:
+        self.control = folder / "control"
+        names = {"link": "hand", "field-ring": "field.ring", "truth-ring": "truth.ring", "control": "control"}
+        paths = [word for option, name in names.items() for word in (f"--{option}", str(folder / name))]
+        self.process = subprocess.Popen(
+            [
+                *(sys.executable, "-m", "acts_ros.executables.program", "acts_sim.hand.process.main", *paths),
+                *("--return-delay-time", "0", "--lead-ms", "4", *options),
+            ],
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+        assert self.process.stdout is not None
+        self.ready = json.loads(self.process.stdout.readline())
+        self.packets = PacketHandler(2.0)
+        self.port = PortHandler(str(folder / "hand"))
+        assert self.port.openPort()
+        assert self.port.setBaudRate(4_000_000)
+        self.field = TimedRingReader(folder / "field.ring", 1024)
+        self.truth = TruthFollower(folder / "truth.ring")
+
+    def command(self, line: str) -> str:
+        return ask_once(self.control, line)
+
+    def state(self) -> dict[str, Any]:
+        return dict(json.loads(self.command("state")))
+
+    def write_all(self, address: int, size: int, values: list[int]) -> None:
+        group = GroupSyncWrite(self.port, self.packets, address, size)
+        for motor_id, value in zip(IDS, values, strict=True):
+            group.addParam(motor_id, value.to_bytes(size, "little", signed=True))
+        assert group.txPacket() == COMM_SUCCESS
+
+    def positions(self) -> list[int]:
+        group = GroupSyncRead(self.port, self.packets, 126, 10)
+        for motor_id in IDS:
+            assert group.addParam(motor_id)
+        assert group.fastSyncRead() == COMM_SUCCESS
+        return [int(group.getData(motor_id, 132, 4)) for motor_id in IDS]
+
+    def felt(self) -> np.ndarray:
+        newest = self.field.newest()
+        assert newest is not None
+        return newest[1]
+
+    def close(self) -> None:
+        self.port.closePort()
+        self.process.send_signal(signal.SIGINT)
+        assert self.process.wait(20.0) == 0
+
+
+@pytest.fixture(scope="module")
+def rig(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Rig]:
+    # A Unix socket's name may have 107 characters, which pytest's folders can exceed.
+    rig = Rig(tmp_path_factory.mktemp("hand"))
+    yield rig
+    rig.close()
+
+
+def until(condition: Callable[[], bool], seconds: float = 15.0) -> None:
+    end_s = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end_s, "did not happen in time"
+        time.sleep(0.005)
+
+
+def test_fingers_close_and_feel(rig: Rig) -> None:
+    assert all(abs(one - 2048) < 300 for one in rig.positions())
+    palm = layout("leap_right").patch_of_taxel.ravel() == 0
+    until(lambda: rig.felt()[palm].sum() > 100.0)
+    assert not rig.felt()[~palm].any()
+    for address, size, value in ((64, 1, 0), (11, 1, 5), (84, 2, 600), (80, 2, 200), (102, 2, 300), (64, 1, 1)):
+        rig.write_all(address, size, [value] * 16)
+    rig.write_all(116, 4, [2048 + round(angle * 4096 / (2 * np.pi)) for angle in AROUND_SPHERE])
+    until(lambda: bool(rig.felt()[~palm].any()))
+    middle = layout("leap_right").patch_of_taxel.ravel() == PATCHES.index("middle_distal")
+    until(lambda: rig.felt()[middle].sum() > 100.0)
+    assert rig.positions()[5] > 2048 + 600
+    truth = rig.state()["truth"]
+    assert truth["patches"]["middle_distal"]["force_n"] > 0.1
+    assert truth["object_lost"] is False
+
+
+def test_the_field_is_ahead_of_the_clock_by_what_was_said(rig: Rig) -> None:
+    newest = rig.field.newest()
+    assert newest is not None
+    # Later than told only where the machine let the process wait.
+    assert newest[0] - time.monotonic_ns() <= 4_000_000
+
+
+def test_the_truth_comes_as_rows_with_their_times(rig: Rig) -> None:
+    rig.truth.new()
+    until(lambda: rig.state()["loop"]["steps"] > 200)
+    assert rig.command("shake x 3 5 0.4") == "ok"
+    seen: list[tuple[int, HandTruth]] = []
+
+    def shaken() -> bool:
+        times_ns, rows = rig.truth.new()
+        seen.extend(zip(times_ns.tolist(), (HandTruth.from_row(row, PATCHES) for row in rows), strict=True))
+        return max((abs(truth.gravity_m_s2[0]) for _, truth in seen), default=0.0) > 1.0
+
+    until(shaken)
+    steps_ns = np.diff([time_ns for time_ns, _ in seen])
+    assert (steps_ns >= 2_000_000).all()
+    worlds = np.diff([truth.time_s for _, truth in seen])
+    assert worlds == pytest.approx(0.002)
+
+
+def test_a_poke_is_felt_where_it_was_asked_for(rig: Rig) -> None:
+    assert rig.command("poke thumb_medial sharp 100 2") == "ok"
+    until(lambda: rig.state()["truth"]["patches"]["thumb_medial"]["tip_force_n"] > 0.02)
+    assert rig.command("withdraw") == "ok"
+    until(lambda: rig.state()["truth"]["patches"]["thumb_medial"]["tip_force_n"] == 0.0)
+
+
+def test_faults_of_motors_and_cable(rig: Rig) -> None:
+    assert rig.command("overload 3") == "ok"
+    value, result, error = rig.packets.read1ByteTxRx(rig.port, 3, 70)
+    assert (value, result, error) == (0x20, COMM_SUCCESS, 0x80)
+    assert rig.packets.reboot(rig.port, 3)[0] == COMM_SUCCESS
+    assert rig.command("block 1") == "ok"
+    before = rig.positions()[1]
+    goals = rig.positions()
+    goals[1] -= 300
+    for address, size, value in ((64, 1, 0), (11, 1, 5), (64, 1, 1)):
+        rig.write_all(address, size, [value] * 16)
+    rig.write_all(116, 4, goals)
+    until(lambda: abs(rig.state()["motors"][1]["torque_nm"]) > 0.05)
+    assert abs(rig.positions()[1] - before) <= 1
+    assert rig.command("release 1") == "ok"
+    until(lambda: rig.positions()[1] < before - 100)
+    assert rig.command("unplug") == "ok"
+    assert rig.state()["connected"] is False
+    assert rig.command("plug_in") == "ok"
+
+
+@pytest.mark.parametrize(
+    ("line", "word"),
+    [
+        ("dance", "known are let_go"),
+        ("load much", "a number from -100 to 100"),
+        ("load nan", "a number from -100 to 100"),
+        ("poke nose sharp", "palm, index_proximal"),
+        ("pull 1 2", "pull FX_N"),
+        ("block 99", "no motor"),
+        ("move 1 2 3", "hold first"),
+    ],
+)
+def test_what_is_not_allowed_is_said(rig: Rig, line: str, word: str) -> None:
+    answer = rig.command(line)
+    assert answer.startswith("error: ")
+    assert word in answer

@@ -1,0 +1,252 @@
+"""Bags as files: definitions, writing, reading, and what is left of one that was cut off or damaged anywhere."""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+from ament_index_python.packages import get_package_share_directory
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from rclpy.duration import Duration
+from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
+from rosbags.interfaces import Qos, QosDurability, QosHistory, QosLiveliness, QosReliability, QosTime
+from rosbags.rosbag2 import Reader, StoragePlugin, Writer
+
+from acts_core.errors import RecordingError
+from acts_ros.bags.message_types import Definitions, message_class
+from acts_ros.bags.reading import open_bag
+from acts_tools.bags import qos, writing
+from acts_tools.bags.rosbag2_format import McapFile
+from acts_tools.bags.writing import BagWriter
+
+pytestmark = pytest.mark.slow
+
+PER_CHUNK = 5
+
+
+def offer(
+    reliability: QosReliability = QosReliability.RELIABLE,
+    durability: QosDurability = QosDurability.VOLATILE,
+    depth: int = 0,
+) -> Qos:
+    forever = QosTime(*divmod(Duration(nanoseconds=2**63 - 1).nanoseconds, 10**9))
+    return Qos(
+        QosHistory.UNKNOWN, depth, reliability, durability, forever, forever, QosLiveliness.AUTOMATIC, forever, False
+    )
+
+
+def write_bag(path: Path, count: int, close: bool = True, sizes: list[int] | None = None) -> list[bytes]:
+    """A bag of one topic, in chunks of `PER_CHUNK` messages; `sizes` gets the file's size after each."""
+    bag = BagWriter(path)
+    definition, type_hash = Definitions().describe("std_msgs/msg/String")
+    topic = bag.add_topic("/word", "std_msgs/msg/String", definition, type_hash, [offer()])
+    messages = [bytes([index]) * 40 for index in range(count)]
+    for index, message in enumerate(messages):
+        bag.write(topic, message)
+        if (index + 1) % PER_CHUNK == 0:
+            bag.flush()
+            if sizes is not None:
+                sizes.append(bag.size_bytes())
+    bag.flush()
+    if close:
+        bag.close()
+    return messages
+
+
+def read(path: Path, topics: Sequence[str] = ("/word",)) -> list[bytes]:
+    with open_bag(path) as bag:
+        return [data for _, _, data in bag.messages(topics)]
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        *(f"acts_msgs/msg/{path.stem}" for path in Path(get_package_share_directory("acts_msgs"), "msg").glob("*.msg")),
+        "sensor_msgs/msg/Image",
+        "diagnostic_msgs/msg/DiagnosticArray",
+        "std_msgs/msg/Char",
+    ],
+)
+def test_definitions_are_complete_and_hashes_are_those_of_the_built_package(name: str) -> None:
+    definition, type_hash = Definitions().describe(name)
+    package, kind, short = name.split("/")
+    described = json.loads((Path(get_package_share_directory(package)) / kind / f"{short}.json").read_text())
+    assert {"type_name": name, "hash_string": type_hash} in described["type_hashes"]
+    for entry in described["type_hashes"][1:]:
+        package, _, short = entry["type_name"].split("/")
+        assert f"MSG: {package}/{short}" in definition or f"MSG: {entry['type_name']}" in definition
+
+
+@pytest.mark.parametrize("name", ["no_such_package/msg/Thing", "std_msgs/msg/Thing", "std_msgs"])
+def test_unknown_types_are_named(name: str) -> None:
+    with pytest.raises(RecordingError, match=f"'{name}'"):
+        message_class(name)
+    with pytest.raises(RecordingError, match=f"'{name}'"):
+        Definitions().describe(name)
+
+
+def test_a_bag_is_read_back_by_us_and_by_rosbags(tmp_path: Path) -> None:
+    messages = write_bag(tmp_path / "bag", 12)
+    assert read(tmp_path / "bag") == messages
+    assert read(tmp_path / "bag/bag.mcap") == messages
+    with Reader(tmp_path / "bag") as reader:
+        assert [bytes(data) for _, _, data in reader.messages()] == messages
+        assert reader.connections[0].ext.offered_qos_profiles == [offer()]
+    with open_bag(tmp_path / "bag") as bag:
+        assert bag.note is None
+        assert bag.topics() == {"/word": "std_msgs/msg/String"}
+
+
+def test_a_bag_without_messages_is_a_bag(tmp_path: Path) -> None:
+    BagWriter(tmp_path / "bag").close()
+    assert read(tmp_path / "bag") == []
+    assert "nanoseconds_since_epoch: 0" in (tmp_path / "bag/metadata.yaml").read_text()
+
+
+def test_an_existing_folder_is_not_touched(tmp_path: Path) -> None:
+    (tmp_path / "bag").mkdir()
+    with pytest.raises(RecordingError, match="exists already"):
+        BagWriter(tmp_path / "bag")
+    assert not list((tmp_path / "bag").iterdir())
+
+
+def test_stamps_do_not_go_back_with_the_clock(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    clock = iter([1_000, 3_000, 2_000, 4_000])
+    monkeypatch.setattr(writing.time, "time_ns", lambda: next(clock))
+    write_bag(tmp_path / "bag", 4)
+    with open_bag(tmp_path / "bag") as bag:
+        assert [stamp for _, stamp, _ in bag.messages(["/word"])] == [1_000, 3_000, 3_000, 4_000]
+
+
+def test_a_disk_that_is_full_is_reported_once_and_nothing_more_is_tried(tmp_path: Path) -> None:
+    bag = BagWriter(tmp_path / "bag")
+    definition, type_hash = Definitions().describe("std_msgs/msg/String")
+    topic = bag.add_topic("/word", "std_msgs/msg/String", definition, type_hash, [])
+    storage = bag._writer.storage
+    assert isinstance(storage, McapFile)
+    bag.write(topic, b"1234")
+    bag.flush()
+    kept = (tmp_path / "bag/bag.mcap").read_bytes()
+    full = os.open("/dev/full", os.O_WRONLY)
+    os.dup2(full, storage.bio.fileno())
+    os.close(full)
+    bag.write(topic, b"5678")
+    with pytest.raises(RecordingError, match=r"cannot write to the bag .*: No space left on device") as first:
+        bag.flush()
+    # A message that comes on the way out.
+    with pytest.raises(RecordingError) as second:
+        bag.write(topic, b"9")
+    assert second.value is first.value
+    bag.close()
+    # Otherwise Python writes the rest of it at its own end, and tells on standard error that it could not.
+    assert storage.bio.closed
+    assert (tmp_path / "bag/bag.mcap").read_bytes() == kept
+    assert read(tmp_path / "bag") == [b"1234"]
+
+
+def test_what_was_flushed_is_read_from_a_bag_that_was_never_closed(tmp_path: Path) -> None:
+    messages = write_bag(tmp_path / "bag", 12, close=False)
+    assert not (tmp_path / "bag/metadata.yaml").exists()
+    with open_bag(tmp_path / "bag") as bag:
+        assert bag.note is not None
+        assert "never closed" in bag.note
+    assert read(tmp_path / "bag") == messages
+
+
+@settings(deadline=None)
+@given(share=st.floats(0.0, 1.0))
+def test_a_bag_cut_off_anywhere_gives_its_whole_chunks_or_a_clear_error(share: float) -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "bag/bag.mcap"
+        sizes: list[int] = []
+        messages = write_bag(path.parent, 20, sizes=sizes)
+        cut = int(share * path.stat().st_size)
+        with path.open("r+b") as file:
+            file.truncate(cut)
+        whole_chunks = sum(size <= cut for size in sizes)
+        try:
+            got = read(path.parent)
+        except RecordingError:
+            assert whole_chunks == 0
+        else:
+            assert got == messages[: len(got)]
+            assert len(got) in (whole_chunks * PER_CHUNK, (whole_chunks + 1) * PER_CHUNK)
+
+
+def test_what_comes_before_damage_is_read_before_the_error(tmp_path: Path) -> None:
+    messages = write_bag(tmp_path / "bag", 20)
+    path = tmp_path / "bag/bag.mcap"
+    data = bytearray(path.read_bytes())
+    start = data.index(messages[12]) - 31
+    data[start : start + 9] = b"\x05" + (2**40).to_bytes(8, "little")  # a message record of a terabyte
+    path.write_bytes(data)
+    got = []
+    with open_bag(tmp_path / "bag") as bag, pytest.raises(RecordingError, match="damaged"):  # noqa: PT012
+        for _, _, message in bag.messages(["/word"]):
+            got.append(message)
+    assert got[:10] == messages[:10]
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "message"),
+    [
+        ("missing", None, "there is no bag"),
+        ("text.mcap", b"no bag at all", "not an MCAP file"),
+        ("empty.mcap", b"", "not an MCAP file"),
+    ],
+)
+def test_what_is_no_bag_is_refused(tmp_path: Path, name: str, content: bytes | None, message: str) -> None:
+    if content is not None:
+        (tmp_path / name).write_bytes(content)
+    with pytest.raises(RecordingError, match=message):
+        read(tmp_path / name)
+
+
+def test_files_without_an_end_or_a_beginning_are_refused(tmp_path: Path) -> None:
+    write_bag(tmp_path / "bag", 5)
+    os.mkfifo(tmp_path / "pipe.mcap")
+    with pytest.raises(RecordingError, match=r"pipe.mcap: not a regular file"):
+        read(tmp_path / "pipe.mcap")
+    (tmp_path / "bag/metadata.yaml").unlink()
+    (tmp_path / "bag/metadata.yaml").symlink_to("/dev/zero")
+    with pytest.raises(RecordingError, match=r"metadata.yaml: not a regular file"):
+        read(tmp_path / "bag")
+    (tmp_path / "bag/metadata.yaml").unlink()
+    (tmp_path / "bag/metadata.yaml").write_bytes(b" " * 2_000_000)
+    with pytest.raises(RecordingError, match=r"metadata.yaml: 2.0 MB; allowed are 1.0 MB"):
+        read(tmp_path / "bag")
+
+
+def test_a_chunk_that_unpacks_to_gigabytes_is_refused(tmp_path: Path) -> None:
+    with Writer(tmp_path / "bomb", version=8, storage_plugin=StoragePlugin.MCAP) as writer:
+        topic = writer.add_connection("/word", "std_msgs/msg/String", msgdef="string data", rihs01="RIHS01_0")
+        writer.write(topic, 0, b"1234")
+    path = tmp_path / "bomb/bomb.mcap"
+    data = bytearray(path.read_bytes())
+    at = 8 + 9 + int.from_bytes(data[9:17], "little")  # after the header comes the chunk: kind, length, two times
+    assert data[at] == 0x06
+    data[at + 25 : at + 33] = (10**10).to_bytes(8, "little")
+    path.write_bytes(data)
+    with pytest.raises(RecordingError, match="a chunk of 10000 MB unpacked; allowed are 268 MB"):
+        read(tmp_path / "bomb")
+
+
+def test_a_folder_without_a_bag_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(RecordingError, match="holds no bag that can be read"):
+        read(tmp_path)
+
+
+def test_topics_are_published_as_they_were_offered() -> None:
+    stream = qos.for_publisher([offer(QosReliability.BEST_EFFORT)])
+    assert (stream.reliability, stream.durability) == (ReliabilityPolicy.BEST_EFFORT, DurabilityPolicy.VOLATILE)
+    assert stream.depth == 256
+    latched = qos.for_publisher([offer(durability=QosDurability.TRANSIENT_LOCAL)])
+    assert (latched.reliability, latched.durability) == (ReliabilityPolicy.RELIABLE, DurabilityPolicy.TRANSIENT_LOCAL)
+    assert latched.depth == 1
+    assert qos.for_publisher([offer(depth=1000)]).depth == 1000
+    assert qos.for_publisher([]).reliability == ReliabilityPolicy.RELIABLE

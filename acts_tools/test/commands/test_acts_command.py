@@ -1,0 +1,139 @@
+"""The acts command itself: help, version, errors, and what importing it costs."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from fake_prefix import Prefix
+
+from acts_tools import __version__
+from acts_tools.cli import COMMANDS, main
+from acts_tools.launch import command
+
+PACKAGE = Path(__file__).parents[2]
+
+
+def test_help_names_every_command_and_imports_none_of_them(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main(["--help"])
+    assert ended.value.code == 0
+    text = capsys.readouterr().out
+    for name, (_, summary) in COMMANDS.items():
+        # A long name has a line of its own.
+        assert re.search(rf"^    {name}\s+{re.escape(summary)}$", text, re.MULTILINE)
+
+
+def test_without_a_command_it_shows_its_help(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([]) == 0
+    assert capsys.readouterr().out.startswith("usage: acts")
+
+
+def test_an_unknown_command_is_refused_with_the_known_ones(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main(["fly"])
+    assert ended.value.code == 2
+    assert "launch" in capsys.readouterr().err
+
+
+def test_the_version_is_the_package_s(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        main(["--version"])
+    assert capsys.readouterr().out == f"acts {__version__}\n"
+    assert f"<version>{__version__}</version>" in (PACKAGE / "package.xml").read_text()
+    assert f'version="{__version__}"' in (PACKAGE / "setup.py").read_text()
+
+
+def test_it_is_on_the_path_of_the_environment() -> None:
+    said = subprocess.run(["acts", "--version"], capture_output=True, text=True, check=True).stdout
+    assert said == f"acts {__version__}\n"
+
+
+def test_errors_are_one_line_on_standard_error(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["launch", "--own", "/no/such.launch.xml"]) == 1
+    assert capsys.readouterr().err == "error: the launch file '/no/such.launch.xml' does not exist\n"
+
+
+def test_starting_a_launch_imports_neither_ros_nor_numerics() -> None:
+    code = (
+        "import sys\nfrom acts_tools.cli import main\nimport acts_tools.launch.evaluate, acts_ros.processes.launcher\n"
+        "try:\n    main(['launch', '--help'])\nexcept SystemExit:\n    pass\n"
+        "heavy = {'numba', 'matplotlib', 'scipy', 'rclpy', 'rosbags'} & set(sys.modules)\n"
+        "assert not heavy, heavy\n"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True, capture_output=True)
+
+
+@pytest.mark.parametrize("word", ["sim", "sim=true", ":=true", "sim:="])
+def test_malformed_launch_arguments_are_refused(prefix: Prefix, capsys: pytest.CaptureFixture[str], word: str) -> None:
+    path = prefix.launch("it.launch.xml", '<arg name="sim" default="true"/>')
+    assert main(["launch", "--own", str(path), word]) == 1
+    assert f"malformed launch argument '{word}', expected format '<name>:=<value>'" in capsys.readouterr().err
+
+
+def test_of_duplicate_arguments_the_last_one_wins() -> None:
+    assert command.parse_arguments(["a:=1", "b:=x:=y", "a:=2"]) == {"a": "2", "b": "x:=y"}
+
+
+def test_a_package_without_the_file_says_which_files_it_has(prefix: Prefix, capsys: pytest.CaptureFixture[str]) -> None:
+    prefix.launch("it.launch.xml", "")
+    assert main(["launch", "--own", "fake", "other.launch.xml"]) == 1
+    assert "(launch files there: it.launch.xml)" in capsys.readouterr().err
+    assert main(["launch", "--own", "fake"]) == 1
+    assert "(there: it.launch.xml)" in capsys.readouterr().err
+    prefix.share("more/it.launch.xml", "")
+    assert main(["launch", "--own", "fake", "it.launch.xml"]) == 1
+    assert "was found more than once" in capsys.readouterr().err
+
+
+def test_printing_shows_the_commands_with_their_parameters(prefix: Prefix, capsys: pytest.CaptureFixture[str]) -> None:
+    node = prefix.script("node", "#!/bin/sh\nexit 1\n")
+    prefix.launch(
+        "it.launch.xml",
+        '<arg name="a" default="1"/><node pkg="fake" exec="node"><param name="p" value="$(var a)"/></node>',
+    )
+    assert main(["launch", "--own", "--print", "fake", "it.launch.xml", "a:=7"]) == 0
+    printed = capsys.readouterr()
+    assert f"[node-1] {node} --ros-args --params-file /" in printed.out
+    assert "        p: 7\n" in printed.out
+    assert printed.err == ""
+
+
+@pytest.mark.parametrize("options", [[], ["--print"]])
+def test_an_argument_that_no_file_declares_starts_nothing(
+    options: list[str], prefix: Prefix, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    prefix.script("node", f"#!/bin/sh\ntouch {tmp_path}/started\n")
+    prefix.launch("it.launch.xml", '<arg name="trajectory" default="1"/><node pkg="fake" exec="node"/>')
+    assert main(["launch", "--own", *options, "fake", "it.launch.xml", "trajectry:=N"]) == 1
+    printed = capsys.readouterr()
+    assert "no argument 'trajectry'; did you mean 'trajectory'? declared: trajectory" in printed.err
+    assert printed.out == ""
+    assert not (tmp_path / "started").exists()
+
+
+def test_the_real_launch_takes_over_where_it_is_installed(prefix: Prefix, monkeypatch: pytest.MonkeyPatch) -> None:
+    executed: list[list[str]] = []
+
+    def execute(_file: str, words: list[str]) -> None:
+        executed.append(words)
+        raise SystemExit(0)
+
+    monkeypatch.setattr(command, "real_launch_installed", lambda: True)
+    monkeypatch.setattr(command.os, "execvp", execute)
+    with pytest.raises(SystemExit):
+        main(["launch", "acts_bringup", "tactile.launch.xml", "sim:=true"])
+    with pytest.raises(SystemExit):
+        main(["launch", "-s", "acts_bringup", "tactile.launch.xml"])
+    assert executed == [
+        ["ros2", "launch", "acts_bringup", "tactile.launch.xml", "sim:=true"],
+        ["ros2", "launch", "--show-args", "acts_bringup", "tactile.launch.xml"],
+    ]
+    path = prefix.launch("it.launch.xml", "")
+    assert main(["launch", "--own", str(path)]) == 0
+    monkeypatch.setenv("ACTS_LAUNCH_OWN", "1")
+    assert main(["launch", str(path)]) == 0
+    assert len(executed) == 2

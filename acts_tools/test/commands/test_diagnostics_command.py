@@ -1,0 +1,108 @@
+"""`acts diagnostics`: its table and exit codes, and the command on a publisher of this process; ROS_DOMAIN_ID 189."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import pytest
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+
+from acts_skins.overview.aggregate import Status
+from acts_tools.cli import main
+from acts_tools.diagnostics.statuses import Statuses
+from acts_tools.testing.probe import Probe
+
+pytestmark = pytest.mark.slow
+
+TOPICS = ("/diagnostics", "/diagnostics_agg")
+
+
+def statuses(*levels: int) -> Statuses:
+    heard = Statuses(TOPICS)
+    for number, level in enumerate(levels):
+        heard.take(
+            TOPICS[0], Status(f"plate/node{number}", level, f"word {number}", "port", {"rate_hz": "987", "a": ""})
+        )
+    return heard
+
+
+@pytest.mark.parametrize(("levels", "worst"), [((), 0), ((0, 0), 0), ((0, 1), 1), ((2, 1), 2), ((3, 0), 3), ((9,), 2)])
+def test_the_worst_level_is_the_exit_code(levels: tuple[int, ...], worst: int) -> None:
+    assert statuses(*levels).worst == worst
+    assert statuses(*levels).is_empty is not bool(levels)
+
+
+def test_the_table_has_level_name_message_and_values() -> None:
+    heard = statuses(0, 2)
+    heard.take(TOPICS[1], Status("/Skins", 3, "all stale"))
+    assert list(heard.lines(with_values=True)) == [
+        "/diagnostics",
+        "  OK     plate/node0  word 0 [port]",
+        "           rate_hz  987",
+        "           a",
+        "  ERROR  plate/node1  word 1 [port]",
+        "           rate_hz  987",
+        "           a",
+        "/diagnostics_agg",
+        "  STALE  /Skins  all stale",
+    ]
+    assert len(list(heard.lines(with_values=False))) == 5
+
+
+def test_json_has_it_all_and_the_newest_counts() -> None:
+    heard = statuses(2)
+    heard.take(TOPICS[0], Status("plate/node0", 0, "well again", "port", {"rate_hz": "1000"}))
+    assert json.loads(json.dumps(heard.as_json())) == {
+        "/diagnostics": [
+            {
+                "name": "plate/node0",
+                "level": "OK",
+                "message": "well again",
+                "hardware_id": "port",
+                "values": {"rate_hz": "1000"},
+            }
+        ]
+    }
+
+
+@contextmanager
+def publishing(probe: Probe, level: bytes) -> Iterator[None]:
+    """Somebody who reports again and again, from a thread."""
+    publisher = probe.node.create_publisher(DiagnosticArray, "/diagnostics", 10)
+    status = DiagnosticStatus(
+        level=level, name="plate/driver", message="5 frames lost", values=[KeyValue(key="lost", value="5")]
+    )
+    ended = threading.Event()
+
+    def publish() -> None:
+        while not ended.wait(0.1):
+            publisher.publish(DiagnosticArray(status=[status]))
+
+    thread = threading.Thread(target=publish)
+    thread.start()
+    try:
+        yield
+    finally:
+        ended.set()
+        thread.join()
+
+
+def test_the_command_prints_what_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ROS_DOMAIN_ID", "189")
+    command = [sys.executable, "-m", "acts_tools", "diagnostics"]
+    with Probe(189) as probe, publishing(probe, DiagnosticStatus.WARN):
+        result = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+    assert (result.returncode, result.stderr) == (1, "")
+    assert result.stdout.splitlines() == ["/diagnostics", "  WARN   plate/driver  5 frames lost", "           lost  5"]
+
+
+def test_where_nobody_reports_it_says_so(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ROS_DOMAIN_ID", "189")
+    assert main(["diagnostics", "--timeout", "0.2"]) == 3
+    assert "no node has reported on /diagnostics or /diagnostics_agg within 0.2 s" in capsys.readouterr().err
+    assert main(["diagnostics", "--timeout", "0"]) == 1

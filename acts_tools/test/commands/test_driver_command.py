@@ -1,0 +1,81 @@
+"""`acts driver` as a user runs it, on a driver process with a virtual board; ROS_DOMAIN_ID 119."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from acts_core.errors import SettingsError
+from acts_tools.bench.rigs.processes import virtual_board
+from acts_tools.cli import main
+from acts_tools.driver.driver_command import parameters_of
+
+pytestmark = pytest.mark.slow
+
+DEADLINE_S = 60.0
+
+
+@pytest.fixture
+def driver(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """A driver of a virtual board, in namespace /hand."""
+    monkeypatch.setenv("ROS_DOMAIN_ID", "119")
+    with virtual_board(tmp_path, "--board-id", "77") as board:
+        process = subprocess.Popen(
+            [
+                sys.executable,
+                "-m",
+                "acts_ros.executables.program",
+                "acts_driver.nodes.driver_node",
+                "--ros-args",
+                "-r",
+                "__ns:=/hand",
+                "-p",
+                f"port:={board.link}",
+            ],
+            env=dict(os.environ),
+        )
+        try:
+            yield
+        finally:
+            process.terminate()
+            process.wait(DEADLINE_S)
+
+
+def test_a_driver_is_asked_and_told(driver: None, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["driver", "-n", "hand", "set", "m=128", "scheme=tracking"]) == 0
+    assert "m=128" in capsys.readouterr().out
+    assert main(["driver", "-n", "/hand", "query"]) == 0
+    text = capsys.readouterr().out
+    assert "board 77, firmware 0.1.0" in text
+    assert "tracking, M = 128" in text
+    assert main(["driver", "-n", "hand", "set", "scheme=uniform", "m=57"]) == 1
+    assert "no uniform grid" in capsys.readouterr().err
+    # Whether it may depends on how much of the skin has been seen; it answers either way.
+    assert main(["driver", "-n", "hand", "tare"]) in (0, 1)
+    assert "".join(capsys.readouterr())
+
+
+def test_parameters_have_the_types_they_are_declared_with() -> None:
+    found = parameters_of(["m=64", "rate_cap_hz=500", "scheme=tracking", "model="])
+    assert found == {"m": 64, "rate_cap_hz": 500.0, "scheme": "tracking", "model": ""}
+    assert type(found["rate_cap_hz"]) is float
+    assert parameters_of(["model=a.npz"]) == {"model": str(Path.cwd() / "a.npz")}
+    for word in ("m", "m=many", "port=auto"):
+        with pytest.raises(SettingsError, match="needed is"):
+            parameters_of([word])
+
+
+def test_a_driver_that_is_not_there_is_named(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("ROS_DOMAIN_ID", "119")
+    monkeypatch.setattr("acts_tools.driver.driver_command._FOUND_S", 0.1)
+    assert main(["driver", "calibrate"]) == 1
+    assert "no driver offers /plate/driver/calibrate" in capsys.readouterr().err
+    assert main(["driver", "tare", "m=5"]) == 1
+    assert main(["driver", "set"]) == 1

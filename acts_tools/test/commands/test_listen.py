@@ -1,0 +1,109 @@
+"""`acts listen`: its arithmetic, and the command on a publisher of this process; ROS_DOMAIN_ID 151."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+
+import pytest
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from rclpy.node import Node
+
+from acts_msgs.msg import Contact
+from acts_ros.qos import STREAM
+from acts_tools.cli import main
+from acts_tools.listen.arrivals import Arrivals
+from acts_tools.listen.command import in_words
+from acts_tools.testing.probe import Probe
+
+pytestmark = pytest.mark.slow
+
+DEADLINE_S = 60.0
+
+
+def test_gaps_are_counted_in_the_interval_they_belong_to() -> None:
+    arrivals = Arrivals(10.0)
+    for sequence in (2**32 - 1, 0, 3):
+        arrivals.add(10.5, sequence, 0.002)
+    first = arrivals.take(11.0)
+    assert (first.received, first.lost, first.median_ms, first.seconds) == (3, 2, 2.0, 1.0)
+    arrivals.add(11.5, 4, 0.030)
+    arrivals.add(11.6, 6, 0.010)
+    second = arrivals.take(12.0)
+    assert (second.received, second.lost, second.median_ms, second.largest_ms) == (2, 1, 20.0, 30.0)
+    assert (second.total_received, second.total_lost) == (5, 3)
+    third = arrivals.take(13.0)
+    assert (third.received, third.lost, third.median_ms) == (0, 0, None)
+    assert third.silent_s == pytest.approx(1.4)
+
+
+def test_messages_without_number_or_stamp_are_only_counted() -> None:
+    arrivals = Arrivals(0.0)
+    assert arrivals.take(1.0).silent_s is None
+    arrivals.add(1.5, None, None)
+    interval = arrivals.take(2.0)
+    assert (interval.received, interval.lost, interval.median_ms) == (1, None, None)
+
+
+def test_what_arrives_is_put_into_words() -> None:
+    arrivals = Arrivals(0.0)
+    assert in_words(None) == "no publisher found yet"
+    assert in_words(arrivals.take(1.0)) == "nothing yet"
+    for sequence in range(2, 502):
+        arrivals.add(1.5, sequence, 0.0012)
+    arrivals.add(1.6, 504, 0.0012)
+    line = in_words(arrivals.take(2.0))
+    assert " ".join(line.split()) == "501.0 messages/s 2 lost (2 in all) age 1.2 ms, at most 1.2"
+    assert in_words(arrivals.take(4.6)) == "nothing for 3.0 s, 501 messages before"
+
+
+@pytest.fixture
+def talker(monkeypatch: pytest.MonkeyPatch) -> Iterator[Node]:
+    monkeypatch.setenv("ROS_DOMAIN_ID", "151")
+    with Probe(151) as probe:
+        yield probe.node
+
+
+def test_the_command_reports_as_long_as_it_runs(talker: Node) -> None:
+    contacts = talker.create_publisher(Contact, "/plate/contact", STREAM)
+    diagnostics = talker.create_publisher(DiagnosticArray, "/diagnostics", 10)
+    status = DiagnosticStatus(level=b"\x01", name="plate/driver", message="no frames")
+    command = [sys.executable, "-m", "acts_tools", "listen", "--json", "--every", "0.1", "plate/contact"]
+    process = subprocess.Popen([*command, "/diagnostics"], stdout=subprocess.PIPE)
+    assert process.stdout is not None
+    deadline_s = time.monotonic() + DEADLINE_S
+    sequence = 0
+    try:
+        while True:
+            assert time.monotonic() < deadline_s
+            report = json.loads(process.stdout.readline())
+            # Every second number is left out.
+            contacts.publish(Contact(sequence=sequence))
+            sequence += 2
+            diagnostics.publish(DiagnosticArray(status=[status]))
+            heard = report["topics"].get("/plate/contact", {"total_lost": None})
+            if (heard["total_lost"] or 0) >= 3 and report["complaints"]:
+                break
+    finally:
+        process.terminate()
+        code = process.wait(DEADLINE_S)
+        process.stdout.close()
+    assert code == 0
+    assert heard["total_lost"] == heard["total_received"] - 1
+    assert report["complaints"] == {"plate/driver": "no frames"}
+
+
+def test_who_hears_nothing_is_told(talker: Node) -> None:
+    command = [sys.executable, "-m", "acts_tools", "listen", "-d", "0.3", "--every", "0.1", "/nobody"]
+    finished = subprocess.run(command, capture_output=True, text=True, timeout=DEADLINE_S)
+    assert finished.returncode == 1
+    assert "/nobody  no publisher found yet" in finished.stdout
+
+
+@pytest.mark.parametrize("words", [["--every", "0"], ["--every", "nan"], ["-d", "0"], ["-d", "inf"]])
+def test_impossible_times_are_refused(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["listen", *words, "/plate/contact"]) == 1
+    assert f"{words[0].replace('-d', '--duration')} {words[1]}" in capsys.readouterr().err

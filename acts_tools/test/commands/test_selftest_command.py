@@ -1,0 +1,113 @@
+"""`acts selftest` as a user runs it, on virtual boards with noise and broken wiring."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import matplotlib.image
+import pytest
+
+from acts_tools.bench.rigs.processes import virtual_board
+from acts_tools.cli import main
+from acts_tools.selftest.session import BoardReader
+
+pytestmark = pytest.mark.slow
+
+DEADLINE_S = 60.0
+# Of a busy machine, not of the board.
+TIMING = {"frame rate", "lost frames", "clock jitter", "clock drift", "time per taxel"}
+
+
+def selftest(folder: Path, *words: str) -> tuple[int, dict[str, str], dict]:
+    """Exit code, level by item, and the whole report."""
+    code = main(["selftest", *words, "--json", str(folder / "a/test.json"), "--picture", str(folder / "b/test.png")])
+    report = json.loads((folder / "a/test.json").read_text())
+    return code, {finding["name"]: finding["level"] for finding in report["findings"]}, report
+
+
+def test_a_healthy_board_passes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    code, levels, report = selftest(tmp_path, "--sim", "--untouched-s", "1", "--touch-s", "3")
+    assert {level for name, level in levels.items() if name not in TIMING} == {"PASS"}
+    assert {"open rows", "shorted columns", "multiplexer", "dead taxels", "noise", "coverage"} <= levels.keys()
+    assert code == (1 if "FAIL" in levels.values() else 0)
+    assert report["scheme"] == "raster"
+    assert report["timing"]["taxel_us"] == pytest.approx(17.6, rel=0.05)
+    assert report["thresholds"]["high_counts"] == 60
+    height, width, _ = matplotlib.image.imread(tmp_path / "b/test.png").shape
+    assert height > 500
+    assert width > 1000
+    assert "PASS  open rows        none" in capsys.readouterr().out
+
+
+def test_every_broken_wire_is_found_and_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    faults = ("open-row=5", "open-col=7", "short-rows=13,14", "short-cols=20,27", "dead=10,12", "stuck=4,4,700")
+    words = [word for fault in faults for word in ("--hardware-fault", fault)]
+    code, _, report = selftest(tmp_path, "--sim", *words, "--untouched-s", "1", "--touch-s", "3")
+    assert code == 1
+    assert not report["ok"]
+    found = {finding["name"]: finding for finding in report["findings"] if finding["level"] == "FAIL"}
+    assert found.keys() - TIMING == {
+        "open rows", "open columns", "shorted rows", "shorted columns", "dead taxels", "stuck taxels"
+    }  # fmt: skip
+    assert found["open rows"]["rows"] == [5]
+    assert found["open columns"]["cols"] == [7]
+    assert found["shorted rows"]["rows"] == [13, 14]
+    assert found["shorted columns"]["cols"] == [20, 27]
+    assert found["dead taxels"]["taxels"] == [[10, 12]]
+    assert found["stuck taxels"]["taxels"] == [[4, 4]]
+    assert "FAIL  open rows        row 5 never responded" in capsys.readouterr().out
+
+
+def test_a_board_that_takes_no_commands_is_tested_with_what_it_sends(tmp_path: Path) -> None:
+    words = ("--hardware-fault", "address-bit=2", "--protocol", "raster_ascii", "--untouched-s", "1", "--touch-s", "3")
+    code, _, report = selftest(tmp_path, "--sim", *words)
+    assert code == 1
+    found = {finding["name"]: finding for finding in report["findings"] if finding["level"] == "FAIL"}
+    assert found.keys() - TIMING == {"multiplexer"}
+    assert "address bit 2 (pin 35)" in found["multiplexer"]["text"]
+
+
+def test_the_board_gets_its_settings_back_even_when_interrupted(tmp_path: Path) -> None:
+    with virtual_board(tmp_path, "--scheme", "tracking", "--rate-hz", "500") as board:
+
+        def settings() -> object:
+            with BoardReader(str(board.link), "binary", 32, 32) as reader:
+                state = reader.query()
+            assert state is not None
+            return state.settings
+
+        own = settings()
+        assert own.scheme == "tracking"  # type: ignore[attr-defined]
+        process = subprocess.Popen(
+            [sys.executable, "-m", "acts_tools", "selftest", str(board.link), "--untouched-s", "100"],
+            stderr=subprocess.PIPE,
+            env={**os.environ, "PYTHONUNBUFFERED": "1"},
+        )
+        assert process.stderr is not None
+        try:
+            assert b"leave the skin alone" in process.stderr.readline()
+            process.send_signal(signal.SIGTERM)
+            assert process.wait(DEADLINE_S) == 130
+        finally:
+            process.kill()
+            process.wait()
+            process.stderr.close()
+        assert settings() == own
+
+
+def test_a_board_that_is_not_touched_and_one_that_is_no_board(tmp_path: Path) -> None:
+    _, levels, report = selftest(tmp_path, "--sim", "--no-touch", "--untouched-s", "1", "--rows", "8", "--cols", "5")
+    assert levels["high taxels"] == "PASS"
+    assert "open rows" not in levels
+    assert report["response_counts"] is None
+    assert len(report["noise_counts"]) == 8
+    with pytest.raises(SystemExit):
+        main(["selftest", "--sim", "--rows", "65"])
+    assert main(["selftest", "--hardware-fault", "open-row=5"]) == 1
+    assert main(["selftest", "--sim", "--hardware-fault", "open-row=40"]) == 1
+    assert main(["selftest", str(tmp_path / "nothing")]) == 1

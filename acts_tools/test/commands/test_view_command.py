@@ -1,0 +1,76 @@
+"""`acts view` as a person starts it; ROS_DOMAIN_ID 221."""
+
+from __future__ import annotations
+
+import http.client
+import os
+import re
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from websockets.sync.client import connect
+
+from acts_core.errors import REFUSED_EXIT_CODE
+from acts_tools.bench.rigs.processes import virtual_board
+
+pytestmark = pytest.mark.slow
+
+DEADLINE_S = 60.0
+
+
+def start(*words: str) -> subprocess.Popen[str]:
+    return subprocess.Popen(
+        [sys.executable, "-m", "acts_tools", "view", *words],
+        env={**os.environ, "ROS_DOMAIN_ID": "221"},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+    )
+
+
+def test_it_prints_where_the_page_is_and_ends_in_order() -> None:
+    with start("plate", "--port", "0") as process:
+        try:
+            assert process.stdout is not None
+            found = next(
+                found for line in process.stdout if (found := re.search(r"open http://127\.0\.0\.1:(\d+)/", line))
+            )
+            connection = http.client.HTTPConnection("127.0.0.1", int(found[1]), timeout=DEADLINE_S)
+            connection.request("GET", "/")
+            assert connection.getresponse().status == 200
+            # Taken meanwhile: said in a line.
+            second = subprocess.run(
+                [sys.executable, "-m", "acts_tools", "view", "--port", found[1]],
+                env={**os.environ, "ROS_DOMAIN_ID": "221"},
+                capture_output=True,
+                text=True,
+                timeout=DEADLINE_S,
+            )
+            assert second.returncode == REFUSED_EXIT_CODE
+            assert f"error: cannot listen on 127.0.0.1 port {found[1]}" in second.stderr
+            process.send_signal(signal.SIGINT)
+            assert process.wait(DEADLINE_S) == 0
+        finally:
+            process.kill()
+
+
+def test_a_board_is_shown_without_any_graph(tmp_path: Path) -> None:
+    with virtual_board(tmp_path) as board, start("--board", str(board.link), "--port", "0") as process:
+        try:
+            assert process.stdout is not None
+            found = next(
+                found for line in process.stdout if (found := re.search(r"open (http://127\.0\.0\.1:\d+)", line))
+            )
+            with connect(f"ws{found[1][4:]}/stream", origin=found[1], compression=None) as page:  # type: ignore[arg-type]
+                page.send('{"id":1,"do":"tare"}')
+                # Frame after frame, with an image; the answer to what was asked for among them.
+                told = b"".join(bytes(page.recv(DEADLINE_S)) for _ in range(30))  # type: ignore[arg-type]
+            assert told.count(b'["image","uint16",[32,32]]') > 10
+            assert b'"type":"answer","id":1,"done":' in told
+            process.send_signal(signal.SIGINT)
+            assert process.wait(DEADLINE_S) == 0
+        finally:
+            process.kill()

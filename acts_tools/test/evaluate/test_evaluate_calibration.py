@@ -1,0 +1,33 @@
+"""Whether errors on simulated slides are as large as the fusion says they are."""
+
+import numpy as np
+import pytest
+
+from acts_core.sampling import SamplingConfig
+from acts_recon.sparse import load_dictionary, shipped_dictionary_path
+from acts_sim.pressing import EVENT_RATE_HZ, event_recordings
+from acts_tools.evaluate.images.recovery import FOLLOW_COUNTS, Recording, Task, evaluate
+
+pytestmark = pytest.mark.slow
+
+
+# Measured: ratios of touched taxels 1.0 to 1.2, of the centre 0.6 to 1.1, of force, area and spread 0.3 to 0.7.
+@pytest.mark.parametrize("event", ["slide_0.1_m_s", "slide_1_m_s", "slide_2_m_s"])
+def test_errors_are_as_large_as_the_fusion_says(event: str) -> None:
+    recordings = [
+        Recording(frames, EVENT_RATE_HZ, np.ones((32, 32), dtype=bool)) for frames in event_recordings(event, 3, seed=1)
+    ]
+    task = Task(SamplingConfig("tracking", m=55, threshold_counts=FOLLOW_COUNTS), "acts", noise_counts=3.0)
+    known = evaluate(recordings, task, load_dictionary(shipped_dictionary_path()))["sigma"]
+    for name, least, most in (
+        ("touched", 0.8, 1.35),
+        ("x", 0.4, 1.35),
+        ("y", 0.4, 1.35),
+        ("force", 0.2, 1.2),
+        ("area", 0.2, 1.2),
+        ("spread", 0.2, 1.2),
+    ):
+        assert least < known[name]["ratio"] < most, name
+        assert known[name]["within_2"] > 0.9, name
+    assert known["touched"]["within_1"] > 0.55
+    assert known["untouched"]["within_2"] > 0.99

@@ -1,0 +1,155 @@
+"""Classification on simulated presses and on recordings; thresholds are measured, with margin."""
+
+import argparse
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from acts_core.errors import ActsError, RecordingError, SettingsError
+from acts_recon.objects import load_object_library
+from acts_sim.pressing import PressingArm, object_named
+from acts_tools import library
+from acts_tools.evaluate import command
+from acts_tools.evaluate.objects.classification import Trials, accuracy, run_trials
+
+pytestmark = pytest.mark.slow
+
+SIX = ("circle", "square", "bolt_and_nut", "glass_mug", "rubber_ball", "tennis_ball")
+
+
+def evaluate(*words: object) -> int:
+    parser = argparse.ArgumentParser()
+    command.add_parser(parser.add_subparsers())
+    return command.run(parser.parse_args(["evaluate", "classification", *(str(word) for word in words)]))
+
+
+def make_library(*words: object) -> int:
+    parser = argparse.ArgumentParser()
+    library.add_parser(parser.add_subparsers())
+    return library.run(parser.parse_args(["library", *(str(word) for word in words)]))
+
+
+@pytest.fixture(scope="module")
+def grasps(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Four labelled recordings of each of three objects, at 100 Hz."""
+    path = tmp_path_factory.mktemp("grasps") / "grasps.npz"
+    arm = PressingArm([object_named(name) for name in SIX[:3]], seed=3)
+    recordings = [arm.recording(number, 0.02, 0.06)[::10] for number in range(3) for _ in range(4)]
+    lengths = [len(recording) for recording in recordings]
+    np.savez(
+        path,
+        frames=np.concatenate(recordings),
+        rate_hz=100.0,
+        start=np.cumsum([0, *lengths[:-1]]),
+        length=lengths,
+        label=[SIX[number] for number in range(3) for _ in range(4)],
+    )
+    return path
+
+
+def test_ours_is_above_the_papers_method_on_the_same_presses() -> None:
+    trials = Trials(arms=1, presses=3, columns=3, objects=tuple(object_named(name) for name in SIX))
+    shares: list[float] = []
+    results = run_trials(trials, (42,), (2, 5, 20), shares.append)
+    assert shares == [number / len(SIX) for number in range(len(SIX))]
+    paper, acts = ([cell["accuracy"] for cell in results["over_time"][method]] for method in ("paper", "acts"))
+    assert all(ours > theirs for ours, theirs in zip(acts[:2], paper[:2], strict=True))
+    assert acts[2] >= paper[2]
+    assert acts[2] > 0.8
+    held = {method: cells[0] for method, cells in results["over_m"].items()}
+    assert held["acts"]["accuracy"] >= max(held["paper"]["accuracy"], 0.9)
+    assert held["acts"]["presses"] == 18
+    assert all(0 < results["frame_us"][method]["median"] <= results["frame_us"][method]["p99"] for method in held)
+    again = run_trials(trials, (42,), (2, 5, 20))
+    assert all(again[part] == results[part] for part in ("over_m", "over_time"))
+
+
+def test_intervals_are_wilsons() -> None:
+    cell = accuracy(8, 10)
+    assert cell["accuracy"] == 0.8
+    assert (cell["low"], cell["high"]) == pytest.approx((0.4902, 0.9433), abs=1e-4)
+    assert accuracy(10, 10)["high"] == pytest.approx(1)
+    assert accuracy(0, 10)["low"] == 0
+
+
+def test_tables_report_and_picture(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    report, picture = tmp_path / "c.json", tmp_path / "c.png"
+    words = ("--arms", 1, "--presses", 1, "--columns", 2, "--m", 64, "--objects", "circle", "tweezers")
+    assert evaluate(*words, "--json", report, "--picture", picture) == 0
+    output = capsys.readouterr().out
+    assert "| accuracy, held, at M = | paper | acts |" in output
+    assert "ms since contact | paper | acts |" in output
+    assert "to classify a frame, median and p99 [us]: paper " in output
+    assert set(json.loads(report.read_text())) == {"over_m", "over_time", "frame_us"}
+    assert picture.read_bytes().startswith(b"\x89PNG")
+
+
+def test_labelled_recordings(grasps: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert evaluate("--frames", grasps) == 0
+    output = capsys.readouterr().out
+    assert "6 recordings in the library, 6 classified, 3 objects" in output
+    assert "| accuracy at M = | paper | acts | nearest |" in output
+    line = next(line for line in output.splitlines() if line.startswith("| 55 "))
+    assert line.split("|")[3].startswith(" 1.000")
+    assert line.split("|")[4].startswith(" 1.000")
+
+
+def test_libraries_from_recordings_and_from_presses(grasps: Path, tmp_path: Path) -> None:
+    path = tmp_path / "objects.npz"
+    assert make_library("-o", path, "--frames", grasps, "--objects", "circle", "square") == 0
+    loaded = load_object_library(path, shape=(32, 32))
+    assert (loaded.names, loaded.n_columns) == (("circle", "square"), 8)
+    assert "grasps.npz (sha256 " in loaded.provenance
+    assert make_library("-o", path, "--objects", "tweezers", "x", "--presses", 2, "--seed", 5) == 0
+    loaded = load_object_library(path)
+    assert (loaded.names, loaded.n_columns) == (("tweezers", "x"), 4)
+    assert make_library("-o", path, "--objects", "tweezers", "x", "--presses", 2, "--seed", 5) == 0
+    assert load_object_library(path).sha256 == loaded.sha256
+
+
+def test_recordings_without_a_touch_and_what_no_taxel_reads_stay_out_of_a_library(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    frames = np.zeros((6, 8, 8), dtype=np.uint16)
+    frames[1, 2, 2] = frames[5, 6, 6] = 300
+    frames[:, 0, 0] = 900
+    live = np.ones((8, 8), dtype=bool)
+    live[0, 0] = False
+    made: dict[str, object] = {"frames": frames, "live": live, "start": [0, 2, 4], "length": [2, 2, 2]}
+    np.savez(tmp_path / "f.npz", label=[1, 2, 3], **made)
+    assert make_library("-o", tmp_path / "o.npz", "--frames", tmp_path / "f.npz") == 0
+    assert "left out: 1 recordings without a touch" in capsys.readouterr().out
+    loaded = load_object_library(tmp_path / "o.npz")
+    assert loaded.names == ("1", "3")
+    assert np.flatnonzero(loaded.columns.sum(axis=1)).tolist() == [2 * 8 + 2, 6 * 8 + 6]
+    with pytest.raises(RecordingError, match="the largest count is 300, and only what is above 400 is a contact"):
+        make_library("-o", tmp_path / "o.npz", "--frames", tmp_path / "f.npz", "--touch-counts", 400)
+
+
+def test_what_cannot_be_is_refused(grasps: Path, tmp_path: Path) -> None:
+    plain = tmp_path / "plain.npz"
+    np.savez(plain, frames=np.zeros((2, 4, 4), np.uint16), rate_hz=31.0)
+    volts = tmp_path / "volts.npz"
+    np.savez(volts, frames=np.full((2, 4, 4), 3.3), rate_hz=31.0, label=["a"])
+    cases: list[tuple[Callable[[], int], type[ActsError], str]] = [
+        (lambda: evaluate("--frames", plain), RecordingError, "no `label` in the file"),
+        (lambda: evaluate("--frames", volts), RecordingError, "the largest count is 3, and only what is above"),
+        (lambda: make_library("-o", tmp_path / "o.npz", "--frames", plain), RecordingError, "has no label"),
+        (
+            lambda: make_library("-o", tmp_path / "o.npz", "--frames", grasps, "--objects", "cat"),
+            RecordingError,
+            "no recording shows cat; labels are bolt_and_nut, circle",
+        ),
+        (
+            lambda: evaluate("--frames", grasps, "--json", tmp_path / "no" / "c.json"),
+            RecordingError,
+            "in a folder that exists",
+        ),
+        (lambda: evaluate("--frames", grasps, "--picture", tmp_path / "c.png"), SettingsError, "does not go with"),
+    ]
+    for call, error, word in cases:
+        with pytest.raises(error, match=word):
+            call()

@@ -1,0 +1,45 @@
+"""`acts evaluate events` and `objects` on a few of them."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from acts_tools.cli import main
+
+pytestmark = pytest.mark.slow
+
+
+def test_events_are_scored_by_kind(tmp_path: Path) -> None:
+    out = tmp_path / "events.json"
+    words = ["--event", "tap_4x4", "two_taps", "--recordings", "8", "--method", "last", "zero", "--json", str(out)]
+    assert main(["evaluate", "events", *words]) == 0
+    report = json.loads(out.read_text())
+    assert (report["noise_counts"], report["seed"], report["dictionary"]) == (3, 1, "shipped")
+    results = report["results"]
+    assert [(r["event"], r["method"]) for r in results] == [
+        (event, method) for event in ("tap_4x4", "two_taps") for method in ("last", "zero")
+    ]
+    assert results[0]["contacts"] == 8
+    assert results[0]["notice_ms"]["p99"] < 3.5
+    assert results[0]["notice_further_ms"]["p99"] is None
+    assert results[2]["contacts"] == 16
+    assert results[2]["notice_further_ms"]["p50"] > 0
+
+
+def test_objects_give_curves_and_a_picture(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    out, picture = tmp_path / "objects.json", tmp_path / "curves.png"
+    words = ["--objects", "x", "rubber_ball", "--m", "256", "512", "--ours", "last", "--json", str(out)]
+    assert main(["evaluate", "objects", *words, "--picture", str(picture)]) == 0
+    results = json.loads(out.read_text())["results"]
+    assert len(results) == 14
+    assert all(r["onset"]["frames"] == 0 and r["frames"] > 20 for r in results)
+    assert picture.read_bytes().startswith(b"\x89PNG")
+    table = capsys.readouterr().out.splitlines()[-9:]
+    assert table[0] == "| support accuracy at M = | 256 | 512 |"
+    assert table[-1].startswith("| last, tracking | ")
+    # Nothing is left beyond such an onset.
+    assert main(["evaluate", "objects", *words[:5], "--onset-s", "5", "--picture", str(picture)]) == 0
+    assert capsys.readouterr().out.splitlines()[-1] == "| acts, tracking | - |"
+    assert main(["evaluate", "objects", "--objects", "no such thing"]) == 1
+    assert main(["evaluate", "objects", *words, "--picture", str(tmp_path / "no" / "a.png")]) == 1

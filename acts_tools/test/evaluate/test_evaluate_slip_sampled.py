@@ -1,0 +1,22 @@
+"""`acts evaluate slip-sampled` on few contacts."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from acts_tools.cli import main
+
+pytestmark = pytest.mark.slow
+
+
+def test_slip_is_told_soon_and_never_in_a_hold(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    output = tmp_path / "out.json"
+    words = ["--m", "128", "--seeds", "1", "--hold-s", "0.3", "--json", str(output)]
+    assert main(["evaluate", "slip-sampled", *words]) == 0
+    (entry,) = json.loads(output.read_text())["results"]
+    assert entry["m"] == 128
+    assert len(entry["delay_ms"]) == 15
+    assert max(entry["delay_ms"]) < 15.0
+    assert entry["false_holding"] == 0
+    assert "| 128 |" in capsys.readouterr().out

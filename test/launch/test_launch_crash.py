@@ -1,0 +1,95 @@
+"""The process that feels is killed while a ball is balanced: it is back soon, and balancing goes on by itself.
+
+With ACTS_CRASHES=20 it is killed twenty times, while the ball is led along letters as well. ROS_DOMAIN_ID 179.
+"""
+
+import os
+import signal
+import statistics
+import time
+from pathlib import Path
+
+import pytest
+from geometry_msgs.msg import PointStamped
+from launch_support import LONG_S, PACKAGE, START_S, patient_parameters, pid_of
+
+from acts_msgs.msg import BalanceStatus
+from acts_ros.qos import STATE
+from acts_tools.testing.launch_runner import Launched, LaunchFile, launch_fixture, launch_test
+
+pytestmark = pytest.mark.slow
+
+CRASHES = int(os.environ.get("ACTS_CRASHES", "1"))
+# Older touch levels the plate (touch_stale_after_s).
+STALE_S = 0.2
+BALANCED_S = 0.5 if CRASHES == 1 else 1.0
+# The edge of the skin is 70 mm from its centre.
+ON_THE_PLATE_M = 0.065
+
+
+@launch_fixture
+def balancing(tmp_path: Path) -> LaunchFile:
+    arguments = {"run_dir": str(tmp_path / "run"), "robot_ip": "127.0.6.8"}
+    arguments["trajectory"] = "hold" if CRASHES == 1 else ",".join(["N", "B", "I"] * CRASHES)
+    arguments["params_file"] = patient_parameters(tmp_path, touch_stop_after_s=60.0)
+    return LaunchFile(PACKAGE, "ball_balancing.launch.xml", 179, arguments)
+
+
+class Watch:
+    """What the controller tells, and how far from the centre the ball was."""
+
+    def __init__(self, launched: Launched) -> None:
+        self._probe = launched.probe
+        self.status = BalanceStatus()
+        self.states: set[int] = set()
+        self.farthest_m = 0.0
+        self._probe.node.create_subscription(BalanceStatus, "/plate/ball/status", self._on_status, STATE)
+        self._probe.node.create_subscription(PointStamped, "/plate/ball/truth", self._on_truth, STATE)
+
+    def _on_status(self, status: BalanceStatus) -> None:
+        self.status = status
+        self.states.add(status.state)
+
+    def _on_truth(self, truth: PointStamped) -> None:
+        self.farthest_m = max(self.farthest_m, abs(truth.point.x), abs(truth.point.y))
+
+    def until_balanced_for(self, seconds: float) -> None:
+        """Wait until the ball has been balanced, on fresh touch, for a while [s]."""
+        since_s = time.monotonic()
+
+        def balanced() -> bool:
+            nonlocal since_s
+            status = self.status
+            if status.state != BalanceStatus.STATE_BALANCING or status.touch_age > STALE_S:
+                since_s = time.monotonic()
+            return time.monotonic() - since_s > seconds
+
+        self._probe.wait_for(balanced, START_S, "a ball that is balanced")
+
+    def until_touch_is(self, fresh: bool) -> float:
+        """Wait until touch is fresh, or is not; the time of that [s]."""
+        words = "touch" if fresh else "the loss of touch"
+        self._probe.wait_for(lambda: (self.status.touch_age < STALE_S) is fresh, LONG_S, words)
+        return time.monotonic()
+
+
+@launch_test(balancing)
+def test_after_a_crash_of_the_process_that_feels_balancing_goes_on_by_itself(balancing: Launched) -> None:
+    watch = Watch(balancing)
+    watch.until_balanced_for(1.0)
+    watch.states.clear()
+    watch.farthest_m = 0.0
+    gaps_s = []
+    for _ in range(CRASHES):
+        os.kill(pid_of(balancing, "tactile"), signal.SIGKILL)
+        killed_s = time.monotonic()
+        watch.until_touch_is(fresh=False)
+        gaps_s.append(watch.until_touch_is(fresh=True) - killed_s)
+        watch.until_balanced_for(BALANCED_S)
+    print(
+        f"touch was back after {' '.join(f'{gap:.2f}' for gap in gaps_s)} s, median {statistics.median(gaps_s):.2f} s"
+    )
+    print(f"the ball was never farther than {1000 * watch.farthest_m:.0f} mm from the centre")
+    assert watch.states == {BalanceStatus.STATE_BALANCING}
+    assert watch.farthest_m < ON_THE_PLATE_M
+    assert balancing.stop() == 0

@@ -1,0 +1,100 @@
+"""What the documents say exists: every launch argument, parameter and topic, and the links between pages."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md")])
+INDEX = ROOT / "docs" / "README.md"
+
+
+def test_the_reference_lists_every_parameter_and_launch_argument() -> None:
+    finished = subprocess.run(
+        [sys.executable, ROOT / "scripts" / "reference.py", "--check"], capture_output=True, text=True, timeout=60
+    )
+    assert finished.returncode == 0, finished.stdout + finished.stderr
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: f"{page.parent.name}-{page.name}")
+def test_links_lead_somewhere(page: Path) -> None:
+    text = page.read_text()
+    for target in re.findall(r"\]\((?!https?:)([^)#]+)", text):
+        assert (page.parent / target).exists(), f"{page.name} links to {target}"
+    for name in re.findall(r"`(docs/[a-z0-9_]+\.md)`", text):
+        assert (ROOT / name).exists(), f"{page.name} names {name}"
+
+
+@pytest.mark.parametrize("topic", ["samples", "contact", "cop", "image_raw", "image", "ball/state", "ball/status"])
+def test_the_readme_names_the_topics(topic: str) -> None:
+    assert f"`{topic}`" in (ROOT / "README.md").read_text()
+
+
+@pytest.mark.parametrize("page", sorted((ROOT / "docs").glob("*.md")), ids=lambda page: page.name)
+def test_the_index_leads_to_every_page_and_each_begins_with_a_command(page: Path) -> None:
+    if page == INDEX:
+        return
+    assert f"]({page.name})" in INDEX.read_text(), f"{page.name} is missing in docs/README.md"
+    begin = page.read_text().splitlines()[:18]
+    assert any(re.match(r"```|    \S|.*`\S+ \S+", line) for line in begin), f"{page.name} begins without a command"
+
+
+def headings(page: Path) -> set[str]:
+    """Anchors of a page, as GitHub makes them."""
+    lines = re.findall(r"^#+ (.+)$", page.read_text(), flags=re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", line.lower()).replace(" ", "-") for line in lines}
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: f"{page.parent.name}-{page.name}")
+def test_links_into_pages_lead_to_a_heading(page: Path) -> None:
+    for target, anchor in re.findall(r"\]\((?!https?:)([^)#]*\.md)?#([^)]+)\)", page.read_text()):
+        other = page.parent / target if target else page
+        assert anchor in headings(other), f"{page.name} links to {target}#{anchor}"
+
+
+# What the pages on extending have one write.
+WRITTEN = {"fading", "overlap", "numbered_lines", "tilting_table", "comb", "tap_to_open", "NAME"}
+TRACKED = [
+    path for folder in ROOT.iterdir() if not folder.name.startswith(".") for path in [folder, *folder.rglob("*")]
+]
+SOURCES = [
+    path
+    for path in TRACKED
+    if path.suffix in (".md", ".py", ".hpp", ".cpp", ".ino", ".msg", ".xml")
+    and "test" not in path.relative_to(ROOT).parts
+]
+
+
+def is_there(name: str) -> bool:
+    """Whether a path or a module with dots, from wherever its reader would begin, exists."""
+    return any(str(path).endswith(f"/{name}") for path in TRACKED)
+
+
+def is_module(name: str) -> bool:
+    """Whether a name with dots is a module, or something that a module names."""
+    package, *parts = name.split(".")
+    folder = ROOT / package / package
+    for k, part in enumerate(parts):
+        if (folder / part).is_dir():
+            folder /= part
+            continue
+        own = folder / f"{part}.py"
+        wanted = parts[k + 1 :] if own.is_file() else [part]
+        text = (own if own.is_file() else folder / "__init__.py").read_text()
+        return not wanted or re.search(rf"\b{re.escape(wanted[0])}\b", text) is not None
+    return True
+
+
+def test_files_and_modules_that_pages_and_comments_name_exist() -> None:
+    missing = []
+    for source in SOURCES:
+        for number, line in enumerate(source.read_text().splitlines(), 1):
+            paths = re.findall(r"(?<![\w/.~$-])(acts_\w+/(?:\w+/)*\w+\.(?:py|hpp|cpp|ya?ml|xml|md))\b", line)
+            modules = re.findall(r"\b(acts_(?!msgs|firmware|config|bringup)[a-z]+(?:\.[A-Za-z_]\w*)+)", line)
+            wrong = [name for name in paths if Path(name).stem not in WRITTEN and not is_there(name)]
+            wrong += [name for name in modules if not is_module(name)]
+            missing += [f"{source.relative_to(ROOT)}:{number} names {name}" for name in wrong]
+    assert missing == []

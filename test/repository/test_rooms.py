@@ -1,0 +1,155 @@
+"""The house of the code: packages whose imports point one way, folders (rooms) of one subject each, no circles.
+
+A room is entered by its `__init__`: what that exports is public, all else is the room's own. The rooms `nodes`,
+`process`, `processes` and `executables` are where programs begin, and `bags` needs a library that not all have: their
+modules are imported one by one, so that a program loads no more than it needs.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass
+from graphlib import CycleError, TopologicalSorter
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+MODULES_MAX = 12
+ENTRANCES = {"bags", "nodes", "process", "processes", "executables"}
+
+LAYERS = (
+    {"acts_core"},
+    {"acts_ros"},
+    {"acts_driver", "acts_recon", "acts_control", "acts_sim"},
+    {"acts_skins"},
+    {"acts_view", "acts_tools"},
+)
+"""Packages may import from those of earlier lines, and from themselves."""
+
+MAY_USE = {"acts_tools": {"acts_view"}}
+"""The one arrow within a line: `acts view` is a command among the others."""
+
+LIBRARIES = set().union(*LAYERS[:3])
+"""Packages whose rooms are closed. Commands of acts_tools are programs, of which each is a room for itself."""
+
+
+@dataclass(frozen=True)
+class Import:
+    """One name that a module imports: where from, and the module that it is taken out of."""
+
+    importer: str
+    source: str
+    name: str
+
+
+def modules() -> dict[str, Path]:
+    """All modules of all packages by their dotted names."""
+    found = {}
+    for package in set().union(*LAYERS):
+        for path in (ROOT / package / package).rglob("*.py"):
+            parts = path.relative_to(ROOT / package).with_suffix("").parts
+            found[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
+    return found
+
+
+MODULES = modules()
+ROOMS = {name for name, path in MODULES.items() if path.name == "__init__.py"}
+
+
+def room_of(module: str) -> str:
+    """The folder that a module lies in; of a folder, itself."""
+    return module if module in ROOMS else module.rpartition(".")[0]
+
+
+def imports(module: str) -> Iterator[Import]:
+    """What a module imports from this project, at whatever place in it."""
+    for node in ast.walk(ast.parse(MODULES[module].read_text())):
+        if isinstance(node, ast.ImportFrom) and node.module in MODULES:
+            for alias in node.names:
+                whole = f"{node.module}.{alias.name}"
+                yield Import(module, whole if whole in MODULES else node.module, alias.name)
+        elif isinstance(node, ast.Import):
+            yield from (Import(module, alias.name, "") for alias in node.names if alias.name in MODULES)
+
+
+EDGES = [edge for module in MODULES for edge in imports(module)]
+
+
+def exported(room: str) -> set[str]:
+    """What a room's `__init__` names in `__all__`."""
+    for node in ast.parse(MODULES[room].read_text()).body:
+        if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "__all__":
+            return set(ast.literal_eval(node.value))
+    return set()
+
+
+def test_there_is_a_house_to_look_at() -> None:
+    assert len(MODULES) > 300
+    assert len(EDGES) > 1500
+    assert len(ROOMS) > 40
+
+
+def test_imports_between_packages_point_one_way() -> None:
+    allowed: dict[str, set[str]] = {}
+    before: set[str] = set()
+    for layer in LAYERS:
+        allowed.update({package: before | {package} | MAY_USE.get(package, set()) for package in layer})
+        before = before | layer
+    wrong = {
+        f"{edge.importer} imports {edge.source}"
+        for edge in EDGES
+        if edge.source.split(".")[0] not in allowed[edge.importer.split(".")[0]]
+    }
+    assert not wrong
+
+
+def test_a_room_is_entered_by_what_it_exports() -> None:
+    wrong = set()
+    for edge in EDGES:
+        room = room_of(edge.source)
+        package, _, inner = room.partition(".")
+        if package not in LIBRARIES or not inner or room == room_of(edge.importer):
+            continue
+        if room.rpartition(".")[2] in ENTRANCES:
+            continue
+        by_init = edge.source == room or f"{room}.{edge.name}" == edge.source
+        if not by_init or (edge.name not in exported(room) and edge.source not in ROOMS):
+            wrong.add(f"{edge.importer} imports {edge.name} from {edge.source}")
+    assert not wrong
+
+
+def test_modules_do_not_import_one_another_in_circles() -> None:
+    graph: dict[str, set[str]] = {}
+    for edge in EDGES:
+        # A name out of the own room's __init__ would be one; what is outside of the room enters by it.
+        if edge.source != edge.importer:
+            graph.setdefault(edge.importer, set()).add(edge.source)
+    try:
+        TopologicalSorter(graph).prepare()
+    except CycleError as error:
+        pytest.fail(" -> ".join(error.args[1]))
+
+
+@pytest.mark.parametrize("room", sorted(room for room in ROOMS if room.split(".")[0] in LIBRARIES and "." in room))
+def test_a_room_says_what_it_is_for_and_exports_what_exists(room: str) -> None:
+    tree = ast.parse(MODULES[room].read_text())
+    assert len(ast.get_docstring(tree) or "") > 40
+    taken = {
+        alias.asname or alias.name for node in tree.body if isinstance(node, ast.ImportFrom) for alias in node.names
+    }
+    if room.rpartition(".")[2] not in ENTRANCES:
+        assert taken == exported(room)
+
+
+def test_rooms_are_small_enough_to_look_around_in() -> None:
+    counts = {room: sum(path.parent == MODULES[room].parent for path in MODULES.values()) - 1 for room in ROOMS}
+    assert {room: n for room, n in counts.items() if n > MODULES_MAX} == {}
+
+
+def test_folders_of_tests_are_no_larger() -> None:
+    found = Counter(path.parent for folder in ("acts_*/test", "test") for path in ROOT.glob(f"{folder}/**/*.py"))
+    assert len(found) > 30
+    assert {str(folder): n for folder, n in found.items() if n > MODULES_MAX} == {}

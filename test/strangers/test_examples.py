@@ -1,0 +1,98 @@
+"""The scripts of examples/ as docs/without_ros.md has them, on a recording made here and on virtual boards."""
+
+from __future__ import annotations
+
+import re
+import runpy
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from ament_index_python.packages import get_package_prefix
+
+from acts_core.array import ArrayGeometry
+from acts_core.errors import ActsError
+from acts_recon.sparse import Reconstructor, load_dictionary
+
+pytestmark = pytest.mark.slow
+
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
+
+Run = Callable[..., str]
+
+
+@pytest.fixture
+def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Run:
+    """Runs an example with words of a command line; returns what it prints."""
+
+    def run_example(name: str, *words: str) -> str:
+        monkeypatch.setattr(sys, "argv", [name, *words])
+        runpy.run_path(str(EXAMPLES / name), run_name="__main__")
+        return capsys.readouterr().out
+
+    return run_example
+
+
+@pytest.fixture
+def presses(tmp_path: Path) -> Path:
+    """Twenty presses of an array of 16 x 12, and a long last one at row 5, column 8."""
+    rows, cols = np.indices((16, 12))
+    random = np.random.default_rng(0)
+    places = [(*random.uniform(2, 10, 2), random.uniform(1, 2)) for _ in range(20)] + [(5.0, 8.0, 1.5)] * 20
+    frames = [600 * np.exp(-((rows - row) ** 2 + (cols - col) ** 2) / (2 * width**2)) for row, col, width in places]
+    path = tmp_path / "presses.npz"
+    np.savez(path, frames=np.rint(frames).astype(np.uint16), rate_hz=100.0)
+    return path
+
+
+def test_a_frame_is_recovered(run: Run) -> None:
+    said = run("recover_frame.py")
+    assert "128 of 1024 taxels measured" in said
+    assert float(re.findall(r"relative error of the image ([\d.]+)", said)[0]) < 0.15
+    assert "contact at row 14.0, column 20.0" in said
+
+
+def test_a_recording_is_fused(run: Run, presses: Path) -> None:
+    last = run("fuse_recording.py", str(presses)).splitlines()[-1]
+    x_mm, y_mm = map(float, re.findall(r"[xy] +(-?[\d.]+) mm,", last)[:2])
+    geometry = ArrayGeometry(16, 12)
+    assert x_mm == pytest.approx(1000 * float(geometry.x_m(8)), abs=0.3)
+    assert y_mm == pytest.approx(1000 * float(geometry.y_m(5)), abs=0.3)
+
+
+def test_a_dictionary_is_learnt_that_the_reconstruction_takes(run: Run, presses: Path, tmp_path: Path) -> None:
+    assert "iteration 10" in run("learn_dictionary.py", str(presses), str(tmp_path / "mine.npz"), "30")
+    dictionary = load_dictionary(tmp_path / "mine.npz")
+    assert dictionary.n_atoms == 30
+    Reconstructor(ArrayGeometry(16, 12), dictionary)
+
+
+@pytest.mark.parametrize("protocol", ["binary", "raster_ascii"])
+def test_a_board_is_read_over_serial(run: Run, tmp_path: Path, protocol: str) -> None:
+    rows, cols = np.indices((16, 16))
+    press = np.rint(600 * np.exp(-((rows - 4) ** 2 + (cols - 11) ** 2) / 4)).astype(np.uint16)
+    np.save(tmp_path / "press.npy", np.repeat(press[np.newaxis], 2, axis=0))
+    program = Path(get_package_prefix("acts_firmware")) / "lib/acts_firmware/virtual_board"
+    options = ["--rows", "16", "--cols", "16", "--scheme", "tracking", "--m", "55", "--protocol", protocol]
+    options += ["--recording", str(tmp_path / "press.npy"), "--link", str(tmp_path / "board"), "--print-status"]
+    with subprocess.Popen([str(program), *options], stdout=subprocess.PIPE, text=True) as board:
+        try:
+            assert board.stdout is not None
+            assert board.stdout.readline().startswith("{")
+            words = ["--ascii", "16", "16"] if protocol == "raster_ascii" else []
+            said = run("read_board.py", str(tmp_path / "board"), "--seconds", "1.2", *words).splitlines()[-1]
+        finally:
+            board.kill()
+    frames, damaged, x_mm, y_mm = map(float, re.findall(r"-?\d+(?:\.\d+)?", said))
+    geometry = ArrayGeometry(16, 16)
+    assert frames > 10
+    assert damaged == 0
+    assert (x_mm, y_mm) == pytest.approx((1000 * float(geometry.x_m(11)), 1000 * float(geometry.y_m(4))), abs=0.5)
+
+
+def test_a_missing_board_is_said_in_words(run: Run, tmp_path: Path) -> None:
+    with pytest.raises(ActsError, match="board"):
+        run("read_board.py", str(tmp_path / "board"))

@@ -1,0 +1,89 @@
+"""A checkout where set-up cannot work is told so before anything is downloaded."""
+
+from __future__ import annotations
+
+import importlib.util
+import mmap
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+BOOTSTRAP = Path(__file__).resolve().parent.parent.parent / "scripts" / "bootstrap.py"
+
+
+def tried(checkout: Path) -> subprocess.CompletedProcess[str]:
+    """Run a copy of the set-up in a checkout of which there is nothing else."""
+    (checkout / "scripts").mkdir(parents=True)
+    script = shutil.copy(BOOTSTRAP, checkout / "scripts")
+    return subprocess.run([sys.executable, script], capture_output=True, text=True, timeout=30)
+
+
+@pytest.mark.parametrize("name", ["my robots", "it's", "a:b", "a;b", "$HOME", 'a"b', "new\nline"])
+def test_a_path_that_the_build_cannot_carry_is_refused_first(tmp_path: Path, name: str) -> None:
+    done = tried(tmp_path / name)
+    assert done.returncode == 1
+    assert done.stderr.startswith("[setup] the path of this checkout holds ")
+    assert "Move the checkout" in done.stderr
+    assert not (tmp_path / name / ".acts").exists()
+
+
+@pytest.mark.parametrize("name", ["ros_ws-2/src/acts.git+1@x~", "Prüfstand", "触覚"])
+def test_letters_of_any_language_are_not(tmp_path: Path, name: str) -> None:
+    # It goes on, to find no list of wheels.
+    assert "the path of this checkout" not in tried(tmp_path / name).stderr
+
+
+@pytest.fixture
+def bootstrap() -> ModuleType:
+    """The set-up's functions."""
+    specification = importlib.util.spec_from_file_location("bootstrap", BOOTSTRAP)
+    assert specification is not None
+    assert specification.loader is not None
+    bootstrap = importlib.util.module_from_spec(specification)
+    specification.loader.exec_module(bootstrap)
+    return bootstrap
+
+
+def test_the_build_reads_paths_as_utf_8(bootstrap: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(bootstrap, "VENV", tmp_path)
+    path = tmp_path / "share/rosidl_adapter/cmake/rosidl_adapt_interfaces.cmake"
+    path.parent.mkdir(parents=True)
+    path.write_text('  file(STRINGS "${idl_output}" idl_tuples)\n')
+    bootstrap.read_paths_as_utf8()
+    # Otherwise CMake ends a line at such a letter.
+    assert path.read_text() == '  file(STRINGS "${idl_output}" idl_tuples ENCODING UTF-8)\n'
+
+
+def test_without_network_the_last_line_speaks_of_it(
+    bootstrap: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def run(command: list[str], *_: object, **__: object) -> None:
+        if "pip" in command:
+            raise bootstrap.SetupError("`pip ...` ended with code 1")
+
+    monkeypatch.setattr(bootstrap, "run", run)
+    for name in ("VENV", "BUILD", "INSTALL"):
+        monkeypatch.setattr(bootstrap, name, tmp_path / name)
+    with pytest.raises(bootstrap.SetupError, match=r"ended with code 1\. The wheels come from the network"):
+        bootstrap.create_venv()
+
+
+def test_nothing_is_removed_under_what_runs(tmp_path: Path) -> None:
+    shutil.copy(BOOTSTRAP.parent.parent / "Makefile", tmp_path)
+    library = tmp_path / ".acts" / "library"
+    library.parent.mkdir()
+    library.write_bytes(b"0" * 4096)
+    clean = ["make", "-C", str(tmp_path), "clean"]
+    with library.open("rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ):
+        refused = subprocess.run(clean, capture_output=True, text=True, timeout=30)
+    assert refused.returncode != 0
+    assert "not cleaned: end what runs from here first (ps " in refused.stderr
+    assert f"{os.getpid()} " in refused.stderr
+    assert library.exists()
+    assert subprocess.run(clean, capture_output=True, text=True, timeout=30).returncode == 0
+    assert not library.parent.exists()
