@@ -17,13 +17,22 @@ from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-from sensor_msgs.msg import Image
+from sensor_msgs.msg import Image, JointState
 from test_view_codec import decode
 from websockets.sync.client import ClientConnection, connect
 
 from acts_core.errors import ArrayError, SettingsError
 from acts_core.skin import RegionContact
-from acts_msgs.msg import Contact, Contacts, HandStatus, RegionContacts, TrackedContact
+from acts_msgs.msg import (
+    BalanceStatus,
+    BallReference,
+    BallState,
+    Contact,
+    Contacts,
+    HandStatus,
+    RegionContacts,
+    TrackedContact,
+)
 from acts_ros import qos
 from acts_ros.executor import spin_for
 from acts_ros.messages import ContactFields, write_contact, write_regions
@@ -158,7 +167,7 @@ def test_a_page_sees_a_skin_that_it_was_not_told_of_and_the_skin_is_left_alone_a
     frame = bench.headers["frame"]
     np.testing.assert_allclose(frame["touch"], [0.01, 0.02, 3.0, 700.0, 1e-4])
     assert frame["regions"] == [["palm", 1.25, 0.0, True]]
-    assert frame["hand"] == {"state": "holding", "reason": "something is gripped", "active": ["slip"]}
+    assert frame["hand"] == {"state": "holding", "reason": "something is gripped", "active": ["slip"], "events": []}
     assert (bench.headers["skin"]["skin"], len(bench.headers["skin"]["patches"])) == ("/hand", 13)
     assert bench.headers["skin"]["touch_counts"] == 50
     history = np.concatenate(bench.history)
@@ -240,3 +249,42 @@ def test_only_namespaces_are_taken_as_skins(skins: str) -> None:
 
 def contact_subscribers(bench: Bench) -> int:
     return bench.contact.get_subscription_count()
+
+
+def test_a_page_sees_ball_reference_tilt_and_joints_and_no_more_when_they_are_gone(bench: Bench) -> None:
+    place = bench.skin.create_publisher(BallState, "ball/state", qos.STATE)
+    reference = bench.skin.create_publisher(BallReference, "ball/reference", qos.STATE)
+    status = bench.skin.create_publisher(BalanceStatus, "ball/status", qos.STATE)
+    joints = bench.skin.create_publisher(JointState, "joint_states", qos.STATE)
+    ball = BallState(valid=True)
+    ball.position.x, ball.position.y = 0.01, -0.02
+    wanted = BallReference(segment="N")
+    wanted.position.x = 0.03
+    balancing = BalanceStatus(state=BalanceStatus.STATE_BALANCING, reason="a ball and a reference")
+    balancing.tilt_measured.x, balancing.tilt_commanded.y = 0.05, float("nan")
+
+    def play() -> None:
+        bench.press(1.0)
+        place.publish(ball)
+        reference.publish(wanted)
+        status.publish(balancing)
+        joints.publish(JointState(name=["knee", "hip"], position=[0.5, float("nan")]))
+
+    def seen() -> dict[str, Any]:
+        return bench.headers.get("frame", {"ball": {}, "hand": {}})
+
+    with bench.connect() as client:
+        bench.until(lambda: len(seen()["ball"]) == 7 and "joints" in seen()["hand"], client, play)
+        assert seen()["ball"] == {
+            "ball": [0.01, -0.02],
+            "reference": [0.03, 0.0],
+            "segment": "N",
+            "state": "balancing",
+            "reason": "a ball and a reference",
+            "tilt_measured": [0.05, 0.0],
+            "tilt_commanded": None,
+        }
+        assert seen()["hand"] == {"joints": [["knee", 0.5]]}
+        for publisher in (place, reference, status, joints):
+            bench.skin.destroy_publisher(publisher)
+        bench.until(lambda: seen()["ball"] == {} and seen()["hand"] == {}, client, lambda: bench.press(1.0))

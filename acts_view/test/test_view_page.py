@@ -38,7 +38,22 @@ def pressed(name: str, time_s: float) -> tuple[str, Frame, list[Sample]]:
         contacts=contacts,
         touch=(x_m, y_m, 1.25, 800.0, 1.9e-5),
         regions=[RegionState("palm", 2.5, 0.0, False), RegionState("index_distal", 0.75, 0.0032, True)],
-        hand={"state": "holding", "reason": "something is gripped", "active": ["slip"]},
+        hand={
+            "state": "holding",
+            "reason": "something is gripped",
+            "active": ["slip"],
+            "events": [["slip", 3], ["sharp", 0]],
+            "joints": [["index_mcp", 0.7854], ["thumb_tip", -0.1745]],
+        },
+        ball={
+            "ball": [x_m, y_m],
+            "reference": [x_m + 0.003, y_m + 0.004],
+            "segment": "B",
+            "state": "balancing",
+            "reason": "a ball and a reference",
+            "tilt_measured": [0.075, 0.0],
+            "tilt_commanded": [0.0, -0.15],
+        },
     )
     count = round(PERIOD_S * 1000)
     return name, frame, [Sample(time_s + 0.001 * number, 1.25, 0.4, 0) for number in range(count)]
@@ -118,6 +133,7 @@ def test_a_press_is_where_it_is_with_its_numbers(play: Callable[..., Player], op
     assert page.locator(".contacts tbody tr").first.inner_text().split() == ["42", "1.25", "800", "19", "125"]
     assert "plate/driver" in page.inner_text("#diagnostics")
     assert "Warning" in page.inner_text("#diagnostics")
+    assert "Is the board plugged in and powered?" in page.inner_text("#diagnostics .advice")
     marks = page.evaluate(
         "() => { const c = document.querySelector('canvas.marks');"
         " return c.getContext('2d').getImageData(0, 0, c.width, c.height).data.some((byte) => byte) }"
@@ -139,6 +155,21 @@ def test_a_taxel_tells_its_value_to_mouse_and_keyboard(
     assert pointed.inner_text().startswith(f"row {ROW + 1}, column {COL} · 0 counts")
     page.keyboard.press("Escape")
     assert pointed.inner_text() == ""
+
+
+def test_a_ball_its_reference_and_the_tilt_of_the_plate(
+    play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    page = open_page(play())
+    page.wait_for_selector(".ball h3")
+    assert page.inner_text(".ball h3") == "Ball balancing · segment B"
+    shown = {name: page.inner_text(f"[data-ball={name}]") for name in ("ball", "reference", "off", "tilt")}
+    assert shown == {"ball": "19.7, 32.8", "reference": "22.7, 36.8", "off": "5.0", "tilt": "4.30, 0.00"}
+    # About x the plate goes down along -y, which is down on the page; about y, to the left.
+    dots = {
+        name: [page.get_attribute(f".level .{name}", one) for one in ("cx", "cy")] for name in ("measured", "commanded")
+    }
+    assert dots == {"measured": ["0.000", "0.500"], "commanded": ["-1.000", "0.000"]}
 
 
 def test_the_image_is_shown_in_newtons(play: Callable[..., Player], open_page: Callable[..., Page]) -> None:
@@ -210,7 +241,9 @@ def test_a_server_that_is_gone_and_back(play: Callable[..., Player], open_page: 
 def test_a_hand_has_its_own_shape_and_its_regions(play: Callable[..., Player], open_page: Callable[..., Page]) -> None:
     page = open_page(play(("/hand",), SkinShape(layout="leap_right")))
     page.wait_for_selector(".regions li")
-    assert page.inner_text(".regions h3") == "Hand holding · slip"
+    assert page.locator(".regions h3").first.inner_text() == "Hand holding · slip"
+    assert page.inner_text(".regions .joints").split("\n") == ["index mcp", "45", "thumb tip", "-10"]
+    assert page.inner_text(".regions .note") == "Reflexes so far: slip 3 ×"
     slipping = page.locator(".regions li[data-slipping=true]")
     assert slipping.inner_text().split("\n") == ["index distal", "0.75 N", "slips 3.2 mm"]
     assert "13 patches" in page.inner_text(".shape")

@@ -3,32 +3,43 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from sensor_msgs.msg import Image
+from sensor_msgs.msg import Image, JointState
 
 from acts_core.array import MAX_SIDE
 from acts_core.errors import PacketError
-from acts_msgs.msg import Contact, Contacts, HandStatus, RegionContacts
+from acts_msgs.msg import BalanceStatus, BallReference, BallState, Contact, Contacts, HandStatus, RegionContacts
 from acts_ros import qos
 from acts_ros.messages import ContactFields, read_contact, read_regions
 from acts_ros.polled import PolledSubscription, PollingNode
+from acts_view.nodes.robot_states import (
+    SHOWN,
+    TEXT,
+    balance_state,
+    ball_place,
+    ball_reference,
+    hand_state,
+    joint_angles,
+)
 from acts_view.skin.snapshot import CONTACT_COLUMNS, Frame, RegionState, Sample
 
 _SEQUENCE_MODULUS = 1 << 32
 # A stamp further from the clock than this is by another clock, as in a bag that is played.
 _SAME_CLOCK_S = 10.0
-# What one skin may show at most: what is more is left out, for every page is sent all of it.
-_SHOWN = 64
-_TEXT = 200
 _MONO = {"mono16": "u2", "mono8": "u1"}
-_HAND_STATES = {
-    getattr(HandStatus, name): name.removeprefix("STATE_").lower()
-    for name in dir(HandStatus)
-    if name.startswith("STATE_")
+_ROBOT: dict[str, tuple[type, Callable[[Any], dict[str, Any]], str]] = {
+    "hand/status": (HandStatus, hand_state, "hand"),
+    "joint_states": (JointState, lambda message: {"joints": joint_angles(message)}, "hand"),
+    "ball/state": (BallState, ball_place, "ball"),
+    "ball/reference": (BallReference, ball_reference, "ball"),
+    "ball/status": (BalanceStatus, balance_state, "ball"),
 }
+"""Of each topic that says what a robot is about: its type, what is taken of a message, and where in `Frame` it goes."""
 
 
 class SkinTopics:
@@ -51,9 +62,8 @@ class SkinTopics:
         self._polled["regions"] = node.create_raw_polled_subscription(
             RegionContacts, f"{namespace}/regions", qos.STREAM, depth=1
         )
-        self._polled["hand"] = node.create_polled_subscription(
-            HandStatus, f"{namespace}/hand/status", qos.STATE, depth=1
-        )
+        for topic, (kind, _, _) in _ROBOT.items():
+            self._polled[topic] = node.create_polled_subscription(kind, f"{namespace}/{topic}", qos.STATE, depth=1)
         self.look()
 
     def look(self) -> None:
@@ -61,6 +71,11 @@ class SkinTopics:
         self._choose("image_raw", Image)
         self._choose("confidence", Image)
         self._choose("contacts", Contacts)
+        # What a controller has said is no longer so when it is gone.
+        old = self._frame
+        self._frame = replace(
+            old, hand=old.hand if self._is_told("hand") else {}, ball=old.ball if self._is_told("ball") else {}
+        )
 
     def close(self) -> None:
         """Subscribe no longer."""
@@ -72,8 +87,9 @@ class SkinTopics:
         """The newest of everything and all of the 1 kHz stream since the last call; None where nothing came."""
         samples, touch, stamp_ns = self._contact()
         images = {name: self._newest(name) for name in ("image_raw", "confidence")}
-        contacts, regions, hand = (self._newest(name) for name in ("contacts", "regions", "hand"))
-        if not samples and all(one is None for one in (*images.values(), contacts, regions, hand)):
+        contacts, regions = (self._newest(name) for name in ("contacts", "regions"))
+        robot = {topic: self._newest(topic) for topic in _ROBOT}
+        if not samples and all(one is None for one in (*images.values(), contacts, regions, *robot.values())):
             return None
         old = self._frame
         image = _pixels(images["image_raw"], "mono16")
@@ -87,9 +103,15 @@ class SkinTopics:
             contacts=table,
             touch=touch if samples else old.touch,
             regions=old.regions if regions is None else _regions(regions, old.regions),
-            hand=old.hand if hand is None else _hand(hand),
+            hand=old.hand | _told(robot, "hand"),
+            ball=old.ball | _told(robot, "ball"),
         )
         return self._frame, samples
+
+    def _is_told(self, place: str) -> bool:
+        """Whether somebody publishes what goes there."""
+        topics = [topic for topic, (_, _, goes_to) in _ROBOT.items() if goes_to == place]
+        return any(self._node.count_publishers(f"{self._namespace}/{topic}") for topic in topics)
 
     def _choose(self, what: str, kind: type) -> None:
         at_view_rate = f"{self._namespace}/view/{what}"
@@ -155,10 +177,19 @@ def _table(message: Contacts) -> tuple[NDArray[np.uint32], NDArray[np.float32]]:
             math.hypot(one.velocity.x, one.velocity.y),
             one.age,
         )
-        for one in message.contacts[:_SHOWN]
+        for one in message.contacts[:SHOWN]
     ]
-    numbers = np.array([one.number for one in message.contacts[:_SHOWN]], np.uint32)
+    numbers = np.array([one.number for one in message.contacts[:SHOWN]], np.uint32)
     return numbers, np.array(rows, np.float32).reshape(-1, len(CONTACT_COLUMNS))
+
+
+def _told(robot: dict[str, Any], place: str) -> dict[str, Any]:
+    """What is new of a hand or a ball."""
+    told: dict[str, Any] = {}
+    for topic, (_, read, goes_to) in _ROBOT.items():
+        if goes_to == place and robot[topic] is not None:
+            told |= read(robot[topic])
+    return told
 
 
 def _regions(data: bytes, old: Any) -> Any:
@@ -167,15 +198,7 @@ def _regions(data: bytes, old: Any) -> Any:
     except PacketError:
         return old
     return [
-        RegionState(one.name[:_TEXT], one.force_n, one.slip_m, one.slipping)
-        for one in regions[:_SHOWN]
+        RegionState(one.name[:TEXT], one.force_n, one.slip_m, one.slipping)
+        for one in regions[:SHOWN]
         if math.isfinite(one.force_n) and math.isfinite(one.slip_m)
     ]
-
-
-def _hand(message: HandStatus) -> dict[str, Any]:
-    return {
-        "state": _HAND_STATES.get(message.state, str(message.state)),
-        "reason": message.reason[:_TEXT],
-        "active": [name[:_TEXT] for name in message.active[:_SHOWN]],
-    }

@@ -1,4 +1,6 @@
-// What the nodes say of themselves: a line each, its values when it is opened.
+// What the nodes say of themselves: a line each, with what to do, and its values when it is opened.
+
+import { advice } from "./advice.js";
 
 const LEVELS = ["OK", "Warning", "Error", "Stale"];
 const STALE_S = 3;
@@ -19,6 +21,7 @@ export class Diagnostics {
       node.dataset.level = word.toLowerCase();
       text(node.querySelector(".level"), word);
       text(node.querySelector(".message"), isStale ? `nothing heard of it for ${Math.round(age_s)} s; before: ${message}` : message);
+      text(node.querySelector(".advice"), advice(word.toLowerCase(), message));
       if (node.open) node.querySelector("dl").replaceChildren(...values.flatMap(([key, value]) => [term("dt", key), term("dd", value)]));
     }
     const names = new Set(diagnostics.map(({ name }) => name));
@@ -32,7 +35,7 @@ export class Diagnostics {
   #node(name) {
     if (!this.nodes.has(name)) {
       const node = document.createElement("details");
-      node.innerHTML = `<summary><span class="level"></span><span class="name"></span><span class="message"></span></summary><dl></dl>`;
+      node.innerHTML = `<summary><span class="level"></span><span class="name"></span><span class="message"></span><span class="advice"></span></summary><dl></dl>`;
       node.querySelector(".name").textContent = name;
       const after = [...this.nodes.keys()].filter((other) => other > name).sort()[0];
       this.section.querySelector(".nodes").insertBefore(node, this.nodes.get(after) ?? null);

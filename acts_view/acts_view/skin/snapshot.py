@@ -63,7 +63,9 @@ class Frame:
         Of all that presses: centre of pressure x and y [m], force [N], peak [counts], area [m^2]; None without contact.
     regions : sequence of RegionState
     hand : mapping
-        State of a hand in words; empty for none.
+        State of a hand in words, and the angles of its joints; empty for none.
+    ball : mapping
+        Ball on the skin, where it should be, and the tilt of the plate; empty for none.
     """
 
     stamp_s: float = 0.0
@@ -74,6 +76,7 @@ class Frame:
     touch: tuple[float, ...] | None = None
     regions: Sequence[RegionState] = ()
     hand: dict[str, Any] = field(default_factory=dict)
+    ball: dict[str, Any] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -202,5 +205,6 @@ def encode_frame(name: str, frame: Frame, history: NDArray[np.float64], life: in
         "touch": frame.touch,
         "regions": [[region.name, region.force_n, region.slip_m, region.is_slipping] for region in frame.regions],
         "hand": frame.hand,
+        "ball": frame.ball,
     }
     return encode(header, arrays)

@@ -37,6 +37,7 @@ export class Marks {
       this.#drawTrails(context);
       this.#drawContacts(context, message.arrays);
       this.#drawCentre(context, message.touch);
+      this.#drawReference(context, message.ball.reference);
     }
     if (pointed) this.#drawPointed(context, pointed);
   }
@@ -94,6 +95,21 @@ export class Marks {
     context.moveTo(x, y - arm);
     context.lineTo(x, y + arm);
     outlined(context, this.ratio, 1.75);
+  }
+
+  /** Where a ball should be: a square that stands on its corner. */
+  #drawReference(context, place) {
+    const centre = place && this.geometry.metres(...place);
+    if (!centre) return;
+    const [x, y] = centre;
+    const half = 9 * this.ratio;
+    context.beginPath();
+    context.moveTo(x, y - half);
+    context.lineTo(x + half, y);
+    context.lineTo(x, y + half);
+    context.lineTo(x - half, y);
+    context.closePath();
+    outlined(context, this.ratio, 1.5);
   }
 
   #drawPointed(context, { row, col }) {

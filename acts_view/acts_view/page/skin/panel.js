@@ -1,5 +1,6 @@
 // One skin: its picture, its numbers, its contacts, its plots and, of a hand, its regions.
 
+import { Ball } from "./ball.js";
 import { gradient } from "./colours.js";
 import { BIN_S, FRAMES, History, LATENCY, LOST } from "./history.js";
 import { Plots } from "./plots.js";
@@ -51,13 +52,15 @@ export class Panel {
           <p class="more"></p>
         </div>
         <div class="plots"></div>
-        <section class="regions" hidden></section>
+        <section class="ball robot" hidden></section>
+        <section class="regions robot" hidden></section>
       </div>`;
     this.find = (selector) => this.element.querySelector(selector);
     this.find("h2").textContent = name;
     this.find("canvas.marks").setAttribute("aria-label", `tactile image of ${name}; arrow keys move from taxel to taxel`);
     this.view = new SkinView(this.find(".canvases"), (text) => { this.find(".pointed").textContent = text; });
     this.plots = new Plots(this.find(".plots"), this.history, onHold);
+    this.ball = new Ball(this.find(".ball"));
     this.regions = new Regions(this.find(".regions"));
     this.outputs = Object.fromEntries(NUMBERS.map(([key]) => [key, this.find(`[data-number=${key}]`)]));
     this.rows = [...this.element.querySelectorAll("tbody tr")].map((row) => [...row.cells]);
@@ -126,6 +129,7 @@ export class Panel {
     this.numbers_ms = now_ms;
     this.#showNumbers();
     this.#showContacts();
+    this.ball.show(this.message.ball);
     this.regions.show(this.message.regions, this.message.hand);
   }
 

@@ -1,19 +1,25 @@
-// Of a hand: what each region feels, and what the hand is about.
+// Of a hand: what each region feels, what the hand is about, and the angles of its joints.
 
 const FULL_N = 5;
 
 export class Regions {
   constructor(element) {
     this.element = element;
-    element.innerHTML = `<h3>Hand <span class="state"></span></h3><p class="reason"></p><ul></ul>`;
+    element.innerHTML = `<h3>Hand <span class="state"></span></h3><p class="reason"></p><ul class="patches"></ul><h3 class="joints-title">Joints <small>°</small></h3><dl class="joints"></dl><p class="note"></p>`;
     this.rows = new Map();
+    this.joints = new Map();
   }
 
   /** The newest of both; hidden as long as neither is published. */
   show(regions, hand) {
-    this.element.hidden = !regions.length && !hand.state;
+    this.element.hidden = !regions.length && !hand.state && !hand.joints?.length;
     this.#text(this.element.querySelector(".state"), [hand.state, ...(hand.active ?? [])].filter(Boolean).join(" · "));
     this.#text(this.element.querySelector(".reason"), hand.reason ?? "");
+    const joints = hand.joints ?? [];
+    this.element.querySelector(".joints-title").hidden = !joints.length;
+    for (const [name, angle_rad] of joints) this.#text(this.#joint(name), ((angle_rad * 180) / Math.PI).toFixed(0));
+    const events = (hand.events ?? []).filter(([, count]) => count).map(([name, count]) => `${name} ${count} ×`);
+    this.#text(this.element.querySelector(".note"), events.length ? `Reflexes so far: ${events.join(", ")}` : "");
     for (const [name, force_n, slip_m, isSlipping] of regions) {
       const row = this.#row(name);
       row.dataset.slipping = isSlipping;
@@ -28,10 +34,22 @@ export class Regions {
       const row = document.createElement("li");
       row.innerHTML = `<span class="name"></span><span class="bar-of-force"><i></i></span><span class="force"></span><span class="slip"></span>`;
       row.querySelector(".name").textContent = name.replaceAll("_", " ");
-      this.element.querySelector("ul").append(row);
+      this.element.querySelector(".patches").append(row);
       this.rows.set(name, row);
     }
     return this.rows.get(name);
+  }
+
+  #joint(name) {
+    if (!this.joints.has(name)) {
+      const [title, angle] = ["dt", "dd"].map((kind) => document.createElement(kind));
+      title.textContent = name.replaceAll("_", " ");
+      const pair = document.createElement("div");
+      pair.append(title, angle);
+      this.element.querySelector(".joints").append(pair);
+      this.joints.set(name, angle);
+    }
+    return this.joints.get(name);
   }
 
   #text(element, text) {

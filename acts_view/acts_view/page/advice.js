@@ -1,0 +1,22 @@
+// What to do about what a node complains of: by words in its sentence, the first that fits.
+
+const ADVICE = [
+  [/no board|no frames from|is closed|no such port|cannot open/i, "Is the board plugged in and powered? acts doctor tells which ports there are, and whether you may open them."],
+  [/parameters rows and cols/i, "The array has another size than the parameters rows and cols say: give the launch file that of the array."],
+  [/crc|malformed|damaged/i, "Bytes are damaged on the way: try another cable or port, without a hub; see docs/faults.md."],
+  [/not in force/i, "The board does not answer: its firmware may be another one (parameter protocol), or the line only goes one way."],
+  [/do not fit/i, "Driver and reconstruction must have the same rows and cols; what does not fit is in the log."],
+  [/lost|overrun|late/i, "The machine is too busy, or the port too slow: acts doctor tells what it lacks; see docs/real_time.md."],
+  [/no samples/i, "Does the driver of this skin run and have a board? Its own line says."],
+  [/no contact messages|no touch/i, "Does the reconstruction of this skin run? Its own line says."],
+  [/stopped|given up/i, "Motion has ended. Mend the reason that is told, then start it again."],
+  [/robot|connect/i, "Is the robot on, reachable and in remote control? See docs/ball_balancing.md."],
+];
+const STALE = "The node has ended or hangs: look where it was started, and start it again.";
+
+/** In words; empty where nothing needs doing or nothing is known. */
+export function advice(level, message) {
+  if (level === "ok") return "";
+  if (level === "stale") return STALE;
+  return ADVICE.find(([pattern]) => pattern.test(message))?.[1] ?? "";
+}
