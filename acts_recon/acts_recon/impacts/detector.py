@@ -20,6 +20,7 @@ from acts_recon.impacts.touch import Touch, impulse_of, reach_m_of
 Array = NDArray[np.float64]
 
 _LONGEST_PAUSE_S = 0.5
+_UNSEEN_S = 0.02
 _NUMBERS = 2**32
 # Of a fitted footprint's force: the taxels' sensitivities, and how far it is from a Gaussian.
 _FORCE_SD = 0.2
@@ -166,7 +167,9 @@ class ImpactDetector:
         pressed_s, free_s = self._samples.near(strongest.x_m, strongest.y_m, reach_m)
         if pressed_s.size:
             touch.see(pressed_s)
-        return bool(pressed_s.size) or bool(touch.frames_seen and not free_s.size)
+        # Where a frame has measured nothing there, it says nothing; but not for long.
+        is_unseen = not free_s.size and time_s - touch.last_sample_s <= _UNSEEN_S
+        return bool(pressed_s.size) or bool(touch.frames_seen and is_unseen)
 
     def _patch(self, blob: TrackedBlob) -> int:
         row = round(float(self._geometry.row_of(blob.y_m)))
@@ -231,7 +234,7 @@ class ImpactDetector:
         x_m, y_m = touch.peak_x_m, touch.peak_y_m
         if fitted is not None:
             # Between taxels that were just measured an image is a guess, which is far off where taxels saturate.
-            force_n = np.interp(time, fitted.time_s, fitted.force_n)
+            time, force_n = fitted.time_s, fitted.force_n
             path_x_m, path_y_m = fitted.path(time)
             x_m, y_m = (float(one[0]) for one in fitted.path(fitted.time_s[[fitted.force_n.argmax()]]))
             peak_n, peak_sd_n = float(fitted.force_n.max()), _FORCE_SD * float(fitted.force_n.max())
@@ -241,7 +244,7 @@ class ImpactDetector:
             end_s = touch.last_s
         else:
             free_s = self._samples.untouched_s(touch.x_m, touch.y_m, touch.last_sample_s, math.inf)
-            end_s, _ = touch.end(free_s, touch.last_s + period_s, force if is_short else None)
+            end_s, _ = touch.end(free_s, touch.last_sample_s + 1.5 * period_s, force if is_short else None)
         kind = Kind.IMPACT if stays else touch.kind(onset_s, end_s, self.config)
         velocity, sd, direction, direction_sd = (0.0, 0.0), (0.0, 0.0), 0.0, UNKNOWN_DIRECTION_SD_RAD
         if fitted is not None and kind is Kind.IMPACT:

@@ -6,9 +6,9 @@ samples of the touch are explained at once, by a footprint that moves straight o
 
     force(t, r) = A(t) exp(-|r - r0 - v t|^2 / (2 w(t)^2))
 
-A and w are linear between nodes, about one a frame. The least squares are solved by Levenberg and Marquardt. The
-standard deviations are those of errors that are common to all samples of one taxel, such as its sensitivity (a
-"sandwich" of clusters), so they also hold where the footprint is not quite a Gaussian.
+The logarithms of A and w are linear between nodes, one a frame. Levenberg and Marquardt's method solves the least
+squares. The standard deviations are those of errors that are common to all samples of one taxel, such as its
+sensitivity (a "sandwich" of clusters), so they also hold where the footprint is not quite a Gaussian.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ class Footprint:
     Attributes
     ----------
     time_s, force_n : np.ndarray [shape=(n,), dtype=float64]
-        Its force, about once a frame, from the first pressed sample to the last [s, N].
+        Its force, once a frame and at least five times, from the first pressed sample to the last [s, N].
     middle_s : float
         Mean time of the force [s].
     x_m, y_m : float
@@ -162,13 +162,15 @@ def fit_footprint(
     scores = np.zeros((clusters.size, state.size))
     np.add.at(scores, cluster, jacobian[: taxel.size] * model.residuals(state)[: taxel.size, None])
     inverse = np.linalg.pinv(jacobian.T @ jacobian)
-    covariance = inverse @ (scores.T @ scores) @ inverse * clusters.size / max(clusters.size - 4, 1)
+    covariance = inverse @ (scores.T @ scores) @ inverse * clusters.size / max(clusters.size - state.size, 1)
     top_n, width_mm = np.exp(state[4 : 4 + nodes]), np.exp(state[4 + nodes :])
     forces_n = 2 * np.pi * top_n * width_mm**2 / (1e6 * taxel_area_m2)
     # mm/ms are m/s.
-    x_m, y_m = (1e-3 * state[:2]).tolist()
+    centre_x_m, centre_y_m = (1e-3 * state[:2]).tolist()
     middle_s = 1e-3 * model.middle
-    return Footprint(1e-3 * model.at, forces_n, middle_s, x_m, y_m, state[2:4].copy(), covariance[2:4, 2:4])
+    return Footprint(
+        1e-3 * model.at, forces_n, middle_s, centre_x_m, centre_y_m, state[2:4].copy(), covariance[2:4, 2:4]
+    )
 
 
 def _minimise(model: _Model, state: Array) -> Array:

@@ -61,7 +61,8 @@ class Impact:
         Velocity of the footprint along x and y, mean over the touch, and the standard deviations [m/s]; both 0 where
         the direction is not known.
     time_s, force_n, path_x_m, path_y_m : np.ndarray [shape=(n,), dtype=float64]
-        Frame by frame: end of the frame, force and centre of pressure; of at most the time that an impact lasts.
+        Force and centre of pressure over time, of at most the time that an impact lasts. Where they could be fitted to
+        the samples, once a frame and at least five times, and the path is straight; else at the end of each frame.
     """
 
     number: int

@@ -114,7 +114,7 @@ class Touch:
         return _between(earliest_s, latest_s, None if force is None else _zero(force, 0, 1))
 
     def end(self, untouched_s: NDArray[np.float64], after_s: float, force: Force | None = None) -> tuple[float, float]:
-        """When it was last touched, and the standard deviation [s]; as `onset`. `after_s`: end of the next frame."""
+        """When it was last touched, and the standard deviation [s]; as `onset`. `after_s`: not later."""
         earliest_s = self.last_sample_s
         latest_s = float(untouched_s.min(initial=max(after_s, earliest_s)))
         return _between(earliest_s, latest_s, None if force is None else _zero(force, -1, -2))

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from acts_core.errors import SettingsError
 from acts_core.skin import ForceResponse
@@ -92,7 +93,7 @@ def test_a_scene_shows_each_bounce_when_it_is_and_nothing_else() -> None:
     shown = scene(skin_of(rng), ball_named("golf"), dropped(0.02), bounces=2, untouched_s=0.005, rng=rng)
     assert len(shown.collisions) == 2
     assert shown.collisions[1].time_s[0] == shown.collisions[0].after_s
-    touched = (shown.frames > 0).any(axis=(1, 2))
+    touched: NDArray[np.bool_] = np.any(shown.frames > 0, axis=(1, 2))
     at_s = np.arange(len(touched)) / SCENE_RATE_HZ
     within = np.zeros_like(touched)
     for one in shown.collisions:

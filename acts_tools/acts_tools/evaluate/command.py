@@ -7,6 +7,7 @@ from typing import Any
 
 from acts_tools.evaluate.hand import hand_command
 from acts_tools.evaluate.images import events_command, objects_command, recovery_command
+from acts_tools.evaluate.impacts import impacts_command, ricochet_command
 from acts_tools.evaluate.objects import classification_command
 from acts_tools.evaluate.public import convert_command
 from acts_tools.evaluate.slip import slip_command, slip_sampled_command
@@ -29,6 +30,8 @@ def add_parser(subparsers: Any) -> None:
         slip_command,
         hand_command,
         slip_sampled_command,
+        impacts_command,
+        ricochet_command,
         convert_command,
     ):
         module.add_parser(commands)

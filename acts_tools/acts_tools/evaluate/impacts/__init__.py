@@ -1,0 +1,1 @@
+"""`acts evaluate impacts` and `acts evaluate ricochet`: balls on the simulated skin, without board and wires."""

@@ -1,0 +1,171 @@
+"""`acts evaluate impacts`: tennis balls dropped on the simulated skin, by how many taxels a frame has.
+
+The paper's figures 5B and 5C. What the numbers mean is told in docs/impacts.md.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_recon.impacts import Kind
+from acts_sim.impacts import Scene, ball_named, collide, dropped, scene, skin_of
+from acts_tools.evaluate import report
+from acts_tools.evaluate.images.recovery import SAMPLE_US
+from acts_tools.evaluate.images.scores import distribution
+from acts_tools.evaluate.impacts import plays
+from acts_tools.progress import Progress
+
+_M = (42, 64, 88, 128, 256, 512, 1024)
+_SCHEMES = ("adaptive", "tracking")
+_TOUCH_MS = 8.7
+_MIDDLE_M = 0.035
+_UNTOUCHED_S = (0.045, 0.065)
+_TITLE = (
+    f"{'M':>4} {'method':6} {'scheme':9} {'frames/s':>8} {'frames':>7} {'told':>8} {'force change':>12} "
+    f"{'onset ms':>9} {'within 1':>8} {'duration ms':>11} {'peak':>5} {'impulse':>7} {'delay ms':>8}"
+)
+
+
+def add_parser(commands: Any) -> None:
+    """Add ``acts evaluate impacts``."""
+    parser = commands.add_parser(
+        "impacts",
+        help="on tennis balls dropped on the simulated skin",
+        description="Drop tennis balls from table height on the simulated skin, sample the bounce with more and more "
+        "taxels a frame, and take how many frames see it, whether and how soon it is told, and how well its time and "
+        "force are known. docs/impacts.md tells what the numbers mean.",
+    )
+    parser.add_argument(
+        "--m", type=int, nargs="+", default=list(_M), help=f"taxels per frame (default: {' '.join(map(str, _M))})"
+    )
+    parser.add_argument(
+        "--touch-ms", type=float, default=_TOUCH_MS, metavar="T", help="how long a ball touches (default: %(default)s)"
+    )
+    plays.add_arguments(parser, 100, "drops")
+    parser.set_defaults(evaluate=_run)
+
+
+def _drops(drops: int, seed: int, touch_ms: float) -> list[Scene]:
+    ball = ball_named("tennis")
+    # The time of a touch goes with stiffness to the power -2 / 5, as in Hertz's law without losses.
+    longer = 1e-3 * touch_ms / collide(ball, dropped()).duration_s
+    ball = replace(ball, stiffness_n_per_m15=ball.stiffness_n_per_m15 * longer**-2.5)
+    scenes = []
+    for number in range(drops):
+        rng = np.random.default_rng([seed, number])
+        x_m, y_m = rng.uniform(-_MIDDLE_M, _MIDDLE_M, 2).tolist()
+        untouched_s = float(rng.uniform(*_UNTOUCHED_S))
+        scenes.append(scene(skin_of(rng), ball, dropped(x_m=x_m, y_m=y_m), untouched_s=untouched_s, rng=rng))
+    return scenes
+
+
+def _run(arguments: argparse.Namespace) -> int:
+    about = {name: getattr(arguments, name) for name in ("touch_ms", "noise_counts", "seed", "seeds")}
+    results = report.Results(arguments.json, about)
+    scenes = _drops(arguments.seeds, arguments.seed, arguments.touch_ms)
+    work = len(arguments.m) * (1 + len(_SCHEMES)) * len(scenes)
+    print(_TITLE, flush=True)
+    with Progress("impacts", work) as progress:
+        done = 0
+        for m in arguments.m:
+            entries = [_paper(scenes, m, arguments.noise_counts)]
+            progress.show(done := done + len(scenes))
+            for scheme in _SCHEMES:
+                entries.append(_ours(scenes, scheme, m, arguments.noise_counts))
+                progress.show(done := done + len(scenes))
+            for entry in entries:
+                results.add(entry)
+                print(_line(entry), flush=True)
+    return 0
+
+
+def _paper(scenes: Sequence[Scene], m: int, noise_counts: float) -> dict[str, Any]:
+    frames, changes = [], []
+    for seed, shown in enumerate(scenes, start=1):
+        sampled = plays.frames_of_paper(shown, m, noise_counts, seed)
+        # A taxel that is measured keeps its value in the recovered image, and without one the image is 0.
+        peaks = np.array([float(frame.counts.max()) for frame in sampled])
+        touched = np.flatnonzero(peaks > plays.PAPER_TOUCH_COUNTS)
+        frames.append(touched.size)
+        if touched.size:
+            changes.append(_change(peaks[touched[0] : touched[-1] + 1]))
+    return {**_common("paper", "raster" if m >= 1024 else "adaptive", m, frames, changes), "told": _seen(frames)}
+
+
+def _ours(scenes: Sequence[Scene], scheme: str, m: int, noise_counts: float) -> dict[str, Any]:
+    ours = plays.Ours(scheme, m, noise_counts)
+    frames, changes, begun, further, bounced = [], [], 0, 0, 0
+    delays_ms, onsets_ms, within, durations_ms, peaks_share, impulses_share = [], [], [], [], [], []
+    for seed, shown in enumerate(scenes, start=1):
+        told = ours.play(shown, seed)
+        first = [(at_s, impact) for at_s, impact in told if not impact.is_over]
+        over = [impact for _, impact in told if impact.is_over]
+        begun += bool(first)
+        further += max(len(first) - 1, 0)
+        frames.append(over[0].frames if over else 0)
+        if not over:
+            continue
+        changes.append(_change(over[0].force_n))
+        truth = shown.collisions[0]
+        begin_s = float(truth.time_s[0])
+        bounced += over[0].kind is Kind.IMPACT and over[0].bounced
+        delays_ms.append(1e3 * (first[0][0] - begin_s))
+        onsets_ms.append(1e3 * abs(over[0].onset_s - begin_s))
+        within.append(abs(over[0].onset_s - begin_s) <= over[0].onset_sd_s)
+        durations_ms.append(1e3 * abs(over[0].duration_s - truth.duration_s))
+        peaks_share.append(over[0].peak_n / float(truth.force_n.max()))
+        impulses_share.append(over[0].impulse_n_s / truth.impulse_n_s)
+    return {
+        **_common("acts", scheme, m, frames, changes),
+        "told": begun,
+        "told_as_bounce": bounced,
+        "told_further": further,
+        "delay_ms": distribution(np.array(delays_ms)),
+        "onset_error_ms": distribution(np.array(onsets_ms)),
+        "onset_within_1_sigma": float(np.mean(within)) if within else None,
+        "duration_error_ms": distribution(np.array(durations_ms)),
+        "peak_share": distribution(np.array(peaks_share)),
+        "impulse_share": distribution(np.array(impulses_share)),
+    }
+
+
+def _common(method: str, scheme: str, m: int, frames: list[int], changes: list[float]) -> dict[str, Any]:
+    return {
+        "m": m,
+        "method": method,
+        "scheme": scheme,
+        "rate_hz": 1e6 / (m * SAMPLE_US),
+        "drops": len(frames),
+        "frames": float(np.mean(frames)),
+        "frames_sd": float(np.std(frames)),
+        "seen": _seen(frames),
+        "force_change": float(np.mean(changes)) if changes else None,
+    }
+
+
+def _seen(frames: list[int]) -> int:
+    return sum(number > 0 for number in frames)
+
+
+def _change(force: NDArray[np.float64]) -> float:
+    """Mean change of the force from value to value, with 0 before the touch and after it, as a share of the largest."""
+    return float(np.abs(np.diff(np.concatenate(([0.0], force, [0.0])))).mean() / force.max())
+
+
+def _line(entry: dict[str, Any]) -> str:
+    def mean(name: str, width: int, digits: int) -> str:
+        return report.number(entry[name]["mean"] if name in entry else None, width, digits)
+
+    return (
+        f"{entry['m']:4} {entry['method']:6} {entry['scheme']:9} {entry['rate_hz']:8.1f} {entry['frames']:7.2f} "
+        f"{entry['told']:>4}/{entry['drops']:<3} {report.number(entry['force_change'], 12, 3)} "
+        f"{mean('onset_error_ms', 9, 2)} {report.number(entry.get('onset_within_1_sigma'), 8, 2)} "
+        f"{mean('duration_error_ms', 11, 2)} {mean('peak_share', 5, 2)} {mean('impulse_share', 7, 2)} "
+        f"{mean('delay_ms', 8, 2)}"
+    )

@@ -1,0 +1,111 @@
+"""A scene as a board samples it, as the paper's method sees it and as ours does."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.array import ArrayGeometry
+from acts_core.sampling import SCHEMES, SamplingConfig
+from acts_recon.contacts import BlobConfig
+from acts_recon.fusion import FusionConfig, FusionEstimator
+from acts_recon.impacts import Impact, ImpactDetector
+from acts_sim.impacts import SCENE_RATE_HZ, Scene
+from acts_tools.evaluate.images.board_sampler import sampler_of
+from acts_tools.evaluate.images.options import at_least_one
+from acts_tools.evaluate.images.recovery import FOLLOW_COUNTS, SAMPLE_US
+
+PAPER_TOUCH_COUNTS = 50
+"""The paper takes less for no touch."""
+
+TOUCH_COUNTS = 25
+"""Ours: eight times the noise of a reading."""
+
+
+def add_arguments(parser: argparse.ArgumentParser, seeds: int, what: str) -> None:
+    """Add the options of both evaluations; `seeds` and what they count."""
+    parser.add_argument("--seeds", type=at_least_one, default=seeds, metavar="N", help=f"{what} (default: %(default)s)")
+    parser.add_argument(
+        "--noise-counts", type=float, default=3.0, metavar="X", help="noise of a reading (default: %(default)s)"
+    )
+    parser.add_argument("--seed", type=int, default=1, metavar="X", help="of everything random (default: %(default)s)")
+    parser.add_argument("--json", type=Path, metavar="OUT", help="write the results here, too")
+
+
+@dataclass(frozen=True)
+class Frame:
+    """What one frame has measured.
+
+    Attributes
+    ----------
+    end_s, duration_s : float
+        When its last measurement ended on the scene's clock, and how long all took [s].
+    indices, counts : np.ndarray [shape=(m,), dtype=uint16]
+    """
+
+    end_s: float
+    duration_s: float
+    indices: NDArray[np.uint16]
+    counts: NDArray[np.uint16]
+
+
+def sampled(
+    scene: Scene, scheme: str, m: int, threshold_counts: int, noise_counts: float, seed: int
+) -> Iterator[Frame]:
+    """Sample a scene frame by frame as fast as a board measures; one frame follows the other at once."""
+    m = scene.frames[0].size if SCHEMES[scheme].measures_all else m
+    config = SamplingConfig(scheme=scheme, m=m, threshold_counts=threshold_counts, seed=seed)
+    sampler = sampler_of(config, noise_counts)
+    sample_s = 1e-6 * SAMPLE_US
+    duration_s = m * sample_s
+    for number in range(int(scene.duration_s / duration_s)):
+        begin_s = number * duration_s
+        indices, counts = sampler.frame(scene.frames, begin_s * SCENE_RATE_HZ, sample_s * SCENE_RATE_HZ)
+        yield Frame(begin_s + duration_s, duration_s, indices, counts)
+
+
+def frames_of_paper(scene: Scene, m: int, noise_counts: float, seed: int) -> Iterator[Frame]:
+    """Frames as in the paper: adaptive sampling, and a raster of the whole array."""
+    scheme = "raster" if m >= scene.frames[0].size else "adaptive"
+    return sampled(scene, scheme, m, PAPER_TOUCH_COUNTS, noise_counts, seed)
+
+
+class Ours:
+    """Fusion of all samples, and the detector of impacts.
+
+    Parameters
+    ----------
+    scheme : str
+    m : int
+        Taxels per frame.
+    noise_counts : float
+        Of a reading.
+    """
+
+    def __init__(self, scheme: str, m: int, noise_counts: float) -> None:
+        geometry = ArrayGeometry()
+        self.scheme = scheme
+        self._m, self._noise_counts = m, noise_counts
+        self._fusion = FusionEstimator(geometry, FusionConfig(noise_counts=noise_counts))
+        self._detector = ImpactDetector(
+            geometry, blobs=BlobConfig(touch_counts=TOUCH_COUNTS, noise_counts=noise_counts)
+        )
+
+    def play(self, scene: Scene, seed: int) -> list[tuple[float, Impact]]:
+        """What is told of a scene, each with the end of the frame that told it [s]."""
+        self._fusion.reset()
+        self._detector.reset()
+        fusion = self._fusion
+        told: list[tuple[float, Impact]] = []
+        for frame in sampled(scene, self.scheme, self._m, FOLLOW_COUNTS, self._noise_counts, seed):
+            image = fusion.step(frame.indices, frame.counts, frame.end_s, frame.duration_s)
+            found = self._detector.step(
+                frame.end_s, frame.duration_s, image, fusion.sigma, fusion.age_s, fusion.measured
+            )
+            told += [(frame.end_s, impact) for impact in found]
+        return told

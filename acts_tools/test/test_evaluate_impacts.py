@@ -1,0 +1,37 @@
+"""`acts evaluate impacts` and `acts evaluate ricochet`: what they report of a few balls."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from acts_tools.cli import main
+
+
+def test_bounces_are_told_and_seen_as_often_as_by_the_papers_method(tmp_path: Path) -> None:
+    out = tmp_path / "impacts.json"
+    assert main(["evaluate", "impacts", "--seeds", "2", "--m", "64", "--json", str(out)]) == 0
+    report = json.loads(out.read_text())
+    paper, adaptive, tracking = report["results"]
+    assert (paper["method"], adaptive["scheme"], tracking["scheme"]) == ("paper", "adaptive", "tracking")
+    for entry in report["results"]:
+        assert entry["drops"] == entry["seen"] == entry["told"] == 2
+        # 8.7 ms at 874 frames/s.
+        assert 6 < entry["frames"] < 8.5
+        assert 0.1 < entry["force_change"] < 0.4
+    for ours in (adaptive, tracking):
+        assert ours["told_as_bounce"] == 2
+        assert ours["onset_error_ms"]["mean"] < 0.7
+        assert ours["impulse_share"]["mean"] == pytest.approx(1.1, abs=0.3)
+
+
+def test_directions_are_told_better_than_by_the_papers_method(tmp_path: Path) -> None:
+    out = tmp_path / "ricochet.json"
+    assert main(["evaluate", "ricochet", "--seeds", "1", "--speeds", "2", "--json", str(out)]) == 0
+    *angles, whole = json.loads(out.read_text())["results"]
+    assert [entry["angle_deg"] for entry in angles] == [0, 45, 90, 135, 180, -135, -90, -45]
+    assert whole["throws"] == 8
+    assert whole["acts"]["unknown"] == 0
+    assert whole["acts"]["mean_deg"] < 3 < whole["paper"]["mean_with_guesses_deg"]
