@@ -35,7 +35,7 @@ _CHOICES = (_PROFILE, _JAZZY_PROFILE, "ROS_STATIC_PEERS", "ROS_DISCOVERY_SERVER"
 _FILES = ("DEFAULT_FASTDDS_PROFILES.xml", "DEFAULT_FASTRTPS_PROFILES.xml")
 
 HIGHEST_DOMAIN = 232
-"""Its ports, 7400 + 250 * domain and some above, are the last below 65536."""
+"""Largest domain whose ports, from 7400 + 250 * domain on, are below 65536."""
 
 # The place in the source of ROS that its error messages contain.
 _SOURCE_PLACE = re.compile(r", at \S+:\d+")
@@ -60,7 +60,7 @@ def init(**options: Any) -> None:
 
 
 def check_domain(environment: Mapping[str, str]) -> None:
-    """Refuse a domain that there cannot be: ROS ends the process then, in some releases without a word.
+    """Refuse an invalid domain, for which ROS ends the process, in some releases without a message.
 
     Raises
     ------

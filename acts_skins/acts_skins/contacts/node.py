@@ -31,7 +31,7 @@ _FRAMES_HZ = 1000.0
 # Queues hold the frames of this many cycles, and at least this many frames, in case the node is delayed.
 _CYCLES_KEPT = 4
 _FRAMES_KEPT = 64
-# Some 250 contacts, far more than a skin tells apart; to read more would hold up the others.
+# About 250 contacts, far more than a skin tracks; reading more would delay the other skins.
 _LARGEST_BYTES = 65536
 _LONGEST_NAME = 64
 _FOREIGN = "in another frame"

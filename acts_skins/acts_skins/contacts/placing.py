@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from acts_core.transforms import Transform, Vector
 
-# A number of a contact has 32 bits; also squares of what is larger than any measurement are finite.
+# Numbers of contacts have 32 bits; the limit is larger than any measurement, and its square is finite.
 _LARGEST = 2.0**32
 
 
@@ -33,7 +33,7 @@ class Touch:
     spread_sd_m: float
 
     def can_be(self) -> bool:
-        """Whether all numbers are such as a skin may say; NaN is not."""
+        """Whether all numbers are possible for a skin; NaN is not."""
         numbers = (number for value in astuple(self) for number in (value if isinstance(value, tuple) else (value,)))
         return all(abs(number) <= _LARGEST for number in numbers)
 

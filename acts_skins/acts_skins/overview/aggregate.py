@@ -11,7 +11,7 @@ _WORDS = ("OK", "Warning", "Error", "Stale")
 EXPECTED = ("driver", "reconstruction")
 """Nodes that every skin has."""
 
-# Anybody in the domain can make up names of nodes; what is too many is left out.
+# Limit of nodes, because anybody in the domain can publish statuses of invented nodes.
 _NODES_MAX = 200
 
 

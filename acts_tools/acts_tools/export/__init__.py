@@ -1,1 +1,1 @@
-"""Touch of a bag as tables: frames, contacts and joints that belong together, in formats that those who learn use."""
+"""Export a bag as tables of frames, contacts and joints at common times, in formats for machine learning."""

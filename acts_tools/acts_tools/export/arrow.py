@@ -1,4 +1,4 @@
-"""pyarrow, which writes parquet and which not everybody has."""
+"""Import of pyarrow, the optional library that writes parquet."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from acts_core.errors import RecordingError
 
 
 def arrow() -> tuple[Any, Any]:
-    """The modules ``pyarrow`` and ``pyarrow.parquet``.
+    """Return the modules ``pyarrow`` and ``pyarrow.parquet``.
 
     Raises
     ------

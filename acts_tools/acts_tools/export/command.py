@@ -1,4 +1,4 @@
-"""`acts export`: touch of a bag as tables, for those who learn from it."""
+"""`acts export`: export touch from bags as tables."""
 
 from __future__ import annotations
 
@@ -18,10 +18,12 @@ def add_parser(subparsers: Any) -> None:
     parser = subparsers.add_parser(
         "export",
         help="write touch of a bag as csv, npz, parquet or a LeRobot dataset",
-        description="Write images, contacts and joint states of bags as tables with one row a time. Images and "
+        description="Write images, contacts and joint states of bags as tables with one row per time. Images and "
         "contacts that were not recorded are recovered from the samples. docs/export.md lists the columns.",
     )
-    parser.add_argument("bags", nargs="+", type=Path, metavar="BAG", help="bag; of several each is a LeRobot episode")
+    parser.add_argument(
+        "bags", nargs="+", type=Path, metavar="BAG", help="bag; with several, each is a LeRobot episode"
+    )
     parser.add_argument("--to", required=True, choices=FORMATS, dest="kind", help="format")
     parser.add_argument(
         "-o",
@@ -30,9 +32,9 @@ def add_parser(subparsers: Any) -> None:
         metavar="PATH",
         help="folder (npz: file) to make (name of the first bag and format)",
     )
-    parser.add_argument("--skin", default="", metavar="NAMESPACE", help="which skin, of several")
-    parser.add_argument("--joints", default="", metavar="TOPIC", help="which joint states, of several")
-    parser.add_argument("--layout", default="square", help="of the skin, as of acts view (square)")
+    parser.add_argument("--skin", default="", metavar="NAMESPACE", help="skin to export, if there are several")
+    parser.add_argument("--joints", default="", metavar="TOPIC", help="joint states to export, if there are several")
+    parser.add_argument("--layout", default="square", help="layout of the skin, as in acts view (square)")
     parser.add_argument(
         "--rate",
         type=float,
@@ -43,12 +45,12 @@ def add_parser(subparsers: Any) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Export; returns the exit code.
+    """Export the bags and return the exit code.
 
     Raises
     ------
     RecordingError
-        Of bags that cannot be read, or an output that is there.
+        A bag cannot be read, or the output exists already.
     """
     kind, bags = arguments.kind, arguments.bags
     rate_hz = _LEROBOT_HZ if arguments.rate is None and kind == "lerobot" else arguments.rate or 0.0
@@ -60,7 +62,7 @@ def run(arguments: argparse.Namespace) -> int:
     output = arguments.output or _default_output(bags[0], kind)
     if output.exists():
         raise RecordingError(f"'{output}' exists already and is not overwritten: choose another with -o")
-    # Late: they take time that a wrong command line need not cost.
+    # Imported here, because they are slow to import and an invalid command line does not need them.
     from acts_tools.export.lerobot import LeRobotWriter
     from acts_tools.export.recording import Choice, open_recording
     from acts_tools.export.tables import write_csv, write_npz, write_parquet

@@ -1,4 +1,4 @@
-"""Images of one skin out of a bag: recorded ones, or recovered from samples as the node reconstruction does."""
+"""Images of one skin in a bag: recorded, or recovered from samples like in the node reconstruction."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from acts_tools.bags.messages import image_counts, messages, parsed
 from acts_tools.export.tracks import Values, contact_found, contacts_found
 from acts_tools.export.tracks import stamp_ns_of as header_stamp_ns
 
-# A sequence number this far ahead is a board that counts from the start again.
+# A sequence number this far ahead means that the board has restarted.
 _HALF_SEQUENCE = 1 << 31
 
 
@@ -32,11 +32,11 @@ class Seen:
     Attributes
     ----------
     stamp_ns : int
-        Of the last measurement in it, ROS time [ns].
+        Time of its last measurement, ROS time [ns].
     image : np.ndarray [shape=(rows, cols), dtype=uint16]
-        Counts less the baseline, 0 to 1023.
+        Counts minus the baseline, 0 to 1023.
     contact, contacts : np.ndarray or None
-        With `CONTACT_COLUMNS` and `CONTACTS_COLUMNS`; None of a recorded image.
+        Columns are `CONTACT_COLUMNS` and `CONTACTS_COLUMNS`; None for a recorded image.
     """
 
     stamp_ns: int
@@ -51,25 +51,25 @@ def recorded_frames(bag: Any, path: Path, topic: str) -> Iterator[Seen]:
     Raises
     ------
     RecordingError
-        One is no image in counts.
+        A message is no image in counts.
     """
     for number, message in enumerate(messages(bag, path, topic, Image)):
         yield Seen(header_stamp_ns(message), image_counts(message, f"message {number} of {topic} in '{path}'"))
 
 
 def recovered_frames(bag: Any, path: Path, topic: str, beside: str | None, layout: str) -> Iterator[Seen]:
-    """Images recovered from samples, with the contacts in them, by the defaults of the node reconstruction.
+    """Images recovered from samples, with their contacts, by the defaults of the node reconstruction.
 
     Parameters
     ----------
     bag : acts_ros.bags.reading.Bag
         Open.
     path : Path
-        Of the bag, for errors.
+        Path of the bag, for errors.
     topic, beside : str
-        Of the samples, and of the baseline; None for no baseline.
+        Topics of the samples and of the baseline; None for no baseline.
     layout : str
-        As `acts_core.skin.layout` takes it.
+        Name or file, as in `acts_core.skin.layout`.
 
     Raises
     ------
@@ -99,7 +99,7 @@ def recovered_frames(bag: Any, path: Path, topic: str, beside: str | None, layou
 
 
 class _Recovery:
-    """Frame after frame, as the node does it."""
+    """Recovers frame by frame like the node."""
 
     def __init__(self, rows: int, cols: int, layout: str) -> None:
         settings = ReconstructionSettings(rows=rows, cols=cols, layout=layout)

@@ -1,4 +1,4 @@
-"""Recordings as episodes of a LeRobot dataset, format v3.0, as lerobot 0.4 to 0.6 read it.
+"""Write recordings as episodes of a LeRobot dataset, format v3.0, for lerobot 0.4 to 0.6.
 
 Parquet tables of rows (``data/``) and of episodes (``meta/episodes/``), the tasks (``meta/tasks.parquet``), a
 description of the columns (``meta/info.json``) and their statistics (``meta/stats.json``).
@@ -50,16 +50,16 @@ Features = dict[str, dict[str, Any]]
 
 
 class LeRobotWriter:
-    """Writes a dataset, episode after episode.
+    """Writes a dataset, episode by episode.
 
     Parameters
     ----------
     folder : Path
-        To make.
+        Folder to make.
     rate_hz : int
-        Rows a second, of all episodes.
+        Rows per second of all episodes.
     task : str
-        What is done in them, in words.
+        Description of the task in all episodes.
 
     Raises
     ------
@@ -80,12 +80,12 @@ class LeRobotWriter:
         folder.mkdir(parents=True)
 
     def add(self, recording: Recording) -> int:
-        """Write one recording as an episode; the number of its rows.
+        """Write one recording as an episode, and return its number of rows.
 
         Raises
         ------
         RecordingError
-            It has other columns than those before, or nothing to export.
+            It has other columns than the recordings before, or nothing to export.
         """
         rows = list(recording.rows())
         features, columns = _features_of(rows, recording)
@@ -135,7 +135,7 @@ class LeRobotWriter:
         return n_rows
 
     def close(self) -> None:
-        """Write what describes the episodes; without it there is no dataset."""
+        """Write the metadata of all episodes, without which the dataset is invalid."""
         pa = self._pa
         episodes = {name: [one[name] for one in self._episodes] for name in self._episodes[0]}
         self._write("meta/episodes/" + _FILE.format(chunk_index=0, file_index=0), episodes)
@@ -172,7 +172,7 @@ class LeRobotWriter:
             kind = pa.struct([("bytes", pa.binary()), ("path", pa.string())])
             return pa.array([{"bytes": _png(one), "path": None} for one in values], kind)
         column = pa.array(values.ravel())
-        # From the innermost dimension outwards. lerobot writes matrices as lists without a fixed length.
+        # From the innermost dimension outwards. lerobot stores matrices as lists of variable length.
         for place, length in reversed(list(enumerate(values.shape[1:]))):
             is_matrix = values.ndim > 2
             if is_matrix:
@@ -192,7 +192,7 @@ class LeRobotWriter:
 
 
 def _features_of(rows: Sequence[Row], recording: Recording) -> tuple[Features, dict[str, NDArray[Any]]]:
-    """What the columns are, and their values; the skin's name is part of those of its touch."""
+    """Features and values of the columns; names of touch columns contain the skin's name."""
     skin = recording.skin.strip("/").replace("/", "_") or "skin"
     image = np.stack([row.image for row in rows])
     grey = np.rint(image * (255.0 / COUNT_MAX)).astype(np.uint8)

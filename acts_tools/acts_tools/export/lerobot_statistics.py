@@ -1,4 +1,4 @@
-"""Statistics of columns as LeRobot datasets carry them."""
+"""Statistics of columns in LeRobot datasets."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Statistics = dict[str, dict[str, NDArray[Any]]]
-"""By column: min, max, mean, std, count and the quantiles q01, q10, q50, q90, q99."""
+"""For each column min, max, mean, std, count and the quantiles q01, q10, q50, q90, q99."""
 
 _QUANTILES = (0.01, 0.10, 0.50, 0.90, 0.99)
 
@@ -22,7 +22,7 @@ def statistics_of(values: NDArray[Any], is_picture: bool) -> dict[str, NDArray[A
     values : np.ndarray [shape=(n, ...)]
         Pictures as (n, height, width, channels) of 8 bits.
     is_picture : bool
-        Then they are of each channel, as (channels, 1, 1), from 0 to 1; else of each number in a row.
+        True: statistics of each channel, shape (channels, 1, 1), from 0 to 1. False: of each number in a row.
     """
     count = np.array([len(values)])
     if is_picture:
@@ -45,7 +45,7 @@ def statistics_of(values: NDArray[Any], is_picture: bool) -> dict[str, NDArray[A
 def pooled(episodes: Sequence[Statistics]) -> Statistics:
     """Statistics over all episodes.
 
-    Of quantiles only bounds can be told then: the lowest of those up to the median, the highest of those above.
+    Quantiles are only bounds: the lowest of those up to the median, the highest of those above.
     """
     return {name: _pooled([one[name] for one in episodes]) for name in episodes[0]}
 

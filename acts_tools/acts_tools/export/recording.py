@@ -1,4 +1,4 @@
-"""What of a bag is exported: one skin, its contacts and the joints, brought to common times."""
+"""The exported part of a bag: one skin, its contacts and the joints, at common times."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _IMAGE = "sensor_msgs/msg/Image"
 _SAMPLES = "acts_msgs/msg/TactileSamples"
 _JOINTS = "sensor_msgs/msg/JointState"
 _NS_PER_S = 1_000_000_000
-# A row is not repeated for longer: a bag whose clock was set would fill the disk.
+# Rows are repeated for at most this time, because a bag whose clock was set would fill the disk [s].
 _PAUSE_MAX_S = 60.0
 
 
@@ -37,9 +37,9 @@ class Choice:
     joints : str
         Topic of joint states; empty for the only one in the bag, if there is one.
     layout : str
-        Of the skin; only for what is recovered from samples.
+        Layout of the skin, for recovery from samples.
     rate_hz : float
-        Rows a second; 0: one a frame.
+        Rows per second; 0: one row per frame.
     """
 
     skin: str = ""
@@ -50,22 +50,22 @@ class Choice:
 
 @dataclass(frozen=True)
 class Row:
-    """What was newest at one time. Ages are how long before it had been measured [s].
+    """Newest data at one time. Ages are the times since their measurement [s].
 
     Attributes
     ----------
     stamp_ns : int
         ROS time [ns].
     time_s : float
-        Since the first row.
+        Time since the first row [s].
     image : np.ndarray [shape=(rows, cols), dtype=uint16]
         Counts.
     contact : np.ndarray [shape=(7,), dtype=float64] or None
-        `CONTACT_COLUMNS`; None where the recording has none.
+        Columns are `CONTACT_COLUMNS`; None where the recording has none.
     contacts : np.ndarray [shape=(n, 9), dtype=float64] or None
-        `CONTACTS_COLUMNS`; likewise.
+        Columns are `CONTACTS_COLUMNS`; None where the recording has none.
     joints : np.ndarray [shape=(k,), dtype=float64] or None
-        `Recording.joint_columns`; likewise.
+        Columns are `Recording.joint_columns`; None where the recording has none.
     """
 
     stamp_ns: int
@@ -81,26 +81,26 @@ class Row:
 
 @dataclass
 class Recording:
-    """An open bag of which one skin is exported; `rows` reads it."""
+    """An open bag, from which one skin is exported; `rows` reads it."""
 
     name: str
     skin: str
     rate_hz: float
     joint_columns: tuple[str, ...]
     left_out: int = 0
-    """Frames without a row: not newer than the one before, or before all else had been told."""
+    """Number of frames without a row: not newer than the one before, or before the first contact or joint state."""
     _frames: Iterator[Seen] = field(default_factory=lambda: iter(()))
     _contact: Track[Values] | None = None
     _contacts: Track[Values] | None = None
     _joints: Track[Values] | None = None
 
     def rows(self) -> Iterator[Row]:
-        """All rows in their order; once.
+        """All rows in order; can be read once.
 
         Raises
         ------
         RecordingError
-            There is nothing to export, the bag is damaged, or a pause is too long to be filled.
+            There is nothing to export, the bag is damaged, or a pause is too long.
         """
         tracks = [track for track in (self._contact, self._contacts, self._joints) if track is not None]
         begin_ns = max((track.stamps_ns[0] for track in tracks), default=0)
@@ -166,15 +166,15 @@ class Recording:
 def open_recording(path: Path, choice: Choice) -> Iterator[Recording]:
     """Open a bag to export one skin of it.
 
-    Images are the recorded ones (``image_raw``), else they are recovered from ``samples``; likewise contacts.
+    Images and contacts are the recorded ones (``image_raw``, ...), or are recovered from ``samples``.
 
     Raises
     ------
     RecordingError
-        There is no bag, or not what `choice` asks for in it, or several where it does not say which.
+        There is no bag, it does not contain what `choice` selects, or it contains several and `choice` selects none.
     """
     require_rosbags()
-    # Imports rosbags, which a ROS installation need not have.
+    # Imported here, because it imports rosbags, which a ROS installation may lack.
     from acts_ros.bags.reading import open_bag
 
     with open_bag(path) as bag:

@@ -1,4 +1,4 @@
-"""Two tables of a recording: its rows, and the contacts in each of them one by one. As csv, npz or parquet."""
+"""Write two tables of a recording as csv, npz or parquet: its rows, and the contacts of each row."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _BATCH_ROWS = 1000
 
 
 def write_csv(recording: Recording, folder: Path) -> int:
-    """Write ``frames.csv`` (taxels row by row at its end) and ``contacts.csv``; the number of rows."""
+    """Write ``frames.csv`` (taxels row by row at its end) and ``contacts.csv``; return the number of rows."""
     folder.mkdir(parents=True)
     n_rows = 0
     with (
@@ -48,7 +48,7 @@ def write_csv(recording: Recording, folder: Path) -> int:
 
 
 def write_npz(recording: Recording, path: Path) -> int:
-    """Write one file with an array a column, ``image`` among them; the number of rows. Held in memory until then."""
+    """Write one file with an array per column and ``image``; return the number of rows. All data are held in memory."""
     rows = list(recording.rows())
     columns, contacts = _columns(rows, recording, 0)
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -60,9 +60,9 @@ def write_npz(recording: Recording, path: Path) -> int:
 
 
 def write_parquet(recording: Recording, folder: Path) -> int:
-    """Write ``frames.parquet`` and ``contacts.parquet``; the number of rows.
+    """Write ``frames.parquet`` and ``contacts.parquet``; return the number of rows.
 
-    The column ``image`` holds the taxels row by row; how many rows and columns it has, its metadata says.
+    The column ``image`` contains the taxels row by row; its metadata have the numbers of rows and columns.
 
     Raises
     ------

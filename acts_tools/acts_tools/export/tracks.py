@@ -1,4 +1,4 @@
-"""Numbers over time out of a bag: the contact, the contacts one by one, joint states."""
+"""Time series in a bag: the total contact, single contacts, joint states."""
 
 from __future__ import annotations
 
@@ -21,37 +21,37 @@ Values = NDArray[np.float64]
 _NS_PER_S = 1_000_000_000
 
 CONTACT_COLUMNS = ("in_contact", "x_m", "y_m", "force_n", "peak_counts", "area_m2", "spread_m")
-"""Of all that presses, taken together; 0 without contact."""
+"""Columns of the total contact; 0 without contact."""
 
 CONTACTS_COLUMNS = ("number", "x_m", "y_m", "vx_m_s", "vy_m_s", "force_n", "peak_counts", "area_m2", "spread_m")
-"""Of each contact."""
+"""Columns of each contact."""
 
 _T = TypeVar("_T")
 
 
 @dataclass
 class Track(Generic[_T]):
-    """Something over time.
+    """Values over time.
 
     Attributes
     ----------
     stamps_ns : list of int
         Ascending, ROS time [ns].
     values : list
-        As many.
+        Value at each stamp.
     """
 
     stamps_ns: list[int] = field(default_factory=list)
     values: list[_T] = field(default_factory=list)
 
     def add(self, stamp_ns: int, value: _T) -> None:
-        """Append; what is not newer than the last is left out."""
+        """Append, unless it is not newer than the last."""
         if not self.stamps_ns or stamp_ns > self.stamps_ns[-1]:
             self.stamps_ns.append(stamp_ns)
             self.values.append(value)
 
     def at(self, stamp_ns: int) -> tuple[int, _T]:
-        """The newest at or before a time: its stamp and value; there must be one."""
+        """Stamp and value of the newest at or before a time, which must exist."""
         place = bisect_right(self.stamps_ns, stamp_ns) - 1
         return self.stamps_ns[place], self.values[place]
 
