@@ -10,6 +10,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -41,6 +42,21 @@ def run(title: str, command: list[str], env: dict[str, str] | None = None) -> bo
     return subprocess.run(command, cwd=ROOT, env=env).returncode == 0
 
 
+def run_side_by_side(commands: dict[str, list[str]]) -> bool:
+    """Run commands at the same time; what each says is printed in one piece, in their order."""
+    with ThreadPoolExecutor() as pool:
+        done = {
+            title: pool.submit(
+                subprocess.run, command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+            )
+            for title, command in commands.items()
+        }
+        for title, future in done.items():
+            print(f"[check] {title}", flush=True)
+            print(future.result().stdout, end="", flush=True)
+    return all(future.result().returncode == 0 for future in done.values())
+
+
 def lint() -> bool:
     """Every linter, also after one has failed, so that one run shows all there is."""
     firmware = [
@@ -48,15 +64,16 @@ def lint() -> bool:
         for folder in ("src", "virtual_board", "teensy/arduino", "test/example_scheme")
     ]
     on_host = [name for name in tracked("*.cpp") if not name.startswith(TARGET_ONLY)]
-    passed = [
-        run("ruff: rules", ["ruff", "check", "."]),
-        run("ruff: format", ["ruff", "format", "--check", "--quiet", "."]),
-        run("mypy", ["mypy", *python_packages(), "scripts", "examples"]),
-        run("clang-format", ["clang-format", "--dry-run", "--Werror", *tracked(*CXX_PATTERNS)]),
-        run("g++: warnings", ["g++", *CXX_WARNINGS, *firmware, *on_host]),
-        run("package.xml: what is imported is declared", [sys.executable, "scripts/dependencies.py"]),
-    ]
-    return all(passed)
+    return run_side_by_side(
+        {
+            "ruff: rules": ["ruff", "check", "."],
+            "ruff: format": ["ruff", "format", "--check", "--quiet", "."],
+            "mypy": ["mypy", *python_packages(), "scripts", "examples"],
+            "clang-format": ["clang-format", "--dry-run", "--Werror", *tracked(*CXX_PATTERNS)],
+            "g++: warnings": ["g++", *CXX_WARNINGS, *firmware, *on_host],
+            "package.xml: what is imported is declared": [sys.executable, "scripts/dependencies.py"],
+        }
+    )
 
 
 def reformat() -> bool:
