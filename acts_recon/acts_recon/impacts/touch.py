@@ -148,7 +148,8 @@ def impulse_of(force: Force, onset_s: float, end_s: float) -> float:
     """Force over time, 0 at the first touch and at the last [N s]."""
     time_s, force_n = force
     before_s, after_s = min(onset_s, float(time_s[0])), max(end_s, float(time_s[-1]))
-    return float(np.trapezoid(np.concatenate(([0.0], force_n, [0.0])), np.concatenate(([before_s], time_s, [after_s]))))
+    times, forces = np.concatenate(([before_s], time_s, [after_s])), np.concatenate(([0.0], force_n, [0.0]))
+    return float(np.diff(times) @ (forces[1:] + forces[:-1]) / 2)
 
 
 def _zero(force: Force, outer: int, inner: int) -> float | None:
