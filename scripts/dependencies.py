@@ -38,7 +38,7 @@ def imported(folder: Path) -> set[str]:
     """Names of the modules that are imported anywhere in a folder, without those of Python and of the folder itself."""
     files = sorted(folder.rglob("*.py"))
     names = {name.split(".")[0] for file in files for name in _names(ast.parse(file.read_bytes()))}
-    return names - sys.stdlib_module_names - {file.stem for file in files if file.parent == folder} - WITHOUT_KEY
+    return names - sys.stdlib_module_names - {file.stem for file in files} - WITHOUT_KEY
 
 
 def _names(tree: ast.Module) -> Iterator[str]:
