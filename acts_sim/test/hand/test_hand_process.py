@@ -184,3 +184,24 @@ def test_what_is_not_allowed_is_said(rig: Rig, line: str, word: str) -> None:
     answer = rig.command(line)
     assert answer.startswith("error: ")
     assert word in answer
+
+
+INTERRUPTED = """
+import os, signal, sys, time
+import acts_sim.hand.process.main as process
+from acts_ros.executables.program import Program
+
+def make_world(config):
+    os.kill(os.getpid(), signal.SIGINT)
+    time.sleep(60.0)
+
+process.HandWorld = make_world
+sys.exit(Program("acts_sim.hand.process.main")())
+"""
+
+
+def test_a_signal_while_the_world_is_made_ends_the_process_in_order_and_at_once(tmp_path: Path) -> None:
+    command = [sys.executable, "-c", INTERRUPTED, "--link", str(tmp_path / "hand")]
+    command += ["--field-ring", str(tmp_path / "field.ring"), "--truth-ring", str(tmp_path / "truth.ring")]
+    ended = subprocess.run(command, capture_output=True, text=True, timeout=50, check=False)
+    assert (ended.returncode, ended.stderr) == (0, "")

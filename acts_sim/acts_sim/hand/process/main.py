@@ -78,7 +78,9 @@ def run(options: argparse.Namespace, config: HandWorldConfig, signals: StopSigna
     scheduling = RealtimeConfig(realtime_priority=options.realtime_priority, cpu_affinity=options.cpu_affinity)
     with contextlib.ExitStack() as stack:
         stack.enter_context(contextlib.closing(Claim(options.field_ring)))
-        world = HandWorld(config)
+        # Its kernels are compiled here where they are new, which takes long.
+        with signals.interrupting():
+            world = HandWorld(config)
         patches = world.layout.patches
         field = stack.enter_context(TimedRingWriter(options.field_ring, len(world.forces_n)))
         truth = stack.enter_context(TimedRingWriter(options.truth_ring, row_width(len(patches)), TRUTH_SLOTS))
