@@ -6,16 +6,17 @@ A failure of one skin does not affect the others. The processes end with this on
 from __future__ import annotations
 
 import argparse
+import contextlib
 import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from acts_core.errors import SettingsError
+from acts_core.errors import ActsError, SettingsError
 from acts_core.stop_signals import StopSignals
 from acts_ros.processes.console import Console
 from acts_ros.processes.launcher import Launcher
-from acts_sim.shared import default_run_dir, make_private
+from acts_sim.shared import Claim, default_run_dir
 from acts_skins.skin_processes import SkinProcesses
 from acts_skins.skins_file import read_skins
 
@@ -34,8 +35,6 @@ def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) 
         words = list(sys.argv if args is None else args)[1:]
         own, ros_words = _split(words)
         options = _parser().parse_args(own)
-        if _TRUTHS[options.sim]:
-            make_private(options.run_dir.absolute())
         plan = SkinProcesses(
             read_skins(options.skins_file),
             simulated=_TRUTHS[options.sim],
@@ -43,9 +42,23 @@ def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) 
             namespace=_namespace(ros_words),
             environment=os.environ,
         ).plan()
-        return Launcher(Console(None), _SIGTERM_AFTER_S, _SIGKILL_AFTER_S, name="skins", ends_on_refusal=False).run(
-            plan
-        )
+        launcher = Launcher(Console(None), _SIGTERM_AFTER_S, _SIGKILL_AFTER_S, name="skins", ends_on_refusal=False)
+        with _claim(options.run_dir.absolute()) if _TRUTHS[options.sim] else contextlib.nullcontext():
+            return launcher.run(plan)
+
+
+def _claim(run_dir: Path) -> contextlib.closing[Claim]:
+    """Use a folder for simulated boards alone.
+
+    Raises
+    ------
+    SettingsError
+        Another program `skins` uses it: boards would be started in vain again and again.
+    """
+    try:
+        return contextlib.closing(Claim(run_dir / "skins"))
+    except ActsError as error:
+        raise SettingsError(str(error)) from error
 
 
 def _parser() -> argparse.ArgumentParser:

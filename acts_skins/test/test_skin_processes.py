@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import re
 import signal
@@ -23,6 +24,7 @@ from rclpy.node import Node
 from acts_core.errors import REFUSED_EXIT_CODE, SettingsError
 from acts_msgs.msg import Contact
 from acts_ros import qos
+from acts_sim.shared import Claim
 from acts_skins.skin_processes import SkinProcesses
 from acts_skins.skins_file import read_skins
 
@@ -163,6 +165,17 @@ def test_a_wrong_file_is_told_in_one_line_before_anything_starts(tmp_path: Path)
         assert skins.process.wait(DEADLINE_S) == REFUSED_EXIT_CODE
         assert skins.output.startswith(f"error: {path}:4: skin right: scheme = 'rastr': allowed is")
         assert skins.output.count("\n") == 1
+
+
+def test_a_folder_in_which_other_skins_are_simulated_is_refused_with_who_has_it(tmp_path: Path) -> None:
+    with (
+        contextlib.closing(Claim(tmp_path / "run" / "skins")),
+        running(tmp_path, skins_yaml(tmp_path), 162) as skins,
+    ):
+        assert skins.process.wait(DEADLINE_S) == REFUSED_EXIT_CODE
+        assert re.match(rf"error: \S+/run/skins is in use by process {os.getpid()} .*run_dir:=", skins.output)
+        assert "process started" not in skins.output
+    assert not (tmp_path / "run" / "skins.lock").exists()
 
 
 def plan(path: Path, *, simulated: bool) -> dict[str, str]:
