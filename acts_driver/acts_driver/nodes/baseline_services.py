@@ -97,6 +97,10 @@ class BaselineServices:
             self._heard_s = time.monotonic()
             self._tracker.observe(frames)
 
+    def end(self) -> None:
+        """Tell that no frames come from now on: what is remembered is not the present skin, however young."""
+        self._heard_s = None
+
     def values(self) -> dict[str, object]:
         """What the driver's diagnostics say of the baseline."""
         present, drift = self._tracker.present(), self._tracker.drift()
@@ -140,7 +144,7 @@ class BaselineServices:
     def _require_frames(self) -> None:
         """Raise where no frames arrive: the remembered ones do not show the present skin."""
         if self._heard_s is None:
-            raise CalibrationError("no frames so far: is the driver configured, and does the board send?")
+            raise CalibrationError("no frames: is the driver configured, and does the board send?")
         silent_s = time.monotonic() - self._heard_s
         if silent_s > _FRESH_S:
             raise CalibrationError(

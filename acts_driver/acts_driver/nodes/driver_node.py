@@ -147,6 +147,7 @@ class DriverNode(LifecycleNode):
         self._reported = None
         if intake is not None:
             intake.stop()
+            self._baseline.end()
             # That topic is kept for late joiners, and what it said of the board is not known any more.
             self._board.publish(BoardStatus(problem="the driver does not read a board now"))
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import threading
+import time
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -41,7 +42,8 @@ class Stream(threading.Thread):
         indices = np.arange(SIZE, dtype=np.uint16)
         while not self.ended.wait(FRAME_S):
             counts = self.field + np.uint16(sequence % 2)
-            board_us = (sequence + 1) * 10_000
+            # Of the machine's clock: counted by frames, a loaded machine's would run slow, and be set anew again and again.
+            board_us = time.monotonic_ns() // 1000
             self.board.write_frames(SampleFrame(sequence, board_us, 900, Scheme.RASTER, ROWS, COLS, 0, indices, counts))
             sequence += 1
 
@@ -88,7 +90,7 @@ def test_calibrate_and_tare(rig: Rig, stream: Stream, tmp_path: Path) -> None:
     baselines = start(rig, stream, path)
     answer = ask(rig, "calibrate")
     assert not answer.success
-    assert "no frames so far" in answer.message
+    assert "no frames: is the driver configured" in answer.message
     stream.start()
     rig.spin_until(lambda: ask(rig, "calibrate").success, "a calibration")
     rig.spin_until(lambda: bool(baselines), "the baseline")
@@ -135,6 +137,21 @@ def test_without_frames_the_past_is_not_taken_for_the_present(
         return not answer.success and "no frames for" in answer.message
 
     rig.spin_until(refused, "a refusal")
+
+
+@pytest.mark.parametrize("service", ["calibrate", "tare"])
+def test_as_soon_as_the_port_is_closed_the_past_is_not_taken_for_the_present(
+    rig: Rig, stream: Stream, tmp_path: Path, service: str
+) -> None:
+    start(rig, stream, tmp_path / "skin.npz")
+    stream.start()
+    rig.spin_until(lambda: ask(rig, "calibrate").success, "a calibration")
+    assert rig.driver is not None
+    rig.driver.trigger_deactivate()
+    rig.driver.trigger_cleanup()
+    answer = ask(rig, service)
+    assert not answer.success
+    assert "no frames: is the driver configured" in answer.message
 
 
 def test_the_file_is_read_at_the_start(rig: Rig, stream: Stream, tmp_path: Path) -> None:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from math import isfinite
 
 import numpy as np
 from numpy.typing import NDArray
@@ -113,7 +114,9 @@ class HandSupervisor:
     def grasp(self) -> str:
         """Close until something is gripped, then hold it; why that cannot be, or nothing."""
         if self.status.is_stale:
-            return f"no touch for {self.status.touch_age_s:.2g} s: is the skin's topic `regions` published?"
+            age_s = self.status.touch_age_s
+            since = f"no touch for {age_s:.2g} s" if isfinite(age_s) else "no touch so far"
+            return f"{since}: is the skin's topic `regions` published?"
         self._wanted = "grasp"
         return ""
 
