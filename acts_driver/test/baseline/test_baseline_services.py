@@ -42,7 +42,7 @@ class Stream(threading.Thread):
         indices = np.arange(SIZE, dtype=np.uint16)
         while not self.ended.wait(FRAME_S):
             counts = self.field + np.uint16(sequence % 2)
-            # Of the machine's clock: counted by frames, a loaded machine's would run slow, and be set anew again and again.
+            # Counted by frames, the clock of a loaded machine's board would run slow, and be set anew again and again.
             board_us = time.monotonic_ns() // 1000
             self.board.write_frames(SampleFrame(sequence, board_us, 900, Scheme.RASTER, ROWS, COLS, 0, indices, counts))
             sequence += 1
