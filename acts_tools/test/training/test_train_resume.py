@@ -81,7 +81,7 @@ def test_an_interrupted_training_ends_as_if_it_had_not_been(
     finally:
         process.kill()
     assert process.returncode == (130 if number is signal.SIGINT else -number), output
-    assert ("the same command goes on" in output) == (number is signal.SIGINT)
+    assert ("the same command continues" in output) == (number is signal.SIGINT)
     assert partial.exists()
     assert not path.exists()
     assert main([*words, str(path)]) == 0
