@@ -14,6 +14,7 @@ from acts_core.skin import LAYOUTS, ForceResponse, Layout, MeasuredForceResponse
 from acts_recon.classifiers import AUTO, CLASSIFIERS, ObjectRecogniser, classifier_named
 from acts_recon.contacts import BlobConfig
 from acts_recon.fusion import FusionConfig
+from acts_recon.impacts import ImpactConfig, ImpactDetector
 from acts_recon.methods import METHODS, Recovery, SkinSetup
 from acts_recon.objects import load_object_library
 from acts_recon.regions import Regions, SharpnessConfig
@@ -28,7 +29,7 @@ _LEAST_NOISE_COUNTS = 0.3
 
 
 @dataclass(frozen=True)
-class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig):
+class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig, ImpactConfig):
     """The node's own parameters; those of methods and classifiers come with `ReconstructionSettings`."""
 
     rows: int = setting(_ARRAY.rows, "rows of the array", minimum=1, maximum=MAX_SIDE)
@@ -121,6 +122,7 @@ class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig):
         minimum=0.0,
         maximum=1000.0,
     )
+    impacts: bool = setting(True, "offer the topic impacts, which costs nothing while nobody listens")
     regions_rate_hz: float = setting(
         0.0,
         "largest rate of the topic regions [Hz]; 0: every frame",
@@ -240,6 +242,16 @@ class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig):
             memory_s=self.contacts_memory_s,
             noise_counts=self.noise_counts,
         )
+
+    def impact_detector(self, recovery: Recovery) -> ImpactDetector:
+        """Make ready what tells of impacts.
+
+        Parameters
+        ----------
+        recovery : Recovery
+            What `recovery` returned.
+        """
+        return ImpactDetector(recovery.geometry, recovery.response, self.blob_config(), self, recovery.borders)
 
     def regions(self, recovery: Recovery) -> Regions | None:
         """Make ready what finds the contact on each patch; None where the skin is one patch that lies on no link.

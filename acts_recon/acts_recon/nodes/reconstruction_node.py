@@ -1,6 +1,7 @@
 """Node ``reconstruction``: samples in; full images and the contact in them out, as fast as the samples come.
 
-Topics: samples and baseline in; contact, contacts, regions, cop, image_raw, image, confidence, object and view/* out.
+Topics: samples and baseline in; contact, contacts, impacts, regions, cop, image_raw, image, confidence, object and
+view/* out.
 """
 
 from __future__ import annotations
@@ -29,6 +30,7 @@ from acts_msgs.msg import Contact as ContactMessage
 from acts_recon.contacts import Contact
 from acts_recon.images import BaselineSubtraction, mono16, rgb8
 from acts_recon.nodes.contacts_publisher import ContactsPublisher
+from acts_recon.nodes.impacts_publisher import ImpactsPublisher
 from acts_recon.nodes.object_publisher import ObjectPublisher
 from acts_recon.nodes.region_publisher import RegionsPublisher
 from acts_recon.settings import ReconstructionConfig, ReconstructionSettings
@@ -56,12 +58,12 @@ class ReconstructionNode(Node):
     """Translates between topics and a `Recovery`.
 
     Subscribes ``samples`` (acts_msgs/TactileSamples), or takes frames by `take` from a driver in the same process.
-    Publishes for every frame ``contact`` (acts_msgs/Contact), while
-    in contact ``cop`` (geometry_msgs/PointStamped), and where somebody listens ``image_raw`` (sensor_msgs/Image,
-    mono16, counts), ``confidence`` (mono8, with the method ``fusion``), ``image`` (rgb8, for viewers), ``contacts``
-    with a layout of several patches, or of one on a link, ``regions`` (acts_msgs/RegionContacts), and, with an object
-    library, ``object`` (acts_msgs/ObjectClass). For viewers that draw by themselves ``image_raw``, ``confidence`` and
-    ``contacts`` are also below ``view/``, at most `image_rate_hz` times a second.
+    Publishes for every frame ``contact`` (acts_msgs/Contact), while in contact ``cop`` (geometry_msgs/PointStamped),
+    and where somebody listens ``image_raw`` (sensor_msgs/Image, mono16, counts), ``confidence`` (mono8, with the method
+    ``fusion``), ``image`` (rgb8, for viewers), ``contacts``, ``impacts`` (acts_msgs/Impact), with a layout of several
+    patches, or of one on a link, ``regions`` (acts_msgs/RegionContacts), and, with an object library, ``object``
+    (acts_msgs/ObjectClass). For viewers that draw by themselves ``image_raw``, ``confidence`` and ``contacts`` are also
+    below ``view/``, at most `image_rate_hz` times a second.
 
     Parameters
     ----------
@@ -101,6 +103,9 @@ class ReconstructionNode(Node):
         self._contacts = ContactsPublisher(
             self, self._recovery.geometry, self._recovery.response, self._settings.blob_config(), self._recovery.borders
         )
+        self._impacts: ImpactsPublisher | None = None
+        if self._settings.impacts:
+            self._impacts = ImpactsPublisher(self, self._settings.impact_detector(self._recovery))
         regions = self._settings.regions(self._recovery)
         self._regions: RegionsPublisher | None = None
         if regions is not None:
@@ -150,6 +155,8 @@ class ReconstructionNode(Node):
         self._send_view_raw = self._view_raw_publisher.get_subscription_count() > 0
         self._send_view_confidence = self._view_confidence_publisher.get_subscription_count() > 0
         self._contacts.look_for_subscribers()
+        if self._impacts is not None:
+            self._impacts.look_for_subscribers()
         if self._objects is not None:
             self._objects.look_for_subscribers()
         if self._regions is not None:
@@ -230,6 +237,8 @@ class ReconstructionNode(Node):
             self._regions.publish(stamp_ns, frame_id, frame.sequence, self._recovery)
         self._publish_images()
         self._contacts.publish(header, frame.sequence, self._recovery.image, self._recovery.sigma)
+        if self._impacts is not None:
+            self._impacts.publish(header, frame.sequence, end_s, duration_s, self._recovery)
         if self._objects is not None:
             self._objects.publish(header, frame.sequence, frame.indices, counts, end_s, duration_s)
         self._durations_s.append(time.perf_counter() - began_s)
@@ -297,6 +306,8 @@ class ReconstructionNode(Node):
         """Forget all frames where this one is of a board that counts from the start again."""
         if self._began_anew(sequence):
             self._recovery.reset()
+            if self._impacts is not None:
+                self._impacts.reset()
             if self._objects is not None:
                 self._objects.reset()
             if self._regions is not None:
