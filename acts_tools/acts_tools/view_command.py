@@ -43,11 +43,9 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "--size", type=int, nargs=2, default=(32, 32), metavar=("ROWS", "COLS"), help="size of a board (32 32)"
     )
     parser.add_argument(
-        "--protocol",
-        default="binary",
-        choices=("binary", "raster_ascii"),
-        help="protocol of a board, as in the driver (binary)",
+        "--protocol", default="binary", help="protocol of a board: binary, raster_ascii or your own (binary)"
     )
+    parser.add_argument("--baud", type=int, default=115200, help="speed of a board, without effect on USB (115200)")
     parser.add_argument(
         "--control",
         action="store_true",
@@ -83,7 +81,9 @@ def _show_local(arguments: argparse.Namespace, signals: object) -> int:
     source: LocalSource
     if arguments.board:
         rows, cols = arguments.size
-        driver = DriverSettings(port=arguments.board, protocol=arguments.protocol, rows=rows, cols=cols)
+        driver = DriverSettings(
+            port=arguments.board, baud=arguments.baud, protocol=arguments.protocol, rows=rows, cols=cols
+        )
         name = f"/{arguments.skins[0].strip('/')}" if arguments.skins else "/board"
         source = BoardSource(name, driver, arguments.layout, log)
     else:

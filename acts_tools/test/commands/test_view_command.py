@@ -74,3 +74,18 @@ def test_a_board_is_shown_without_any_graph(tmp_path: Path) -> None:
             assert process.wait(DEADLINE_S) == 0
         finally:
             process.kill()
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (("--protocol", "rastr"), "protocol = 'rastr': allowed is one of binary, raster_ascii"),
+        (("--baud", "7"), "baud = 7: allowed is"),
+    ],
+)
+def test_protocol_and_speed_of_a_board_are_those_of_the_driver(words: tuple[str, ...], told: str) -> None:
+    with start("--board", "/dev/null", "--port", "0", *words) as process:
+        output, _ = process.communicate(timeout=DEADLINE_S)
+    assert process.returncode != 0
+    assert told in output
+    assert "Traceback" not in output
