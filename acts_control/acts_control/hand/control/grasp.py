@@ -124,8 +124,7 @@ class Grasp:
     def _straight(self, sensed: Sensed, gripping: Sequence[str]) -> tuple[Array, bool]:
         """Steps by which all fingers that do not grip close, and whether one still can."""
         steps, is_closing = sensed.steps(), False
-        upper = np.array([joint.upper_rad for joint in sensed.hand.joints])
-        closes = sensed.goal_rad < upper - 1e-6
+        closes = sensed.goal_rad < sensed.hand.upper_rad - 1e-6
         for finger in sensed.hand.fingers:
             closing = sensed.closing(finger)
             if finger not in gripping:

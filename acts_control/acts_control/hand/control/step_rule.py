@@ -74,8 +74,7 @@ class StepRule:
         self.refused = 0
         self._config = config
         self.step_rad_s = config.base_step_rad * STEP_RATE_HZ * np.array([joint.step_scale for joint in hand.joints])
-        self._lower = np.array([joint.lower_rad for joint in hand.joints])
-        self._upper = np.array([joint.upper_rad for joint in hand.joints])
+        self._hand = hand
         self._lead = config.max_lead_rad / np.array([joint.gain_scale for joint in hand.joints])
         self._steps = np.zeros(len(hand.joints))
 
@@ -121,5 +120,5 @@ class StepRule:
         self._steps[(current_ma > config.max_grip_current_ma) & (self._steps > 0.0)] = 0.0
         moved = goal_rad + self.step_rad_s * self._steps * dt_s
         moved = np.clip(moved, q_rad - self._lead, q_rad + self._lead)
-        result: Array = np.clip(moved, self._lower, self._upper)
+        result: Array = np.clip(moved, self._hand.lower_rad, self._hand.upper_rad)
         return result

@@ -5,7 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
 
 from acts_core.errors import SettingsError
 from acts_core.transforms import Transform, Vector
@@ -193,3 +197,13 @@ class HandDescription:
     def names(self) -> list[str]:
         """Of the joints, in order."""
         return [joint.name for joint in self.joints]
+
+    @cached_property
+    def lower_rad(self) -> NDArray[np.float64]:
+        """Of all joints, shape (joints,) [rad]."""
+        return np.array([joint.lower_rad for joint in self.joints])
+
+    @cached_property
+    def upper_rad(self) -> NDArray[np.float64]:
+        """Of all joints, shape (joints,) [rad]."""
+        return np.array([joint.upper_rad for joint in self.joints])

@@ -146,15 +146,13 @@ def press(sensed: Sensed, region: RegionContact, speed_m_s: float, damping_m: fl
 
 def _rates(sensed: Sensed, jacobian: Array, wanted: Array, damping_m: float) -> Array:
     """By the damped inverse; what joints at their limits cannot do, the others do."""
-    lower = np.array([joint.lower_rad for joint in sensed.hand.joints])
-    upper = np.array([joint.upper_rad for joint in sensed.hand.joints])
+    is_lowest = sensed.goal_rad < sensed.hand.lower_rad + _LIMIT_RAD
+    is_highest = sensed.goal_rad > sensed.hand.upper_rad - _LIMIT_RAD
     rates = sensed.steps()
     for _ in range(3):
         damped = jacobian @ jacobian.T + damping_m**2 * np.eye(len(wanted))
         rates = jacobian.T @ np.linalg.solve(damped, wanted)
-        stuck = ((rates > 0.0) & (sensed.goal_rad > upper - _LIMIT_RAD)) | (
-            (rates < 0.0) & (sensed.goal_rad < lower + _LIMIT_RAD)
-        )
+        stuck = ((rates > 0.0) & is_highest) | ((rates < 0.0) & is_lowest)
         if not stuck.any():
             break
         jacobian = np.where(stuck, 0.0, jacobian)
