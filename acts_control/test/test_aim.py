@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 from hand_rig import DT_S, LEAP, region, sensed
@@ -15,7 +17,7 @@ UP = np.array(LEAP_RIGHT.regions["palm"].normal)
 AT_M = np.array(LEAP_RIGHT.regions["palm"].centre_m)
 
 
-def on_palm(**more: float) -> RegionContact:
+def on_palm(**more: Any) -> RegionContact:
     """Something small in the middle of the palm."""
     given = {"centre_m": tuple(AT_M), "normal": tuple(UP), "spread_m": 0.003, **more}
     return region("palm", 0.2, 4, **given)

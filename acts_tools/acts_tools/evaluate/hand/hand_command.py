@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from acts_tools.evaluate.hand.scenario import Outcome, Run
 
 _NUMBERS = ("noticed_ms", "stopped_ms", "penetration_mm", "offset_mm")
-_NAMES = ("slip", "sharp", "blunt", "sphere", "small_sphere", "hand_to_hand")
+_NAMES = ("slip", "hold", "sharp", "blunt", "sphere", "small_sphere", "hand_to_hand")
 _SEEDS_MAX = 10_000
 
 
@@ -109,6 +109,15 @@ def _summary(outcomes: Sequence[Any]) -> dict[str, object]:
         if values:
             summary[name] = {"median": statistics.median(values), "largest": values[-1], "runs": len(values)}
             print(f"{name}: median {statistics.median(values):.1f}, largest {values[-1]:.1f}, in {len(values)} runs")
+    held = [one.details for one in outcomes if "held_s" in one.details]
+    if held:
+        minutes = sum(details["held_s"] for details in held) / 60.0
+        told, before = (sum(details[name] for details in held) for name in ("false_slips", "slips_before"))
+        summary["false_slips"] = {"per_minute": told / minutes, "minutes": minutes, "while_grasping": before}
+        print(
+            f"false slips: {told} in {minutes:.1f} min of holding, {told / minutes:.2f} a minute; before that {before} "
+            f"in {len(held)} grasps"
+        )
     return summary
 
 

@@ -9,6 +9,7 @@ from acts_tools.evaluate.hand.scenario import Outcome, Run
 
 SCENARIOS: dict[str, Callable[[Run], Outcome]] = {
     "slip": slip.run,
+    "hold": slip.hold,
     "sharp": poke.sharp,
     "blunt": poke.blunt,
     "sphere": sphere.run,

@@ -1,6 +1,8 @@
-"""A held cylinder is pulled along its axis by 0.5, 1 or 2 times its weight, within 50 ms."""
+"""A held cylinder is pulled along its axis by 0.5, 1 or 2 times its weight, within 50 ms; or it is left alone."""
 
 from __future__ import annotations
+
+from typing import Any
 
 import numpy as np
 
@@ -12,7 +14,9 @@ LOADS = (0.5, 1.0, 2.0)
 """Forces, relative to the weight of the object."""
 
 _RAMP_S = 0.05
+_SETTLED_S = 0.6
 _WATCHED_S = 1.0
+_HELD_S = 10.0
 _NOTICEABLE_M = 0.0002
 _ALLOWED_M = 0.003
 _NOTICED_MS = 15.0
@@ -22,28 +26,12 @@ _STANDS_M_S = 0.010
 
 def run(one: Run) -> Outcome:
     """Grasp, release the holder, load, observe."""
-    draw = one.draw()
-    world = HandWorldConfig(
-        seed=one.seed,
-        pose="thumb_up",
-        object="cylinder",
-        object_held=True,
-        object_size_m=draw.uniform(0.022, 0.028),
-        object_mass_kg=draw.uniform(0.13, 0.17),
-        object_x_m=draw.uniform(-0.003, 0.003),
-    )
-    load = LOADS[one.seed % len(LOADS)]
-    # A light grip, which carries little more than the object.
-    settings = {"grip_force_n": 0.25, **one.settings}
-    rig = one.rig(world, RigOptions(one.rate_hz, ("sharp", "slip") if one.reflex else ("sharp",), settings=settings))
-    outcome = Outcome(kept=False, details={"load": load, "mass_kg": world.object_mass_kg})
-    if not rig.grasp():
-        outcome.details["failed"] = "not grasped"
+    rig, outcome = _grasped(one)
+    if rig is None:
         return outcome
-    rig.world.holder.let_go()
-    rig.run(0.6)
-    slips_before = rig.reflexes["slip"].events if one.reflex else 0
-    outcome.details["slips_before"] = slips_before
+    load = LOADS[one.seed % len(LOADS)]
+    outcome.details["load"] = load
+    slips_before = outcome.details["slips_before"]
     at = rig.object_m()
     moved_s = noticed_s = stood_s = None
     farthest_m = 0.0
@@ -73,3 +61,43 @@ def run(one: Run) -> Outcome:
     noticed_well = moved_s is None or (outcome.noticed_ms is not None and outcome.noticed_ms <= _NOTICED_MS)
     outcome.ok = outcome.kept and farthest_m < _ALLOWED_M and (noticed_well or not one.reflex)
     return outcome
+
+
+def hold(one: Run) -> Outcome:
+    """Grasp, release the holder, and let nothing happen: no slip may be reported."""
+    rig, outcome = _grasped(one)
+    if rig is None:
+        return outcome
+    begin_s, before, at = rig.time_s, outcome.details["slips_before"], rig.object_m()
+    rig.run(_HELD_S)
+    outcome.kept = not rig.world.truth.object_lost
+    outcome.offset_mm = 1e3 * float(np.linalg.norm(rig.object_m() - at))
+    told = rig.reflexes["slip"].events - before if one.reflex else 0
+    outcome.details.update(false_slips=told, held_s=rig.time_s - begin_s)
+    outcome.ok = outcome.kept and told == 0
+    return outcome
+
+
+def _grasped(one: Run) -> tuple[Any, Outcome]:
+    """The hand with a cylinder in it that nothing else holds any more; None where it was not grasped."""
+    draw = one.draw()
+    world = HandWorldConfig(
+        seed=one.seed,
+        pose="thumb_up",
+        object="cylinder",
+        object_held=True,
+        object_size_m=draw.uniform(0.022, 0.028),
+        object_mass_kg=draw.uniform(0.13, 0.17),
+        object_x_m=draw.uniform(-0.003, 0.003),
+    )
+    # A light grip, which carries little more than the object.
+    settings = {"grip_force_n": 0.25, **one.settings}
+    rig = one.rig(world, RigOptions(one.rate_hz, ("sharp", "slip") if one.reflex else ("sharp",), settings=settings))
+    outcome = Outcome(kept=False, details={"mass_kg": world.object_mass_kg})
+    if not rig.grasp():
+        outcome.details["failed"] = "not grasped"
+        return None, outcome
+    rig.world.holder.let_go()
+    rig.run(_SETTLED_S)
+    outcome.details["slips_before"] = rig.reflexes["slip"].events if one.reflex else 0
+    return rig, outcome
