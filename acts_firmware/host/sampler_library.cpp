@@ -107,6 +107,13 @@ void acts_sampler_free(ActsSampler* sampler) {
   delete sampler;
 }
 
+// Puts a map of the skin into force, of rows x cols places as acts::SkinMap takes them; 0 where that cannot be.
+int acts_sampler_map(ActsSampler* sampler, int rows, int cols, int no_skin, const std::uint8_t* entries,
+                     std::uint32_t crc32) {
+  acts::Sampler& its = sampler->sampler;
+  return its.put_map(0, entries, rows * cols) && its.finish_map(rows, cols, no_skin, crc32) ? 1 : 0;
+}
+
 // What the schemes say of themselves: for each a line of name, number, description, whether it measures all; then a
 // line for each of its own settings, of number, name, description, initial value, minimum, maximum, and of the share
 // that it is given as name, description and initial value (empty, empty, 0 for none). Separated by tabs; the last field

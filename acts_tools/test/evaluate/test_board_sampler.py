@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from acts_core.errors import ArrayError, SettingsError
-from acts_core.sampling import NEIGHBOURS, SCHEME_NUMBERS, Measure, Sampler, SamplingConfig
+from acts_core.sampling import NEIGHBOURS, SCHEME_NUMBERS, Measure, Sampler, SamplingConfig, SkinMap
+from acts_core.skin import layout
 from acts_tools.evaluate.images.board_sampler import BoardSampler, PythonSampler
 
 
@@ -73,6 +74,24 @@ def test_it_samples_as_the_reference(
         np.testing.assert_array_equal(indices, expected[0])
         np.testing.assert_array_equal(counts, expected[1])
         np.testing.assert_array_equal(python.frame(frames, position, step), expected)
+
+
+def test_with_a_map_of_the_skin_no_patch_is_searched_from_another() -> None:
+    config, skin_map = SamplingConfig(scheme="tracking", m=55, threshold_counts=100), SkinMap.of(layout("leap_right"))
+    frames = blobs(1, 32, 32, 3)
+    reference, board, without = Sampler(config, skin_map), BoardSampler(config, skin_map=skin_map), BoardSampler(config)
+    is_as_without = True
+    for _ in range(6):
+        expected = reference.frame(measure_while_it_moves(frames, 0.0, 0.0))
+        found = board.frame(frames, 0.0, 0.0)
+        np.testing.assert_array_equal(found, expected)
+        is_as_without &= np.array_equal(found, without.frame(frames, 0.0, 0.0))
+    assert not is_as_without
+
+
+def test_a_map_of_another_matrix_is_refused() -> None:
+    with pytest.raises(SettingsError, match="refuses a map of 32 x 32"):
+        BoardSampler(SamplingConfig(rows=8, cols=8, m=10), skin_map=SkinMap.of(layout("leap_right")))
 
 
 def test_noise_is_as_large_as_asked_for_and_repeatable() -> None:

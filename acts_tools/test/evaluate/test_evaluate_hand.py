@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import json
+from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
 import pytest
+import yaml
+from ament_index_python.packages import get_package_share_directory
 
 from acts_sim.hand import HandWorldConfig
 from acts_tools.cli import main
@@ -27,6 +30,52 @@ def test_the_same_seed_gives_the_same_bits() -> None:
     assert np.array_equal(rigs[0].goal_rad, rigs[1].goal_rad)
     assert rigs[0].regions == rigs[1].regions
     assert rigs[0].world.truth.as_dict() == rigs[1].world.truth.as_dict()
+
+
+def test_the_skin_is_sampled_and_found_pressed_as_the_launch_file_has_it() -> None:
+    path = Path(get_package_share_directory("acts_config")) / "params" / "hand_reflexes.yaml"
+    parameters = {
+        name.rpartition("/")[2]: node["ros__parameters"] for name, node in yaml.safe_load(path.read_text()).items()
+    }
+    options = RigOptions()
+    for given, told in (
+        (parameters["driver"], asdict(options.sampling)),
+        (parameters["reconstruction"], {"touch_counts": options.touch_counts, **asdict(options.slip)}),
+    ):
+        same = {name: value for name, value in given.items() if name in told}
+        assert same == {name: told[name] for name in same}
+        assert len(same) >= 2
+
+
+def test_an_untouched_patch_is_searched_too() -> None:
+    rig = HandRig(HandWorldConfig(object="cylinder", object_held=True), RigOptions())
+    rig.run(0.1)
+    rig.world.tip.poke("index_medial", 0.004, 0.05, 0.004, 0.001)
+    poked = lambda: next(one for one in rig.regions if one.name == "index_medial")  # noqa: E731
+    assert rig.run(0.2, lambda: poked().in_contact)
+    assert rig.world.truth.tip_depth_m < 0.003
+
+
+def test_false_slips_are_counted_by_the_minute(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def made(one: Run) -> Outcome:
+        return Outcome(kept=True, details={"held_s": 30.0, "false_slips": one.seed - 1, "slips_before": 2})
+
+    monkeypatch.setitem(scenarios.SCENARIOS, "hold", made)
+    path = tmp_path / "out.json"
+    assert main(["evaluate", "hand", "--scenario", "hold", "--seeds", "3", "--json", str(path)]) == 0
+    told = json.loads(path.read_text())["results"][-1]["false_slips"]
+    assert told == {"per_minute": 2.0, "minutes": 1.5, "while_grasping": 6}
+    assert "false slips: 3 in 1.5 min" in capsys.readouterr().out
+
+
+def test_a_cylinder_that_nothing_pulls_does_not_slip(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(slip, "_HELD_S", 0.2)
+    outcome = slip.hold(Run(100))
+    assert outcome.ok
+    assert outcome.details["false_slips"] == 0
+    assert outcome.details["held_s"] == pytest.approx(0.2)
 
 
 def test_a_cylinder_that_is_pulled_by_twice_its_weight_is_held() -> None:

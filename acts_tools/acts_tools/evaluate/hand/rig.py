@@ -1,13 +1,14 @@
 """The simulated hand with its reflexes in one process, without a clock: the same seed gives the same bits.
 
-Every step of the world is a frame of the skin. The reflexes receive it one frame later, at the cycles of their loop.
+The skin is sampled as on the board and its image recovered as in the driver, frame after frame. The reflexes receive
+what its patches feel one step of the world later, at the cycles of their loop.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -18,15 +19,20 @@ from acts_control.hand.description import LEAP_RIGHT, HandKinematics
 from acts_control.hand.motors import DynamixelConfig, HandReading
 from acts_control.hand.reflexes import REFLEXES, HandState, Reflex
 from acts_core.array import COUNT_MAX
+from acts_core.sampling import SamplingConfig, SkinMap
 from acts_core.settings import describe
 from acts_core.skin import ForceResponse, RegionContact
+from acts_recon.fusion import FusionConfig, FusionEstimator
 from acts_recon.regions import Regions
 from acts_recon.slip import SlipConfig
 from acts_sim.dynamixel import RAD_PER_TICK
 from acts_sim.hand import STEP_S, HandWorld, HandWorldConfig
+from acts_tools.evaluate.images.board_sampler import BoardSampler
 
 _CURRENT_BASED_POSITION = 5
 _NOISE_COUNTS = 1.5
+_FRAMES = 2
+"""Frames of the board in each step of the world: 1000 per second."""
 _MAX_SPEED_RAD_S = 12.0
 """Largest speed of a goal, as in the node `hand_reflexes` [rad/s]."""
 _KINEMATICS = HandKinematics(LEAP_RIGHT)
@@ -42,6 +48,8 @@ class RigOptions:
         Rate of the reflexes' loop [Hz].
     reflexes : tuple of str
         Names of active reflexes in the registry.
+    sampling : SamplingConfig
+        Settings of the board, as in config/params/hand_reflexes.yaml.
     touch_counts : float
         A taxel above it is pressed.
     slip : SlipConfig
@@ -52,6 +60,9 @@ class RigOptions:
 
     rate_hz: float = 250.0
     reflexes: tuple[str, ...] = ("sharp", "slip")
+    sampling: SamplingConfig = field(
+        default_factory=lambda: SamplingConfig(scheme="tracking", m=55, threshold_counts=20, search_share=0.4)
+    )
     touch_counts: float = 8.0
     slip: SlipConfig = field(default_factory=lambda: SlipConfig(slip_distance_taxels=0.05))
     settings: Mapping[str, Any] = field(default_factory=dict)
@@ -86,7 +97,12 @@ class HandRig:
         self.supervisor.restart(recovered=False)
         response = ForceResponse()
         self._finder = Regions(self.world.layout, response, options.touch_counts, _NOISE_COUNTS, options.slip)
-        self._noise = np.random.default_rng([world.seed, 1])
+        layout = self.world.layout
+        self._board = BoardSampler(
+            replace(options.sampling, seed=world.seed + 1), _NOISE_COUNTS, skin_map=SkinMap.of(layout)
+        )
+        self._fusion = FusionEstimator(layout.geometry(), FusionConfig(noise_counts=_NOISE_COUNTS), layout)
+        self._counts = self._matrix()
         self._period_s = 1.0 / options.rate_hz
         self._due_s = self._last_s = 0.0
         self._switch_on(DynamixelConfig())
@@ -107,7 +123,7 @@ class HandRig:
         """Advance by one step of the world."""
         seen, seen_s = list(self.regions), self.time_s
         self.world.step()
-        self.regions = list(self._finder.step(self.time_s, self._image()))
+        self._feel()
         if seen:
             self.supervisor.touch(seen, seen_s, self.time_s)
         if self.time_s >= self._due_s - 1e-9:
@@ -147,11 +163,21 @@ class HandRig:
     def _angles(self) -> NDArray[np.float64]:
         return np.array([motor["present_position"] * RAD_PER_TICK - math.pi for motor in self.world.motors])
 
-    def _image(self) -> NDArray[np.float32]:
+    def _feel(self) -> None:
+        """Sample and recover the frames of a step of the world."""
+        before, self._counts = self._counts, self._matrix()
+        field, fusion = np.stack((before, self._counts)), self._fusion
+        duration_s = STEP_S / _FRAMES
+        for k in range(_FRAMES):
+            indices, counts = self._board.frame(field, k / _FRAMES, 1.0 / (_FRAMES * self._board.config.m))
+            end_s = self.time_s - (_FRAMES - 1 - k) * duration_s
+            fusion.step(indices, counts, end_s, duration_s)
+            self.regions = list(self._finder.step(end_s, fusion.image, fusion.measured, fusion.age_s))
+
+    def _matrix(self) -> NDArray[np.uint16]:
         layout = self.world.layout
         counts = self.world.counts.reshape(layout.matrix_rows, layout.matrix_cols)
-        noisy = layout.picture(counts + _NOISE_COUNTS * self._noise.standard_normal(counts.shape)).astype(np.float64)
-        return np.clip(np.rint(noisy), 0, COUNT_MAX).astype(np.float32)
+        return np.clip(np.rint(counts), 0, COUNT_MAX).astype(np.uint16)
 
     def _switch_on(self, config: DynamixelConfig) -> None:
         """Set the motors up like `DynamixelHand`."""

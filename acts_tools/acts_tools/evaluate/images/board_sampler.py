@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX
 from acts_core.errors import ArrayError, SettingsError
-from acts_core.sampling import Sampler, SamplingConfig
+from acts_core.sampling import Sampler, SamplingConfig, SkinMap
 from acts_core.wire import BoardSettings
 
 _LIBRARY = "libacts_sampler.so"
@@ -44,6 +44,8 @@ def _library(path: Path) -> ctypes.CDLL:
     library.acts_sampler_schemes.restype = ctypes.c_char_p
     library.acts_sampler_takes.restype = integer
     library.acts_sampler_takes.argtypes = [integer] * 4
+    library.acts_sampler_map.restype = integer
+    library.acts_sampler_map.argtypes = [pointer, integer, integer, integer, ctypes.c_char_p, ctypes.c_uint32]
     library.acts_sampler_free.restype = None
     library.acts_sampler_free.argtypes = [pointer]
     library.acts_sampler_frame.restype = integer
@@ -61,14 +63,22 @@ class BoardSampler:
         Standard deviation of normal noise that is added to every measurement, with the seed of `config`.
     library : Path, optional
         Library with the firmware's sampler; by default the installed one.
+    skin_map : SkinMap, optional
+        How the taxels lie on the skin; by default as in the matrix.
 
     Raises
     ------
     SettingsError
-        When the firmware refuses the settings, or the library is not built.
+        When the firmware refuses the settings or the map, or the library is not built.
     """
 
-    def __init__(self, config: SamplingConfig, noise_counts: float = 0.0, library: Path | None = None) -> None:
+    def __init__(
+        self,
+        config: SamplingConfig,
+        noise_counts: float = 0.0,
+        library: Path | None = None,
+        skin_map: SkinMap | None = None,
+    ) -> None:
         self.config = config
         self._library = _library(library or library_path())
         taxels = config.rows * config.cols
@@ -78,6 +88,10 @@ class BoardSampler:
         self._sampler = self._library.acts_sampler_new(settings, len(settings), noise_counts)
         if not self._sampler:
             raise SettingsError(f"the firmware refuses {config}")
+        if skin_map is not None and not self._library.acts_sampler_map(
+            self._sampler, skin_map.rows, skin_map.cols, skin_map.no_skin, skin_map.entries(), skin_map.crc32
+        ):
+            raise SettingsError(f"the firmware refuses a map of {skin_map.rows} x {skin_map.cols} places for {config}")
 
     def __del__(self) -> None:
         if getattr(self, "_sampler", None):
