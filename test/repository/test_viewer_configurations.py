@@ -14,7 +14,7 @@ import pytest
 import yaml
 from ament_index_python.packages import get_package_share_directory
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 FOLDER = Path(get_package_share_directory("acts_config")) / "viewers"
 SKIN = "/plate"
 RVIZ_TYPES = {
