@@ -44,9 +44,10 @@ _SHAPE_PARAMETERS = ("layout", "rows", "cols", "pitch_m", "row_pitch_m", "touch_
 class ViewNode(PollingNode):
     """Shows skins on a page, see `ViewServer`.
 
-    Subscribes of every skin ``contact``, ``regions``, ``hand/status``, and ``view/image_raw``, ``view/confidence`` and
-    ``view/contacts`` or where they are not, those without ``view/``; and ``/diagnostics``. Asks the node
-    ``reconstruction`` beside them for its parameters.
+    Subscribes of every skin ``contact``, ``regions``, ``hand/status``, ``joint_states``, ``ball/state``,
+    ``ball/reference``, ``ball/status``, and ``view/image_raw``, ``view/confidence`` and ``view/contacts`` or where they
+    are not, those without ``view/``; and ``/diagnostics``. Asks the node ``reconstruction`` beside them for its
+    parameters.
     """
 
     def __init__(self, **options: Any) -> None:
