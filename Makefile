@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 # make demo and make test do all the set-up they need, in this checkout, and say what they do.
 # `make PYTHON=/path/to/python3 ...` chooses the interpreter.
 

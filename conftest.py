@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """For every test: a loaded machine is slow, which is no failure; signals do what they do in a terminal; recordings.
 
 `make test` runs files of tests side by side in as many processes as there are cores (pytest-xdist). Tests that keep

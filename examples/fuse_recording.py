@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Go through a recording and estimate at every frame the image out of all samples so far, and how sure it is.
 
     python3 examples/fuse_recording.py FILE.npz

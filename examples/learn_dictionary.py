@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Learn a dictionary from full frames of your own.
 
     python3 examples/learn_dictionary.py FILE.npz DICTIONARY.npz [ATOMS]

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Read a board over its serial port, and tell once a second what it sends and what presses.
 
 python3 examples/read_board.py auto                                # the only Teensy that is plugged in

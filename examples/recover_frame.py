@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Recover the whole picture of a skin from a few of its taxels, by the paper's method.
 
 python3 examples/recover_frame.py

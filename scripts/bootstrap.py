@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Set up this checkout on a bare machine: virtual environment, ROS 2 from wheels, colcon build.
 
 Standard library only: it runs before anything is installed. Every step is skipped when its inputs have not changed

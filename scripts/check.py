@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Linters, type checks and the test suite; `make test`, `test-quick`, `lint` and `format` run it in the environment."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Compare what the packages import with what their package.xml declare; part of `make lint`.
 
 An undeclared dependency is noticed only on a machine that happens to lack it.

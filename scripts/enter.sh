@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 # Sourced by ./acts and the Makefile: enters the environment of this checkout.
 # With a ROS 2 installation sourced, that is the user's own workspace (colcon build); without one, what
 # scripts/bootstrap.py has set up, which is done here when it is missing or out of date.

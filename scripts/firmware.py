@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Cross-compiles the firmware for the Teensy 4.1, checks its sizes, and runs programs on QEMU's Cortex-M7.
 
     ./acts run python3 scripts/firmware.py                     # build, sizes; what `make firmware` does

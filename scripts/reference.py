@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Write docs/reference.md: every launch argument, node parameter and sampling scheme, from the sources.
 
 Writes the choices of the arguments `scheme`, `method` and `protocol` into the launch files, too: XML takes them from no

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The whole chain without processes, clocks or ROS: joints, ball, skin, sampling, recovery, estimate, control.
 
 The same modules as in the processes, stepped a millisecond at a time, so that the quality of control can be tested on

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Names and small translations that the three nodes share."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What the tests over DDS share: a simulated UR5e, node processes, and a ball that rolls on published tilts."""
 
 from __future__ import annotations

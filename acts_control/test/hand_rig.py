@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A hand for tests of reflexes: what its regions feel is made, its joints follow their goals at once."""
 
 from __future__ import annotations

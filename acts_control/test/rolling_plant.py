@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A ball on a plate on two lagging wrist joints, and the skin under it: the controller without ROS meets it here."""
 
 from __future__ import annotations

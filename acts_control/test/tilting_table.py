@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A simulated tilting table with a ball on it, for the robot of docs/extending.md. Time passes when somebody sleeps."""
 
 from __future__ import annotations

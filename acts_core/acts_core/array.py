@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Geometry of a tactile array: which index is which taxel, and where it lies on the skin."""
 
 from __future__ import annotations

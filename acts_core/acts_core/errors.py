@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The errors of ACTS: one root, and a class for each thing a caller may want to handle apart."""
 
 

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """One frame of the array: scheme, samples and times, from the board to the reconstruction."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`kernel`: numba's `njit` with a cache on disk that notices changes of all that a kernel is made of.
 
 Numba's own cache looks at the file of a function alone. What the function calls, and the constants it reads, are

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Enumerations whose members come out of a registry."""
 
 from __future__ import annotations

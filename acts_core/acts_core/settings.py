@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Settings as dataclasses: every field carries its description and range, and is checked when it is set.
 
 A settings class is a frozen dataclass whose fields are made by `setting`::

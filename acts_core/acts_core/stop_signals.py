@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """SIGINT, SIGTERM and SIGHUP as one request to stop; further signals have no effect.
 
 A program that ends motion must not be interrupted while it does so. Python's own answer to SIGINT, an exception in the

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The cache of compiled kernels: it serves a second process, and notices every change of what a kernel is made of."""
 
 import os

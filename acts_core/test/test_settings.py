@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Signals in processes of their own: one request to stop, undisturbed by more, with a last resort."""
 
 import select

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A driver and a listener on one executor, and driver processes; every rig has its own ROS_DOMAIN_ID (20 to 39)."""
 
 from __future__ import annotations

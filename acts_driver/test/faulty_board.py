@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A virtual board that plays faults on demand, and a reader whose every published frame is checked."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A field that is a known function of taxel and time, so that every sample of every frame can be checked."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A pseudo-terminal in the part of a board, behind a stable link that survives unplugging."""
 
 from __future__ import annotations

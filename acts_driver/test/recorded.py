@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Recordings for tests: bags of samples, and npz files."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A simulated way from a board to the host, with known truth."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The process `virtual_board`, for tests."""
 
 from __future__ import annotations

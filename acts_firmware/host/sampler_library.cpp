@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // The board's sampler behind C functions, measuring in recorded frames; for acts_tools/evaluate/images.
 #include <algorithm>
 #include <cmath>

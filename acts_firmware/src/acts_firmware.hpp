@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // All a sketch needs. The Arduino builder finds this library by this header's name.
 #pragma once
 

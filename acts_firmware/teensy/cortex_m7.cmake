@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 # Cross-compiling for the Teensy 4.1 with the compiler of the package gcc-arm-none-eabi and the flags of Teensyduino;
 # of those the core and the sketch, not the tests, also do without exceptions and run-time types.
 set(CMAKE_SYSTEM_NAME Generic)

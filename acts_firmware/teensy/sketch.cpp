@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // The sketch as the Arduino builder compiles it: C++ after Arduino.h.
 #include <Arduino.h>
 

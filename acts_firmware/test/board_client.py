@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A host that talks to a virtual board: commands and their replies, uploads, and what the board sends by itself."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The virtual board as the tests start, read and stop it."""
 
 from __future__ import annotations

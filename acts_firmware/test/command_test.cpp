@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // Plain checks of how the firmware hears its host; what the commands do, Python tests.
 #include "acts_firmware/wire/command.hpp"
 

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The firmware as a whole as a Python object: bytes in, bytes out, no terminal and no clock between."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What the tests call: the installed files of this package, and its core as Python functions."""
 
 from __future__ import annotations

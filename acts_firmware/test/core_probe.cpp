@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // The core behind C functions, for ctypes. Fields are measured through the model of the wiring.
 #include <algorithm>
 #include <cstdint>

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // Tests of what Python does not see of the core: wiring, clock, pace, queue, framing, the firmware as a whole. Runs on
 // the host and on the Teensy's processor, so without streams.
 #include <array>

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // A whole firmware behind C functions, for ctypes: bytes in, bytes out, frames of a still field.
 #include <algorithm>
 #include <cstddef>

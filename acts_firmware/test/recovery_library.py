@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The core's recovery and classification as Python functions."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // The core's recovery and classification behind C functions, for ctypes.
 #include <algorithm>
 #include <cstdint>

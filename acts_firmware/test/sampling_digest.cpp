@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // What every scheme samples of made-up fields, a line with a digest for each: must be the same on the host and on the
 // Teensy's processor.
 #include <cinttypes>

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Runs the Teensy's sketch on a model of the board (sketch_run.cpp), on the host or on an emulated Teensy processor."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // Runs the sketch itself on a model of the Teensy and of the wiring, in virtual time, on the host or on the Teensy's
 // processor under QEMU. The only argument names a script of lines
 //

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // A file as this process's own, in a folder of one user alone; acts_sim/shared/run_folder.py does the same.
 #pragma once
 

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // Lines that others write to a named pipe while the board runs.
 #pragma once
 

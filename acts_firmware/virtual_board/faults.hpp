@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // Faults that the virtual board plays on purpose: which there are, how they are written, when they are due.
 #pragma once
 

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // The way from the firmware's output to the terminal, and what may befall a packet on it.
 #pragma once
 

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // The executable virtual_board: command line, signals, exit codes.
 #include <sys/prctl.h>
 

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // A process around the firmware: pseudo-terminal, pace, status. docs/virtual_board.md describes it.
 #pragma once
 

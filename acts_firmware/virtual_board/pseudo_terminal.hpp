@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // The virtual board's end of a pseudo-terminal.
 #pragma once
 

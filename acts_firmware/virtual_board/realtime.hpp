@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // Real-time scheduling of this process, as docs/real_time.md describes it for all of ACTS.
 #pragma once
 

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // Field out of a .npy file (format: NumPy enhancement proposal 1).
 #include <array>
 #include <cmath>

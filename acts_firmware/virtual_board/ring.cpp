@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // Field out of the simulated world's ring; the file's layout is described in acts_sim/shared/timed_ring.py.
 #include <algorithm>
 #include <atomic>

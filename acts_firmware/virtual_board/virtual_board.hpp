@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // The board on the host: virtual time, a pressure field, noise.
 #pragma once
 

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // Model of the readout board's wiring: what the ADC sees for the levels of the pins.
 #pragma once
 

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // What is broken between the pins of the board and the taxels of the skin.
 #pragma once
 

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The executables of this package, see setup.py. Nothing else is imported here: signals come first."""
 
 from acts_ros.executables.program import Program

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The parameters of the reconstruction node, and what is built from them."""
 
 from __future__ import annotations

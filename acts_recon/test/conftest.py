@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A small dictionary, the node in a ROS domain, and recorded frames where they are present."""
 
 from collections.abc import Callable, Iterator

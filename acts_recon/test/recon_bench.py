@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The node reconstruction in a ROS domain, and a node beside it that samples and listens."""
 
 import time

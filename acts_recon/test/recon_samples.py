@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Frames with a contact, and samples of them, for the tests of this folder."""
 
 import numpy as np

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Clocks of nodes: timers that a change of the clock does not stop, and nodes that refuse simulated time."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Parameters of single nodes of a process from its command line: ``--set NODE.PARAMETER=VALUE``.
 
 A ROS parameter on the command line (``-p name:=value``) goes to all nodes of a process, and nodes without it refuse it.

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Publish diagnostics in the standard form: one status per component on /diagnostics, once a second."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Run nodes until the process is told to stop, on an executor that is fast enough for 1 kHz, and clean up."""
 
 from __future__ import annotations

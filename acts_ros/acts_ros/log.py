@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The logger of a node, for code that does not depend on ROS."""
 
 from __future__ import annotations

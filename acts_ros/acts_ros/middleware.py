@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Initialise ROS without shared memory, and bound to this machine if only this machine is to be reached.
 
 In ``publish()``, Fast DDS accesses the shared memory of each subscriber. A subscriber that joins, leaves or stands

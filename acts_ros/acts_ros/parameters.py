@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Settings dataclasses as ROS parameters, with description and range, and checked when they change."""
 
 from __future__ import annotations

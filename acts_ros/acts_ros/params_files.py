@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Which section of a params file a parameter came from. ROS gives a node only the merged result of all sections."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Subscriptions that are polled, instead of a callback for every message.
 
 A callback per message wakes the process each time, and after a delay it reaches the newest message only after all

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Quality of service of the ACTS topics.
 
 1 kHz topics are best effort, topics for viewers are reliable, and descriptions of a skin are kept for late joiners.

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Timers and simulated time; ROS_DOMAIN_ID 177."""
 
 from collections.abc import Iterator

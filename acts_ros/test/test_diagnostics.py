@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A diagnostic status over DDS; ROS_DOMAIN_ID 12."""
 
 import rclpy

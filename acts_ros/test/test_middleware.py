@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What is asked of the middleware, and that it complies. ROS_DOMAIN_ID 201."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Parameters of real nodes, in this process; ROS_DOMAIN_ID 10."""
 
 from collections.abc import Iterator

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Which section of a params file a parameter came from, beside what ROS itself makes of the file; ROS_DOMAIN_ID 187."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Subscriptions that are read when their reader is due; ROS_DOMAIN_ID 134."""
 
 import time

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Overriding quality of service; ROS_DOMAIN_ID 13."""
 
 import rclpy

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The motors of a simulated hand, set up and sent somewhere as over the bus; for the tests."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What clients of a UR5e do, with the real ur_rtde, each in a process of its own: ``ur_clients.py SCENARIO HOST``.
 
 A scenario prints what it has found out as one line of JSON. The process then ends without the client's clean-up, which

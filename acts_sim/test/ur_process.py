@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What the tests of the simulated UR5e share: the simulator as a process, and its hooks."""
 
 from __future__ import annotations

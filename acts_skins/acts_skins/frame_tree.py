@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A tree of fixed frames, and the transform between any two of them."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Plan the processes for a file of skins, without starting them."""
 
 from __future__ import annotations

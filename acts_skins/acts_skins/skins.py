@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`skins`: run a process `tactile` for every skin of a file, and in simulation also its board; restart those that die.
 
 A failure of one skin does not affect the others. The processes end with this one, even if it is killed.

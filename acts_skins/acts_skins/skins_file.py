@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Read the file that describes the skins of a robot: the sources of their samples, and their poses. No ROS.
 
 `docs/skins.md` describes each key. The parameters of driver and reconstruction are only collected here;

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`tactile`: driver and reconstruction of one skin in one process, which pass frames in memory.
 
 The thread that reads a frame from the port also computes its contact, without another thread, executor or middleware

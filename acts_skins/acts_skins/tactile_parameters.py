@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Check the parameters of driver and reconstruction in a file of skins, by their settings classes."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Frames of several skins at one common time: slow, late, lost and returning skins, and wrong clocks."""
 
 from __future__ import annotations

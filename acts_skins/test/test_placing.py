@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Contacts of a skin in the robot's frame."""
 
 from __future__ import annotations

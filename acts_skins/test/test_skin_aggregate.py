@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The tree of the skins' diagnostics."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The nodes around all skins, over DDS; ROS_DOMAIN_IDs 163 to 167."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The program `skins` with its real processes: one skin's faults leave the other alone. ROS_DOMAIN_IDs 160 to 162."""
 
 from __future__ import annotations

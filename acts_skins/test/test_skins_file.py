@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The file of skins: what it may hold, and words about what it may not."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Driver and reconstruction in one process, with the virtual board; ROS_DOMAIN_IDs 130 to 132."""
 
 from __future__ import annotations

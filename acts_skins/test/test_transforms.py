@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Rigid transforms and trees of fixed frames."""
 
 from __future__ import annotations

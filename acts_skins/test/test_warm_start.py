@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A process whose kernels are in the cache compiles nothing: not at its start, and not for its first frames."""
 
 import os

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The `acts` command. Each subcommand is one module; only the module of the given subcommand is imported."""
 
 from __future__ import annotations

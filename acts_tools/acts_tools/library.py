@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts library`: write a library of known objects, from labelled recordings or from simulated presses."""
 
 from __future__ import annotations

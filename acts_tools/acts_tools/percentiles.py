@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Percentiles, as in all summaries of latencies."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """CPU load of a process tree, by process name.
 
 It reads each process's CPU clock, not ``/proc/PID/stat``: where the kernel counts by ticks, a process that wakes 1000

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Progress of a long task: a tqdm bar on a terminal, a few lines or nothing elsewhere."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A free ROS domain, so that a run and other nodes on this machine do not affect each other."""
 
 from __future__ import annotations

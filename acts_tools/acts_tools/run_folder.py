@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The folder for temporary files that the processes of a run share."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts train`: learn a dictionary from recordings or from the contact model."""
 
 from __future__ import annotations

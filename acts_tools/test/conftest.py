@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Fixtures of the tests of the acts command."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A temporary installation prefix with packages that a test makes up."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`view`: a page in the browser that shows what skins feel."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A real browser, and pages in it that must not complain."""
 
 from __future__ import annotations

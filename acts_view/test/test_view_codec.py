@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Messages to the page, read back by what the format says; what of a layout the page is told."""
 
 from __future__ import annotations

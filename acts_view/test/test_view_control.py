@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What a page asks for, done by real services, in a real browser and by messages; ROS_DOMAIN_ID 222."""
 
 from __future__ import annotations

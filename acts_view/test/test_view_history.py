@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The history of a stream: what is kept, what each reader gets of it."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A recording or a board shown without a graph: what is played when, and what the page is told of it."""
 
 from __future__ import annotations

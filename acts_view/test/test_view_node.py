@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The node ``view`` over DDS, read as the page reads it; ROS_DOMAIN_ID 176."""
 
 from __future__ import annotations

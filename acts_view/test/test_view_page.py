@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The page in a real browser, fed by the server without ROS: what a person sees and can do."""
 
 from __future__ import annotations

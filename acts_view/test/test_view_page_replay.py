@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A recording on the page in a real browser: pause, seek, play."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The server over real sockets, without ROS: files, refusals, and clients that are slow, stalled or gone."""
 
 from __future__ import annotations

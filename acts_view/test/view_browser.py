@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Where a browser for the tests of the page is; the fixtures are in conftest.py."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // An array of 16 x 16 taxels on an Arduino Mega 2560: every frame a line of text, as docs/own_array.md explains.
 //
 // Wiring: row wires, the top one of the picture first, on pins 22 to 37. Column wires, the left one first, on channels

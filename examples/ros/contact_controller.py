@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A controller that consumes `contact`, to be copied: what carries the skin gives way to who pushes it.
 
     ./acts run python3 examples/ros/contact_controller.py --ros-args -r __ns:=/plate

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // As much of an Arduino Mega as examples/arduino_16x16 uses, and a skin that is pressed at row 5, column 11.
 // Its standard output is the serial line, at the pace of a real one. For test_own_array.py.
 #pragma once

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What users write behind `name:=` reaches the processes as it stands, whatever it holds. Nothing is started."""
 
 from __future__ import annotations

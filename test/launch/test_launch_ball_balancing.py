@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Ball balancing, launched for real: it balances, and ends level when parts are lost. ROS_DOMAIN_ID 96 to 98, 183."""
 
 import os

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The process that feels is killed while a ball is balanced: it is back soon, and balancing goes on by itself.
 
 With ACTS_CRASHES=20 it is killed twenty times, while the ball is led along letters as well. ROS_DOMAIN_ID 179.

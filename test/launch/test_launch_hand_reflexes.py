@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The hand, launched for real: it grasps by touch, keeps its grip when touch is lost, and opens.
 
 ROS_DOMAIN_IDs 231, 220.

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Several skins, launched for real: merged contacts, poses, the aggregate, losses. ROS_DOMAIN_ID 168 and 169."""
 
 import os

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """One skin, board and robot, launched for real: topics, faults, orderly end. ROS_DOMAIN_ID 35, 90 to 95 and 99."""
 
 import os

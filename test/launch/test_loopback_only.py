@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A simulated skin and robot say nothing to other machines, not even to one that asks them by address.
 
 Two network namespaces stand for the machines; skipped where they are not allowed. ROS_DOMAIN_ID 200.

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A second launch in a folder that is in use is refused, and the first goes on. ROS_DOMAIN_ID 178."""
 
 from pathlib import Path

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Every node with use_sim_time and no /clock, one that stands still, and one that jumps back; ROS_DOMAIN_ID 174."""
 
 from __future__ import annotations

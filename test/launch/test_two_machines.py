@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Touch across a cable: the skin on one machine, who listens on another, and a cable that is slow, lossy or cut.
 
 Two network namespaces stand for the machines; skipped where they are not allowed. ROS_DOMAIN_ID 150.

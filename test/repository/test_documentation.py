@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What the documents say exists: every launch argument, parameter and topic, and the links between pages."""
 
 import re

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The house of the code: packages whose imports point one way, folders (rooms) of one subject each, no circles.
 
 A room is entered by its `__init__`: what that exports is public, all else is the room's own. The rooms `nodes`,

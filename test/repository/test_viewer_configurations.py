@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Shipped layouts of RViz, Foxglove and PlotJuggler name topics that the README lists, and fields that they have."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The scripts of examples/ as docs/without_ros.md has them, on a recording made here and on virtual boards."""
 
 from __future__ import annotations

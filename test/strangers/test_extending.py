@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The examples of docs/extending.md as they stand there: one module and one line each. ROS_DOMAIN_ID 176."""
 
 from __future__ import annotations

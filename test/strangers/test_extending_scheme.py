@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The sampling scheme of docs/extending.md: evaluated, refused and sampled as that page says."""
 
 import os

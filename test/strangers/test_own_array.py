@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """docs/own_array.md with the sketch of examples/arduino_16x16 behind a pseudo-terminal. ROS_DOMAIN_ID 192."""
 
 from __future__ import annotations

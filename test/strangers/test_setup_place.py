@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A checkout where set-up cannot work is told so before anything is downloaded."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The numerical packages as pip installs them: with what their setup.py declares, and nothing else. No ROS."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """How well the ball is held and the letters are traced, on any machine: the whole chain stepped without a clock."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The demo as a user runs it, shortened. ROS_DOMAIN_ID 70 and 71."""
 
 import json

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Real touch through the whole chain: recordings -> virtual board -> pseudo-terminal -> driver -> reconstruction.
 
 Writes a picture of a few frames to out/. ROS_DOMAIN_ID 72 and 73. The recordings are not part of the project

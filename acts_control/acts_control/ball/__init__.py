@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Balancing of a ball on a plate that is carried by an arm.
 
 In come contacts and references; out come the plate's tilt and, by the loop, the robot's motion. Estimator, controller,

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The controller between estimate and robot: waits for a ball, balances it, and brings motion to a defined end."""
 
 from __future__ import annotations

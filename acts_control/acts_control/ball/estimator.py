@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Kalman filter on the centre of pressure: where the ball is and how fast it rolls.
 
 The model is that of the paper's S16: position and velocity along x and y, accelerated by the tilt of the plate. Three

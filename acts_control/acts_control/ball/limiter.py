@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Follow a wanted tilt no faster and no harder than allowed."""
 
 from __future__ import annotations

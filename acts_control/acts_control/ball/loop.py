@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The control loop: a thread with absolute deadlines that takes the robot from connecting to a defined stop."""
 
 from __future__ import annotations

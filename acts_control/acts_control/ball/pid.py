@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Two-axis PID from where the ball is to how the plate has to be tilted.
 
 The law, per axis, with L the lever arm (see `acts_control.ball.estimator`) and lean the tilt that the plate has::

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A ball that rolls on a tilted plate: tilt to acceleration and back.
 
 A solid ball that rolls without slipping accelerates along the plate with 5/7 of the gravity in the plate's plane. (The

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Prediction of the ball from the time of the last contact to now, by the tilts that the plate had meanwhile."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """References, where the ball should be, and how those that arrive are followed."""
 
 from __future__ import annotations

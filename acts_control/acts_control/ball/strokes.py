@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Strokes that a letter is drawn with, in arc length: lines and elliptic arcs."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Where the ball should be at which time: hold a point, trace letters, and move between them.
 
 Along every stroke the arc length follows the polynomial of seventh degree from rest to rest, so that position,

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Robots that carry the plate: `base` says what the control loop asks of one, `ur` is the UR5e.
 
 In comes a name with settings; out comes a robot that tilts the plate, tells its state and stops.

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """All robots by name: a new one is a module and a line here (docs/extending.md)."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Any message, finite or not, of any time: the tilt keeps its limits, and with good input the ball is held again.
 
 ROS_DOMAIN_ID 173.

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The closed loop while clocks are set and messages are wrong or forged: the ball stays where it is led."""
 
 from collections.abc import Callable

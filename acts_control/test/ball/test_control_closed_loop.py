@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The whole control without ROS on a simulated plate and ball: what is asked, and how far off the world may be.
 
 Asked are 3 mm rms at the centre after 2 s and 5 mm rms along the letters. Seeds are fixed; the figures are the same in

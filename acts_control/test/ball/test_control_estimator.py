@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The Kalman filter on made-up touch: how exact it is, and what it does with what cannot be."""
 
 import math

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The control loop's thread on an arm in this process: every way from connecting to a stop."""
 
 import itertools

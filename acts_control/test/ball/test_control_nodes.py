@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The nodes over DDS: ball_state and ball_trajectory in this process, parameters refused in processes of their own.
 
 ROS_DOMAIN_IDs 60 to 63.

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Tilt and acceleration, the PID, and the limits of the tilt's motion."""
 
 import itertools

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What ends motion: the gate, the watch on the robot, and the controller's ways from one phase to another."""
 
 import math

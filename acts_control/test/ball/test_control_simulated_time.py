@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The control node where simulated time is asked for: it goes on with the system's clock. ROS_DOMAIN_ID 175."""
 
 import time

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Trajectories: smooth, within reach and speed, and shaped like the letters."""
 
 from itertools import pairwise

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Closing on something small that the palm feels: `Aim`, one closing step after the other."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The LEAP hand's motors through the real `dynamixel_sdk`, on the simulated bus behind a pseudo-terminal."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Hands as YAML files, and where their links are."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The loop and the node of a hand, on the simulated bus; ROS_DOMAIN_ID 206 and 207."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The node `hand_reflexes` as a process, on the simulated bus, with made touch; ROS_DOMAIN_ID 215."""
 
 from __future__ import annotations

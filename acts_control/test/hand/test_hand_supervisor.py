@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What the hand is about, and what ends or interrupts it."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The example of docs/reflexes.md: a reflex of one's own, in one file and one line."""
 
 from __future__ import annotations

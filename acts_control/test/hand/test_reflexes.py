@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The reflexes and the step rule, on made contacts."""
 
 from __future__ import annotations

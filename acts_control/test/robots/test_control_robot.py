@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The whole of acts_control against a simulated UR5e over the unmodified ur_rtde, with faults.
 
 The client side runs in a process of its own: ur_rtde may take its process down when a controller vanishes.

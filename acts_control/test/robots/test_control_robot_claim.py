@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """One controller for a robot, among all the programs of a machine."""
 
 import subprocess

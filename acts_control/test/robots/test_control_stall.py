@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A robot controller that stands still for a while (SIGSTOP), or is lost at a bad moment, against the simulated UR5e.
 
 ROS_DOMAIN_ID 170, robot addresses 127.0.17.1 to 127.0.17.19.

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The robot of docs/extending.md, as it stands on the page: a table of two axes balances a ball. ROS_DOMAIN_ID 171.
 
 Time is that of the simulation: nothing waits, and every run is the same.

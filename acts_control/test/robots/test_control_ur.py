@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The UR5e without its library: does its controller answer, what is said of its state, what its gate refuses.
 
 Addresses 127.0.17.20 to 127.0.17.29.

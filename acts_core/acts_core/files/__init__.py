@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Files that users name: read with limits, checked, and refused with the reason.
 
 In come paths; out come arrays, text, or sections of YAML with the line of each key. Writing goes by the same classes.

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Recorded full frames in an npz file."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Reading and writing npz files of one kind with named fields: dictionaries and object libraries."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Reading arrays of npz files that may be damaged, hostile or of another kind."""
 
 from __future__ import annotations

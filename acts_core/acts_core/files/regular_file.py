@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Files that a parameter or a service may name: regular ones only, and no larger than what is asked of them."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """YAML files with the line of every key, so that an error can name the place; a key given twice is an error."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Kinematics of the Universal Robots UR5e, and the wrist angles that tilt a plate carried on its flange.
 
 The plate is mounted rigidly on the flange, the skin facing away from it. The skin's x, y and z axes are the flange's,

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What a long-running process needs: real-time scheduling, background work, changes of the clock.
 
 In come settings and stamps; out come decisions and warnings. Nothing here knows tactile skins.

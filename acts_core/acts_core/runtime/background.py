@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Work on a thread of its own that may take long or never end, such as reading a file from a lost network drive."""
 
 from __future__ import annotations

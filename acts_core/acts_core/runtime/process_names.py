@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Processes by number and command line, for messages that say which one holds a file or port."""
 
 from __future__ import annotations

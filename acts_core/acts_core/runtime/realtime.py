@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Real-time scheduling of a process: priority, cores, and a message about what is in force.
 
 A process without such settings is left as it is. What the machine does not allow is reported, and the process goes on

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A guard against real-time threads that never pause, which would block the machine.
 
 Two limits stand behind each other:

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The order of stamps in a stream, and whether its clock was set."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Statistics of a stream of messages: received, missing, and the latency of each."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What there is to know of a terminal, such as a serial port, before it is opened."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Which taxels of a frame are measured, and in which order: the schemes, as the board has them.
 
 In come settings and, for schemes that follow touch, the counts so far; out come the indices of each frame. `SkinMap` is

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """All sampling schemes: the classes in the modules of ``acts_core.sampling.schemes``."""
 
 from __future__ import annotations

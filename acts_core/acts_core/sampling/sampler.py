@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Samples as a board does.
 
 The firmware (``acts_firmware``, C++) does this on the board. This is its reference: the same taxels in the same order,

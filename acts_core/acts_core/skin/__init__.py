@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The skin: where its taxels lie, and the force response of a taxel.
 
 In come layout files and measured force responses; out come `Layout`, `SkinPatch` and `ForceResponse`, of which all

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Force response of a taxel: newtons to ADC counts and back."""
 
 from __future__ import annotations

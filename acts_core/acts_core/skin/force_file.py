@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Measured force responses in files: pairs of newtons and counts, checked."""
 
 from __future__ import annotations

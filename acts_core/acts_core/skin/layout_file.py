@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Layout files: which wires of the matrix run under which patch of the skin. `docs/layouts.md` has them key by key."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Layouts: how the taxels of the readout matrix lie on the skin.
 
 The board reads a matrix of rows and columns of wires. On a square pad the matrix is the picture. On the paper's insole

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The contact on one patch of a skin, as the reconstruction passes it to the reflexes of a hand."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A patch: a piece of skin without a border in it, and where its taxels lie on the link that carries it."""
 
 from __future__ import annotations

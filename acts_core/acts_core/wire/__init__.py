@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The bytes between board and host. `docs/wire_protocol.md` describes them.
 
 In come bytes of a stream, out come frames and messages of the board; commands to the board go the other way. Whatever

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Messages of a board besides samples: replies, and the images and objects that it recovers itself."""
 
 from __future__ import annotations

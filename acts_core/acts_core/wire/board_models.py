@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Models for a board, ready to be uploaded: a patch dictionary to recover images, or an object library to classify."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Settings of a board, and their bytes on the wire."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Consistent Overhead Byte Stuffing in numba; the tests compare it with `cobs_reference`."""
 
 from __future__ import annotations

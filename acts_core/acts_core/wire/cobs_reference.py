@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Consistent Overhead Byte Stuffing: packets free of zero bytes, so that a zero can delimit them.
 
 Every run of up to 254 bytes without a zero is preceded by a code, its length plus one; a code below 255 also stands for

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Commands to a board and its replies. `docs/wire_protocol.md` is the description.
 
 Every command carries a request number, which the reply repeats; a reply carries the board's whole state::

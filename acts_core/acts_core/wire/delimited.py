@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Frames out of a stream of delimited packets: split, reject, count, resynchronise, in bounded memory."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Head, checksum and stuffing of all packets between host and board. `docs/wire_protocol.md` is the description.
 
 A packet is little-endian and begins with type, version and its own length; a CRC-32 ends it. It travels stuffed (see

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The text stream of the published raster sketch: every taxel of one scan in a line.
 
 A line holds rows*cols counts, row-major in image coordinates, each followed by a comma, then the duration of the scan

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Confidence from the residuals of a classification, the same for board and host."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Check of a frame's samples in numba; the tests compare it with `acts_core.wire.samples.sample_fault`."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The binary stream of the board: frames to bytes and back. `docs/wire_protocol.md` is its description.
 
 Frames are one of the packets of `acts_core.wire.packets`; the others are in `acts_core.wire.commands` and

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Files of recorded frames, as other people write them."""
 
 from __future__ import annotations

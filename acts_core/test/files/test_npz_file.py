@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Arrays out of sound, damaged and other files."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Regular files only, and no larger than allowed."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Kinematics against the product of Denavit-Hartenberg matrices, and tilts there and back."""
 
 from math import pi, sin

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Which texts are addresses of this machine."""
 
 from __future__ import annotations

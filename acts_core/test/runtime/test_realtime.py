@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Real-time scheduling in processes of their own: what was asked for, what is refused, and threads that run away."""
 
 import os

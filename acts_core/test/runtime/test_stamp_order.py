@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Which stamps continue a stream, whatever its clock does."""
 
 import pytest

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The order of search: every taxel once, and no block unseen for long."""
 
 import numpy as np

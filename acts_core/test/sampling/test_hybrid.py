@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Hybrid sampling: adaptive for its quota, then random among what is left."""
 
 import numpy as np

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Tracking sampling: what it promises, on contacts that come, slide and go."""
 
 from itertools import pairwise

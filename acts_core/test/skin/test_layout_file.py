@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Layout files of one's own: what they may hold, and words about what they may not."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Layouts are permutations; insole and glove are those of the authors' analysis."""
 
 import numpy as np

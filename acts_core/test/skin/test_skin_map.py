@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Sampling on a skin: neighbours are those of the layout, and none is on another patch."""
 
 import dataclasses

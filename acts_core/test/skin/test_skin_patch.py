@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Where the taxels of a patch lie, flat and bent."""
 
 import numpy as np

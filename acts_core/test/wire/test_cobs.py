@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Byte stuffing: examples of the paper, and the compiled form against the plain one."""
 
 import numpy as np

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Commands, replies, images and objects: byte by byte, there and back, and what garbage does to them."""
 
 import dataclasses

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The binary stream: layout byte by byte, and what any garbage does to it."""
 
 import re

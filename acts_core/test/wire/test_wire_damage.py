@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Damaged packets are never taken for frames. ACTS_DAMAGED_PACKETS=N tries N of them instead of a few; -s prints."""
 
 import os

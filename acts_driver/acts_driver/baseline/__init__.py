@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Baseline: what each taxel reads untouched. It is measured, follows drift, and is kept in a file.
 
 In come frames; out comes the `Baseline`, which the reconstruction subtracts. Kernels take one frame at a time.

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What each taxel reads untouched: the baseline, and its file."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Update of statistics and baseline by one frame, in numba, without allocation.
 
 `baseline_reference` is the reference implementation.

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Parameters of the driver about baseline and calibration."""
 
 from __future__ import annotations

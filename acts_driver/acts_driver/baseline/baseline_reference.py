@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Reference implementation of `acts_driver.baseline.baseline_kernels` in NumPy, for reading and for tests."""
 
 from __future__ import annotations

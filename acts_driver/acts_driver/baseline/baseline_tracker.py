@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Measures the baseline of a skin from the last seconds of the stream, and follows its drift."""
 
 from __future__ import annotations

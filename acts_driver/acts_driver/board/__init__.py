@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Commands to a board, its replies, and the images and objects that it recovers itself.
 
 In come the driver's parameters and the board's replies; out go commands. `BoardSession` keeps the board's settings

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Commands to a board and their replies, within bounded time."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Keeps a board's layout of the skin equal to the parameters."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Model files for a board: what `acts train` and acts_recon write, made ready for the upload."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The driver's parameters for the board: each sets a setting of the board, or leaves the board's own."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Images and objects that the board recovered itself, with the stamps of their frames."""
 
 from __future__ import annotations

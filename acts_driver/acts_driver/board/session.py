@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Keeps a board's settings equal to the parameters: identifies it and sends its settings, again after every reset."""
 
 from __future__ import annotations

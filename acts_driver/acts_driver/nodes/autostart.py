@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Configures and activates a lifecycle node by itself."""
 
 from __future__ import annotations

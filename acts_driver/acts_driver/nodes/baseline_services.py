@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The driver's services `calibrate` and `tare`, and the topic `baseline`."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The board in ROS: topic `board`, service `~/query_board`."""
 
 from __future__ import annotations

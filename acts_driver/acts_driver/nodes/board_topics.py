@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Topics ``board_image`` and ``board_object``: what the board recovered itself."""
 
 from __future__ import annotations

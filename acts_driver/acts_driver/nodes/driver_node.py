@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The node `driver`: board bytes in, TactileSamples out.
 
 Topics: samples, baseline, board, and board_image, board_object with what the board recovers itself. Services:

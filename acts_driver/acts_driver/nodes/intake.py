@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """From an open source to frames worth publishing: reader, decoder, stream and the dialogue with the board."""
 
 from __future__ import annotations

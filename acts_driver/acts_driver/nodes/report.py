@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The driver's report on /diagnostics, from its counters."""
 
 from __future__ import annotations

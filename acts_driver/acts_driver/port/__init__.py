@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Serial ports: finding and opening them, and the thread that reads them.
 
 In comes the name of a port or of a board; out come decoded frames and messages, handed on by `Reader`. A port that is

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Opening a serial port, with errors that say what to do."""
 
 from __future__ import annotations

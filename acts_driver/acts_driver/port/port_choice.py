@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Which serial port is meant: a path, the only Teensy there is, or the board of a USB serial number."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The thread that reads a source, decodes and hands frames on, and opens the source again whenever it is lost."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Sources of bytes: a serial port here, a recording in `acts_driver.replay`. The reader knows only `Source`."""
 
 from __future__ import annotations

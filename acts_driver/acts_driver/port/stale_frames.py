@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Stale frames: those of an earlier session that a board's USB buffer still holds when the port is opened again."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What the driver needs to know of a board's protocol."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Recordings that stand in for a board.
 
 In come files of frames, bags and npz; out come the bytes that a board would send, at the recording's pace.

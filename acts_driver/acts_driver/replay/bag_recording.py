@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Recorded `samples` messages out of a bag, as frames."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Recordings that stand in for a board: frames of samples out of files."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A recording as a source: the bytes that a board would send, at the pace of the recording."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Does a board and its skin work? Judged from its frames: untouched, and while a hand is rolled over the skin."""
 
 from acts_driver.selftest.findings import Finding, Level, Thresholds, listed

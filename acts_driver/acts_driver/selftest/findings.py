@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What the self-test finds, and the thresholds it finds it by."""
 
 from __future__ import annotations

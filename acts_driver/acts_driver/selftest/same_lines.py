@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Lines that respond as one: shorted rows or columns, or columns that a broken address line makes the same."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """How well a board keeps its time: rate, losses, clock."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The skin under a rolling hand: lines that never respond, lines that respond as one, taxels that do not."""
 
 from __future__ import annotations

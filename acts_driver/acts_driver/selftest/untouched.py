@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The skin untouched: noise, baseline, taxels that read high."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Frames with the time of their measurement: which are new, which are missing, when each was measured.
 
 In come decoded frames and the time of their arrival; out come frames with the host's time, and statistics

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The board's clock mapped onto the host's: offset, drift, jumps.
 
 A frame measured at board time b arrives at host time a. Then ``a - b = offset + transport delay``. The transport delay

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Lower envelope: the closest line under all points of a window.
 
 The closest line under a set of points holds the edge of their lower convex hull at their mean (Moon, Skelly and

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Detects that the system's clock was set, by comparing it with the steady clock."""
 
 from __future__ import annotations

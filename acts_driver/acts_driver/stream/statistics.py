@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Statistics of the stream of frames: rate, gaps, repetitions, restarts of the board."""
 
 from __future__ import annotations

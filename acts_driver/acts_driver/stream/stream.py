@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """From decoded frames to those worth publishing: new, of the expected size, with the time of their measurement."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Baseline, noise and drift of untouched taxels, and the file they are kept in."""
 
 from pathlib import Path

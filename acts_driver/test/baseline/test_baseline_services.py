@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Calibrate and tare on the driver, over real DDS and a pseudo-terminal; ROS_DOMAIN_IDs 57 to 59, 146 and 147."""
 
 from __future__ import annotations

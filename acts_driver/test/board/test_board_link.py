@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The dialogue with a board: with a real virtual board, with silent, stuck and deaf ones, and on a lossy way."""
 
 from __future__ import annotations

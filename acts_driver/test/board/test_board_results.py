@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Results of the board get the stamps of their frames, in whatever order both come."""
 
 import numpy as np

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Files that the driver reads while its services wait: small on the disk, large once unpacked."""
 
 from __future__ import annotations

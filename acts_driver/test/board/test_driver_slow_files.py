@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Files that take long, or for ever, to be read: services answer meanwhile, frames come. ROS_DOMAIN_ID 225."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A model on its way to the board: frames and reports go on, wishes are heard, an unplugged board begins again."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The driver node and its board: parameters, topic `board`, the query service, resets; with a real virtual board."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What the board recovers by itself, from the upload to the topics, with a real virtual board; ROS_DOMAIN_ID 46."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """docs/driver.md names every parameter and every diagnostic value; --help every parameter."""
 
 import subprocess

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The node over real DDS: samples, drops, diagnostics, life cycle, parameters. One process on ROS_DOMAIN_ID 149."""
 
 import threading

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What a board's USB side still held of the session before: it counts for nothing."""
 
 from __future__ import annotations

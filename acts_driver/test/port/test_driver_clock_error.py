@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Stamps against the truth of a real virtual board with a fast clock; `acts bench latency` tells how good they are."""
 
 import time

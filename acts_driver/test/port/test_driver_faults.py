@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Every fault of the virtual board against the driver: what is published, what is counted, when frames flow again.
 
 With `-s` it prints the figures of `docs/faults.md`; ACTS_LONG_FAULTS=1 adds the stalls of seconds.

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Choosing a port: among boards in a list, and on real pseudo-terminals that come back under another name."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The reader on a real pseudo-terminal: garbage, unplugging, a failing consumer; and ports that do not open."""
 
 import errno

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The driver process on the virtual board: the firmware's own encoder, pseudo-terminal and clock."""
 
 from __future__ import annotations

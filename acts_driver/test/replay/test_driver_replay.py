@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Recordings in place of a board: what comes out, in which order, when; and files that are none."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The judgements of the self-test, on frames of a modelled skin whose wiring is broken on purpose."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The clock filter against a simulated way with known truth, and against jumps."""
 
 import numpy as np

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The system's clock is set while frames come: stamps follow it with the next frame."""
 
 import numpy as np

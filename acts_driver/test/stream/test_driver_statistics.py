@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Gaps, wraps, restarts, repetitions and the rate; what of it is published."""
 
 import pytest

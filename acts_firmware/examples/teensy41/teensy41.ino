@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // Firmware of the readout board: a Teensy 4.1 that scans the array and streams frames over USB. docs/firmware.md says
 // how it is wired, built and flashed. Everything that is not the Teensy's own is in the library.
 #include <Arduino.h>

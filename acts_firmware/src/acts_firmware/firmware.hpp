@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // The firmware as a whole: measure a frame, stamp it, queue it for the host; do what the host says.
 #pragma once
 

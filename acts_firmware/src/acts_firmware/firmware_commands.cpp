@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // What the firmware does when the host speaks.
 #include "acts_firmware/firmware.hpp"
 

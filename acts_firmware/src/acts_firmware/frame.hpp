@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // What one frame is, from measurement to packet.
 #pragma once
 

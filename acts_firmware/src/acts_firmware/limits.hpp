@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // Sizes that everything on the board is made for; nothing is allocated after construction.
 #pragma once
 

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // Everything that a host can tell the board; `BoardSettings` of acts_core is the same in Python.
 #pragma once
 

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // The firmware's release, as replies report it. package.xml says the same; a test compares the two.
 #pragma once
 

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // What the sketch uses of the Teensy 4.1's core, declared once more: enough to compile it without Teensyduino, to tell
 // its size and to run it on a model of the board. Nothing here goes onto a board; the Arduino builder takes the real
 // headers.

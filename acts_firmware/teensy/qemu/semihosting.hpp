@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // What a program under QEMU asks of the host: arguments, files, the end (Arm's semihosting interface).
 #pragma once
 

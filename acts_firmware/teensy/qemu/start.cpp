@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // From reset to main() on QEMU's Cortex-M7. A Teensy starts by its own core; this is for the tests alone.
 #include <cstdint>
 #include <cstdlib>

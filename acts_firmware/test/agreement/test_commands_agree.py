@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The core carries out the commands that `acts_core` encodes, and its replies say so."""
 
 import dataclasses

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The core writes the packets that `acts_core.wire.samples` reads and writes."""
 
 import core_library

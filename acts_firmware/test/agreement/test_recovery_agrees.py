@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The core recovers and classifies as acts_recon does, to what single precision allows.
 
 Both sum in single precision, in different orders. The bounds leave a factor of ten to the largest differences seen.

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The core on the board and its Python reference measure the same taxels in the same order."""
 
 from collections.abc import Callable

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Recovery and classification on the virtual board take the time of the paper's Fig. 9."""
 
 from collections.abc import Callable

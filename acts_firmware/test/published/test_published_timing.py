@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The virtual board's frame rates are those the authors measured."""
 
 from collections.abc import Callable

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The Arduino builder, which compiles all of src/, builds what CMake builds and the tests test."""
 
 import re

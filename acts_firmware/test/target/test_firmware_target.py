@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The firmware built for the Teensy 4.1: it fits, and on an emulated processor of that kind it does what it does here.
 
 Skipped where the cross compiler or QEMU is not installed, unless ACTS_REQUIRE_FIRMWARE_TOOLS is set.

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Models on their way to the board: taken whole and right, or not at all."""
 
 import dataclasses

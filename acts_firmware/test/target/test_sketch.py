@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The Teensy's sketch, run on the host against a model of the Teensy and of the wiring, in virtual time."""
 
 from pathlib import Path

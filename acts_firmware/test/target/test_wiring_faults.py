@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Broken wiring of the virtual board, seen through a whole frame of a known field."""
 
 import subprocess

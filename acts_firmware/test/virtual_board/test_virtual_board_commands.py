@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Commands to the virtual board over its terminal, as a driver sends them, between the frames of a running stream."""
 
 import os

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What the virtual board measures: the simulated world's ring or a recording, each taxel at its own time."""
 
 import subprocess

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The virtual board under SCHED_FIFO: as asked, not as asked, and when it has more to do than there is time."""
 
 import os

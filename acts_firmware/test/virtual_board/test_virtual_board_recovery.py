@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A virtual board that recovers and classifies by itself: upload, images, objects, and the time they take."""
 
 from collections.abc import Iterator, Sequence

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The classifiers that the node and `acts evaluate` offer: a classifier is a module here and a line in `registry`.
 
 In come the samples of frame after frame, and what a method of recovery has made of them; out comes which of the objects

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The classifier ``fused_image``: the fused image, as far as it is known, against images of known objects."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What a classifier of frames is given, and what it answers with."""
 
 from __future__ import annotations

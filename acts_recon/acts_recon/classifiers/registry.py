@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """All classifiers by name: a new one is a module beside this and a line here (docs/extending.md)."""
 
 from __future__ import annotations

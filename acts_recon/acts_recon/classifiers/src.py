@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The classifier ``src``: the paper's sparse representation-based classification of each frame's samples alone."""
 
 from __future__ import annotations

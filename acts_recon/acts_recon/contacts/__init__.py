@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Contacts in an image: all of them as one, and each as a track with a number that stays.
 
 In comes an image with the uncertainty of its taxels; out come places, forces and areas, each with its uncertainty, and

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The contacts in an image one by one, in numba: the same as `blobs.find_blobs`, without allocation."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Track merge and split: contacts that become one, and part again; in numba, without allocation.
 
 The strongest of merged tracks is the host: it has the contact, at the contact's centre of pressure c. Track i of the

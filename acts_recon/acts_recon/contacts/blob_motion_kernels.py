@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Prediction and update of tracks, in numba, without allocation; for `blob_track_kernels`.
 
 A track is a Kalman filter of constant velocity for each axis, with white acceleration as process noise. The offset

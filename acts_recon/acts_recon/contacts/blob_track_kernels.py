@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Tracking of contacts from frame to frame, in numba, without allocation.
 
 A track is a contact with a number. It is active (seen in the last frame), away (not seen for a short while) or merged

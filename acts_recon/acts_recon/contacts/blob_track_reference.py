@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Reference implementation of `blob_track_kernels` and of the kernels that it uses."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """State of a track, for the kernels that follow it."""
 
 from __future__ import annotations

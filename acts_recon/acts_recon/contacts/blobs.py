@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The contacts in an image one by one, each with its standard deviations."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The contact in a full tactile image: where, how hard, how large."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The contact in one image after another, without allocation."""
 
 from __future__ import annotations

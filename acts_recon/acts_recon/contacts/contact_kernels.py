@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The contact in an image, in numba: the same as `acts_recon.contacts.contact.find_contact`, without allocation."""
 
 from __future__ import annotations

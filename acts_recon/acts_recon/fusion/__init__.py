@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Fusion of samples over time: an image at every frame out of all samples so far.
 
 In come samples, frame after frame; out come the image and the standard deviation of each taxel. The kernels and a

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Fusion of samples over time: an image at every frame out of all samples so far, and how sure it is.
 
 A frame of 55 samples shows little, but at 1 kHz the skin hardly changes from one frame to the next. The estimator

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Fusion of samples over time in numba: the same as `fusion_reference`, in float32 and without allocation.
 
 `fuse` takes one frame through the steps that `fusion` explains: find the velocities, predict the image to the end of

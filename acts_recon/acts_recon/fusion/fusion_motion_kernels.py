@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Optical flow of the image for `fusion_kernels`: Lucas-Kanade per tile, in each patch by itself."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Reference implementation of `acts_recon.fusion.fusion_kernels`: NumPy, in double precision."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What is true of every tactile image: its borders, its noise, its baseline, and what a frame must be.
 
 In come frames and layouts; out come tables and checks by which the methods of recovery work, and images as bytes.

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Raw counts less the baseline of their taxels, without allocation."""
 
 from __future__ import annotations

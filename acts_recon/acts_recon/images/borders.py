@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Borders in a picture: the edges of its patches, over which no taxel has a neighbour."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What the samples of a frame must be for recovery, and what is said where they are not."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Whether a frame fits the array, in numba: one of four codes, which `frame_check.why_refused` puts into words."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Tactile images as bytes: raw counts for programs, coloured and enlarged for people."""
 
 from __future__ import annotations

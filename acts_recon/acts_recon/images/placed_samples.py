@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The samples of a frame, checked and with their places in the picture."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """First-order propagation of the taxels' variances to force, centre, spread and area of a contact.
 
 This is the reference implementation; `uncertainty_kernels` is the same in numba.

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What the uncertainty of a taxel adds to that of its contact, in numba; `uncertainty` has the formulae."""
 
 from __future__ import annotations

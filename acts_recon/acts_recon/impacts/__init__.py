@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Impacts: told at the first touch, and when over with time, force, path, direction and what kind of touch it was.
 
 In come images with how sure they are and when each taxel was measured; out come touches that begin and that are over.

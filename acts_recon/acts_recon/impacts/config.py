@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """When a touch is an impact, a tap, a press, a step or a slide."""
 
 from __future__ import annotations

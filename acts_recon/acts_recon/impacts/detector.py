@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Impacts in image after image: told when they begin, and again when they are over."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """How a footprint moves while it grows and shrinks, from single samples, each with its own time.
 
 In a frame at 1 kHz the taxels of a bouncing ball are measured one after the other while its force changes by half, and

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What is told of a touch, at its beginning and when it is over."""
 
 from __future__ import annotations

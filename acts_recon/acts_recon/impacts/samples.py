@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The samples of the last frames, each with the time at which it was measured."""
 
 from __future__ import annotations

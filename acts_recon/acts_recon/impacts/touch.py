@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """One touch while it goes on: what is kept of its frames, and what they say when it is over."""
 
 from __future__ import annotations

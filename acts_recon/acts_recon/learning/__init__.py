@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Learning of dictionaries: K-SVD on patches of recorded or simulated frames.
 
 In come full frames; out come atoms. Nothing of it runs while a skin is read.

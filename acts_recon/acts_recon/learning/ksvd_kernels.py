@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The loops of K-SVD in numba; see `acts_recon.learning.ksvd`."""
 
 from __future__ import annotations

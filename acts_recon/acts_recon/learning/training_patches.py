@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """From full tactile frames to the patches that a dictionary is learnt from."""
 
 from __future__ import annotations

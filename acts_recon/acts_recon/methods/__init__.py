@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The methods of recovery that the node and `acts evaluate` offer: a method is a module here and a line in `registry`.
 
 In come the samples of frame after frame; out come images, how sure they are where the method knows, and the contact.

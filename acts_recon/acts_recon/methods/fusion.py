@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The method ``fusion``: all samples so far (`acts_recon.fusion`)."""
 
 from __future__ import annotations

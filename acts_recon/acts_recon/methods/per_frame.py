@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The method ``per_frame``: the paper's, each frame alone (`acts_recon.sparse`)."""
 
 from __future__ import annotations

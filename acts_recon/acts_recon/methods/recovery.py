@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """From samples to image and contact, by any of the methods."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Topics ``contacts``, ``view/contacts`` and ``contacts_view`` of the reconstruction node: the contacts one by one."""
 
 from __future__ import annotations

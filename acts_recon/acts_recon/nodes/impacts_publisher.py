@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Topic ``impacts`` of the reconstruction node: touches that begin, and what they were when they are over."""
 
 from __future__ import annotations

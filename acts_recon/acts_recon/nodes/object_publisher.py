@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Topic ``object`` of the reconstruction node: which of the known objects presses."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Node ``reconstruction``: samples in; full images and the contact in them out, as fast as the samples come.
 
 Topics: samples and baseline in; contact, contacts, impacts, regions, cop, image_raw, image, confidence, object and

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Topic ``regions`` of the reconstruction node: what each patch of the skin feels."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Which object presses: sparse representation-based classification, on samples and on images.
 
 In come frames or images and a library of known objects; out comes a class with its confidence, or that none is known.

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Which object presses: sparse representation-based classification (SRC) on the samples of one frame.
 
 FastOMP (`acts_recon.sparse`) chooses few columns A of a library of known objects, restricted to the measured taxels, so

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """SRC in numba: the same as `acts_recon.objects.classification.classify`, in single precision and without allocation.
 
 Also what all classifiers share: sorting by class, and the decision.

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Which object presses: known objects against an image of which some taxels are surer than others.
 
 The paper's SRC (`classification`) classifies the samples of one frame. Here the image of several frames is

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Classification of images in numba: `image_classification.classify_image` with memory and without allocation."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Sparse-representation classification (SRC) of a whole image, among the classes that a comparison ranks first.
 
 The paper's SRC (`classification`) chooses columns out of the whole library by a pursuit. Here `image_classification`

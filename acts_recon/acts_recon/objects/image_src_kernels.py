@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """SRC on a whole image in numba: the same as `acts_recon.objects.image_src.src_residuals`, without allocation."""
 
 from __future__ import annotations

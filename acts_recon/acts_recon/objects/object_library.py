@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Object libraries: full frames of known objects, with which an unknown one is compared."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Rate of change of the skin as a whole, by which the sigma of taxels that were not measured since is inflated.
 
 An object that comes down presses many taxels at once. A taxel that was not measured since still reads untouched, and

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts_recon.objects.rate_of_change` in numba, without allocation."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The contact of every patch of an image in one pass, in numba; the reference implementation is in the tests."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The contact on every patch of a skin, image after image."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Whether what presses a patch is a tip or blunt: the likelihoods of both, compared.
 
 The taxels about the most pressed one are compared with what they would feel of a tip, and of something blunt with the

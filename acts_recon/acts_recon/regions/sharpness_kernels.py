@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """How much more a contact looks like a tip than like something blunt, in numba; see `acts_recon.regions.sharpness`."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Slip: how far a pattern of pressure moves along the skin, and whether that is sliding.
 
 In come images, one after another; out come the motion in metres and events of slip (docs/slip.md).

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Slip on one patch of skin, from images whose taxels were all measured at once."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Tangential motion of a contact between two images of the same patch, by the method of Lucas and Kanade (1981).
 
 The pattern of pressure is modelled as that of the reference, shifted by d, with its force scaled by g and its width by

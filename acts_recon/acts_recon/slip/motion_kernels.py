@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The least squares of `acts_recon.slip.motion`, in numba; its reference implementation in NumPy is in the tests."""
 
 from __future__ import annotations

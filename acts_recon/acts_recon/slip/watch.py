@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Motion and slip on all patches of an image whose taxels were measured at different times.
 
 A board that measures a part of the taxels in each frame has a rolling shutter. While the force grows, taxels measured

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts_recon.slip.watch` for every patch of an image, in numba; the reference implementation is in the tests."""
 
 from __future__ import annotations

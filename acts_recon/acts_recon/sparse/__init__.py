@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Sparse recovery: the image from the samples of one frame alone, as a sum of few atoms of a dictionary.
 
 In come samples and a dictionary of patches; out comes the image. FastOMP (paper, section "Reconstruction") is here as a

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Dictionary files: the atoms of tactile patches, and where they came from."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """FastOMP in numba: the same as `acts_recon.sparse.fastomp_reference`, in single precision and without allocation.
 
 Most of the time goes into finding the atom that correlates most with a residual. All patches of a frame choose their

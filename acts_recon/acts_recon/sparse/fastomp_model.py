@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Dictionary and buffers of the kernels of FastOMP, allocated once."""
 
 from __future__ import annotations

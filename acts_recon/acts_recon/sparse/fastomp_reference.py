@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """FastOMP: recovery of a tactile image from few taxels, patch by patch. Reference implementation of `fastomp_kernels`.
 
 FastOMP is orthogonal matching pursuit (OMP) with a QR factorisation by modified Gram-Schmidt. For a patch with measured

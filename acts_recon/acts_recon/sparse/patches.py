@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Overlapping square patches that cover an array: the units in which it is recovered."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Where the dictionary that comes with ACTS is."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Objects by the fused fields, without ROS: layouts, gaps, frames of which no answer is needed."""
 
 import numpy as np

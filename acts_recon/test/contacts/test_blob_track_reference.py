@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Contacts with numbers: that the kernels do what the reference implementation says, whatever contacts do."""
 
 import numpy as np

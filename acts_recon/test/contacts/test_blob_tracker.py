@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Whether contacts keep their numbers: sliding, away for a moment, joined, parted, crossing, too many."""
 
 from collections.abc import Callable, Sequence

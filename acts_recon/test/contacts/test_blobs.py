@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Contacts of one image: kernel and reference implementation, and whether their uncertainty is what it says."""
 
 import math

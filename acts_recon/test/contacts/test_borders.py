@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Borders of patches: no contact, no patch of the recovery and no number of a contact goes over one."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Fusion over time: what it promises, whatever comes; that the kernels do what the reference implementation says."""
 
 import math

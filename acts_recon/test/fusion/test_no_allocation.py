@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What runs a thousand times a second allocates no arrays in its kernels."""
 
 from collections.abc import Callable, Iterator

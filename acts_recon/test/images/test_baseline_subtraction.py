@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The baseline in the reconstruction: subtracted from the counts, and over real DDS (ROS_DOMAIN_ID 49)."""
 
 from array import array

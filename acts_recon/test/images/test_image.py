@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 import numpy as np
 
 from acts_recon.images import mono16, rgb8

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Topics contacts, view/contacts and contacts_view over real DDS; ROS_DOMAIN_IDs 120 and 121."""
 
 import time

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Topic impacts over real DDS; ROS_DOMAIN_ID 208."""
 
 import time

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Topic object over real DDS, by both methods; ROS_DOMAIN_IDs 45 and 125 to 127."""
 
 from collections.abc import Callable

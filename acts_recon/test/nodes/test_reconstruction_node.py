@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The node over real DDS; ROS_DOMAIN_IDs 28, 40 to 44, 110 to 112 and 191."""
 
 import os

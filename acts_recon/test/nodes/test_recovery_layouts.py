@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Recovery of skins whose matrix is not their picture."""
 
 import numpy as np

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Topic regions over real DDS; ROS_DOMAIN_IDs 212 and 213."""
 
 from collections.abc import Callable

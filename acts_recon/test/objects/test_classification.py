@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """SRC: the reference implementation on frames whose object is known, the kernel against it."""
 
 import numpy as np

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Classification of images: the reference implementation on known images, the kernel against it."""
 
 import math

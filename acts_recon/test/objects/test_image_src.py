@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """SRC among the classes that a comparison proposes: which columns are asked, and what they leave."""
 
 import numpy as np

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """How fast the skin changes: single steps by hand, a run against the reference implementation."""
 
 import numpy as np

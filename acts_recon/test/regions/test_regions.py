@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Regional contact maps: compared with NumPy, with the layout, and on any image."""
 
 from __future__ import annotations

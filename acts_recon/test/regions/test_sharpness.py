@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Sharpness of a contact: tips and blunt ends pressed into a foam of its own, and the kernel against NumPy."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Tangential motion and slip on patches of skin: made patterns whose motion is known."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Slip on patches whose taxels are measured in turn: through sampling, fusion and all that is pressed besides."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """FastOMP: the reference implementation against linear algebra, the kernel against the reference implementation."""
 
 import numpy as np

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Reading bags of any recorder. Importing this imports neither ROS nor rosbags; `reading` imports rosbags."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Message types by name: their Python classes, and their definitions and hashes as bags store them."""
 
 from __future__ import annotations

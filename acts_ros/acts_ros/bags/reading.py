@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Reading bags, also those whose recorder was killed and those that are damaged."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Read an MCAP file that was cut off anywhere, up to its last complete record.
 
 An MCAP file is a magic number and then records: one byte of kind, eight of length, the content. Readers look for a

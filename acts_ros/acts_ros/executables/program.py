@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Entry points of the executables: signal handlers first, then imports, then nodes."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The text of an executable's ``--help``; ROS is not initialised for it."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A process that refuses its settings waits instead of ending, where it would be started again for ever.
 
 `acts launch` never restarts such a process (`acts_core.errors.REFUSED_EXIT_CODE`). `ros2 launch` restarts it for ever,

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Conversion of messages to and from serialised bytes and the types of acts_core.
 
 In come frames, contacts and regions; out come messages or their bytes, and back.

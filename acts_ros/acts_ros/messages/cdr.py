@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Serialised messages read and written directly: the header of any message, and all of acts_msgs/Contact.
 
 At 1 kHz, building and reading message objects costs several times as much as the work on their numbers; rclpy also

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Serialised acts_msgs/RegionContacts read and written directly; see `acts_ros.messages.cdr`."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Conversion of frames of samples to acts_msgs/TactileSamples and back."""
 
 from __future__ import annotations

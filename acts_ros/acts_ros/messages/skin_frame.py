@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The tf2 frame of a skin, which has the same name in all messages."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Output of a launch and its processes to the screen and a log file, in the format of `ros2 launch`."""
 
 from __future__ import annotations

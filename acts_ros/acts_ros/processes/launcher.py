@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Run processes: start, watch, respawn, and stop all of them.
 
 One thread only: a child gets SIGTERM when the thread that started it ends (`leave_with_parent`), so that must be the

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Find packages and their executables in the ament index, without importing ROS."""
 
 from __future__ import annotations

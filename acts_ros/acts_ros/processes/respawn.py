@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """How long to wait before a process that has ended is started again."""
 
 from __future__ import annotations

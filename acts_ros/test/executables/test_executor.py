@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A node process from start to stop; ROS_DOMAIN_ID 11."""
 
 import os

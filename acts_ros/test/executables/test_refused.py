@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A process that refuses what it was given, under a launcher that would start it again and again, and otherwise."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Headers and contacts as bytes, compared with what rclpy itself makes of them."""
 
 import math

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Names of the frames of skins. ROS_DOMAIN_ID 148."""
 
 from collections.abc import Iterator

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Processes run by a program of its own, without a log file: respawn, orderly end, and the program killed."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The simulated plate with its ball, from the robot's joints to the board's taxels.
 
 In come joint angles; out come the counts of every taxel and the ball's true position. The physics depends on no clock

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A solid ball that rolls without slipping on the moving plate."""
 
 from __future__ import annotations

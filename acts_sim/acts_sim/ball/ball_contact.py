@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Counts of all taxels under a ball: a sphere pressed into foam over the array.
 
 The foam is an elastic (Winkler) foundation: pressure is stiffness times depth, so inside the contact circle

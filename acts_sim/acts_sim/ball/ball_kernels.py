@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Kernels of the ball's world: the plate's motion, a step of the rolling ball, and the counts under it.
 
 `ball_contact.forces_n` is the reference implementation of `press`; the other two are checked against closed solutions.

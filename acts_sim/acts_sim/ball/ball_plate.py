@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The plate under the ball: its motion from the motion of the arm's joints."""
 
 from __future__ import annotations

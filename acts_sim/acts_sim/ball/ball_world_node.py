@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The node `ball_world`: the simulated plate with its ball, from the robot's joints to the board's taxels.
 
 Publishes the ball's true position on ``ball/truth``, for evaluation only: no controller subscribes to it.

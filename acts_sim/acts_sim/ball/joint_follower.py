@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The arm's joints at any time, interpolated from the ring that the simulated robot writes."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The simulated world of the ball-balancing task: arm, plate, ball and skin.
 
 In each step, the joints move the plate, the plate moves the ball, and the ball presses the taxels. It depends on no

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Runs a world in real time, a little ahead of the host's clock, and writes the field of counts to a ring."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Simulated Dynamixel motors on a bus, for the unmodified SDK: registers, packets and faults.
 
 In come packets on a pseudo-terminal; out come replies. A drive moves each motor, or a world does.

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The motors on one bus: which of them an instruction addresses, their replies, and the delay of these."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A socket for text commands while the simulation runs: one line in, one line of reply."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Client of a `ControlSocket`, to control a simulation."""
 
 from __future__ import annotations

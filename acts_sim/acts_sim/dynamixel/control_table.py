@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The control table of the XC330-M288-T and XL330-M288-T: registers and their addresses.
 
 These motors are those of the LEAP hand. Source: https://emanual.robotis.com/docs/en/dxl/x/xc330-m288/ and

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Position control of a motor with a limit on the current, and the resulting torque.
 
 Gains are as in the e-manual: KP = P / 128, KI = I / 65536, KD = D / 16, on the error in pulses. The manual does not

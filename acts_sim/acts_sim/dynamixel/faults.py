@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Faults of a bus and its motors, as text commands while it runs."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Joints that move freely between stops: the mechanics of motors that touch nothing."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """``dynamixel_bus``: the command line of a simulated bus of Dynamixel motors on free joints."""
 
 from __future__ import annotations

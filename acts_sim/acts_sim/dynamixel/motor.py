@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """One motor: its control table with the rules for reads and writes, its errors, its torque."""
 
 from __future__ import annotations

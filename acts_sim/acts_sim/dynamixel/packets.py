@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Packets of the Dynamixel Protocol 2.0 (https://emanual.robotis.com/docs/en/dxl/protocol2/).
 
 A packet is ``FF FF FD 00``, the ID, the length of the rest as two bytes, an instruction, its parameters, and a CRC of

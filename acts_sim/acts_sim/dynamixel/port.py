@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A bus behind a pseudo-terminal, as behind a USB adapter, with the delays of a real wire."""
 
 from __future__ import annotations

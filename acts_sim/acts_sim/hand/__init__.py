@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The simulated LEAP hand, the object in it, and its skin.
 
 In come goals of motors and commands; out come angles, currents, counts of 1024 taxels, and the truth for evaluation.

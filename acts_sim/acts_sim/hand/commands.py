@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Text commands that act on hand and object while the world runs."""
 
 from __future__ import annotations

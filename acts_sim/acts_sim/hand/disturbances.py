@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Disturbances: forces on the object, and shaking of the hand."""
 
 from __future__ import annotations

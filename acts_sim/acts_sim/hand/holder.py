@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Springs and dampers that hold the object at a pose which can move, like a person's arm."""
 
 from __future__ import annotations

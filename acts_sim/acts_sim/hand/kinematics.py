@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Links, joints and solids of the right LEAP hand.
 
 Offsets and limits are those of its URDF (Shaw et al., 2023, doi:10.15607/RSS.2023.XIX.089). The palm's frame is that of

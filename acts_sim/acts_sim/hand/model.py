@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Hand, object and tip as a MuJoCo model. Its world frame is the palm's: gravity turns instead of the hand."""
 
 from __future__ import annotations

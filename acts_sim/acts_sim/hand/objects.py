@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Objects for the hand to hold, each made of a few solids."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The hand's skin: foam over 13 patches, and the forces on its 1024 taxels."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Kernels of the hand's skin: depth and force at every point of the foam, and the forces on taxels and bodies.
 
 The foam is an elastic (Winkler) foundation of many points: the pressure at a point grows with the depth there. Along

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The solids that press the skin, as arrays for the kernel: pieces of the object, and the tip."""
 
 from __future__ import annotations

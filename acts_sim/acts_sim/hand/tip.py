@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A rod with a round tip that pokes a patch of the skin in a straight line."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The true state of the hand's world, for evaluation only: no controller of the hand may read it.
 
 `hand_world` writes it as rows of numbers into a ring in shared memory, 500 times a second. This module defines the

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The hand's world: motors move joints, joints move links, and links and object press each other through the skin.
 
 It depends on no clock and no process: the same seed and the same commands to motors and world give the same bits.

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Balls that are dropped and thrown on a skin: flight, contact, footprint, and the frames that a board would read.
 
 In come a ball and how it is thrown; out come full frames at a high rate, and what really happened: force, centre, time.

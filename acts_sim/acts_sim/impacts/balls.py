@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Balls that are dropped and thrown: mass, size, and how they meet the skin."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Balls on a skin: full frames as a board would read them, with what really happened beside."""
 
 from __future__ import annotations

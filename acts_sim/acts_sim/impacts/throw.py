@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The flight of a ball that bounces: a rigid sphere on a spring with losses, and friction where it touches."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Objects pressed into the skin: foam, force response, noise, and fast events.
 
 In come objects and motions; out come full frames of counts.

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Counts of the skin when an object is pressed into it: foam, force response and noise.
 
 The foam is an elastic (Winkler) foundation: the pressure at a point is proportional to the object's depth there. In

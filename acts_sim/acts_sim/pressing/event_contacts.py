@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Objects that slide over the skin or bounce on it in fast events (events.py): small, round and smooth."""
 
 from __future__ import annotations

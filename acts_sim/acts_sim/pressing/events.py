@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Fast events on a skin, as full frames at a high rate: bounces, slides, taps, one contact after another.
 
 Frames contain no noise, so that it can be added to each sample. To add a kind of event, write a function from a random

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Objects to press into the skin: a registry of small functions, each of the underside of one object.
 
 An object is described by its gap: the height of each point of its underside above its lowest point, in the object's

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Outlines and undersides of objects: functions of a grid's points in an object's frame [m]."""
 
 from __future__ import annotations

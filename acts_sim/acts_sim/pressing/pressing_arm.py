@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Objects pressed repeatedly by an arm at nearly the same spot, as in the paper's trials.
 
 "The robot repeatedly moved the object into the sensor at a repetitive spot and speed for each object" (paper, methods).

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Convert recordings of real arrays to the plain frames file that the virtual board replays.
 
 Two kinds of npz files are read. Evaluation files have ``frames`` (n, rows, cols) uint16 of 0 to 1023, ``rate_hz``, and

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Communication of simulated processes: a private folder, rings in shared memory, lines of text over sockets.
 
 In come arrays with their times; out come those of any time in the last 128 ms.

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Line-based protocol of dashboard, test hooks and control sockets: one line of reply to each line."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The folder that simulated processes share: it belongs to one user, and each file in it to one process.
 
 The virtual board does the same in C++ (acts_firmware/virtual_board/claim.cpp).

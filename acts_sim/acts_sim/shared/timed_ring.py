@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A ring of timestamped arrays in a memory-mapped file, which simulated processes share at 1 kHz.
 
 One process writes, any number read, and none ever waits (a seqlock per slot). The world writes fields of counts that

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A simulated UR5e with its controller; `ports` serves clients such as the unmodified ur_rtde.
 
 In come commands and programs; out come the robot's state in every cycle, and its joints in a ring.

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The simulated commands of the control script, by code: arguments, effect and result.
 
 Arguments are in the input registers, in the order of the client's function. Results are written to output integer

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Settings of the simulated controller, and data of the UR5e."""
 
 from __future__ import annotations

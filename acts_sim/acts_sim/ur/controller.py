@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The simulated controller: joints, safety, program, registers. One `tick` is a 2 ms cycle; it reads no clock."""
 
 from __future__ import annotations

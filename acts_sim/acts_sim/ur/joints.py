@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Motion of the joints, always within their limits of speed and acceleration.
 
 Floats instead of arrays: for six values per cycle NumPy is slower.

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """``ur_controller``: the command line of the simulated UR5e controller."""
 
 from __future__ import annotations

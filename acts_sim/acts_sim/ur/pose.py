@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Conversion of poses of Universal Robots, x, y, z [m] and a rotation vector [rad], to transforms and back."""
 
 from __future__ import annotations

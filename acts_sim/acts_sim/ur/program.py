@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Emulation of the control script that ``ur_rtde`` uploads: its handshake over registers, once per cycle.
 
 The client writes a command to input integer register 0 and reads the reply from output integer register 0: 1 is ready,

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The pressed field: kernel against its reference implementation, centre of pressure, force, size."""
 
 import numpy as np

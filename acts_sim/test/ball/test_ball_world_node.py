@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The node over real DDS, with a fake robot writing joints; ROS_DOMAIN_IDs 79, 100 and 101."""
 
 import os

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The world as a whole: phases, seed, pushes, bad joints."""
 
 import math

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Time: joints at any instant, and a world that keeps ahead of the clock. The clock is given, nothing waits."""
 
 import math

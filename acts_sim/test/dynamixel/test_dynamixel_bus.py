@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The real `dynamixel_sdk` on the simulated bus, which is a process of its own behind a pseudo-terminal."""
 
 from __future__ import annotations

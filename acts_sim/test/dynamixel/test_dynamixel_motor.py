@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A simulated motor's control table and its rules, without a wire."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Protocol 2.0: packets written and found again, whatever is in them and between them."""
 
 from hypothesis import given

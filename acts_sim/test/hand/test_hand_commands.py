@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What can be done to the simulated hand in words, and when the loop of its process leaves steps out."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The simulated hand is the LEAP hand: joints where its URDF has them, skin where its solids are."""
 
 from __future__ import annotations

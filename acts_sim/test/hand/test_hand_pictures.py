@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Pictures of the simulated hand, with and without a graphics library."""
 
 from __future__ import annotations

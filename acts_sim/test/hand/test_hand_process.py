@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The process `hand_world`: the real `dynamixel_sdk` moves fingers, the ring tells what they feel. No ROS."""
 
 from __future__ import annotations

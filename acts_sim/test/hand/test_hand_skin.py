@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The skin of the simulated hand: footprints, tips, sliding."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The simulated hand: what it holds, what its skin feels of that, and that nothing is left to chance."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Balls on a skin: what bounces, for how long, how hard, where to, and what the skin reads of it."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Exports of npz recordings; the real ones are measured where they are at hand."""
 
 from collections.abc import Callable

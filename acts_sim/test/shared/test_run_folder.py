@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The folder of simulated processes: one user's alone, and each thing in it one process's alone."""
 
 import os

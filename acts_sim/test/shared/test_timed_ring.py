@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The shared ring: between two processes, replaced while being read, and refused where it is none."""
 
 import errno

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The simulated UR5e as the real ur_rtde client sees it; clients run in processes of their own (`ur_clients`)."""
 
 from __future__ import annotations

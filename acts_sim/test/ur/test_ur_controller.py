@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The control script and the safety states of the simulated controller, cycle by cycle, without sockets."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """How the simulated joints move: lag, limits, and that no command ever breaks them."""
 
 from __future__ import annotations

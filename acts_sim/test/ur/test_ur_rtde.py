@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The packet codec, recipes and sessions of the simulated RTDE port, without sockets."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The process around the simulated UR5e: start, end, the joint ring, and clients that send anything at all."""
 
 from __future__ import annotations

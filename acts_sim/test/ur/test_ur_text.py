@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Poses, and the two text ports of the simulated controller."""
 
 from __future__ import annotations

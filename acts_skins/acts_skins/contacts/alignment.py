@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Frames of several skins at one common time, and which skins are stale or lost. Does not depend on ROS."""
 
 from __future__ import annotations

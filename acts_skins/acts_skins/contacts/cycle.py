@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A function called at a fixed rate in a thread of its own, because a timer of rclpy does not keep 1 kHz."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`skin_contacts`: merge the contacts of all skins of a file.
 
 One process with the node of this name and those of `skin_overview` (frames of the skins, and an aggregate of their

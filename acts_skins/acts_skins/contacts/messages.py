@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Conversion of messages: contacts of one skin in, contacts of all skins out."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The node `skin_contacts`: merges the contacts of all skins of a file, in one frame, into one message."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Transform contacts from a skin's frame to the robot's. Does not depend on ROS."""
 
 from __future__ import annotations

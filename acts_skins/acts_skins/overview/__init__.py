@@ -1,1 +1,4 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """All skins together: their frames, and an aggregate of their diagnostics."""

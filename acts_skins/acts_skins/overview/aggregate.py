@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The diagnostics of all skins as one tree, like ROS's diagnostic_aggregator. Does not depend on ROS."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The node `skin_diagnostics`: aggregates what the nodes of all skins publish on /diagnostics."""
 
 from __future__ import annotations

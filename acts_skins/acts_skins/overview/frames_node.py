@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The node `skin_frames`: publishes the frames of the skins."""
 
 from __future__ import annotations

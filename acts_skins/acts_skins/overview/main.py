@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`skin_overview`: publish the frames of the skins of a file, and an aggregate of their diagnostics.
 
 One process with the nodes `skin_frames` and `skin_diagnostics`.

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Messages out of a bag, checked; what cannot be used is told by its number and topic."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Publish a bag's messages at the rate at which they were recorded."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Conversion of quality of service between the graph, bags, and our publishers and subscriptions."""
 
 from __future__ import annotations

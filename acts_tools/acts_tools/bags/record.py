@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts record`: record topics to an MCAP bag in rosbag2's layout."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Subscribe to topics as they appear, and write their serialised messages to a bag."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Write bags like rosbag2 where the library rosbags differs: version, type hashes, times, distribution."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Ctrl-C, SIGTERM and SIGHUP as a flag, so that a loop ends between two steps, never within one."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Write a bag such that a crash loses only the last second."""
 
 from __future__ import annotations

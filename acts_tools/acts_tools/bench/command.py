@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts bench [NAME...]`: measure the performance of the sensing."""
 
 from __future__ import annotations

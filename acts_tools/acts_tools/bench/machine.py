@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The machine of a measurement, and its load by other programs."""
 
 from __future__ import annotations

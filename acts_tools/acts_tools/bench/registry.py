@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The measurements by name.
 
 To add one, write a module with ``measure(workbench: Workbench) -> Result`` (see `acts_tools.bench.result`), and add a

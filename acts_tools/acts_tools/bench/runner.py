@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Run measurements one after another and assemble the report."""
 
 from __future__ import annotations

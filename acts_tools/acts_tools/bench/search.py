@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Search for the largest value that satisfies a condition, one trial at a time."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Resources of a measurement: time, a folder, and a stop flag."""
 
 from __future__ import annotations

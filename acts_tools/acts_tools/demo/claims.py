@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Exclusive use of a folder and a robot's address: a second demonstration fails instead of disturbing the first.
 
 Both end with the process, however it ends, and leave no files.

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts demo NAME`: the demonstrations by name."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Run a launch file for the length of a block."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Wait for events of a demonstration with a status line, and notice when its launch ends."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts diagnostics`: print the newest reports of all nodes; the exit code is the worst level."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Statuses received on the diagnostics topics, as a table, as JSON, and as an exit code. Does not depend on ROS."""
 
 from __future__ import annotations

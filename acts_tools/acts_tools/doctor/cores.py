@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Number of usable cores, and their clock when a frame arrives."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Result of a check: its level, a sentence, and a command that corrects it."""
 
 from __future__ import annotations

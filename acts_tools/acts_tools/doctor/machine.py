@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Interface of the checks to the machine: files, limits and environment, which tests can replace."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Checks of shared memory, of files that dead processes left in it, and of swap."""
 
 from __future__ import annotations

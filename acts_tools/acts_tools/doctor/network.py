@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Checks of the network for ROS: socket buffers, domain and discovery."""
 
 from __future__ import annotations

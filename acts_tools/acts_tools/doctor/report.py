@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Report of all findings: the verdict, text for a person, and JSON."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Checks of real-time scheduling: whether it is allowed, and how well it works."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts driver`: control a running driver, also on machines without the `ros2` command."""
 
 from __future__ import annotations

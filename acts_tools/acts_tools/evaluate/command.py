@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts evaluate`: the evaluations, each a module with ``add_parser(commands)``."""
 
 from __future__ import annotations

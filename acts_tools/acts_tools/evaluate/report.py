@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Output of the evaluations: lines of a table, and JSON."""
 
 from __future__ import annotations

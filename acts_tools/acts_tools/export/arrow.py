@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Import of pyarrow, the optional library that writes parquet."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Images of one skin in a bag: recorded, or recovered from samples like in the node reconstruction."""
 
 from __future__ import annotations

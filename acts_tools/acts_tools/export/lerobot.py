@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Write recordings as episodes of a LeRobot dataset, format v3.0, for lerobot 0.4 to 0.6.
 
 Parquet tables of rows (``data/``) and of episodes (``meta/episodes/``), the tasks (``meta/tasks.parquet``), a

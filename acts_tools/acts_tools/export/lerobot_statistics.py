@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Statistics of columns in LeRobot datasets."""
 
 from __future__ import annotations

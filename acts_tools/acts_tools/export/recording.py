@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The exported part of a bag: one skin, its contacts and the joints, at common times."""
 
 from __future__ import annotations

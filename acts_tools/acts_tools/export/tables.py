@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Write two tables of a recording as csv, npz or parquet: its rows, and the contacts of each row."""
 
 from __future__ import annotations

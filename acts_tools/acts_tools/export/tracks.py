@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Time series in a bag: the total contact, single contacts, joint states."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts launch`: run a launch file, list its arguments, or show what it would start."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Evaluate actions and arguments to a plan of processes, without starting them."""
 
 from __future__ import annotations

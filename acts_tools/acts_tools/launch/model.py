@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Model of a parsed launch file: a list of actions, each with its place in the file and an optional condition."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Values of `param` tags, with types from YAML or the `type` attribute, as in launch_ros."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Parse XML launch files to actions. Unsupported features are refused by name, with the messages of the real launch."""
 
 from __future__ import annotations

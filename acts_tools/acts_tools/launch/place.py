@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Places in launch files, and errors that name them."""
 
 from __future__ import annotations

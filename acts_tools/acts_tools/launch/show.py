@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """List the arguments of a launch file in the format of `ros2 launch --show-args`."""
 
 from __future__ import annotations

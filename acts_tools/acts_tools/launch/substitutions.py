@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Text with substitutions, such as ``$(var run_dir)/board``: parsing, description and evaluation."""
 
 from __future__ import annotations

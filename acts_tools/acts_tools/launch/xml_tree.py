@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """XML elements with their lines, which record the attributes that have been read."""
 
 from __future__ import annotations

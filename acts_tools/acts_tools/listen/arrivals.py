@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Statistics of the messages of one topic: received, missing, and their delay. Does not depend on ROS."""
 
 from __future__ import annotations

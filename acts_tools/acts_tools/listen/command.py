@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts listen TOPIC...`: print once a second what arrives on this machine, what is missing, and its delay."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The node that observes a simulated hand and fills a `HandRecording`."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A simulated hand with its skin and reflexes in all their processes, from their start to their end."""
 
 from __future__ import annotations

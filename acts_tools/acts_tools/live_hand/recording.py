@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The recorded data of a run of a simulated hand. All times are CLOCK_MONOTONIC [s]."""
 
 from __future__ import annotations

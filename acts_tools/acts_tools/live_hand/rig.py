@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The rig of `acts evaluate hand` over the real interfaces: like `HandRig`, but with a running launch.
 
 It is slightly behind the present, so that all data of its time have arrived: truth from a ring, status and regions

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Launch a simulated hand for every rig of a scenario."""
 
 from __future__ import annotations

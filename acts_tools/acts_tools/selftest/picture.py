@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The picture of a self-test: noise, baseline and response of every taxel, with faults marked."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Result of a self-test, as text and as JSON."""
 
 from __future__ import annotations

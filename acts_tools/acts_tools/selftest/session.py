@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Access to a board during a self-test: read frames, change settings, and restore them at the end."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A virtual board for the self-test, optionally with faulty wiring, and a rough roller in place of the hand."""
 
 from __future__ import annotations

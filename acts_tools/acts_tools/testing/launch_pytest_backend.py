@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The second back-end of launch tests: the real `launch_pytest`, in the process of the tests."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Launch tests for two back-ends: the real `launch_pytest` where it is installed, `acts launch` elsewhere.
 
     @launch_fixture

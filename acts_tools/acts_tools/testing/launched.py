@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A launch under test: its description, its interface to tests, and its implementation by `acts launch`."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Observe a running ROS graph in a test: wait for publishers and messages, with deadlines and without sleeps."""
 
 from __future__ import annotations

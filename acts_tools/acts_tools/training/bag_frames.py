@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Read full frames from a bag: images in counts, or samples of full frames."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Checkpoint of an interrupted training, from which the same command continues."""
 
 from __future__ import annotations

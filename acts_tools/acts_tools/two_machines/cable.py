@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The process that makes two machines and the cable between them: `python3 -m acts_tools.two_machines.cable`.
 
 Each machine is a process that waits in a network and a mount namespace of its own, with one end of the cable, an

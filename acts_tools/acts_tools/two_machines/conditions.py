@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Conditions of the cable, and its counts."""
 
 from __future__ import annotations

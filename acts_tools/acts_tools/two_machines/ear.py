@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts listen` on one of the machines, and its reports."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Run programs on two machines, and change the conditions of their cable."""
 
 from __future__ import annotations

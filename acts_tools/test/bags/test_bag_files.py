@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Bags as files: definitions, writing, reading, and what is left of one that was cut off or damaged anywhere."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A bag of a grasp: what the skin felt, recorded, played, and given to the reflexes again; ROS_DOMAIN_ID 214."""
 
 from __future__ import annotations

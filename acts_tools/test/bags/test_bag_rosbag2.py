@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Bags against what the readers of rosbag2 require, distribution by distribution.
 
 The rules are those of rosbag2's own source: `rosbag2_storage` (``metadata_io.cpp`` of Humble, ``yaml.hpp`` and

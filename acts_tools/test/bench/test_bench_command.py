@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts bench`: choosing, reporting, and what it says of a run. ROS_DOMAIN_ID 105."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The plain decoder that `acts bench` compares with: the same frames from any bytes, whole or damaged."""
 
 from __future__ import annotations

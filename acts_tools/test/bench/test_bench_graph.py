@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The look of a measurement into the ROS graph. ROS_DOMAIN_ID 133."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Every measurement that runs the driver, for a moment: what it counts is right, how fast it was is not asked.
 
 ROS_DOMAIN_ID 106 to 108.

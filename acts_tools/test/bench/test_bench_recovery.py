@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The measurements of recovery and of learning: what they count and compare is right, how fast it is not asked."""
 
 from __future__ import annotations

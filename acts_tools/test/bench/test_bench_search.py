@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The plain parts of `acts bench`: search for the highest rate, judgement of a run, true time of a frame."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts bench skins` without processes: its options, what it counts, and what it makes of figures."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts bench skins` for real and for a moment: what it counts, and how it ends. It chooses its ROS domains itself."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts bench soak`, much shorter than it is meant to be; and what it calls a problem. ROS_DOMAIN_ID 51."""
 
 from __future__ import annotations

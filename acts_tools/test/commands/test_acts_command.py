@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The acts command itself: help, version, errors, and what importing it costs."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts doctor` on made-up machines: a good one, and one for everything that can be missing."""
 
 from __future__ import annotations

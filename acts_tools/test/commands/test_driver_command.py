@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts driver` as a user runs it, on a driver process with a virtual board; ROS_DOMAIN_ID 119."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts listen`: its arithmetic, and the command on a publisher of this process; ROS_DOMAIN_ID 151."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """How far a work is: a bar where somebody looks, a few lines or nothing in a file."""
 
 from __future__ import annotations

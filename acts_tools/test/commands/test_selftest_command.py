@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts selftest` as a user runs it, on virtual boards with noise and broken wiring."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts view` as a person starts it; ROS_DOMAIN_ID 221."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A second demonstration in the same folder, or with the same robot, is told before anything is started."""
 
 from pathlib import Path

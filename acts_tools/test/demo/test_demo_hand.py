@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The demonstration of the hand: figures, table and picture out of a made recording; an act as a user plays it.
 
 ROS_DOMAIN_ID 232.

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Scoring, table and picture of the demo on made-up recordings with known errors."""
 
 from pathlib import Path

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The firmware's sampler on recordings measures what the Python reference measures."""
 
 import math

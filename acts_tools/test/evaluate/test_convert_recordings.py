@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Public recordings, made here in their published formats, become files that can be evaluated."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Whether errors on simulated slides are as large as the fusion says they are."""
 
 import numpy as np

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Classification on simulated presses and on recordings; thresholds are measured, with margin."""
 
 import argparse

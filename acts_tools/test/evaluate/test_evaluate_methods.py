@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The plain methods that the recovery is compared with."""
 
 from collections.abc import Callable

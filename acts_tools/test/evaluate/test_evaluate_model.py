@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts evaluate events` and `objects` on a few of them."""
 
 import json

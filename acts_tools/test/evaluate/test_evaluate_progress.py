@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """How evaluations tell what is wrong before the work, how far they are, and what they leave when interrupted."""
 
 from __future__ import annotations

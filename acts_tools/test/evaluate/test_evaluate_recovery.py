@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts evaluate recovery`: the report on recordings whose answer is known."""
 
 import json

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts evaluate slip` on made recordings, and on the real ones where they are."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The sampling schemes of the firmware and of Python say the same of themselves."""
 
 import pytest

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Touch of a bag as tables: what belongs together, and what each format holds."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts evaluate impacts` and `acts evaluate ricochet`: what they report of a few balls."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Impacts on the simulated skin, through sampling and fusion: what is told of them, and of what is none."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The cable between two machines: what it delays, loses and counts; on pipes, without any namespace."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Launch files to command lines: what real ROS 2 launch would start, and its words for what is wrong."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts launch` as a process: starting, output, respawn, deaths, and stopping without leaving anything behind."""
 
 from __future__ import annotations

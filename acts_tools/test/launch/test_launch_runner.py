@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The launch tests' own tools, on a node made up here; the bodies run by launch_pytest where it is installed."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Substitutions in launch files: the grammar of the real launch, its words for what is wrong, and its evaluation."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Quality of the shipped dictionary: limits lie 10 to 50 % above what was measured (docs/reconstruction.md)."""
 
 from collections.abc import Callable

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Frames to learn from, out of bags."""
 
 from __future__ import annotations

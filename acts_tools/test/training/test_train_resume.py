@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts train` interrupted and gone on with, and how it shows where it is."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Image, contacts and regions of one skin out of its frames, in this process, as the node reconstruction makes them."""
 
 from __future__ import annotations

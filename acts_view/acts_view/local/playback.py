@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A recording gone through at its own pace, with pause and seek, on a thread of its own. Knows no ROS."""
 
 from __future__ import annotations

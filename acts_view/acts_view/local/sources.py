@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Where the frames of a skin that is shown without a graph come from: a recording, or a board at its port."""
 
 from __future__ import annotations

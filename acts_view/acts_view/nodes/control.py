@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What pages ask for, done by the services of the nodes, of which none can hold the view up."""
 
 from __future__ import annotations

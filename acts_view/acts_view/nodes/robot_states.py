@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What a robot is about, out of its messages, as the page is told: a ball that is balanced, a hand and its joints.
 
 Anybody in the domain can send such messages: texts and lists are cut, and what is no number is left out.

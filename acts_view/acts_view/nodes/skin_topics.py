@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The topics of one skin, polled: what is newest of each, as the page is to show it."""
 
 from __future__ import annotations

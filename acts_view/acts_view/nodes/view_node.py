@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Node ``view``: a page in the browser that shows what skins feel. It only listens, unless `control` lets pages ask.
 
 While no page is open it subscribes to no skin, so that nothing is computed for it.

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // What to do about what a node complains of: by words in its sentence, the first that fits.
 
 const ADVICE = [

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // The socket to the server: comes back by itself, and notices a server that is silent.
 
 import { decode } from "./codec.js";

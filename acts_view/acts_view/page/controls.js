@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // What the nodes can be asked for, as far as the server lets a page ask, and what they have answered.
 
 import { ask } from "./requests.js";

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // What the nodes say of themselves: a line each, with what to do, and its values when it is opened.
 
 import { advice } from "./advice.js";

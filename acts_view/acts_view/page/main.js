@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // Puts the page together: messages to panels, choices to what is drawn.
 
 import { connect } from "./connection.js";

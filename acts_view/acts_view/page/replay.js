@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // A recording that is shown: play, pause, and where in it one is.
 
 import { ask } from "./requests.js";

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // What the page asks the server for, and what is answered.
 
 const PATIENCE_MS = 15000;

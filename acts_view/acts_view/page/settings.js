@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // What a person has chosen; it survives a reload.
 
 const KEY = "acts_view";

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Where the patches of a skin are drawn, as a person sees them from outside. Knows no ROS.
 
 Patches in the frame of the whole skin lie as they do in the picture. Those of a hand, which links carry, are packed

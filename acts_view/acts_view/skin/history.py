@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What a 1 kHz stream was like lately: smallest and largest values of short intervals. Knows no ROS."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What the page is told of a skin: what it is like, and its newest state. Knows no ROS."""
 
 from __future__ import annotations

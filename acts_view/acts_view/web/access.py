@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Who may connect to the page's socket. Knows no ROS.
 
 A browser lets any page connect to any address and says in ``Origin`` which page it was. Only the page that came from

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Messages to the page: a JSON header and typed arrays in one piece of bytes. Knows no ROS.
 
 ====================  ==================================================================

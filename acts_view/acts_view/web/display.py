@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What is to be shown: the newest state of everything, from which every client is served at its own pace. Knows no ROS.
 
 There is no queue. A client that is slow misses states in between; it gets the newest when it can take it, with all of

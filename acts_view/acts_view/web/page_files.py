@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The files of the page, read once, by the path they are asked for. Knows no ROS."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What a page may ask for: small messages of JSON, checked before anybody acts on them. Knows no ROS."""
 
 from __future__ import annotations

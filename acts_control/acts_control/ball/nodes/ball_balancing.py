@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`ball_balancing`: state, trajectory and control in one process.
 
 Nothing is sent between the three: the control loop asks the other two when its step is due, in its own thread.

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The node `ball_control`: estimate and reference in, tilts of the plate to the robot out.
 
 Topics: ball/state and ball/reference in; ball/status and ball/tilt out. Services: ~/start, ~/stop.

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The node `ball_state`: 1 kHz contacts in, the ball's position and velocity out.
 
 Topics: contact and ball/tilt in; ball/state and contact_statistics out.

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The node `ball_trajectory`: where the ball should be, from the moment the controller balances it.
 
 Topics: ball/status in; ball/reference out.

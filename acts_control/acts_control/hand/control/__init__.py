@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Grasping and holding: from what the hand feels to the goals of its joints.
 
 In come regions and readings of the motors; out come goals, limited in step, rate and lead. `HandSupervisor` decides

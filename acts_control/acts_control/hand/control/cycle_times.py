@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """How long the cycles of a hand take, collected between two messages that tell it."""
 
 from __future__ import annotations

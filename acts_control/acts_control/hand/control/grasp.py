@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Closing the hand: into the shape from which it closes, then each finger until it feels enough.
 
 Something small on the palm is aimed at: a sphere that touches the palm there and shrinks tells each fingertip where to

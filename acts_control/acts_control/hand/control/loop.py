@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The loop of a hand: from connecting to a released hand, with everything that may interrupt it."""
 
 from __future__ import annotations

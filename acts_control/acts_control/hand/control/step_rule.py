@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """From what the reflexes ask for to the goals of the joints: the one place that moves a goal.
 
 A reflex asks for steps. One step moves a joint's goal by the base step times the scale of its motor; how quickly the

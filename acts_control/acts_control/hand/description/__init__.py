@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What a hand is: joints, links, regions of skin, and where they are at given joint angles.
 
 In comes a YAML file; out come `HandDescription` and `HandKinematics`. Another hand is another file.

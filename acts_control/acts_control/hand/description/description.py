@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What a hand is, whatever moves it: its joints in the order of all joint arrays, links, fingers, patches of skin."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Hands as YAML files: the shipped ones in `hands/`, or anybody's (docs/hand.md). An error names file and line."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Where the links of a hand are, and how its joints move a point of them; any hand of a description."""
 
 from __future__ import annotations

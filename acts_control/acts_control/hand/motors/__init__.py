@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The motors of a hand, behind what the hand's loop knows of them.
 
 In come goals of joints; out come their angles and currents. `HandBus` is the interface, `DynamixelHand` that of the

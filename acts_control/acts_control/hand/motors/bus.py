@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What the control of a hand needs of its motors, whichever they are."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A hand of Dynamixel motors (XC330, XL330), such as the LEAP hand, through the unmodified `dynamixel_sdk`.
 
 What is particular about that library (4.1.0): it waits for answers in a busy loop, so it wants a process of its own; a

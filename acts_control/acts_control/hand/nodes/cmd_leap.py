@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The LEAP hand through the LEAP team's own ROS node: angles go out on `cmd_leap`, nothing comes back.
 
 That node (package `leap_hand` of LEAP_Hand_API) takes sensor_msgs/JointState with 16 positions in the order of the

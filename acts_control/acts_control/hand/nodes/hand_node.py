@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The node `hand`: joint angles in, the motors' bus out, and what the joints do.
 
 Topics: ~/command in; joint_states out, and cmd_leap where the hand is moved by that. Services: ~/enable, ~/release.

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What the nodes of a hand share: its description, its motors' loop, joint states, torque on and off, diagnostics."""
 
 from __future__ import annotations

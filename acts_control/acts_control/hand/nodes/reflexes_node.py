@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The node `hand_reflexes`: what the hand's skin feels in, the motors' bus out; it opens, grasps, holds and avoids.
 
 Topics: regions in; joint_states, hand/status and hand/timing out. Services: ~/grasp, ~/release, ~/stop; ~/enable and

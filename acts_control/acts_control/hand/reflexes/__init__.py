@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Reflexes: each answers what the hand feels with steps of its joints.
 
 In comes `Sensed`, out comes a `Wish` or nothing. `registry` names them all; another one is a file and a line there.

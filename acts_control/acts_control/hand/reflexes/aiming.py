@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Aiming fingers at a sphere that the palm feels: from which side each comes, and how its tip gets there.
 
 A sphere that lies on the palm touches it where its middle is, so the palm tells its place before a finger does, and

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Hand-to-hand grasp: every phalanx of a finger presses about as much, while the held hand moves; never above a limit.
 
 Each joint that closes a finger carries one phalanx. Where that phalanx presses less than is wanted the joint closes,

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """All reflexes by name: a new one is a file beside this and a line here (docs/reflexes.md)."""
 
 from __future__ import annotations

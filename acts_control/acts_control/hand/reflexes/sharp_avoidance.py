@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Sharp-object avoidance: the finger that feels a tip opens at once, its neighbours keep holding.
 
 How much likelier a tip is than something blunt is told by the skin (`RegionContact.sharpness`).

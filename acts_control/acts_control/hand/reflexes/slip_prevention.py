@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Slip prevention: grip up while what is held slips, then ease slowly to what holds.
 
 Slip is told by the regions (docs/slip.md). They look back over a window, so slip is told for a while after it has

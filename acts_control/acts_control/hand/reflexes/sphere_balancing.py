@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Spherical grasp balancing: bring what is held to the palm's centre, with the fingertips still touching.
 
 Each contact has a place and a normal, so a sphere is fitted to them: its centre is where the normals meet. The touched

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Trapping: a sphere too small for several fingertips is pressed into the palm by the finger that has got hold of it.
 
 The palm tells where it lies, the finger how large it is. Only that finger presses, and no reflex of lower priority

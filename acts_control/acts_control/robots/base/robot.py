@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What the control loop knows of a robot: it tilts a plate, tells its state, and stops."""
 
 from __future__ import annotations

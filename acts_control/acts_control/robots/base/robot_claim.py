@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A robot as this process's own among the programs of this machine, whoever runs them."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What ends motion, whatever the robot: old touch, a robot that has stopped, and the last look at a tilt."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Settings of the UR5e: how it is reached, held and moved, and how far its joints may go."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The last look at the arm's joint angles before they are sent."""
 
 from __future__ import annotations

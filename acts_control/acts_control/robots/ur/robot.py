@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The UR5e as a robot that tilts a plate.
 
 `ur_rtde` and all in which it may wait are in a process of their own (`ur_process`); here nothing but connecting waits,

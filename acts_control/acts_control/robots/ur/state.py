@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What the controller says of itself, in the numbers of RTDE, and the same in words."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Asks a UR controller whether it is there and answers, before anything is begun that would wait for it.
 
 That its ports accept connections says little: the system does so for a controller that stands still.

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The process that holds the connection to a UR5e: the only module that calls `ur_rtde`.
 
 It is a process of its own for what that library does when a controller stands still or vanishes. Its constructors hold

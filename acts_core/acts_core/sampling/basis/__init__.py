@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What sampling schemes are made of.
 
 A scheme takes from here what it inherits (`SamplingScheme`), its settings (`CommonSettings`, `OwnSetting`), the skin's

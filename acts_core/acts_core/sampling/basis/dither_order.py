@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """An order of the taxels in which every stretch is spread over the whole array."""
 
 from __future__ import annotations

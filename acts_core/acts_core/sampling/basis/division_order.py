@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The order in which adaptive sampling searches: from coarse to fine."""
 
 from __future__ import annotations

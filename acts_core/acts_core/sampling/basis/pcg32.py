@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Random numbers that are the same on every machine, on the board too."""
 
 from __future__ import annotations

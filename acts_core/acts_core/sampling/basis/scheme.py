@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What a sampling scheme is: name, number on the wire, own settings, limits, and which taxels it measures."""
 
 from __future__ import annotations

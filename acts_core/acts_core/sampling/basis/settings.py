@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The settings of sampling: those that several schemes share, and what a scheme's own setting is."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """What a board is told of a layout: which taxels are neighbours on the skin, and where its patches end.
 
 The schemes that look for neighbours (adaptive, tracking, and hybrid in part) walk the picture of the skin place by

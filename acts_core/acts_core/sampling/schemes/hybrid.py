@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Hybrid sampling: an adaptive frame for a part of M, random taxels for the rest.
 
 The paper's discussion: adaptive sampling is best for small objects and random sampling for large ones.

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Random taxels, the same as the board draws."""
 
 from __future__ import annotations

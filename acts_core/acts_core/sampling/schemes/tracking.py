@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Sampling that follows what is pressed and goes on searching everywhere else.
 
 ACTS' own, beyond the paper, whose discussion asks for combinations of sampling schemes. Adaptive sampling begins every

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Uniform sampling: a grid that moves from frame to frame."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // What a readout board must be able to do. All that the Teensy and the host differ in.
 #pragma once
 

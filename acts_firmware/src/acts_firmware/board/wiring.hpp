@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // Which pin does what: row lines, the address lines of the column multiplexer, the LED.
 #pragma once
 

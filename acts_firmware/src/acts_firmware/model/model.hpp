@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // What the board recovers images or tells objects with, as a host has uploaded it.
 #pragma once
 

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // Takes an uploaded model piece by piece and puts it into force when all of it is right.
 #pragma once
 

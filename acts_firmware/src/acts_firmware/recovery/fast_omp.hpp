@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // FastOMP: explains a few measured values as a sum of few columns of a dictionary. The paper's method ("Sparse Recovery
 // and Tactile Reconstruction"); acts_recon/sparse/fastomp_reference.py is its readable reference.
 #pragma once

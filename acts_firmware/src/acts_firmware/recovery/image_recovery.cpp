@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 #include "acts_firmware/recovery/image_recovery.hpp"
 
 #include <algorithm>

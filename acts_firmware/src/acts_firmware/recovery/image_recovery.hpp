@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // From the samples of one frame to the full image, patch by patch; acts_recon's Reconstructor, on the board.
 #pragma once
 

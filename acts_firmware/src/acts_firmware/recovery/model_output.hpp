@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // What the board makes of a frame by itself, with the model that a host has uploaded: an image or an object.
 #pragma once
 

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // Which object presses: sparse representation-based classification (SRC) on the samples of one frame, as the paper's
 // Fig. 9 does on the board. acts_recon/objects/classification.py is the readable reference.
 #pragma once

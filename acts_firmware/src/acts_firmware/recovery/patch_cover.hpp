@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // Overlapping square patches that cover an array: the units in which it is recovered. acts_recon/sparse/patches.py is
 // the readable reference. What it lists taxel by taxel follows here from the two sides, so that it takes 400 bytes.
 #pragma once

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // The order in which tracking searches: every stretch of it is spread over the whole array.
 #pragma once
 

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // The coarse-to-fine order in which adaptive sampling walks the array.
 #pragma once
 

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // One frame while it is measured: what the schemes are given.
 #pragma once
 

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // Samples frame after frame. acts_core/sampling/sampler.py is the readable reference; a test compares the two.
 #pragma once
 

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // What a sampling scheme tells of itself. acts_core/sampling/basis/scheme.py is the same in Python; a test compares the
 // two.
 #pragma once

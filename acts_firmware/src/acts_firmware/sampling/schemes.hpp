@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // Every sampling scheme there is. All else is made of this list: dispatch, checks, settings on the wire, the virtual
 // board's options.
 #pragma once

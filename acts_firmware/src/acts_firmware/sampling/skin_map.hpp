@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // How the matrix' taxels lie on the skin: which are neighbours there, and where its patches end.
 #pragma once
 

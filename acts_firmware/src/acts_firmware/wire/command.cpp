@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 #include "acts_firmware/wire/command.hpp"
 
 #include "acts_firmware/version.hpp"

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // What a host says, and the reply to it. docs/wire_protocol.md describes the layout.
 #pragma once
 

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // Packets, their CRC and COBS; frames as packets. docs/wire_protocol.md describes the layout.
 #pragma once
 

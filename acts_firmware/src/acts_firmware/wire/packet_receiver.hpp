@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // Packets out of the host's bytes, one byte at a time, in the room of one packet.
 #pragma once
 

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // What the board recovers by itself, as packets. docs/wire_protocol.md describes the layout.
 #pragma once
 

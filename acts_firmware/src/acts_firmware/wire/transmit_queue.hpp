@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // Bytes on their way to the host: whole messages go in, any number of bytes goes out.
 #pragma once
 

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A drawing of the hand from its true state: links as lines, taxels as dots, the object as a wire frame."""
 
 from __future__ import annotations

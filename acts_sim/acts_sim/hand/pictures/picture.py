@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Rendered pictures of the simulated hand, without a display (EGL)."""
 
 from __future__ import annotations

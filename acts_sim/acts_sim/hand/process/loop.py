@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Runs the hand's world in real time, a little ahead of the clock, and writes counts and truth to rings."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """``hand_world``: the command line of the simulated LEAP hand with its skin, its motors and an object."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The TCP ports of the simulated UR controller (RTDE, script, dashboard and test hooks), and their server.
 
 In come bytes from clients; out come bytes for clients, and calls of the controller.

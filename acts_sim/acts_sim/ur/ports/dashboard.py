@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The dashboard server: one line of reply to each line of text."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Test hooks: actions of a person at the robot, as text commands on a port of their own."""
 
 from __future__ import annotations

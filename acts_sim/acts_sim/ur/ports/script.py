@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The script port, which receives URScript programs and starts them."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The sockets and the clock: one thread, one `select` loop, a cycle every 2 ms.
 
 `select` and not `epoll`: Python rounds the timeout of the latter to whole milliseconds.

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """One client of the RTDE port: its requests and their replies as bytes, without sockets."""
 
 from __future__ import annotations

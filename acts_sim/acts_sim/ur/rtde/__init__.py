@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The protocol of the RTDE port: packets, variables, and recipes (lists) of variables.
 
 In come bytes and values; out come values and bytes. It does not depend on the robot.

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Packets of the Real-Time Data Exchange (RTDE), version 2: big-endian, a 3-byte header before each payload.
 
 Header: uint16 size of the whole packet, uint8 type. See the RTDE guide of Universal Robots.

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The variables of the RTDE interface, and a packed buffer of the outputs from which data packages are made.
 
 The buffer has all outputs in the order in which ``ur_rtde`` requests them by default. So a package of all of them is a

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Frames per second that one core decodes, and the ratio to a simple decoder in Python.
 
 The decoders take turns on the same data, so that other load on the machine affects all of them; the ratio is the median

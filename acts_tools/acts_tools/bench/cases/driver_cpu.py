@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """CPU load of the driver at 1 kHz and M = 55, and of the virtual board that feeds it."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """CPU time of each step in the processing of a frame, at 1 kHz.
 
 In one process a frame is decoded, stamped and recovered, and its contact is published. With driver and reconstruction

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The highest frame rate without loss, M = 55, of the driver, and for comparison of readers without ROS.
 
 The board measures much faster than real hardware, so that it is not the limit. The readers take turns, one rate at a

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Latency from the last measurement of a frame to its publication and reception, and error of its stamp, at 1 kHz.
 
 The virtual board reports the start of its clock, so that the true time of every measurement is known independently of

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Traffic of a skin on a cable between two machines, and loss and delay of its contacts on a bad cable.
 
 Driver and reconstruction with a simulated board run on one machine, and `acts listen` on the other. Both are network

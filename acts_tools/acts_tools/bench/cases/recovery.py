@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """CPU time of FastOMP for an image, compared with scikit-learn, SPAMS and the limit of the processor.
 
 A frame is 55 samples of 32 x 32 taxels, with 49 overlapping patches of 8 x 8; the dictionary is the shipped one with

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The driver for ten minutes at 1 kHz and M = 55: lost frames, memory, CPU, latency.
 
 The memory of the driver's process is read every second. Its growth is the slope of a line fitted to all values but the

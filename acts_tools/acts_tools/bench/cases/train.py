@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """CPU time of K-SVD for a dictionary, and of scikit-learn for one that is equally good.
 
 Both learn 1000 atoms from the same 15,000 patches. The measure is the residual of other patches after sparse coding

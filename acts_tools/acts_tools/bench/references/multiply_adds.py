@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Peak performance of one core: single-precision multiply-adds per second in registers."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A simple decoder of the binary stream: struct, bytes, zlib, and COBS in pure Python.
 
 `acts bench decode` compares `acts_core.wire.StreamDecoder` with it. It returns the same frames for any bytes, but

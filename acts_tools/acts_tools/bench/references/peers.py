@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Optional libraries for comparison; ACTS itself needs none of them."""
 
 from __future__ import annotations

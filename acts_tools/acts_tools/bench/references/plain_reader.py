@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A reader of the board without ROS in a process of its own, to compare the driver with.
 
     python3 -m acts_tools.bench.references.plain_reader PORT stream|naive

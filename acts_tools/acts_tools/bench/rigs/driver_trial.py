@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The driver node on the virtual board, in two processes, observed over /diagnostics."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A ROS node that spins in short slices, so that a measurement can be stopped."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The measured processes: the virtual board, and programs that read it."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A subscriber in a process of its own that receives samples and contacts like a controller, and drops them.
 
 python3 -m acts_tools.bench.rigs.silent_listener NAMESPACE

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A recording of a pressed skin for the virtual board, so that frames are like those of a real touch."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Record a board's bytes in the pieces that the port returned."""
 
 from __future__ import annotations

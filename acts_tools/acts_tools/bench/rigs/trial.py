@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """One run of a reader on the virtual board: frames read and lost, and CPU load."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The true time of measurement of a virtual board's frames, in the host's real time."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Evaluate the figures of several skins: failures, warnings, and whether the targets are met."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Measure several skins: latency from the stamp of a frame to a subscriber's callback, lost frames, CPU and memory.
 
 This process is the subscriber of all skins, with the executor and settings of an ACTS node. While it counts, it only

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Real-time scheduling of the measured processes: their options, and the priorities that the kernel granted."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Counters that driver and reconstruction of each skin publish on /diagnostics."""
 
 from __future__ import annotations

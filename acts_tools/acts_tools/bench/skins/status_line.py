@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Progress of the measurement, in one line of a terminal."""
 
 from __future__ import annotations

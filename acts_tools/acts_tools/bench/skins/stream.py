@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Counts and latencies of the contacts of one skin."""
 
 from __future__ import annotations

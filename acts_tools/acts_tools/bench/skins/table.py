@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Format the report of `acts bench skins` as plain text or Markdown."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The picture of a ball-balancing run: path against reference, cumulative pressure, tilt (compare paper, Fig. 10)."""
 
 from __future__ import annotations

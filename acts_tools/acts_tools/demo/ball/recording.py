@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The recorded data of a run of the ball-balancing demo."""
 
 from __future__ import annotations

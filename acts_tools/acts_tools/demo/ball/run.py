@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts demo ball_balancing`: run the whole chain with simulated skin, ball and robot; record, score and draw it."""
 
 from __future__ import annotations

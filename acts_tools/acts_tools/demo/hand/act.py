@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """An act of the demonstration: a scenario of the evaluation with a hand that runs in real processes."""
 
 from __future__ import annotations

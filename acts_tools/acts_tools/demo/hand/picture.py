@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The picture of a run of the hand, with a column per act: two views, and force, motion and slip over time."""
 
 from __future__ import annotations

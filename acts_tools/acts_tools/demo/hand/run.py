@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts demo hand`: a simulated hand plays scenarios of the evaluation by touch; record, score and draw it."""
 
 from __future__ import annotations

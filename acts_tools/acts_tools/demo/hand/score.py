@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Figures of a run of the hand, and whether it meets the limits."""
 
 from __future__ import annotations

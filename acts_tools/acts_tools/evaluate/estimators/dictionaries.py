@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Dictionaries for the evaluation: from files, and two that are not learnt."""
 
 from __future__ import annotations

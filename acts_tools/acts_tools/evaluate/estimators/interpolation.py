@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Baseline methods, which interpolate the samples of each frame alone."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The recovery methods by name, with one interface."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts evaluate hand`: the reflexes of the simulated hand, scenario by scenario, in one process or live."""
 
 from __future__ import annotations

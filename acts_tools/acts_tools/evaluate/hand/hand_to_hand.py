@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The hand holds another hand, which moves by 20 mm and turns by 20 degrees."""
 
 from __future__ import annotations

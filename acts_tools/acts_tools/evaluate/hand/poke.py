@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A finger of a hand that holds a cylinder is poked, by a tip of 1 mm or by a blunt end."""
 
 from __future__ import annotations

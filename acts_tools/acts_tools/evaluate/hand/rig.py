@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The simulated hand with its reflexes in one process, without a clock: the same seed gives the same bits.
 
 The skin is sampled as on the board and its image recovered as in the driver, frame after frame. The reflexes receive

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A held cylinder is pulled along its axis by 0.5, 1 or 2 times its weight, within 50 ms; or it is left alone."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A sphere off the centre of the palm is gripped and brought to the centre."""
 
 from __future__ import annotations

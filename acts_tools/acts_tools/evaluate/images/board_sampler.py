@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Samplers for recorded frames: that of the firmware, and Python's for schemes that exist in Python only."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Calibration of a method's uncertainty: its errors compared with its standard deviations."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts evaluate events`: bounces, slides and taps of the simulated skin."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts evaluate objects`: support accuracy over M on the objects of the contact model, like the paper's figure 4E."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Sample recordings like a board, recover them by a method, and score every frame.
 
 docs/recovery.md explains the scores.

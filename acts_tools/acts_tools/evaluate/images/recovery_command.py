@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts evaluate recovery`: score sampling schemes and recovery methods on recordings."""
 
 from __future__ import annotations

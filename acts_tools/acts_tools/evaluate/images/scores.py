@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Scores of recovered images by comparison with the truth. `docs/recovery.md` explains them."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Evaluate several tasks, with progress on a terminal, a line per task on stdout, and all in the JSON file."""
 
 from __future__ import annotations

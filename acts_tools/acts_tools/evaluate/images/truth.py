@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """The truth while a recording is sampled: interpolated frames, and the starts of contacts."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts evaluate impacts`: tennis balls dropped on the simulated skin, by how many taxels a frame has.
 
 The paper's figures 5B and 5C. What the numbers mean is told in docs/impacts.md.

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """A scene as a board samples it, as the paper's method sees it and as ours does."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts evaluate ricochet`: from which direction a thrown ball came, at eight angles. The paper's figure 5G.
 
 The paper's estimate is the total displacement of the centre of pressure, from the first frame that shows the ball to

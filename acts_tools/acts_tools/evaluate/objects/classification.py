@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Accuracy of the paper's SRC and of ours on the same presses of simulated objects, over M and over time.
 
 The paper's method: adaptive sampling, each frame alone (`Classifier`). Ours: tracking sampling, and the fused image of

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts evaluate classification`: accuracy of the paper's SRC and of ours on the same presses."""
 
 from __future__ import annotations

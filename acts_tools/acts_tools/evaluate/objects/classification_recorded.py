@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Classification of labelled recordings: the paper's SRC, ours, and nearest neighbour on full frames."""
 
 from __future__ import annotations

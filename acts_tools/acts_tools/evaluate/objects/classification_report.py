@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Tables and the picture of `acts evaluate classification`."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts evaluate convert`: convert public recordings to the format of the other commands."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Recordings of two insoles of 33 x 15 cells: github.com/JunjianChi/ISCAS_2025_Insole.
 
 A file is CSV; the columns `Matrix_0` and `Matrix_1` contain the cells of the feet, row by row, separated by commas.

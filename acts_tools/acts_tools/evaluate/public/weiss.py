@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """Recordings of a SDH-2 hand with six Weiss DSA arrays: github.com/peter-kiechle/tactile-sensors.
 
 A file is XML compressed by bzip2. A frame is a text of big-endian 32-bit floats in hexadecimal digits: a number -n

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts evaluate slip`: detect slip in recordings of full frames.
 
 Recordings of slip have no labels, so no accuracy can be given. Two things are counted: how often slip is detected at

@@ -1,3 +1,6 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
 """`acts evaluate slip-sampled`: delay of slip detection on a skin whose taxels are measured in turn.
 
 All patches of a layout are pressed by simulated contacts. The contact on one patch begins to move, and the time from

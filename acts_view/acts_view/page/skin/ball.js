@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // Of a ball that is balanced: what the controller is about, where the ball is, and how the plate is tilted.
 
 const FULL_RAD = 0.15; // the rim of the level

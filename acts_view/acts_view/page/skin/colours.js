@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // Colour maps that colour-blind people can read, and in which brighter always means more.
 
 // Every sixteenth of the way; viridis and cividis (CC0), between them straight.

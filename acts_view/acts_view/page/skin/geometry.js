@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // Where the taxels of a skin are drawn: patch by patch, in pixels of its canvas.
 
 export class Geometry {

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // What the 1 kHz stream was like: rows of the server's history, and what of them a plot shows.
 
 // Columns as in acts_view/skin/history.py.

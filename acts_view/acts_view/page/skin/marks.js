@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // What is drawn over the taxels: contacts with number and force, their trails, the centre of pressure, the cursor.
 
 const TRAIL_MS = 1200;

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // One skin: its picture, its numbers, its contacts, its plots and, of a hand, its regions.
 
 import { Ball } from "./ball.js";

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // The plots of a skin: force and latency as the smallest and largest of each pixel, rate and losses a fifth of a second each.
 
 import { BIN_S, FORCE, FRAMES, LATENCY, LOST } from "./history.js";

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // Of a hand: what each region feels, what the hand is about, and the angles of its joints.
 
 const FULL_N = 5;

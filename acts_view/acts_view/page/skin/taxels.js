@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // The taxels of a skin as coloured squares, patch by patch.
 
 import { settings } from "../settings.js";

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // The picture of a skin: its taxels, over them its contacts, and in words what the cursor points at.
 
 import { settings } from "../settings.js";

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // Adaptive sampling: from coarse to fine, and around what is pressed first.
 #pragma once
 

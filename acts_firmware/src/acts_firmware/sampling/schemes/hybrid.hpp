@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // Hybrid sampling: an adaptive frame for a part of m, random taxels for the rest.
 #pragma once
 

@@ -1,3 +1,6 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
 // Comb sampling: every n-th taxel, from where the last frame stopped.
 #pragma once
 
