@@ -238,7 +238,10 @@ def test_what_cannot_be_is_left_out_and_the_page_goes_on(bench: Bench, caplog: p
     assert [record.message for record in caplog.records if record.name == "asyncio"] == []
 
 
-@pytest.mark.parametrize("change", [{"rows": -5}, {"cols": 10**9}, {"pitch_m": math.nan}, {"row_pitch_m": -1.0}])
+@pytest.mark.parametrize(
+    "change",
+    [{"rows": -5}, {"cols": 10**9}, {"rows": "8"}, {"layout": 3}, {"pitch_m": math.nan}, {"row_pitch_m": -1.0}],
+)
 def test_a_skin_that_cannot_be_is_refused(change: dict[str, Any]) -> None:
     with pytest.raises(ArrayError, match="cannot be shown"):
         SkinShape(**change)

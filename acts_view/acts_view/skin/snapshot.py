@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
@@ -119,7 +119,13 @@ class SkinShape:
     force_response: str = ""
 
     def __post_init__(self) -> None:
-        # Whoever plays the node reconstruction says them.
+        # Any program can take the name of the reconstruction node and answer for it.
+        for one in fields(self):
+            value = getattr(self, one.name)
+            if type(value) is not type(one.default):
+                raise ArrayError(
+                    f"{one.name} = {value!r} cannot be shown: it must be of the type {type(one.default).__name__}"
+                )
         if not (1 <= self.rows <= MAX_SIDE and 1 <= self.cols <= MAX_SIDE):
             raise ArrayError(f"a skin of {self.rows} x {self.cols} taxels cannot be shown: 1 to {MAX_SIDE} a side")
         if not (0.0 <= self.pitch_m <= _LARGEST_PITCH_M and 0.0 <= self.row_pitch_m <= _LARGEST_PITCH_M):
