@@ -3,7 +3,7 @@
 
 """A hand of Dynamixel motors (XC330, XL330), such as the LEAP hand, through the unmodified `dynamixel_sdk`.
 
-What is particular about that library (4.1.0): it waits for answers in a busy loop, so it wants a process of its own; a
+What is particular about that library (4.1.0): it waits for answers in a busy loop, unless the port itself waits; a
 group read drops the motors' error bytes, so the hardware error is read as a register, and all that is read each cycle
 is gathered by indirect addresses; `fastSyncRead` raises IndexError for an answer that is whole but too short; what the
 port itself raises (OSError, termios.error) passes through.
@@ -45,6 +45,9 @@ _GATHERED = (*range(_CURRENT, _CURRENT + 10), _HARDWARE_ERROR, _TEMPERATURE)
 _ALERT = 0x80
 
 _FAULTS = {0: "input voltage", 2: "overheating", 3: "encoder", 4: "electrical shock", 5: "overload"}
+
+# A read of the port returns after this time, if not before with all that was asked for. Well below answer_timeout_ms.
+_READ_TIMEOUT_S = 0.001
 
 # A motor that has been told to start anew does not answer meanwhile.
 _REBOOT_TIMEOUT_S = 2.0
@@ -260,6 +263,8 @@ class DynamixelHand:
             if known:
                 # The library has no such option: two programs would take each other's answers and move one hand.
                 self._port.ser.exclusive = True
+                # The library reads in a loop without a pause until an answer is complete: that would fill a core.
+                self._port.ser.timeout = _READ_TIMEOUT_S
         except (OSError, termios.error) as error:
             self.close()
             raise HandError(_why_not(config.port, error)) from error
