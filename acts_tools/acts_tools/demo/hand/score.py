@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Figures of a run of the hand, and whether it meets the limits."""
+"""Figures of a run of the hand, whether each act worked, and whether it met the limits that are asked of it."""
 
 from __future__ import annotations
 
@@ -12,10 +12,14 @@ from numpy.typing import NDArray
 
 from acts_control.hand.reflexes import HandToHandConfig
 from acts_tools.demo.hand.act import Act
+from acts_tools.evaluate.hand.scenario import Outcome
 from acts_tools.percentiles import percentiles
 
-# The scenario judges an act; this module only describes the result.
 _LARGEST_N = HandToHandConfig().hand_to_hand_max_force_n
+
+# An act has worked within these; what is asked of it, by its scenario, is stricter.
+_OPENED_MS = 100.0
+_MOVED_MM = 3.0
 
 Row = tuple[str, Any, str, str]
 """Name, value (None: unknown), unit, limit."""
@@ -36,11 +40,8 @@ def rows(act: Act) -> list[Row]:
             ("kept", outcome.kept, "", "True"),
         ]
     if act.name == "sharp":
-        both = None
-        if outcome.noticed_ms is not None and outcome.stopped_ms is not None:
-            both = outcome.noticed_ms + outcome.stopped_ms
         return [
-            ("finger opens after contact with the tip", _rounded(both), "ms", "<= 20"),
+            ("finger opens after contact with the tip", _rounded(_opened_ms(outcome)), "ms", "<= 20"),
             ("tip in the skin", _rounded(outcome.penetration_mm, 2), "mm", "< 2"),
             ("other contacts kept", outcome.kept, "", "True"),
         ]
@@ -57,12 +58,44 @@ def rows(act: Act) -> list[Row]:
     ]
 
 
+def works(act: Act) -> bool:
+    """Whether the reflex of an act did what it is for: `Outcome.ok` is that all figures are as good as asked as well.
+
+    slip: the object is kept and moved by less than 3 mm. sharp: the finger opens within 100 ms of the contact and the
+    other contacts persist. sphere: two fingertips touch it, and it is nearer to the palm's centre than before.
+    hand_to_hand: as asked.
+    """
+    outcome, details = act.outcome, act.outcome.details
+    if outcome.ok:
+        return True
+    if act.name == "slip":
+        return bool(outcome.kept) and outcome.offset_mm is not None and outcome.offset_mm < _MOVED_MM
+    if act.name == "sharp":
+        opened_ms = _opened_ms(outcome)
+        return bool(outcome.kept) and opened_ms is not None and opened_ms <= _OPENED_MS
+    if act.name == "sphere":
+        begin_mm, end_mm = details.get("begin_mm"), outcome.offset_mm
+        is_nearer = begin_mm is not None and end_mm is not None and end_mm < begin_mm
+        return is_nearer and len(details.get("tips", ())) >= 2
+    return False
+
+
 def score(acts: list[Act]) -> dict[str, Any]:
-    """The results of a run, in the layout of ``out/hand.json``."""
+    """The results of a run, in the layout of ``out/hand.json``.
+
+    ``ok``: every act met what is asked of it. ``works``: every act worked; `failures` has those that did not, `missed`
+    those that worked and missed a figure.
+    """
     results: dict[str, Any] = {
-        "ok": False,
+        "ok": all(act.outcome.ok for act in acts),
+        "works": all(works(act) for act in acts),
         "acts": {
-            act.name: {"title": act.title, "ok": act.outcome.ok, **{name: value for name, value, _, _ in rows(act)}}
+            act.name: {
+                "title": act.title,
+                "ok": act.outcome.ok,
+                "works": works(act),
+                **{name: value for name, value, _, _ in rows(act)},
+            }
             for act in acts
         },
         "regions_rate_hz": _rounded(float(np.median([_regions_rate_hz(act) for act in acts])), 1),
@@ -70,17 +103,22 @@ def score(acts: list[Act]) -> dict[str, Any]:
         "latency_ms": percentiles(_joined([act.recording.latencies_s for act in acts]) * 1e3),
         "cpu_percent": _cpu(acts),
     }
-    results["failures"] = [failure for act in acts for failure in failures(act)]
-    results["ok"] = not results["failures"]
+    results["failures"] = [_told(act) for act in acts if not works(act)]
+    results["missed"] = [_told(act) for act in acts if works(act) and not act.outcome.ok]
     return results
 
 
-def failures(act: Act) -> list[str]:
-    """Failures of an act as sentences; empty for a good one."""
-    if act.outcome.ok:
-        return []
+def _told(act: Act) -> str:
+    """An act and its figures in a line."""
     told = ", ".join(f"{name}: {_shown(value, unit)}" for name, value, unit, _ in rows(act))
-    return [f"{act.title} ({told})"]
+    return f"{act.title} ({told})"
+
+
+def _opened_ms(outcome: Outcome) -> float | None:
+    """From the contact with the tip until the finger opens [ms]; None where it does not."""
+    if outcome.noticed_ms is None or outcome.stopped_ms is None:
+        return None
+    return outcome.noticed_ms + outcome.stopped_ms
 
 
 def table(results: dict[str, Any], acts: list[Act]) -> str:
@@ -96,7 +134,15 @@ def table(results: dict[str, Any], acts: list[Act]) -> str:
     lines += [(f"CPU, {name}", _shown(value, "% of one core"), "") for name, value in results["cpu_percent"].items()]
     width = max(len(name) for name, _, _ in lines)
     shown = [f"  {name:<{width}}  {value:>22}  {wanted}".rstrip() for name, value, wanted in lines]
-    return "\n".join([*shown, "", "  result: " + ("good" if results["ok"] else "; ".join(results["failures"]))])
+    return "\n".join([*shown, "", *_verdict(results)])
+
+
+def _verdict(results: dict[str, Any]) -> list[str]:
+    if results["ok"]:
+        return ["  result: good"]
+    told = [f"  did not work: {failure}" for failure in results["failures"]]
+    told += [f"  worked, not as well as asked: {missed}" for missed in results["missed"]]
+    return [f"  result: {'works' if results['works'] else 'not good'}", *told]
 
 
 def _regions_rate_hz(act: Act) -> float:
