@@ -198,24 +198,30 @@ def test_what_cannot_be_is_dropped_and_told(robot: Robot, tmp_path: Path) -> Non
     robot.skin("right")
     reports = robot.listen(DiagnosticArray, "/diagnostics", 10)
 
-    def press() -> None:
-        robot.press("left", math.nan, 2.0)
-        robot.press("left", 9.0, frame_id="elsewhere")
-        robot.press("right", 3.0, ahead_s=100.0)
-        # Ahead of the whole ones by a little, so that they are the newest.
-        head = header_bytes(robot.node.get_clock().now().nanoseconds + 1_000_000, "left")
-        robot.send("left", head + b"\xff" * 60)
-        robot.send("left", head + bytes(100_000))
+    def send(rest: bytes) -> None:
+        robot.send("left", header_bytes(robot.node.get_clock().now().nanoseconds, "left") + rest)
 
     def told(words: str) -> bool:
         return any(words in status.message for array in reports for status in array.status)
 
     with running(tmp_path, 164) as process:
-        robot.until(lambda: told("contacts of left with impossible values dropped"), press)
-        robot.until(lambda: told("contacts of left in the frame 'elsewhere' dropped"), press)
-        robot.until(lambda: told("contacts of left that cannot be read dropped"), press)
-        robot.until(lambda: told("contacts of left in messages of more than 65536 bytes dropped"), press)
-        robot.until(lambda: told("right is lost: no contacts yet, stamps lie 100 s ahead of this clock"), press)
+        # One kind after the other: of several in a cycle only the newest is merged.
+        robot.until(
+            lambda: told("contacts of left with impossible values dropped"), lambda: robot.press("left", math.nan, 2.0)
+        )
+        robot.until(
+            lambda: told("contacts of left in the frame 'elsewhere' dropped"),
+            lambda: robot.press("left", 9.0, frame_id="elsewhere"),
+        )
+        robot.until(lambda: told("contacts of left that cannot be read dropped"), lambda: send(b"\xff" * 60))
+        robot.until(
+            lambda: told("contacts of left in messages of more than 65536 bytes dropped"),
+            lambda: send(bytes(100_000)),
+        )
+        robot.until(
+            lambda: told("right is lost: no contacts yet, stamps lie 100 s ahead of this clock"),
+            lambda: robot.press("right", 3.0, ahead_s=100.0),
+        )
         robot.until(lambda: bool(robot.merged[-1].contacts), lambda: robot.press("left", math.nan, 2.0))
         assert [contact.number for contact in robot.merged[-1].contacts] == [2]
         assert robot.merged[-1].contacts[0].force.z == pytest.approx(-2.0)

@@ -137,12 +137,15 @@ def test_contacts_come_without_samples_being_sent_and_samples_for_those_who_ask(
         stamps = [message.header.stamp.sec * 10**9 + message.header.stamp.nanosec for message in contacts]
         assert all(np.diff(stamps) > 0)
         samples = listener.listen(TactileSamples, "samples", qos.STREAM)
-        listener.until(lambda: len(samples) > 50)
+
+        def common() -> list[TactileSamples]:
+            known = {message.sequence for message in contacts}
+            return [message for message in samples if message.sequence in known]
+
         # The same frames: each contact is of the samples with its number and stamp.
+        listener.until(lambda: len(samples) > 50 and bool(common()))
         by_sequence = {message.sequence: message for message in contacts}
-        common = [message for message in samples if message.sequence in by_sequence]
-        assert common
-        assert all(message.header.stamp == by_sequence[message.sequence].header.stamp for message in common)
+        assert all(message.header.stamp == by_sequence[message.sequence].header.stamp for message in common())
         names = {"plate/driver", "plate/reconstruction"}
         listener.until(lambda: names <= {status.name for message in statuses for status in message.status})
         process.send_signal(signal.SIGINT)
