@@ -75,7 +75,7 @@ def _run(names: list[str], out: Path, seed: int, stop: StopFlag) -> int:
     draw(acts, out / "hand.png")
     print(table(results, acts))
     print(f"  wrote {out / 'hand.json'}, {out / 'hand.png'}, {log_path}")
-    return 0 if results["works"] else 1
+    return 0 if results["ok"] else 1
 
 
 def play(name: str, seed: int, log_path: Path, stop: StopFlag, begin_s: float) -> Act:
