@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.numbers import FromRegistry
-from acts_core.sampling import SCHEME_NUMBERS
+from acts_core.sampling import REPEATING, SCHEME_NUMBERS
 
 
 class Scheme(IntEnum, metaclass=FromRegistry):
@@ -46,7 +46,7 @@ class SampleFrame(NamedTuple):
     overruns : int
         Frames the board had to drop since its start because the host did not read, wraps at 2**32.
     indices : np.ndarray [shape=(m,), dtype=uint16]
-        Row-major taxel indices in the order of measurement, none twice.
+        Row-major taxel indices in the order of measurement; none twice, unless the scheme repeats taxels.
     counts : np.ndarray [shape=(m,), dtype=uint16]
         ADC counts of these taxels, 0 to 1023.
     """
@@ -60,3 +60,22 @@ class SampleFrame(NamedTuple):
     overruns: int
     indices: NDArray[np.uint16]
     counts: NDArray[np.uint16]
+
+    @property
+    def repeats(self) -> bool:
+        """Whether a taxel may be there several times."""
+        return self.scheme in REPEATING
+
+    def once(self) -> SampleFrame:
+        """The frame with the last sample of each taxel only, as recovery takes it."""
+        m = len(self.indices)
+        # What is no frame at all is for whoever takes it to refuse.
+        if not self.repeats or m == 0 or m != len(self.counts):
+            return self
+        # The first in reverse order is the last.
+        _, first = np.unique(self.indices[::-1], return_index=True)
+        kept = np.sort(m - 1 - first)
+        # The samples are evenly spaced, and the last of them are kept.
+        return self._replace(
+            indices=self.indices[kept], counts=self.counts[kept], duration_us=self.duration_us * len(kept) // m
+        )

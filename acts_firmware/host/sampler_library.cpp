@@ -64,6 +64,18 @@ class RecordingReader final : public acts::TaxelReader {
   Noise& noise_;
 };
 
+const char* below(const acts::OwnSetting& setting) {
+  switch (setting.below) {
+    case acts::Below::kRows:
+      return "rows";
+    case acts::Below::kCols:
+      return "cols";
+    case acts::Below::kNothing:
+      break;
+  }
+  return "";
+}
+
 std::string scheme_table() {
   std::ostringstream text;
   for (const acts::SchemeInfo& info : acts::Schemes::kInfos) {
@@ -76,7 +88,7 @@ std::string scheme_table() {
         text << int{setting.number} << '\t' << setting.name << '\t' << setting.description << '\t' << setting.initial
              << '\t' << setting.minimum << '\t' << setting.maximum << '\t'
              << (setting.is_share() ? setting.share_name : "") << '\t' << setting.share_description << '\t'
-             << setting.share_initial << '\n';
+             << setting.share_initial << '\t' << below(setting) << '\n';
       }
     }
   }
@@ -119,7 +131,8 @@ int acts_sampler_map(ActsSampler* sampler, int rows, int cols, int no_skin, cons
 
 // What the schemes say of themselves: for each a line of name, number, description, whether it measures all; then a
 // line for each of its own settings, of number, name, description, initial value, minimum, maximum, and of the share
-// that it is given as name, description and initial value (empty, empty, 0 for none). Separated by tabs; the last field
+// that it is given as name, description and initial value (empty, empty, 0 for none), and whether it is below rows or
+// cols. Separated by tabs; the last field
 // of a scheme's line is the number of such lines that follow it.
 const char* acts_sampler_schemes() {
   static const std::string kTable = scheme_table();

@@ -18,6 +18,8 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "option_error.hpp"
+
 namespace acts {
 
 namespace fs = std::filesystem;
@@ -29,8 +31,9 @@ constexpr const char* kOther =
 constexpr mode_t kOwnerOnly = 0700;
 constexpr std::size_t kLongestCommand = 100;
 
+template <typename Error = std::runtime_error>
 [[noreturn]] void refuse(const std::string& what) {
-  throw std::runtime_error(what + kOther);
+  throw Error(what + kOther);
 }
 
 std::string user(uid_t id) {
@@ -59,27 +62,28 @@ void make_private(const fs::path& folder) {
   for (const fs::path& part : folder) {
     made /= part;
     if (mkdir(made.c_str(), kOwnerOnly) != 0 && errno != EEXIST) {
-      refuse("the folder " + folder.string() + " cannot be made (" + std::strerror(errno) + "); ");
+      refuse<OptionError>("the folder " + folder.string() + " cannot be made (" + std::strerror(errno) + "); ");
     }
   }
   struct stat status{};
   if (lstat(folder.c_str(), &status) != 0) {
-    refuse("the folder " + folder.string() + " cannot be looked at (" + std::strerror(errno) + "); ");
+    refuse<OptionError>("the folder " + folder.string() + " cannot be looked at (" + std::strerror(errno) + "); ");
   }
   if (S_ISLNK(status.st_mode)) {
-    refuse("the folder " + folder.string() + " is a symbolic link; name what it leads to, or ");
+    refuse<OptionError>("the folder " + folder.string() + " is a symbolic link; name what it leads to, or ");
   }
   if (!S_ISDIR(status.st_mode)) {
-    refuse(folder.string() + " is no folder; ");
+    refuse<OptionError>(folder.string() + " is no folder; ");
   }
   if ((status.st_mode & S_ISVTX) != 0) {
     return;
   }
   if (status.st_uid != geteuid()) {
-    refuse("the folder " + folder.string() + " belongs to " + user(status.st_uid) + "; ");
+    refuse<OptionError>("the folder " + folder.string() + " belongs to " + user(status.st_uid) + "; ");
   }
   if ((status.st_mode & S_IWOTH) != 0) {
-    refuse("anybody may write to the folder " + folder.string() + "; `chmod o-w " + folder.string() + "`, or ");
+    refuse<OptionError>("anybody may write to the folder " + folder.string() + "; `chmod o-w " + folder.string() +
+                        "`, or ");
   }
 }
 

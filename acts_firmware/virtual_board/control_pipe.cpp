@@ -11,8 +11,9 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <stdexcept>
 #include <system_error>
+
+#include "option_error.hpp"
 
 namespace acts {
 
@@ -25,16 +26,16 @@ ControlPipe::ControlPipe(const std::string& path) : path_(path) {
   }
   const fs::file_status status = fs::symlink_status(path, error);
   if (fs::exists(status) && !fs::is_fifo(status)) {
-    throw std::runtime_error("--control " + path + ": something else than a named pipe is there; remove it");
+    throw OptionError("--control " + path + ": something else than a named pipe is there; remove it");
   }
   fs::remove(path, error);  // of a board that was killed
   if (mkfifo(path.c_str(), 0600) != 0) {
-    throw std::runtime_error("--control " + path + ": cannot be made (" + std::strerror(errno) + ")");
+    throw OptionError("--control " + path + ": cannot be made (" + std::strerror(errno) + ")");
   }
   // Open for writing too: the pipe then does not end when a writer closes it.
   pipe_ = open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
   if (pipe_ < 0) {
-    throw std::runtime_error("--control " + path + ": cannot be opened (" + std::strerror(errno) + ")");
+    throw OptionError("--control " + path + ": cannot be opened (" + std::strerror(errno) + ")");
   }
 }
 

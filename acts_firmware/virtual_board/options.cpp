@@ -210,6 +210,16 @@ std::vector<Option> make_options(Options& o) {
   return options;
 }
 
+void check_own_settings(const SamplingConfig& sampling, const std::string& size) {
+  const SettingField refused = check(sampling);
+  for (const OwnSetting& setting : scheme_info(sampling.scheme)->own_settings) {
+    if (setting.number != 0 && refused == static_cast<SettingField>(setting.number)) {
+      throw OptionError(option_name(setting.name) + " " + std::to_string(sampling.own(setting)) +
+                        ": there is none in an array of " + size);
+    }
+  }
+}
+
 void check_sampling(const Options& options) {
   const SamplingConfig& sampling = options.sampling;
   const std::string size = std::to_string(sampling.rows) + " x " + std::to_string(sampling.cols);
@@ -219,6 +229,7 @@ void check_sampling(const Options& options) {
                       " taxels");
   }
   if (Schemes::takes(sampling.scheme, sampling.rows, sampling.cols, sampling.m)) {
+    check_own_settings(sampling, size);
     return;
   }
   std::string possible;

@@ -7,13 +7,13 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "acts_firmware/firmware.hpp"
 #include "acts_firmware/sampling/sampler.hpp"
 #include "faults.hpp"
+#include "option_error.hpp"
 #include "realtime.hpp"
 #include "wired_board.hpp"
 #include "wiring_faults.hpp"
@@ -46,12 +46,6 @@ struct Options {
   Realtime realtime;
   bool print_status = false;
   double status_period_s = 0.0;  // 0: none
-};
-
-// What was given, what is allowed.
-class OptionError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
 };
 
 // Everything from --ros-args on is left alone, so that ros2 launch can start the board as a node.

@@ -11,9 +11,11 @@
 #include <iostream>
 #include <memory>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "option_error.hpp"
 #include "published_recovery.hpp"
 #include "published_timing.hpp"
 
@@ -38,8 +40,12 @@ std::string json_text(const std::string& text) {
 std::unique_ptr<Field> make_field(const Options& options, std::int64_t start_ns) {
   const SamplingConfig& sampling = options.sampling;
   if (!options.recording.empty()) {
-    return open_recording(options.recording, sampling.rows, sampling.cols, options.recording_rate_hz, options.loop,
-                          start_ns);
+    try {
+      return open_recording(options.recording, sampling.rows, sampling.cols, options.recording_rate_hz, options.loop,
+                            start_ns);
+    } catch (const std::runtime_error& error) {
+      throw OptionError(std::string("--recording ") + error.what());
+    }
   }
   if (!options.field_ring.empty()) {
     return watch_ring(options.field_ring, static_cast<std::size_t>(sampling.rows * sampling.cols));

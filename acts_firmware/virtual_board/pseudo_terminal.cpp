@@ -16,6 +16,8 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "option_error.hpp"
+
 namespace acts {
 
 namespace fs = std::filesystem;
@@ -83,7 +85,7 @@ void PseudoTerminal::make_link() const {
   std::error_code error;
   const fs::file_status status = fs::symlink_status(path, error);
   if (fs::exists(status) && !fs::is_symlink(status)) {
-    throw std::runtime_error("--link " + link_ + ": something else than a symbolic link is there; remove it");
+    throw OptionError("--link " + link_ + ": something else than a symbolic link is there; remove it");
   }
   const fs::path fresh = link_ + ".new";
   fs::remove(fresh, error);

@@ -43,7 +43,7 @@ for step in (1, 3, 5, 64):
         np.testing.assert_array_equal(board.frame(frames, 0, 0), expected)
 
 wanted = DriverSettings(scheme="comb", comb_step=7, m=20).wanted(BoardSettings())
-assert (wanted.scheme, wanted.comb_step, len(wanted.to_bytes())) == ("comb", 7, 30)
+assert (wanted.scheme, wanted.comb_step, len(wanted.to_bytes())) == ("comb", 7, 36)
 assert BoardSettings.from_bytes(wanted.to_bytes()) == wanted
 sys.exit(main(sys.argv[1:]))
 """
@@ -85,7 +85,7 @@ def test_both_languages_sample_the_same_and_it_is_evaluated(tmp_path: Path) -> N
 
 
 def test_driver_and_board_refuse_what_exists_in_python_only(tmp_path: Path) -> None:
-    text = (EXAMPLE / "comb.py").read_text().replace("    number = 7\n", "")
+    text = (EXAMPLE / "comb.py").read_text().replace("    number = 8\n", "")
     asked = "from acts_core.settings import from_mapping; from acts_driver.settings import DriverSettings;"
     asked += "from acts_core.wire import BoardSettings; from_mapping({}, {{'scheme': 'comb'}})"
     environment = with_example(tmp_path, text)
@@ -93,3 +93,12 @@ def test_driver_and_board_refuse_what_exists_in_python_only(tmp_path: Path) -> N
         result = run([asked.format(settings_class)], environment)
         assert result.returncode == 1
         assert "scheme = 'comb': allowed is one of" in result.stderr
+
+
+def test_a_scheme_without_a_number_is_sampled_in_python_beside_those_of_the_firmware(tmp_path: Path) -> None:
+    text = (EXAMPLE / "comb.py").read_text().replace("    number = 8\n", "")
+    asked = "from acts_core.sampling import SamplingConfig\n"
+    asked += "from acts_tools.evaluate.images.board_sampler import sampler_of\n"
+    asked += "print(*(type(sampler_of(SamplingConfig(name, 32, 32, 55))).__name__ for name in ('tracking', 'comb')))"
+    result = run([asked], with_example(tmp_path, text))
+    assert result.stdout.split() == ["BoardSampler", "PythonSampler"], result.stderr

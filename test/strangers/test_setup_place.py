@@ -41,6 +41,14 @@ def test_letters_of_any_language_are_not(tmp_path: Path, name: str) -> None:
     assert "the path of this checkout" not in tried(tmp_path / name).stderr
 
 
+def test_a_distribution_without_wheels_is_refused_first(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ROS", "humble")
+    done = tried(tmp_path / "checkout")
+    assert done.returncode == 1
+    assert "ROS=humble: kilted or jazzy can be set up here" in done.stderr
+    assert not (tmp_path / "checkout" / ".acts").exists()
+
+
 @pytest.fixture
 def bootstrap() -> ModuleType:
     """The set-up's functions."""

@@ -4,7 +4,7 @@
 """Which taxels of a frame are measured, and in which order: the schemes, as the board has them.
 
 In come settings and, for schemes that follow touch, the counts so far; out come the indices of each frame. `SkinMap` is
-what a board is told of the skin's layout.
+the part of the skin's layout that is sent to a board.
 """
 
 from acts_core.sampling.basis import (
@@ -20,6 +20,7 @@ from acts_core.sampling.basis import (
 from acts_core.sampling.registry import (
     BOARD_OWN_SETTINGS,
     OWN_SETTINGS,
+    REPEATING,
     SCHEME_NUMBERS,
     SCHEMES,
     check_frame,
@@ -31,6 +32,7 @@ __all__ = [
     "BOARD_OWN_SETTINGS",
     "NEIGHBOURS",
     "OWN_SETTINGS",
+    "REPEATING",
     "SCHEMES",
     "SCHEME_NUMBERS",
     "Measure",

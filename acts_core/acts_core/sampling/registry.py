@@ -29,6 +29,9 @@ SCHEMES = _find()
 SCHEME_NUMBERS = {name: scheme.number for name, scheme in SCHEMES.items() if scheme.number is not None}
 """Numbers on the wire of the schemes that a board has; the others exist in Python only."""
 
+REPEATING = frozenset(scheme.number for scheme in SCHEMES.values() if scheme.repeats and scheme.number is not None)
+"""Numbers of the schemes whose frames may have a taxel several times."""
+
 OWN_SETTINGS = tuple(own for scheme in SCHEMES.values() for own in scheme.own_settings)
 """The schemes' own settings."""
 

@@ -42,6 +42,8 @@ class SamplingConfig(_Own, CommonSettings):  # type: ignore[misc]
     def __post_init__(self) -> None:
         validate(self)
         check_frame(self.scheme, self.rows, self.cols, self.m)
+        for own in SCHEMES[self.scheme].own_settings:
+            own.check(self.own(own), self.rows, self.cols, self.m, self.scheme)
 
     @property
     def frame_size(self) -> int:
@@ -79,7 +81,8 @@ class Sampler:
         Returns
         -------
         indices, counts : np.ndarray [shape=(m,), dtype=uint16]
-            Row-major taxel indices in the order of measurement, none twice, and what was measured there.
+            Row-major taxel indices in the order of measurement, and what was measured there. None is there twice,
+            unless the scheme `repeats`.
         """
         return self._scheme.frame(measure)
 

@@ -3,8 +3,8 @@
 
 """The bytes between board and host. `docs/wire_protocol.md` describes them.
 
-In come bytes of a stream, out come frames and messages of the board; commands to the board go the other way. Whatever
-the bytes are, decoders take no harm: they reject, count and go on.
+In come bytes of a stream, out come frames and messages of the board; commands to the board go the other way. Decoders
+accept any bytes: they reject and count what is invalid, and continue.
 """
 
 from acts_core.wire.board_messages import BoardImage, BoardMessage, BoardObject

@@ -112,7 +112,7 @@ class BoardSettings(_Own):  # type: ignore[misc]
         validate(self)
         check_frame(self.scheme, self.rows, self.cols, self.m)
         for own in SCHEMES[self.scheme].own_settings:
-            own.check(getattr(self, own.name), self.m, self.scheme)
+            own.check(getattr(self, own.name), self.rows, self.cols, self.m, self.scheme)
 
     @classmethod
     def from_sampling(

@@ -18,7 +18,12 @@ COUNT_RANGE = 3
 
 @kernel
 def first_fault(
-    indices: NDArray[np.uint16], counts: NDArray[np.uint16], size: int, seen: NDArray[np.uint32], mark: int
+    indices: NDArray[np.uint16],
+    counts: NDArray[np.uint16],
+    size: int,
+    seen: NDArray[np.uint32],
+    mark: int,
+    may_repeat: bool,
 ) -> tuple[int, int]:
     """Find the first sample that cannot be right.
 
@@ -32,6 +37,8 @@ def first_fault(
         Scratch kept from call to call: the mark of the frame that saw a taxel last.
     mark : int
         Different in every call.
+    may_repeat : bool
+        Whether an index may be there several times.
 
     Returns
     -------
@@ -44,7 +51,7 @@ def first_fault(
         index = indices[position]
         if index >= size:
             return INDEX_RANGE, position
-        if seen[index] == mark:
+        if seen[index] == mark and not may_repeat:
             return INDEX_REPEATED, position
         seen[index] = mark
         if counts[position] > COUNT_MAX:

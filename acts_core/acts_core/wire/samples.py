@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import PacketError
 from acts_core.frames import SampleFrame, Scheme
+from acts_core.sampling import REPEATING
 from acts_core.wire import cobs_reference
 from acts_core.wire.board_messages import BoardMessage, decode_message
 from acts_core.wire.cobs_kernels import decode_into, encode_into
@@ -64,7 +65,7 @@ def encode_frame(frame: SampleFrame) -> bytes:
     if indices.ndim != 1 or indices.shape != counts.shape:
         raise PacketError(f"indices {indices.shape} and counts {counts.shape}: both are (m,)")
     _check_size(frame.rows, frame.cols, len(indices))
-    reason = sample_fault(indices, counts, frame.rows * frame.cols)
+    reason = sample_fault(indices, counts, frame.rows * frame.cols, may_repeat=frame.scheme in REPEATING)
     if reason:
         raise PacketError(reason)
     if not 0 <= frame.board_us < 1 << 64:
@@ -90,7 +91,9 @@ def encode_frame(frame: SampleFrame) -> bytes:
     return encoded[: encode_into(packet, encoded)].tobytes() + cobs_reference.DELIMITER
 
 
-def sample_fault(indices: NDArray[np.integer], counts: NDArray[np.integer], size: int) -> str:
+def sample_fault(
+    indices: NDArray[np.integer], counts: NDArray[np.integer], size: int, *, may_repeat: bool = False
+) -> str:
     """What is wrong with the samples of a frame, in words; empty for nothing.
 
     The reference implementation of `first_fault`.
@@ -101,13 +104,15 @@ def sample_fault(indices: NDArray[np.integer], counts: NDArray[np.integer], size
         The samples.
     size : int
         Number of taxels of the array.
+    may_repeat : bool
+        Whether an index may be there several times.
     """
     seen: set[int] = set()
     for position, (index, count) in enumerate(zip(indices.tolist(), counts.tolist(), strict=True)):
         fault = 0
         if not 0 <= index < size:
             fault = INDEX_RANGE
-        elif index in seen:
+        elif index in seen and not may_repeat:
             fault = INDEX_REPEATED
         elif not 0 <= count <= COUNT_MAX:
             fault = COUNT_RANGE
@@ -143,7 +148,7 @@ class StreamDecoder(DelimitedDecoder):
         # Compiles, or loads from the cache, what the first frame would otherwise wait for.
         nothing = np.empty(0, dtype=np.uint8)
         decode_into(b"", nothing)
-        first_fault(nothing.view(_U2), nothing.view(_U2), 1, self._seen, self._mark)
+        first_fault(nothing.view(_U2), nothing.view(_U2), 1, self._seen, self._mark, False)
 
     def _decode(self, packet: bytes) -> SampleFrame | None:
         buffer = np.empty(len(packet), dtype=np.uint8)
@@ -178,7 +183,7 @@ class StreamDecoder(DelimitedDecoder):
         samples = buffer[_HEADER.size : body_end].view(_U2)
         indices, counts = samples[:m], samples[m:]
         self._mark = self._mark % 0xFFFFFFFF + 1
-        fault, position = first_fault(indices, counts, rows * cols, self._seen, self._mark)
+        fault, position = first_fault(indices, counts, rows * cols, self._seen, self._mark, scheme in REPEATING)
         if fault:
             raise PacketError(
                 _FAULTS[fault].format(

@@ -61,6 +61,9 @@ def board_settings(draw: st.DrawFn) -> BoardSettings:
         threshold_counts=draw(st.integers(0, 1023)),
         search_quota=draw(st.integers(1, m)),
         adaptive_quota=draw(st.integers(1, m)),
+        fixed_row=draw(st.integers(0, rows - 1)),
+        fixed_col=draw(st.integers(0, cols - 1)),
+        fixed_taxels=draw(st.integers(0, 4096)),
         touch_counts=draw(st.integers(0, 1023)),
         output=draw(st.sampled_from(OUTPUTS)),
         led=draw(st.sampled_from(LEDS)),
@@ -139,8 +142,12 @@ def test_commands_byte_by_byte() -> None:
         led="touch",
         frame_period_us=0x00010203,
         seed=0x1122334455667788,
+        fixed_row=0x0008,
+        fixed_col=0x0009,
+        fixed_taxels=0x010A,
     )
     body = bytes.fromhex("10 40 06 01 01 02 04 03 05 01 06 01 07 01 02 03 03 02 01 00 88 77 66 55 44 33 22 11")
+    body += bytes.fromhex("08 00 09 00 0A 01")
     assert unstuffed(encode_query(0x01020304)) == command(16, 0x01020304, b"")
     assert unstuffed(encode_configure(1, settings)) == command(17, 1, body)
     model = patch_dictionary(np.arange(12).reshape(4, 3), patch_step=1)
@@ -155,7 +162,7 @@ def test_settings_round_trip(settings: BoardSettings) -> None:
     assert BoardSettings.from_bytes(settings.to_bytes()) == settings
 
 
-@given(st.binary(min_size=28, max_size=28))
+@given(st.binary(min_size=34, max_size=34))
 def test_settings_from_any_bytes_are_valid_or_refused(data: bytes) -> None:
     try:
         settings = BoardSettings.from_bytes(data)
@@ -171,6 +178,8 @@ def test_settings_from_any_bytes_are_valid_or_refused(data: bytes) -> None:
         ({"scheme": "uniform", "m": 53}, "no uniform grid"),
         ({"scheme": "tracking", "search_quota": 56}, "search_quota = 56: allowed is 1 to m = 55"),
         ({"scheme": "hybrid", "adaptive_quota": 0}, "adaptive_quota = 0"),
+        ({"scheme": "fixed", "fixed_row": 32}, "fixed_row = 32: allowed is 0 to 31 of a fixed frame of 32 x 32"),
+        ({"scheme": "fixed", "cols": 9, "fixed_col": 9}, "fixed_col = 9: allowed is 0 to 8 "),
         ({"scheme": "spiral"}, "one of adaptive"),
         ({"output": "video"}, "one of samples, image, object"),
         ({"frame_period_us": 1_000_001}, "0 to 1000000 "),

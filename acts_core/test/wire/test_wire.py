@@ -285,12 +285,20 @@ def test_bad_samples_are_malformed_and_not_encoded(indices: list[int], counts: l
         encode_frame(frame)
 
 
-@given(st.lists(st.tuples(st.integers(0, 20), st.integers(1000, 1030)), max_size=8))
-def test_compiled_and_plain_check_agree(samples: list[tuple[int, int]]) -> None:
+def test_only_a_scheme_that_repeats_may_have_a_taxel_several_times() -> None:
+    again = {"indices": np.array([5, 6, 5, 5], dtype=np.uint16), "counts": np.array([1, 2, 3, 4], dtype=np.uint16)}
+    frame = example()._replace(scheme=Scheme.FIXED, **again)
+    (found,) = StreamDecoder().feed(encode_frame(frame))
+    assert found.indices.tolist() == [5, 6, 5, 5]
+    assert not StreamDecoder().feed(packet_of(example()._replace(scheme=Scheme.RASTER, **again)))
+
+
+@given(st.lists(st.tuples(st.integers(0, 20), st.integers(1000, 1030)), max_size=8), st.booleans())
+def test_compiled_and_plain_check_agree(samples: list[tuple[int, int]], may_repeat: bool) -> None:
     indices = np.array([index for index, _ in samples], dtype=np.uint16)
     counts = np.array([count for _, count in samples], dtype=np.uint16)
-    fault, position = first_fault(indices, counts, 16, np.zeros(4096, dtype=np.uint32), 1)
-    reason = sample_fault(indices, counts, 16)
+    fault, position = first_fault(indices, counts, 16, np.zeros(4096, dtype=np.uint32), 1, may_repeat)
+    reason = sample_fault(indices, counts, 16, may_repeat=may_repeat)
     assert bool(fault) == bool(reason)
     if fault:
         assert f"sample {position}" in reason

@@ -26,7 +26,7 @@ struct SampleFrame {
   std::uint8_t rows = 0;
   std::uint8_t cols = 0;
   std::uint16_t m = 0;
-  std::array<std::uint16_t, kMaxTaxels> indices{};  // row-major, in the order of measurement, none twice
+  std::array<std::uint16_t, kMaxTaxels> indices{};  // row-major, in the order of measurement
   std::array<std::uint16_t, kMaxTaxels> counts{};
 
   void append(int index, std::uint16_t count) {

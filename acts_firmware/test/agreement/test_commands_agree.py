@@ -9,8 +9,6 @@ import xml.etree.ElementTree as ElementTree
 import zlib
 from pathlib import Path
 
-import core_firmware
-import numpy as np
 import pytest
 from core_firmware import BOARD_ID, CoreFirmware
 from hypothesis import given, settings
@@ -18,22 +16,14 @@ from hypothesis import strategies as st
 
 from acts_core.errors import PacketError
 from acts_core.frames import Scheme
-from acts_core.sampling import SCHEME_NUMBERS, SkinMap
-from acts_core.skin import layout
+from acts_core.sampling import SCHEME_NUMBERS
 from acts_core.wire import (
     LEDS,
-    MAP_PIECE_MAX,
-    OUTPUTS,
-    BoardImage,
-    BoardObject,
     BoardSettings,
     Reply,
     ReplyStatus,
-    StreamDecoder,
     cobs_reference,
     encode_configure,
-    encode_map_data,
-    encode_map_end,
     encode_query,
 )
 from acts_core.wire.board_settings import SETTINGS_SIZE
@@ -43,7 +33,7 @@ from acts_core.wire.packets import PacketType, seal
 pytestmark = pytest.mark.slow
 
 FAST = settings(max_examples=60, deadline=None)
-LAYOUT = struct.Struct("<BBBBHHHHHBBIQ")
+LAYOUT = struct.Struct("<BBBBHHHHHBBIQHHH")
 OTHERS = BoardSettings(scheme="tracking", m=99, threshold_counts=7, search_quota=20, led="on", seed=5)
 
 
@@ -60,7 +50,7 @@ def raw_settings(draw: st.DrawFn) -> bytes:
     return LAYOUT.pack(
         rows,
         cols,
-        draw(near(1, 6, 255)),
+        draw(near(1, 7, 255)),
         draw(near(0, 1, 255)),
         m,
         draw(near(0, 1023, 0xFFFF)),
@@ -71,6 +61,9 @@ def raw_settings(draw: st.DrawFn) -> bytes:
         draw(near(0, 3, 255)),
         draw(near(0, 1_000_000, 2**32 - 1)),
         draw(st.integers(0, 2**64 - 1)),
+        draw(near(0, max(rows - 1, 0), 0xFFFF)),
+        draw(near(0, max(cols - 1, 0), 0xFFFF)),
+        draw(near(0, 4096, 0xFFFF)),
     )
 
 
@@ -106,7 +99,7 @@ def test_core_and_reference_take_the_same_settings(raw: bytes) -> None:
     [
         (SettingField.ROWS, 0, 65),
         (SettingField.COLS, 1, 0),
-        (SettingField.SCHEME, 2, 7),
+        (SettingField.SCHEME, 2, 8),
         (SettingField.NEIGHBOUR_ORDER, 3, 2),
         (SettingField.M, 4, 1025),
         (SettingField.THRESHOLD_COUNTS, 5, 1024),
@@ -116,6 +109,9 @@ def test_core_and_reference_take_the_same_settings(raw: bytes) -> None:
         (SettingField.OUTPUT, 9, 3),
         (SettingField.LED, 10, 4),
         (SettingField.FRAME_PERIOD_US, 11, 1_000_001),
+        (SettingField.FIXED_ROW, 13, 64),
+        (SettingField.FIXED_COL, 14, 64),
+        (SettingField.FIXED_TAXELS, 15, 4097),
     ],
 )
 def test_a_refused_setting_is_named_and_changes_nothing(field: SettingField, position: int, value: int) -> None:
@@ -141,6 +137,16 @@ def test_a_quota_is_refused_by_its_scheme() -> None:
         values = list(LAYOUT.unpack(BoardSettings(m=20, search_quota=21, adaptive_quota=21).to_bytes()))
         values[2] = int(scheme)
         with CoreFirmware() as firmware:
+            assert firmware.ask(configure(LAYOUT.pack(*values))).detail == field
+
+
+def test_a_taxel_outside_of_the_array_is_refused_by_its_scheme() -> None:
+    for field in (SettingField.FIXED_ROW, SettingField.FIXED_COL):
+        values = list(LAYOUT.unpack(BoardSettings(rows=9, cols=9, m=5).to_bytes()))
+        values[13 + field - SettingField.FIXED_ROW] = 9
+        with CoreFirmware() as firmware:
+            assert firmware.ask(configure(LAYOUT.pack(*values))).ok
+            values[2] = int(Scheme.FIXED)
             assert firmware.ask(configure(LAYOUT.pack(*values))).detail == field
 
 
@@ -320,124 +326,3 @@ def test_the_led_shows_what_it_is_told() -> None:
         assert shown["touch"] == [False, True] * 128
         firmware.ask(encode_configure(1, BoardSettings(led="off")))
         assert not firmware.led  # at once
-
-
-U32, U64 = st.integers(0, 2**32 - 1), st.integers(0, 2**64 - 1)
-
-
-@FAST
-@given(U32, U64, U32, st.integers(1, 64), st.integers(1, 64), st.integers(0, 2**32 - 1))
-def test_images(sequence: int, board_us: int, duration_us: int, rows: int, cols: int, seed: int) -> None:
-    random = np.random.default_rng(seed)
-    counts = random.uniform(-100, 1200, (rows, cols)).astype(np.float32)
-    counts[random.random((rows, cols)) < 0.02] = random.choice(
-        np.array([np.nan, np.inf, -np.inf, 0.5, 1022.5], dtype=np.float32)
-    )
-    packet = core_firmware.encode_image(sequence, board_us, duration_us, counts)
-    messages: list[object] = []
-    StreamDecoder(on_message=messages.append).feed(cobs_reference.encode(packet) + b"\0")
-    (image,) = messages
-    assert isinstance(image, BoardImage)
-    assert (image.sequence, image.board_us, image.duration_us) == (sequence, board_us, duration_us)
-    expected = np.floor(np.clip(np.nan_to_num(counts.astype(float)), 0, 1023) + 0.5)
-    assert image.counts.tolist() == expected.tolist()
-
-
-@FAST
-@given(U32, U64, U32, st.lists(st.floats(width=32), min_size=1, max_size=64), st.data())
-def test_objects(sequence: int, board_us: int, duration_us: int, values: list[float], data: st.DataObject) -> None:
-    residuals = np.array(values, dtype=np.float32)
-    number = data.draw(st.none() | st.integers(0, len(values) - 1))
-    packet = core_firmware.encode_object(sequence, board_us, duration_us, number, residuals)
-    messages: list[object] = []
-    StreamDecoder(on_message=messages.append).feed(cobs_reference.encode(packet) + b"\0")
-    (found,) = messages
-    assert isinstance(found, BoardObject)
-    assert (found.sequence, found.board_us, found.duration_us) == (sequence, board_us, duration_us)
-    assert found.number == number
-    largest = np.finfo(np.float32).max
-    expected = np.where(np.isfinite(residuals), np.maximum(residuals, 0), largest)
-    assert found.residuals.tolist() == expected.tolist()
-
-
-def test_every_output_is_known_to_both() -> None:
-    with CoreFirmware() as firmware:
-        for number, output in enumerate(OUTPUTS):
-            state = firmware.ask(encode_configure(1, BoardSettings(output=output))).state
-            assert state.settings.output == output
-            assert state.samples_only == (number > 0)  # no model is held
-            assert firmware.active_output == 0
-
-
-def arrange(firmware: CoreFirmware, skin_map: SkinMap) -> Reply:
-    for first in range(0, len(skin_map.taxels), MAP_PIECE_MAX):
-        assert firmware.ask(encode_map_data(1, skin_map, first)).ok
-    return firmware.ask(encode_map_end(2, skin_map))
-
-
-@pytest.mark.parametrize("name", ["insole", "glove", "leap_right"])
-def test_a_layout_is_taken_kept_and_given_up(name: str) -> None:
-    skin_map = SkinMap.of(layout(name))
-    with CoreFirmware() as firmware:
-        assert firmware.ask(encode_query(1)).state.map_crc32 == 0
-        assert arrange(firmware, skin_map).ok
-        assert firmware.ask(encode_query(1)).state.map_crc32 == skin_map.crc32
-        assert firmware.ask(encode_configure(1, OTHERS)).state.map_crc32 == skin_map.crc32
-        # For another matrix it is none.
-        assert firmware.ask(encode_configure(1, BoardSettings(rows=30))).state.map_crc32 == 0
-        assert firmware.ask(encode_configure(1, OTHERS)).state.map_crc32 == 0
-        assert arrange(firmware, skin_map).state.map_crc32 == skin_map.crc32
-        assert firmware.ask(encode_map_end(3, None)).state.map_crc32 == 0
-
-
-def test_the_largest_layout_of_sixteen_patches_fits() -> None:
-    patches = tuple((np.arange(4096) // 256).tolist())
-    largest = SkinMap(64, 64, tuple(np.random.default_rng(3).permutation(4096).tolist()), patches)
-    with CoreFirmware() as firmware:
-        assert firmware.ask(encode_configure(1, BoardSettings(rows=64, cols=64))).ok
-        assert arrange(firmware, largest).state.map_crc32 == largest.crc32
-
-
-def test_a_layout_said_twice_disturbs_no_sampling() -> None:
-    skin_map, said = SkinMap.of(layout("insole")), BoardSettings(scheme="random", seed=3)
-    with CoreFirmware() as firmware, CoreFirmware() as other:
-        for one in (firmware, other):
-            assert one.ask(encode_configure(1, said)).ok
-            assert arrange(one, skin_map).ok
-            one.measure()
-            one.read()
-        assert firmware.ask(encode_map_end(9, skin_map)).ok
-        assert firmware.ask(encode_configure(9, said)).ok
-        firmware.measure()
-        other.measure()
-        assert np.array_equal(firmware.read()[0].indices, other.read()[0].indices)
-
-
-def test_layouts_that_are_none_are_refused_and_leave_the_matrix() -> None:
-    skin_map = SkinMap.of(layout("glove"))
-    twice = dataclasses.replace(skin_map, taxels=(*skin_map.taxels[:-1], skin_map.taxels[0]))
-    beyond = dataclasses.replace(skin_map, taxels=(*skin_map.taxels[:-1], 1024))
-    odd = dataclasses.replace(skin_map, no_skin=16)
-    small = SkinMap.of_matrix(16, 16)
-    with CoreFirmware() as firmware:
-        for wrong in (twice, beyond, odd, small):
-            reply = arrange(firmware, wrong)
-            assert (reply.status, reply.state.map_crc32) == (ReplyStatus.MAP_IMPOSSIBLE, 0)
-            assert "layout" in reply.problem
-        # Of another map than was sent.
-        assert firmware.ask(encode_map_data(1, SkinMap.of(layout("insole")), 0)).ok
-        assert firmware.ask(encode_map_end(1, skin_map)).status is ReplyStatus.MAP_IMPOSSIBLE
-        for body, status in ((b"\0\0\0", ReplyStatus.BAD_LENGTH), (b"\xff\xff\0\0", ReplyStatus.MAP_IMPOSSIBLE)):
-            assert firmware.ask(seal(PacketType.MAP_DATA, bytes(4) + body)).status is status
-        assert firmware.ask(seal(PacketType.MAP_DATA, bytes(4) + bytes(5))).status is ReplyStatus.BAD_LENGTH
-        firmware.measure()
-        assert len(firmware.read()) == 1
-
-
-@FAST
-@given(st.sampled_from([PacketType.MAP_DATA, PacketType.MAP_END]), st.binary(max_size=40))
-def test_any_bytes_about_a_layout_get_one_reply(kind: PacketType, body: bytes) -> None:
-    with CoreFirmware() as firmware:
-        assert isinstance(firmware.ask(seal(kind, bytes(4) + body)), Reply)
-        firmware.measure()
-        assert len(firmware.read()) == 1

@@ -135,6 +135,23 @@ def test_on_any_skin(rows: int, cols: int, scheme: str, order: str, threshold: i
     compare(config, fields.reshape(FRAMES, rows, cols), skin_map)
 
 
+@settings(max_examples=200, deadline=None)
+@given(st.integers(1, 64), st.integers(1, 64), st.integers(0, 2**32 - 1))
+def test_fixed_on_any_skin(rows: int, cols: int, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    config = SamplingConfig(
+        "fixed",
+        rows,
+        cols,
+        m=int(rng.integers(1, rows * cols + 1)),
+        fixed_row=int(rng.integers(rows)),
+        fixed_col=int(rng.integers(cols)),
+        fixed_taxels=int(rng.choice([0, 1, rng.integers(rows * cols), 4096])),
+    )
+    fields = rng.integers(0, 1024, (FRAMES, rows, cols))
+    compare(config, fields, None if rng.random() < 0.3 else any_map(rng, rows, cols))
+
+
 @pytest.mark.parametrize("name", ["insole", "glove", "leap_right"])
 @pytest.mark.parametrize("scheme", ["adaptive", "tracking", "hybrid", "uniform"])
 def test_on_the_layouts_that_come_with_us(name: str, scheme: str) -> None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from acts_core.sampling.basis import CommonSettings, Measure, OwnSetting, Samples, SamplingScheme, SkinMap
 
 STEP = OwnSetting(
-    "comb_step", "taxels from one of a comb frame to the next", default=5, minimum=1, maximum=64, number=14
+    "comb_step", "taxels from one of a comb frame to the next", default=5, minimum=1, maximum=64, number=17
 )
 
 
@@ -16,7 +16,7 @@ class Comb(SamplingScheme):
     """Every `comb_step`-th taxel, row by row; at the end of the array, again from one taxel further on."""
 
     name = "comb"
-    number = 7
+    number = 8
     description = "every n-th taxel, from where the last frame stopped"
     own_settings = (STEP,)
 

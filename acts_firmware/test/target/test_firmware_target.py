@@ -16,6 +16,7 @@ import pytest
 from core_library import installed
 from sketch_model import SketchRun, run_sketch, upload
 
+from acts_core.sampling import SCHEME_NUMBERS
 from acts_core.wire import BoardImage, BoardObject, BoardSettings, encode_configure, object_library, patch_dictionary
 
 pytestmark = pytest.mark.slow
@@ -60,7 +61,7 @@ def test_sampling_agrees_with_the_host(on_target: list[str]) -> None:
         for command in ([installed("sampling_digest")], [*on_target, "sampling_digest"])
     )
     assert there == here
-    assert len(here.splitlines()) == 36
+    assert len(here.splitlines()) == 6 * len(SCHEME_NUMBERS)
 
 
 def both_runs(script: list[str], on_target: list[str], tmp_path: Path) -> tuple[SketchRun, SketchRun]:

@@ -151,8 +151,9 @@ def test_what_the_host_sends_is_taken_and_disturbs_nothing(tmp_path: Path) -> No
         (["--cols", "3x"], "--cols 3x"),
         (["--m", "0"], "--m 0"),
         (["--rows", "5", "--cols", "5"], "--m 55: an array of 5 x 5 has 25 taxels"),
-        (["--scheme", "spiral"], "adaptive, hybrid, random, raster, tracking, uniform"),
+        (["--scheme", "spiral"], "adaptive, fixed, hybrid, random, raster, tracking, uniform"),
         (["--scheme", "uniform", "--m", "53"], "--m 53: no uniform frame"),
+        (["--scheme", "fixed", "--fixed-row", "32"], "--fixed-row 32: there is none in an array of 32 x 32"),
         (["--search-share", "0"], "--search-share 0: allowed is a number from 0.0001 to 1"),
         (["--search-share", "1.01"], "--search-share 1.01"),
         (["--adaptive-share", "0"], "--adaptive-share 0: allowed is a number from 0.0001 to 1"),
@@ -209,16 +210,16 @@ def test_link_of_a_killed_board_is_replaced(tmp_path: Path) -> None:
         board.read_frames(3)
 
 
-def refusal(link: Path) -> str:
+def refusal(link: Path, code: int) -> str:
     command = [installed("virtual_board"), "--link", link]
     result = subprocess.run(command, capture_output=True, text=True, timeout=30)
-    assert result.returncode == 1
+    assert result.returncode == code
     return result.stderr
 
 
 def test_a_link_in_use_is_refused_with_the_name_of_the_board_that_has_it(tmp_path: Path) -> None:
     with BoardProcess(tmp_path) as first:
-        said = refusal(first.link)
+        said = refusal(first.link, 1)
         assert f"{first.link} is in use by process {first.process.pid} (" in said
         assert "virtual_board --link" in said
         assert "run_dir:=" in said
@@ -236,13 +237,13 @@ def test_folders_that_others_have_a_hand_in_are_refused(tmp_path: Path) -> None:
     folder = tmp_path / "folder"
     folder.mkdir()
     (tmp_path / "run").symlink_to(folder)
-    assert "run is a symbolic link" in refusal(tmp_path / "run" / "board")
+    assert "run is a symbolic link" in refusal(tmp_path / "run" / "board", 2)
     folder.chmod(0o777)
-    assert "anybody may write to the folder" in refusal(folder / "board")
+    assert "anybody may write to the folder" in refusal(folder / "board", 2)
     folder.chmod(0o755)
     if os.geteuid() == 0:
         os.chown(folder, 1, 1)
-        assert "belongs to" in refusal(folder / "board")
+        assert "belongs to" in refusal(folder / "board", 2)
     assert list(folder.iterdir()) == []
 
 
@@ -250,6 +251,6 @@ def test_a_file_in_place_of_the_link_is_kept(tmp_path: Path) -> None:
     path = tmp_path / "notes.txt"
     path.write_text("mine")
     result = subprocess.run([installed("virtual_board"), "--link", path], capture_output=True, text=True, timeout=30)
-    assert result.returncode == 1
+    assert result.returncode == 2
     assert "something else than a symbolic link" in result.stderr
     assert path.read_text() == "mine"

@@ -192,6 +192,6 @@ def test_broken_recordings_are_refused(tmp_path: Path) -> None:
 def refusal(path: Path) -> str:
     command = [installed("virtual_board"), *map(str, SMALL), "--recording", path]
     result = subprocess.run(command, capture_output=True, text=True, timeout=30)
-    assert result.returncode == 1
+    assert result.returncode == 2
     assert str(path) in result.stderr
     return result.stderr

@@ -25,6 +25,7 @@ def said_by_firmware() -> dict[tuple[str, ...], list[OwnSetting]]:
                 *(int(number) for number in row[3:6]),
                 number=int(row[0]),
                 share=Share(row[6], row[7], float(row[8])) if row[6] else None,
+                below=row[9],
             )
             for row in rows
         ]

@@ -19,7 +19,7 @@ Measure: TypeAlias = Callable[[int, int], int]
 """Measures one taxel: row and column to ADC counts."""
 
 Samples: TypeAlias = tuple[NDArray[np.uint16], NDArray[np.uint16]]
-"""Row-major taxel indices in the order of measurement, none twice, and what was measured there; (m,) each."""
+"""Row-major taxel indices in the order of measurement, and what was measured there; (m,) each."""
 
 
 class SamplingScheme(ABC):
@@ -44,6 +44,8 @@ class SamplingScheme(ABC):
     own_settings: ClassVar[tuple[OwnSetting, ...]] = ()
     measures_all: ClassVar[bool] = False
     """Whether every frame has all taxels, whatever `m` says."""
+    repeats: ClassVar[bool] = False
+    """Whether a frame may have a taxel several times; with other schemes that is an error."""
 
     def __init__(self, config: CommonSettings, skin_map: SkinMap) -> None:
         self.config = config

@@ -59,6 +59,8 @@ class OwnSetting:
         On the wire: 7, 8, then 14 and on, each given once. None: no board has it.
     share : Share, optional
         How a user gives it: the setting is that share of `m`, rounded up, and 1 to `m` in a frame of its scheme.
+    below : str
+        "rows" or "cols": less than that in a frame of its scheme. Empty: no such limit.
     """
 
     name: str
@@ -68,6 +70,7 @@ class OwnSetting:
     maximum: int
     number: int | None = None
     share: Share | None = None
+    below: str = ""
 
     @property
     def parameter(self) -> str:
@@ -98,8 +101,8 @@ class OwnSetting:
         """What a board is told where a user gives this."""
         return math.ceil(given * m) if self.share else int(given)
 
-    def check(self, value: int, m: int, scheme: str) -> None:
-        """Check what a board is told in frames of `m` taxels of the setting's scheme.
+    def check(self, value: int, rows: int, cols: int, m: int, scheme: str) -> None:
+        """Check what a board is told in frames of the setting's scheme.
 
         Raises
         ------
@@ -107,6 +110,11 @@ class OwnSetting:
         """
         if self.share and not 1 <= value <= m:
             raise SettingsError(f"{self.name} = {value}: allowed is 1 to m = {m} of a {scheme} frame")
+        side = {"rows": rows, "cols": cols}.get(self.below)
+        if side is not None and value >= side:
+            raise SettingsError(
+                f"{self.name} = {value}: allowed is 0 to {side - 1} of a {scheme} frame of {rows} x {cols} taxels"
+            )
 
 
 def with_fields(name: str, fields: Mapping[str, Any], **namespace: Any) -> Any:

@@ -36,7 +36,7 @@ class Measurement {
     marks_.begin_frame();
   }
 
-  // Measures a taxel that this frame has not measured yet.
+  // Measures a taxel; one that this frame has measured before only for a scheme that repeats.
   std::uint16_t take(int index) {
     const std::uint16_t count = reader_.measure(index / frame_.cols, index % frame_.cols);
     marks_.set(index);

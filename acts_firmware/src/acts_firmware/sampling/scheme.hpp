@@ -17,6 +17,9 @@ namespace acts {
 // Own settings of all schemes together.
 constexpr std::size_t kMaxOwnSettings = 8;
 
+// What a setting is less than in a frame of its scheme.
+enum class Below : std::uint8_t { kNothing, kRows, kCols };
+
 // A setting that only one scheme has: on the wire a whole number of 16 bits, for a user perhaps a share of the frame.
 struct OwnSetting {
   std::uint8_t number = 0;  // on the wire: 7, 8, then 14 and on
@@ -30,6 +33,7 @@ struct OwnSetting {
   const char* share_name = nullptr;
   const char* share_description = "";
   double share_initial = 0.0;
+  Below below = Below::kNothing;
 
   constexpr bool is_share() const { return share_name != nullptr; }
 
@@ -37,8 +41,8 @@ struct OwnSetting {
   constexpr std::size_t place() const { return number < 14U ? number - 7U : number - 12U; }
 };
 
-// Up to two own settings of one scheme; those that it does not use have the number 0.
-using OwnSettings = std::array<OwnSetting, 2>;
+// Up to three own settings of one scheme; those that it does not use have the number 0.
+using OwnSettings = std::array<OwnSetting, 3>;
 
 struct SchemeInfo {
   const char* name;

@@ -15,6 +15,19 @@ constexpr bool within(int value, int first, int last) {
   return first <= value && value <= last;
 }
 
+// Of a setting in a frame of its scheme.
+int largest(const OwnSetting& setting, const SamplingConfig& config) {
+  switch (setting.below) {
+    case Below::kRows:
+      return config.rows - 1;
+    case Below::kCols:
+      return config.cols - 1;
+    case Below::kNothing:
+      break;
+  }
+  return setting.is_share() ? config.m : setting.maximum;
+}
+
 }  // namespace
 
 Scheme SamplingConfig::initial_scheme() {
@@ -62,8 +75,7 @@ SettingField check(const SamplingConfig& config) {
   }
   for (const OwnSetting& setting : info->own_settings) {
     const int first = setting.is_share() ? 1 : setting.minimum;
-    const int last = setting.is_share() ? config.m : setting.maximum;
-    if (setting.number != 0 && !within(config.own(setting), first, last)) {
+    if (setting.number != 0 && !within(config.own(setting), first, largest(setting, config))) {
       return static_cast<SettingField>(setting.number);
     }
   }

@@ -11,6 +11,7 @@
 
 #include "acts_firmware/sampling/scheme.hpp"
 #include "acts_firmware/sampling/schemes/adaptive.hpp"
+#include "acts_firmware/sampling/schemes/fixed.hpp"
 #include "acts_firmware/sampling/schemes/hybrid.hpp"
 #include "acts_firmware/sampling/schemes/random_taxels.hpp"
 #include "acts_firmware/sampling/schemes/raster.hpp"
@@ -36,7 +37,7 @@ struct SchemeList {
 };
 
 // A new scheme: its header above, its class here.
-using Schemes = SchemeList<Adaptive, Hybrid, RandomTaxels, Raster, Tracking, Uniform>;
+using Schemes = SchemeList<Adaptive, Fixed, Hybrid, RandomTaxels, Raster, Tracking, Uniform>;
 
 // Null for a number that no scheme has.
 constexpr const SchemeInfo* scheme_info(Scheme number) {

@@ -85,7 +85,7 @@ struct BoardState {
   std::uint32_t map_checksum;  // of the skin's map in force, 0: none
 };
 
-constexpr std::size_t kReplyBytes = 96;
+constexpr std::size_t kReplyBytes = 68 + kSettingsBytes;
 
 // Writes the packet, CRC included, to `out` (kReplyBytes). Returns its length.
 std::size_t encode_reply(const Answer& answer, const BoardState& state, std::uint8_t* out);

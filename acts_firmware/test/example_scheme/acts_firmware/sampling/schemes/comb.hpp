@@ -13,9 +13,9 @@ namespace acts {
 
 class Comb : public SchemeDefaults {
  public:
-  static constexpr OwnSetting kStep = {14, "comb_step", "taxels from one of a comb frame to the next", 5, 1, 64};
+  static constexpr OwnSetting kStep = {17, "comb_step", "taxels from one of a comb frame to the next", 5, 1, 64};
   static constexpr SchemeInfo kInfo = {
-      "comb", Scheme{7}, "every n-th taxel, from where the last frame stopped", {{kStep}}};
+      "comb", Scheme{8}, "every n-th taxel, from where the last frame stopped", {{kStep}}};
 
   void begin(const SamplingConfig& config, const SkinMap& map);
   void sample(const SamplingConfig& config, const SkinMap& map, Measurement& frame);
