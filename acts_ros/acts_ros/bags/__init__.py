@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Reading bags of any recorder. Importing this imports neither ROS nor rosbags; `reading` imports rosbags."""
+"""Reading bags of any recorder, and writing them. Importing this imports neither ROS nor rosbags; the modules do."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Record topics to MCAP bags and play them; see docs/bags.md. Importing this does not import ROS."""
+"""The commands that record topics to MCAP bags and play them; see docs/bags.md. Importing this does not import ROS."""

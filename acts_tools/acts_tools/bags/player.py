@@ -14,9 +14,9 @@ from rclpy.node import Node
 from rclpy.publisher import Publisher
 
 from acts_core.errors import RecordingError
+from acts_ros.bags import qos
 from acts_ros.bags.message_types import message_class
 from acts_ros.bags.reading import Bag
-from acts_tools.bags import qos
 
 _ACKNOWLEDGE_S = 1.0
 

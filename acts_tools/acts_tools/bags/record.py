@@ -14,10 +14,11 @@ from typing import TYPE_CHECKING
 
 from acts_core.errors import RecordingError
 from acts_ros.bags import require_rosbags
+from acts_tools import __version__
 
 if TYPE_CHECKING:
-    from acts_tools.bags.recorder import Recorder
-    from acts_tools.bags.writing import BagWriter
+    from acts_ros.bags.recorder import Recorder
+    from acts_ros.bags.writing import BagWriter
 
 _TURN_S = 0.25
 
@@ -75,12 +76,12 @@ def record(path: Path, topics: list[str] | None, duration_s: float | None) -> in
     from rclpy.signals import SignalHandlerOptions
 
     from acts_ros import middleware
+    from acts_ros.bags.recorder import Recorder
+    from acts_ros.bags.writing import BagWriter
     from acts_ros.executor import make_executor, spin_for
-    from acts_tools.bags.recorder import Recorder
     from acts_tools.bags.stopping import StopFlag
-    from acts_tools.bags.writing import BagWriter
 
-    bag = BagWriter(path)
+    bag = BagWriter(path, f"acts record {__version__}")
     with StopFlag() as stop:
         middleware.init(signal_handler_options=SignalHandlerOptions.NO)
         node = rclpy.create_node("acts_recorder", start_parameter_services=False, enable_rosout=False)

@@ -14,18 +14,14 @@ import numpy as np
 from numpy.typing import NDArray
 from sensor_msgs.msg import Image
 
-from acts_core.errors import ActsError, ArrayError, RecordingError
+from acts_core.errors import ActsError, RecordingError
 from acts_msgs.msg import Baseline, TactileSamples
-from acts_recon.contacts import BlobTracker
-from acts_recon.images import BaselineSubtraction
-from acts_recon.settings import ReconstructionSettings
+from acts_recon.frame_recovery import FrameRecovery
+from acts_recon.settings import ReconstructionConfig, ReconstructionSettings
 from acts_ros.messages import frame_of, stamp_ns_of
 from acts_tools.bags.messages import image_counts, messages, parsed
 from acts_tools.export.tracks import Values, contact_found, contacts_found
 from acts_tools.export.tracks import stamp_ns_of as header_stamp_ns
-
-# A sequence number this far ahead means that the board has restarted.
-_HALF_SEQUENCE = 1 << 31
 
 
 @dataclass(frozen=True)
@@ -79,57 +75,42 @@ def recovered_frames(bag: Any, path: Path, topic: str, beside: str | None, layou
     RecordingError
         Frames do not fit the layout, the baseline does not fit the frames, or a message is damaged.
     """
-    recovery: _Recovery | None = None
+    recovery: FrameRecovery | None = None
     latest: Baseline | None = None
     number = -1
     for name, _, data in bag.messages([topic] if beside is None else [topic, beside]):
         if name == beside:
             latest = parsed(data, Baseline, f"a message of {beside} in '{path}'")
             if recovery is not None:
-                recovery.subtract(latest)
+                _subtract(recovery, latest)
             continue
         number += 1
         where = f"message {number} of {topic} in '{path}'"
         samples = parsed(data, TactileSamples, where)
         try:
             if recovery is None:
-                recovery = _Recovery(samples.rows, samples.cols, layout)
+                recovery = FrameRecovery(_settings(samples, layout))
                 if latest is not None:
-                    recovery.subtract(latest)
-            yield recovery.step(samples)
+                    _subtract(recovery, latest)
+            yield _seen(recovery, samples)
         except ActsError as error:
             raise RecordingError(f"{where}: {error}") from error
 
 
-class _Recovery:
-    """Recovers frame by frame like the node."""
+def _settings(samples: TactileSamples, layout: str) -> ReconstructionConfig:
+    return ReconstructionSettings(rows=samples.rows, cols=samples.cols, layout=layout)
 
-    def __init__(self, rows: int, cols: int, layout: str) -> None:
-        settings = ReconstructionSettings(rows=rows, cols=cols, layout=layout)
-        self._size = (rows, cols)
-        self._recovery = settings.recovery()
-        self._tracker = BlobTracker(
-            self._recovery.geometry, self._recovery.response, settings.blob_config(), self._recovery.borders
-        )
-        self._baseline = BaselineSubtraction(rows * cols)
-        self._last_sequence: int | None = None
 
-    def subtract(self, message: Baseline) -> None:
-        self._baseline.set(np.asarray(message.baseline, dtype=np.float32), np.asarray(message.valid, dtype=np.bool_))
+def _subtract(recovery: FrameRecovery, message: Baseline) -> None:
+    recovery.set_baseline(
+        np.asarray(message.baseline, dtype=np.float32),
+        np.asarray(message.noise, dtype=np.float32),
+        np.asarray(message.valid, dtype=np.bool_),
+    )
 
-    def step(self, samples: TactileSamples) -> Seen:
-        frame, stamp_ns = frame_of(samples), stamp_ns_of(samples)
-        if (frame.rows, frame.cols) != self._size:
-            raise ArrayError(
-                f"a frame of {frame.rows} x {frame.cols} taxels after those of {self._size[0]} x {self._size[1]}: "
-                "export one array a time"
-            )
-        last, self._last_sequence = self._last_sequence, frame.sequence
-        if last is not None and (frame.sequence - last - 1) % (2 * _HALF_SEQUENCE) >= _HALF_SEQUENCE:
-            self._recovery.reset()
-            self._tracker.reset()
-        counts = self._baseline.apply(frame.indices, frame.counts)
-        found = self._recovery.step(frame.indices, counts, stamp_ns * 1e-9, frame.duration_us * 1e-6)
-        blobs = self._tracker.step(self._recovery.image, stamp_ns * 1e-9, self._recovery.sigma)
-        image = np.rint(self._recovery.image).astype(np.uint16)
-        return Seen(stamp_ns, image, contact_found(found), contacts_found(tuple(blobs)))
+
+def _seen(recovery: FrameRecovery, samples: TactileSamples) -> Seen:
+    stamp_ns = stamp_ns_of(samples)
+    recovery.step(frame_of(samples), stamp_ns)
+    image = np.rint(recovery.recovery.image).astype(np.uint16)
+    return Seen(stamp_ns, image, contact_found(recovery.contact), contacts_found(tuple(recovery.blobs)))

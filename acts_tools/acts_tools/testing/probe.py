@@ -14,7 +14,7 @@ import rclpy
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 
-from acts_tools.bags.qos import for_subscription
+from acts_ros.bags.qos import for_subscription
 
 _TURN_S = 0.05
 

@@ -21,11 +21,11 @@ from rosbags.interfaces import Qos, QosDurability, QosHistory, QosLiveliness, Qo
 from rosbags.rosbag2 import Reader, StoragePlugin, Writer
 
 from acts_core.errors import RecordingError
+from acts_ros.bags import qos, writing
 from acts_ros.bags.message_types import Definitions, message_class
 from acts_ros.bags.reading import open_bag
-from acts_tools.bags import qos, writing
-from acts_tools.bags.rosbag2_format import McapFile
-from acts_tools.bags.writing import BagWriter
+from acts_ros.bags.rosbag2_format import McapFile
+from acts_ros.bags.writing import BagWriter
 
 pytestmark = pytest.mark.slow
 

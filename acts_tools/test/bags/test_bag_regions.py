@@ -21,10 +21,10 @@ from acts_control.hand.reflexes import REFLEXES, make_reflexes
 from acts_core.skin import RegionContact
 from acts_msgs.msg import RegionContacts
 from acts_ros.bags.reading import open_bag
+from acts_ros.bags.recorder import Recorder
+from acts_ros.bags.writing import BagWriter
 from acts_ros.messages import read_regions, write_regions
 from acts_tools.bags.player import Player
-from acts_tools.bags.recorder import Recorder
-from acts_tools.bags.writing import BagWriter
 from acts_tools.testing.probe import Probe
 
 TIMEOUT_S = 30.0

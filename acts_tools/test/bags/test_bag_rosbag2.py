@@ -21,7 +21,7 @@ from rosbags.interfaces import Qos, QosDurability, QosHistory, QosLiveliness, Qo
 from rosbags.rosbag2 import Reader
 
 from acts_ros.bags.message_types import Definitions
-from acts_tools.bags.writing import BagWriter
+from acts_ros.bags.writing import BagWriter
 
 TYPE = "std_msgs/msg/String"
 FOREVER = QosTime(9_223_372_036, 854_775_807)

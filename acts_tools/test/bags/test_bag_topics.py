@@ -28,14 +28,14 @@ from std_msgs.msg import String
 
 from acts_core.errors import RecordingError
 from acts_msgs.msg import Contact, TactileSamples
+from acts_ros.bags import recorder as recorder_module
+from acts_ros.bags import writing
 from acts_ros.bags.message_types import Definitions
 from acts_ros.bags.reading import open_bag
+from acts_ros.bags.recorder import Recorder
+from acts_ros.bags.writing import BagWriter
 from acts_ros.qos import LATCHED, STREAM
-from acts_tools.bags import recorder as recorder_module
-from acts_tools.bags import writing
 from acts_tools.bags.player import Player
-from acts_tools.bags.recorder import Recorder
-from acts_tools.bags.writing import BagWriter
 from acts_tools.testing.probe import Probe
 
 pytestmark = pytest.mark.slow

@@ -25,7 +25,7 @@ from acts_core.errors import RecordingError
 from acts_msgs.msg import Baseline, Contact, Contacts, TactileSamples, TrackedContact
 from acts_recon.settings import ReconstructionSettings
 from acts_ros.bags.message_types import Definitions
-from acts_tools.bags.writing import BagWriter
+from acts_ros.bags.writing import BagWriter
 from acts_tools.cli import main
 from acts_tools.export.recording import Choice, Row, open_recording
 

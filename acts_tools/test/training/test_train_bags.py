@@ -20,8 +20,8 @@ from acts_core.errors import RecordingError
 from acts_msgs.msg import Baseline, Contact, TactileSamples
 from acts_recon.sparse import load_dictionary
 from acts_ros.bags.message_types import Definitions
+from acts_ros.bags.writing import BagWriter
 from acts_tools import train
-from acts_tools.bags.writing import BagWriter
 from acts_tools.training.bag_frames import bag_frames
 from acts_tools.training.frames import recorded_frames
 

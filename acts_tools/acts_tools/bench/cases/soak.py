@@ -20,6 +20,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 
 from acts_core.runtime import StreamCounter
 from acts_msgs.msg import TactileSamples
+from acts_ros.messages import seconds_of
 from acts_ros.qos import STREAM
 from acts_tools.bench.result import Figure, Result
 from acts_tools.bench.rigs.graph import Graph
@@ -78,8 +79,7 @@ def measure(workbench: Workbench) -> Result:
             statuses.append({name: int(values[name]) for name in _COUNTERS})
 
     def count(message: TactileSamples) -> None:
-        stamp = message.header.stamp
-        counter.step(message.sequence, time.time() - (stamp.sec + stamp.nanosec * 1e-9))
+        counter.step(message.sequence, time.time() - seconds_of(message.header.stamp))
 
     with (
         virtual_board(workbench.folder, "--rate-hz", "1000", *pressed(workbench.folder)) as board,

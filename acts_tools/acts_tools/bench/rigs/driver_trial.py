@@ -12,6 +12,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.node import Node
 
 from acts_msgs.msg import TactileSamples
+from acts_ros.messages import seconds_of
 from acts_ros.qos import STREAM
 from acts_tools.bench.rigs.graph import Graph
 from acts_tools.bench.rigs.processes import NAMESPACE, START_TIMEOUT_S, check_alive, driver, virtual_board
@@ -47,10 +48,9 @@ def driver_trial(workbench: Workbench, asked_hz: float, seconds: float, board_op
         def keep(message: DiagnosticArray) -> None:
             values = driver_values(message, NAMESPACE)
             if values is not None and values["state"] == "active":
-                stamp = message.header.stamp
                 received.append(
                     Status(
-                        stamp.sec + stamp.nanosec * 1e-9,
+                        seconds_of(message.header.stamp),
                         int(values["frames"]),
                         int(values["lost"]),
                         int(values["overruns"]),

@@ -16,9 +16,9 @@ from rclpy.subscription import Subscription
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from acts_core.errors import RecordingError
+from acts_ros.bags import qos
 from acts_ros.bags.message_types import Definitions, message_class
-from acts_tools.bags import qos
-from acts_tools.bags.writing import BagWriter
+from acts_ros.bags.writing import BagWriter
 
 try:
     from rclpy.event_handler import SubscriptionEventCallbacks, UnsupportedEventTypeError
@@ -124,7 +124,8 @@ class Recorder:
             raise RecordingError(f"it is published with several types: {', '.join(types)}")
         kind = message_class(types[0])
         definition, type_hash = self._definitions.describe(types[0])
-        self._handles[topic] = self._bag.add_topic(topic, types[0], definition, type_hash, qos.to_bag(offers))
+        offered = qos.to_bag([offer.qos_profile for offer in offers])
+        self._handles[topic] = self._bag.add_topic(topic, types[0], definition, type_hash, offered)
         self.records[topic] = TopicRecord(topic, types[0])
         self._subscribe(topic, kind, qos.for_subscription(offers))
         self._say(f"recording {topic} ({types[0]})")

@@ -48,7 +48,7 @@ def for_subscription(offers: Sequence[TopicEndpointInfo]) -> QoSProfile:
     )
 
 
-def to_bag(offers: Sequence[TopicEndpointInfo]) -> list[Qos]:
+def to_bag(profiles: Sequence[QoSProfile]) -> list[Qos]:
     """The profiles of a topic's publishers as a bag stores them."""
     return [
         Qos(
@@ -62,7 +62,7 @@ def to_bag(offers: Sequence[TopicEndpointInfo]) -> list[Qos]:
             liveliness_lease_duration=_time(profile.liveliness_lease_duration),
             avoid_ros_namespace_conventions=bool(profile.avoid_ros_namespace_conventions),
         )
-        for profile in (offer.qos_profile for offer in offers)
+        for profile in profiles
     ]
 
 

@@ -14,8 +14,7 @@ from rosbags.interfaces import Qos
 from rosbags.rosbag2.errors import WriterError
 
 from acts_core.errors import RecordingError
-from acts_tools import __version__
-from acts_tools.bags.rosbag2_format import McapFile, Rosbag2Writer
+from acts_ros.bags.rosbag2_format import McapFile, Rosbag2Writer
 
 
 class BagWriter:
@@ -25,6 +24,8 @@ class BagWriter:
     ----------
     path : Path
         Folder to make; it must not exist.
+    recorder : str
+        Who has recorded it, as the bag says.
 
     Raises
     ------
@@ -32,16 +33,16 @@ class BagWriter:
         The folder exists, or cannot be made.
     """
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, recorder: str = "ACTS") -> None:
         if path.exists():
-            raise RecordingError(f"'{path}' exists already and is not overwritten: choose another folder with -o")
+            raise RecordingError(f"'{path}' exists already and is not overwritten: choose another folder")
         self.path = path
         self._last_stamp_ns = 0
         self._failure: RecordingError | None = None
         try:
             self._writer = Rosbag2Writer(path)
             # Without custom data rosbags writes null, where rosbag2 expects a map.
-            self._writer.set_custom_data("recorder", f"acts record {__version__}")
+            self._writer.set_custom_data("recorder", recorder)
             self._writer.open()
         except (OSError, WriterError) as error:
             raise RecordingError(f"cannot make the bag '{path}': {error}") from error
