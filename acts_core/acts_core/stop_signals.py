@@ -10,9 +10,11 @@ nothing is under way yet (`interrupting`), and later a callback from a thread of
 
 from __future__ import annotations
 
+import _thread
 import faulthandler
 import os
 import signal
+import sys
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -22,6 +24,9 @@ STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 LAST_RESORT_S = 12.0
 """A program that has not ended so long after the first signal writes where it hangs and exits with code 1 [s]."""
+
+_AGAIN_S = 0.05
+"""After an interruption was lost in a library, it is tried again this much later [s]."""
 
 
 class StopSignals:
@@ -76,21 +81,32 @@ class StopSignals:
         """While entered, the first signal raises KeyboardInterrupt in the main thread.
 
         For the start of a program: there is nothing to end in order yet, and what takes long is to be broken off. A
-        library that is written in C and calls back, as numba's compiler does, swallows the exception; whatever comes
-        of that, the block ends with it.
+        library that is written in C and calls back, as numba's compiler does, swallows the exception, which is then
+        raised again until it gets through. Whatever comes of that, the block ends with it.
         """
         self._interrupts = True
+        report_lost = sys.unraisablehook
+
+        def raise_again(lost: sys.UnraisableHookArgs) -> None:
+            if self._interrupted and issubclass(lost.exc_type, KeyboardInterrupt):
+                self._interrupted = False
+                threading.Timer(_AGAIN_S, _thread.interrupt_main).start()
+            else:
+                report_lost(lost)
+
+        sys.unraisablehook = raise_again
         try:
             if self._is_set:
                 raise KeyboardInterrupt
             yield
         except Exception:
-            if self._interrupted:
+            if self._came:
                 raise KeyboardInterrupt from None
             raise
         finally:
             self._interrupts = False
-        if self._interrupted:
+            sys.unraisablehook = report_lost
+        if self._came:
             raise KeyboardInterrupt
 
     def ended(self) -> None:

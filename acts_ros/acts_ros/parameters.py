@@ -15,7 +15,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.timer import Timer
 
-from acts_core.errors import SettingsError
+from acts_core.errors import ActsError, SettingsError
 from acts_core.settings import (
     Changeable,
     SettingInfo,
@@ -25,6 +25,7 @@ from acts_core.settings import (
     from_mapping,
     unknown_key_message,
 )
+from acts_ros.parameter_service import CheckedParameterService
 from acts_ros.params_files import shared_keys
 
 T = TypeVar("T")
@@ -37,9 +38,9 @@ def node_options() -> dict[str, Any]:
     """Keyword arguments that a node using `declare` passes to ``Node.__init__``.
 
     All given parameters are declared, so that `declare` finds unknown ones; otherwise ROS drops a misspelt parameter
-    silently.
+    silently. The services of the parameters are made by `declare` as well.
     """
-    return {"automatically_declare_parameters_from_overrides": True}
+    return {"automatically_declare_parameters_from_overrides": True, "start_parameter_services": False}
 
 
 def declare(
@@ -99,6 +100,7 @@ def declare(
         node.declare_parameter(name, ros_value(value), _descriptor(default, info, is_fixed), ignore_override=True)
     if on_change is not None:
         node.add_on_set_parameters_callback(_Changes(where, settings, on_change, is_unconfigured))
+    CheckedParameterService(node)
     return settings
 
 
@@ -168,9 +170,9 @@ class _Changes:
                     for name, value in given.items()
                 },
             )
-        except SettingsError as error:
+            reason = self._too_late(changed) or self._on_change(changed)
+        except ActsError as error:
             return SetParametersResult(successful=False, reason=str(error))
-        reason = self._too_late(changed) or self._on_change(changed)
         if reason:
             return SetParametersResult(successful=False, reason=reason)
         self._settings = changed

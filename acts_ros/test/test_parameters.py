@@ -9,12 +9,16 @@ from pathlib import Path
 
 import pytest
 import rclpy
+from rcl_interfaces.msg import Parameter as ParameterMessage
+from rcl_interfaces.msg import ParameterType, ParameterValue, SetParametersResult
+from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
 from rclpy.lifecycle import LifecycleNode
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from acts_core.errors import SettingsError
+from acts_core.errors import ActsError, ArrayError, SettingsError
 from acts_core.settings import Changeable, setting, validate
 from acts_ros.parameters import declare, node_options
 
@@ -118,3 +122,52 @@ def test_some_change_only_while_the_node_is_unconfigured(context: Context) -> No
     assert node.set_parameters([Parameter("port", value="")])[0].successful
     is_unconfigured = True
     assert node.set_parameters([Parameter("port", value="a")])[0].successful
+
+
+def test_a_change_is_refused_whatever_error_says_why(context: Context) -> None:
+    @dataclass(frozen=True)
+    class Arrays:
+        layout: str = setting("square", "which layout", changeable=Changeable.RUNNING)
+
+        def __post_init__(self) -> None:
+            if self.layout == "round":
+                raise ArrayError("layout 'round': allowed is square")
+
+    def on_change(settings: Arrays) -> str:
+        if settings.layout == "missing":
+            raise ActsError("layout 'missing': no such file")
+        return ""
+
+    node = make_node(context, [])
+    declare(node, Arrays, on_change)
+    for layout, reason in (("round", "allowed is square"), ("missing", "no such file")):
+        result = node.set_parameters([Parameter("layout", value=layout)])[0]
+        assert not result.successful
+        assert reason in result.reason
+    assert node.get_parameter("layout").value == "square"
+
+
+@pytest.mark.parametrize("kind", [Node, LifecycleNode])
+@pytest.mark.parametrize("service", [SetParameters, SetParametersAtomically])
+def test_a_value_of_no_known_type_is_refused_and_the_node_goes_on(
+    context: Context, kind: type[Node], service: type[SetParameters] | type[SetParametersAtomically]
+) -> None:
+    node = make_node(context, [], kind)
+    declare(node, Settings, lambda _settings: "")
+    name = "set_parameters" if service is SetParameters else "set_parameters_atomically"
+    client = node.create_client(service, f"example/{name}")
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+
+    def ask(value: ParameterValue) -> SetParametersResult:
+        answer = client.call_async(service.Request(parameters=[ParameterMessage(name="rate_hz", value=value)]))
+        executor.spin_until_future_complete(answer, timeout_sec=30.0)
+        response = answer.result()
+        return response.results[0] if service is SetParameters else response.result
+
+    assert client.wait_for_service(30.0)
+    for wrong in (10, 200, ParameterType.PARAMETER_NOT_SET):
+        assert not ask(ParameterValue(type=wrong)).successful
+    assert "type = 200: allowed is 0 to 9" in ask(ParameterValue(type=200)).reason
+    assert ask(ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=20.0)).successful
+    assert node.get_parameter("rate_hz").value == 20.0

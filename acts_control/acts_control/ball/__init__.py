@@ -7,7 +7,7 @@ In come contacts and references; out come the plate's tilt and, by the loop, the
 limits and trajectories know neither ROS nor the robot.
 """
 
-from acts_control.ball.controller import BallReport, Phase
+from acts_control.ball.controller import BallController, BallReport, ControlInput, ControllerConfig, Phase
 from acts_control.ball.estimator import BallEstimator, ContactMeasurement, EstimatorConfig
 from acts_control.ball.loop import ControlLoop, LoopConfig, LoopStatus
 from acts_control.ball.pid import Ball
@@ -16,10 +16,13 @@ from acts_control.ball.trajectory import TimedReference, Trajectory, TrajectoryC
 
 __all__ = [
     "Ball",
+    "BallController",
     "BallEstimator",
     "BallReport",
     "ContactMeasurement",
+    "ControlInput",
     "ControlLoop",
+    "ControllerConfig",
     "EstimatorConfig",
     "LoopConfig",
     "LoopStatus",

@@ -81,6 +81,7 @@ class EstimatorConfig:
         6.0,
         "a centre of pressure farther from the prediction than this many deviations is left out",
         minimum=1.0,
+        maximum=1000.0,
         changeable=Changeable.RUNNING,
     )
     gate_reset_s: float = setting(

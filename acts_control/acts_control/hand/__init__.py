@@ -3,5 +3,5 @@
 
 """A hand that holds by touch: its description, its motors, its reflexes, and the loop that runs them.
 
-Each is a room of its own; see theirs.
+Each is a subpackage; its `__init__.py` says what comes in and goes out.
 """

@@ -12,10 +12,8 @@ import pytest
 
 from acts_control.ball import Ball, BallReport, ControlLoop, LoopConfig, Phase, Reference, ReferenceReport
 from acts_control.ball.controller import BallController
-from acts_control.robots import with_robots
 from acts_control.robots.base import CommandRefusedError, RobotReading, RobotStoppedError
-from acts_control.robots.ur import UrConfig
-from acts_core.errors import RobotError, SettingsError
+from acts_core.errors import RobotError
 
 pytestmark = pytest.mark.slow
 
@@ -390,21 +388,3 @@ def test_closing_stops_the_robot_in_order(arm: ArmInProcess, make: Make) -> None
     assert (loop.status.phase, loop.status.reason) == (Phase.STOPPED, "shutting down")
     assert arm.calls[-3:] == ORDERLY_END
     assert arm.commands[-1] == pytest.approx((0.0, 0.0), abs=1e-5)
-
-
-def test_settings_of_the_robot_are_checked() -> None:
-    with pytest.raises(SettingsError, match="control_rate_hz = 300: allowed is 125, 250, 500"):
-        UrConfig(control_rate_hz=300)
-    with pytest.raises(SettingsError, match=r"tilted by 1\.571 rad"):
-        UrConfig(level_q_rad=(0.0, -1.5708, 1.5708, -1.5708, 0.0, 0.0))
-    with pytest.raises(SettingsError, match="6 values"):
-        UrConfig(level_q_rad=(0.0,))
-
-
-@pytest.mark.parametrize("robot_ip", ["192.168.1.10", "127.evil.example.com", "localhost", '127."', ""])
-def test_for_a_simulated_skin_only_a_robot_of_this_machine_is_controlled(robot_ip: str) -> None:
-    for settings in (UrConfig, with_robots(LoopConfig)):
-        with pytest.raises(SettingsError, match=r"nothing is controlled.*sim:=false"):
-            settings(robot_ip=robot_ip, loopback_only=True)
-        assert settings(robot_ip="127.0.6.5", loopback_only=True).robot_ip == "127.0.6.5"
-        assert settings(robot_ip=robot_ip).robot_ip == robot_ip

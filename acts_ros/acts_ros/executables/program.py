@@ -13,6 +13,7 @@ from importlib import import_module
 from pathlib import Path
 
 from acts_core.errors import REFUSED_EXIT_CODE, ActsError, exit_code
+from acts_core.shared_memory import check_shared_memory
 from acts_core.stop_signals import StopSignals
 from acts_ros.executables.refused import stay, take_stay_word
 
@@ -47,6 +48,7 @@ class Program:
                 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
                 # Imported modules stay: searching them for garbage again and again takes a tenth of the start-up.
                 gc.disable()
+                check_shared_memory()
                 module = import_module(self._module)
                 gc.freeze()
                 gc.enable()

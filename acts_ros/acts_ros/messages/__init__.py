@@ -10,6 +10,7 @@ from acts_ros.messages.cdr import ContactFields, header_of, read_contact, write_
 from acts_ros.messages.regions_cdr import RegionsFields, read_regions, write_regions
 from acts_ros.messages.sample_messages import SamplesMessage, frame_of, stamp_ns_of
 from acts_ros.messages.skin_frame import skin_frame
+from acts_ros.messages.stamps import seconds_of
 
 __all__ = [
     "ContactFields",
@@ -19,6 +20,7 @@ __all__ = [
     "header_of",
     "read_contact",
     "read_regions",
+    "seconds_of",
     "skin_frame",
     "stamp_ns_of",
     "write_contact",

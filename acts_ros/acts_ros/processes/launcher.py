@@ -18,6 +18,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import IO
 
 from acts_core.errors import REFUSED_EXIT_CODE
@@ -29,6 +30,8 @@ from acts_ros.processes.respawn import RespawnWait
 _STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT)
 # Exit codes after a request to stop that are no failure; shells report a signal as 128 + its number.
 _STOPPED_CODES = (0, -signal.SIGINT, -signal.SIGTERM, 128 + signal.SIGINT, 128 + signal.SIGTERM)
+# As long after its start a process may not have come to its signal handlers, on a busy machine [s].
+_YOUNG_S = 2.0
 _DRAIN_S = 0.5
 _PR_SET_PDEATHSIG = 1
 
@@ -147,7 +150,9 @@ class Launcher:
             yield
         finally:
             for number, handler in handlers.items():
-                signal.signal(number, handler)
+                # Told to stop, this process has only to exit: with the code that it has found.
+                is_over = self._stopping and number in stop_signals
+                signal.signal(number, signal.SIG_IGN if is_over else handler)
             signal.set_wakeup_fd(previous_fd)
             self._selector.close()
             os.close(read_end)
@@ -286,7 +291,11 @@ class Launcher:
             self._stop(words)
 
     def _stop(self, why: str) -> None:
-        """Send SIGINT to every process, once; `_turn` escalates for those that do not end."""
+        """Send SIGINT to every process, once; `_turn` escalates for those that do not end.
+
+        A young process that does not handle SIGTERM has only begun to start, and gets that, which ends it. Python would
+        answer SIGINT with a traceback and code 1.
+        """
         self._stopping = True
         self._console.say("WARNING", self._name, why)
         now_s = time.monotonic()
@@ -304,7 +313,8 @@ class Launcher:
                     _escalation(label, self._sigkill_timeout_s, "SIGTERM", "SIGKILL"),
                 ),
             ]
-            self._send(child, signal.SIGINT)
+            is_starting = now_s - child.started_s < _YOUNG_S and not _catches_sigterm(child.popen.pid)
+            self._send(child, signal.SIGTERM if is_starting else signal.SIGINT)
 
     def _send(self, child: _Child, number: signal.Signals) -> None:
         assert child.popen is not None
@@ -328,6 +338,14 @@ class Launcher:
                 os.killpg(group, signal.SIGKILL)
         for stream in self._streams():
             stream.pipe.close()
+
+
+def _catches_sigterm(pid: int) -> bool:
+    """Whether a process handles SIGTERM or ignores it; False where it has ended."""
+    with suppress(OSError):
+        masks = dict(line.split(":", 1) for line in Path(f"/proc/{pid}/status").read_text().splitlines())
+        return bool((int(masks["SigCgt"], 16) | int(masks["SigIgn"], 16)) >> (signal.SIGTERM - 1) & 1)
+    return False
 
 
 def _escalation(label: str, timeout_s: float, sent: str, next_signal: str) -> str:

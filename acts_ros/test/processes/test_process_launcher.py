@@ -38,8 +38,15 @@ signal.pause()
 """
 command = (sys.executable, "-c", child)
 processes = [Process(f"it-{number}", command, dict(os.environ), "screen", True, 0.05) for number in (1, 2)]
-sys.exit(Launcher(Console(None), name="someone").run(processes))
+code = Launcher(Console(None), name="someone").run(processes)
+print("over", flush=True)
+if sys.argv[1:] == ["wait"]:
+    sys.stdin.readline()
+sys.exit(code)
 '''
+
+# Stands for a program of Python that still imports: its handlers are those of the interpreter.
+STARTING = PROGRAM.replace("signal.signal(signal.SIGINT, lambda *_: sys.exit(0))", "")
 
 
 class Run:
@@ -65,9 +72,13 @@ class Run:
 
 
 @contextmanager
-def running(folder: Path) -> Iterator[Run]:
+def running(folder: Path, program: str = PROGRAM, *arguments: str) -> Iterator[Run]:
     path = folder / "output.txt"
-    with path.open("wb") as output, subprocess.Popen([sys.executable, "-c", PROGRAM], stdout=output) as process:
+    command = [sys.executable, "-c", program, *arguments]
+    with (
+        path.open("wb") as output,
+        subprocess.Popen(command, stdin=subprocess.PIPE, stdout=output, stderr=subprocess.STDOUT) as process,
+    ):
         run = Run(process, path)
         try:
             run.wait_until(lambda: run.output.count("] ready") == 2)
@@ -96,6 +107,24 @@ def test_what_dies_is_started_again_and_the_other_goes_on(tmp_path: Path) -> Non
         assert run.process.wait(DEADLINE_S) == 0
         assert all(is_gone(pid) for pid in run.pids)
         assert "[WARNING] [someone]: user interrupted with ctrl-c (SIGINT)" in run.output
+
+
+def test_what_has_only_begun_to_start_ends_without_a_traceback(tmp_path: Path) -> None:
+    with running(tmp_path, STARTING) as run:
+        run.process.send_signal(signal.SIGINT)
+        assert run.process.wait(DEADLINE_S) == 0
+        assert "Traceback" not in run.output
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_signal_that_comes_when_all_has_ended_changes_nothing(tmp_path: Path, number: signal.Signals) -> None:
+    with running(tmp_path, PROGRAM, "wait") as run:
+        run.process.send_signal(signal.SIGINT)
+        run.wait_until(lambda: "over" in run.output)
+        run.process.send_signal(number)
+        run.process.communicate(b"go on\n", timeout=DEADLINE_S)
+        assert run.process.returncode == 0
+        assert "Traceback" not in run.output
 
 
 def test_waits_double_while_a_process_cannot_live_and_are_short_again_once_it_has() -> None:

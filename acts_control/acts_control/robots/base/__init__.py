@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What every robot that tilts a plate has in common: how it is spoken to, and what ends its motion.
+"""What every robot that tilts a plate has in common: its interface, and what ends its motion.
 
 In come tilts and readings; out come reasons not to go on. Nothing here knows a robot's joints or how it is reached.
 """

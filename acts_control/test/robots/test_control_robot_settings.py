@@ -1,0 +1,29 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Settings of a robot: refused where it could not be moved by them, or is none of this machine."""
+
+import pytest
+
+from acts_control.ball import LoopConfig
+from acts_control.robots import with_robots
+from acts_control.robots.ur import UrConfig
+from acts_core.errors import SettingsError
+
+
+def test_settings_of_the_robot_are_checked() -> None:
+    with pytest.raises(SettingsError, match="control_rate_hz = 300: allowed is 125, 250, 500"):
+        UrConfig(control_rate_hz=300)
+    with pytest.raises(SettingsError, match=r"tilted by 1\.571 rad"):
+        UrConfig(level_q_rad=(0.0, -1.5708, 1.5708, -1.5708, 0.0, 0.0))
+    with pytest.raises(SettingsError, match="6 values"):
+        UrConfig(level_q_rad=(0.0,))
+
+
+@pytest.mark.parametrize("robot_ip", ["192.168.1.10", "127.evil.example.com", "localhost", '127."', ""])
+def test_for_a_simulated_skin_only_a_robot_of_this_machine_is_controlled(robot_ip: str) -> None:
+    for settings in (UrConfig, with_robots(LoopConfig)):
+        with pytest.raises(SettingsError, match=r"nothing is controlled.*sim:=false"):
+            settings(robot_ip=robot_ip, loopback_only=True)
+        assert settings(robot_ip="127.0.6.5", loopback_only=True).robot_ip == "127.0.6.5"
+        assert settings(robot_ip=robot_ip).robot_ip == robot_ip
