@@ -8,6 +8,6 @@ In come frames; out comes the `Baseline`, which the reconstruction subtracts. Ke
 
 from acts_driver.baseline.baseline import Baseline
 from acts_driver.baseline.baseline_parameters import BaselineParameters
-from acts_driver.baseline.baseline_tracker import BaselineTracker
+from acts_driver.baseline.baseline_tracker import BaselineConfig, BaselineTracker
 
-__all__ = ["Baseline", "BaselineParameters", "BaselineTracker"]
+__all__ = ["Baseline", "BaselineConfig", "BaselineParameters", "BaselineTracker"]

@@ -38,7 +38,7 @@ def observe(
     Parameters
     ----------
     indices, counts : np.ndarray [shape=(m,), dtype=uint16]
-        The samples; indices lie in the array, none twice.
+        The samples; indices lie in the array.
     time_ns : int
         When the frame was measured [ns].
     rows, cols : int

@@ -170,14 +170,19 @@ class BaselineServices:
         self._publish(present)
 
     def _publish(self, baseline: Baseline) -> None:
-        message = BaselineMessage()
-        message.header.frame_id = self._frame_id
-        stamp_ns = baseline.time_ns or time.time_ns()
-        message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp_ns, _NS_PER_S)
-        message.rows, message.cols = baseline.counts.shape
-        message.source = int(baseline.source)
-        message.baseline = array("f", baseline.counts.tobytes())
-        message.noise = array("f", baseline.noise_counts.tobytes())
-        message.valid = baseline.valid.ravel().tolist()
-        self._publisher.publish(message)
+        self._publisher.publish(baseline_message(baseline, self._frame_id))
         self._published = baseline
+
+
+def baseline_message(baseline: Baseline, frame_id: str) -> BaselineMessage:
+    """A baseline as it is published."""
+    message = BaselineMessage()
+    message.header.frame_id = frame_id
+    stamp_ns = baseline.time_ns or time.time_ns()
+    message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp_ns, _NS_PER_S)
+    message.rows, message.cols = baseline.counts.shape
+    message.source = int(baseline.source)
+    message.baseline = array("f", baseline.counts.tobytes())
+    message.noise = array("f", baseline.noise_counts.tobytes())
+    message.valid = baseline.valid.ravel().tolist()
+    return message

@@ -14,7 +14,7 @@ from acts_driver.board import BoardLink, BoardResult, BoardResults, BoardSession
 from acts_driver.nodes.report import DriverReport
 from acts_driver.port import LogCallback, Reader, Source, StaleFrames
 from acts_driver.settings import DriverSettings
-from acts_driver.stream import FrameStream
+from acts_driver.stream import BacklogWatch, FrameStream
 from acts_ros.diagnostics import Report
 
 VERDICT_S = 1.0
@@ -82,6 +82,7 @@ class Intake:
             on_reconnect=self._on_reconnect,
         )
         self._report = DriverReport(source, self.reader, decoder, self.stream, size, self.session, log)
+        self._backlog = BacklogWatch()
         self._restarts_told = 0
         self._wrong_size_told = (0, 0)
 
@@ -126,6 +127,8 @@ class Intake:
         session = self.session
         frames = self._stale_frames.new(frames, is_known=session is None or session.wait_for_verdict(0.0))
         accepted = self.stream.accept(frames, arrival_ns)
+        if self._backlog.lasts(arrival_ns, self.stream.clock.delay_ns):
+            self.reader.discard()
         results = self._results.stamped(accepted)
         if self.stream.wrong_size_last != self._wrong_size_told:
             self._tell_wrong_size()

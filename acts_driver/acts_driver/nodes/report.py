@@ -52,6 +52,8 @@ _TROUBLES = {
     "consumer_errors": "{} failures to publish",
     "clock_resets": "{} jumps of a clock",
 }
+# As late as this, a controller does without touch.
+_LATE_US = 50_000
 # The first report may come before the first frame.
 _SILENT_REPORTS = 2
 
@@ -166,6 +168,10 @@ class DriverReport:
             )
         if added.crc_errors or added.malformed:
             troubles.append(f"last: {self._decoder.last_error}")
+        delay_us = self._stream.clock.state.delay_us if self._stream.has_board_clock else 0.0
+        if delay_us > _LATE_US:
+            late = f"frames are read {delay_us / 1e6:.1f} s late"
+            troubles.insert(0, f"{late}: this machine is too slow or too busy (acts doctor tells)")
         if added.frames == 0:
             why = f" ({self._source.silence})" if self._source.silence else ""
             return ERROR, ", ".join([f"no frames from {self._source.name}{why}", *troubles])

@@ -92,6 +92,7 @@ class Reader:
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._run, name="acts_reader", daemon=True)
         self._consumer_error = ""
+        self._discards = False
         self.connected = False
         self.problem = ""
         self.reconnects = 0
@@ -113,6 +114,10 @@ class Reader:
                 return
         self._source.close()
         self.connected = False
+
+    def discard(self) -> None:
+        """Throw away what waits to be read; to be called by `on_frames`."""
+        self._discards = True
 
     def _run(self) -> None:
         was_lost = False
@@ -165,6 +170,11 @@ class Reader:
                     # Only now: what decodes the first frames may have to be compiled, which is no work for real time.
                     enter_realtime(self._realtime, "driver", self._log)
                     self._realtime = None
+            if self._discards:
+                self._discards = False
+                self._source.discard()
+                # The packet whose end is gone is no error.
+                self._decoder.reset()
 
     def _hand_on(self, frames: list[SampleFrame], arrival_ns: int) -> None:
         try:

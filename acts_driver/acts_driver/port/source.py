@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 import select
+import termios
 import threading
 import time
 from typing import Protocol
@@ -29,7 +30,7 @@ class Source(Protocol):
     """A stream of bytes that can be opened again after it was lost.
 
     How to write one: `open` takes hold of the stream, `read` waits for the next bytes, `close` may be called at any
-    time and any number of times. These three are called from one thread at a time.
+    time and any number of times. These are called from one thread at a time, and so is `discard`.
 
     Attributes
     ----------
@@ -60,6 +61,9 @@ class Source(Protocol):
 
         Raises `PortError` when there is no board, or it does not take them in time.
         """
+
+    def discard(self) -> None:
+        """Throw away what has arrived and was not read; on the thread that reads."""
 
     def close(self) -> None:
         """Let go of the stream."""
@@ -150,6 +154,13 @@ class SerialSource:
             poll = select.poll()
             poll.register(fd, select.POLLOUT)
             poll.poll(min(left_s, _WRITE_SLICE_S) * 1000)
+
+    def discard(self) -> None:
+        """Throw away what has arrived and was not read."""
+        try:
+            termios.tcflush(self._fd, termios.TCIFLUSH)
+        except termios.error as error:
+            raise PortError(f"port {self.name} was lost: {error.args[1]}") from error
 
     def close(self) -> None:
         """Close the port if it is open."""

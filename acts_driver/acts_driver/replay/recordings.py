@@ -19,7 +19,7 @@ from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import RecordingError
 from acts_core.files import UNPACKED_BYTES_MAX, FramesFile, load_frames, read_npz
 from acts_core.frames import SampleFrame, Scheme
-from acts_core.sampling import SCHEME_NUMBERS, Sampler, SamplingConfig, SkinMap, measure_in
+from acts_core.sampling import REPEATING, SCHEME_NUMBERS, Sampler, SamplingConfig, SkinMap, measure_in
 
 MEASUREMENT_US = 17.877
 """Time of one measurement on the paper's board (55,936 samples per second) [us]."""
@@ -235,8 +235,10 @@ class RecordedSamples:
                 f"{path}: indices {indices.shape} and counts {counts.shape}: needed is (n, m) for both"
             )
         size = (_whole(path, content, "rows", 32, 1, MAX_SIDE), _whole(path, content, "cols", 32, 1, MAX_SIDE))
+        scheme = _scheme(path, content)
         ordered = np.sort(indices, axis=1)
-        if ordered.min() < 0 or ordered.max() >= size[0] * size[1] or (ordered[:, 1:] == ordered[:, :-1]).any():
+        is_twice = scheme not in REPEATING and (ordered[:, 1:] == ordered[:, :-1]).any()
+        if ordered.min() < 0 or ordered.max() >= size[0] * size[1] or is_twice:
             raise RecordingError(f"{path}: indices must be taxels of {size[0]} x {size[1]}, none twice in a frame")
         if counts.min() < 0 or counts.max() > COUNT_MAX:
             raise RecordingError(f"{path}: counts must lie between 0 and {COUNT_MAX}")
@@ -249,7 +251,7 @@ class RecordedSamples:
             _times_us(path, content, n),
             sequence.astype(np.int64),
             size,
-            _scheme(path, content),
+            scheme,
             _whole(path, content, "duration_us", round(indices.shape[1] * MEASUREMENT_US), 0, 2**32 - 1),
         )
 

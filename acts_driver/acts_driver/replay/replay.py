@@ -141,6 +141,9 @@ class ReplaySource:
             self._prepare()
         return b"".join(data)
 
+    def discard(self) -> None:
+        """A recording waits by itself for a reader that is late."""
+
     def write(self, data: bytes, timeout_s: float) -> None:
         """A recording takes no commands: raises `PortError`."""
         raise PortError(f"{self._name} takes no commands")

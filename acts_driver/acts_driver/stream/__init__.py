@@ -7,7 +7,8 @@ In come decoded frames and the time of their arrival; out come frames with the h
 of the stream. `ClockFilter` maps the board's clock onto the host's.
 """
 
+from acts_driver.stream.backlog import BacklogWatch
 from acts_driver.stream.clock import ClockFilter
 from acts_driver.stream.stream import FrameStream
 
-__all__ = ["ClockFilter", "FrameStream"]
+__all__ = ["BacklogWatch", "ClockFilter", "FrameStream"]

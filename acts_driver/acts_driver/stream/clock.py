@@ -28,6 +28,9 @@ class ClockFilterConfig:
     drift_max_ppm: float = setting(500.0, "largest drift of a quartz, faulty ones included", minimum=0.0, maximum=1e5)
     jump_s: float = setting(0.05, "difference from the expected delay that means a clock has jumped", minimum=1e-3)
     jump_confirm_s: float = setting(2.0, "how long frames must be late by that much, since a stall passes", minimum=0.1)
+    backlog_s: float = setting(
+        0.003, "board time in one read that shows a backlog: lateness is then no sign of a jump", minimum=1e-3
+    )
 
     def __post_init__(self) -> None:
         validate(self)
@@ -61,13 +64,15 @@ class ClockFilter:
     Stamps increase strictly and never lie after the arrival. Only where the host's own clock is set back do they follow
     it. A jump of either clock starts the estimate anew. This is at once where the board's clock jumps forwards,
     where the host's jumps backwards, and where `host_was_set` tells of it. Other jumps look like a stall in transport:
-    these count after `jump_confirm_s`.
+    these count after `jump_confirm_s` without a backlog. A host that is too slow reads its backlog in large pieces, and
+    what it reads is as old as it looks.
     """
 
     def __init__(self, config: ClockFilterConfig | None = None) -> None:
         self._config = config if config is not None else ClockFilterConfig()
         self._jump_ns = int(self._config.jump_s * _NS_PER_S)
         self._confirm_ns = int(self._config.jump_confirm_s * _NS_PER_S)
+        self._backlog_us = self._config.backlog_s * 1e6
         self._resets = 0
         self._envelope: LowerEnvelope | None = None
         # Points of the envelope are relative to the first frame, so that they stay small.
@@ -89,9 +94,14 @@ class ClockFilter:
         return ClockFilterState(
             offset_us=(self._origin_delay_ns + envelope.at(x)) // 1000,
             drift_ppm=envelope.slope * 1e6,
-            delay_us=max(self._height_ns, 0) * 1e-3,
+            delay_us=self.delay_ns * 1e-3,
             resets=self._resets,
         )
+
+    @property
+    def delay_ns(self) -> int:
+        """Transport delay of the newest frame, beyond the shortest one [ns]."""
+        return max(self._height_ns, 0)
 
     def host_was_set(self) -> None:
         """Tell that the host's clock was set: the estimate begins anew with the next frame, and stamps follow it."""
@@ -138,7 +148,8 @@ class ClockFilter:
         return stamps
 
     def _stamps(self, board_us: Sequence[int], arrival_ns: int, room: int, restarted: bool) -> list[int]:
-        envelope = self._observe(board_us[-1], arrival_ns, restarted)
+        is_backlog = board_us[-1] - board_us[0] > self._backlog_us
+        envelope = self._observe(board_us[-1], arrival_ns, restarted, is_backlog)
         self._last_board_us = board_us[-1]
         stamps = []
         last = self._last_stamp_ns
@@ -154,14 +165,19 @@ class ClockFilter:
         self._last_stamp_ns = last
         return stamps
 
-    def _observe(self, board_us: int, arrival_ns: int, restarted: bool) -> LowerEnvelope:
+    def _observe(self, board_us: int, arrival_ns: int, restarted: bool, is_backlog: bool) -> LowerEnvelope:
         if self._envelope is None:
             return self._start(board_us, arrival_ns)
         if restarted:
             return self._restart(board_us, arrival_ns)
-        self._height_ns = self._envelope.observe(
-            board_us * 1000 - self._origin_board_ns, arrival_ns - board_us * 1000 - self._origin_delay_ns
-        )
+        x_ns = board_us * 1000 - self._origin_board_ns
+        y_ns = arrival_ns - board_us * 1000 - self._origin_delay_ns
+        self._height_ns = y_ns - self._envelope.at(x_ns)
+        if is_backlog and self._height_ns > self._jump_ns:
+            # Says nothing about the clocks, however long it lasts.
+            self._late_since_ns = None
+            return self._envelope
+        self._envelope.observe(x_ns, y_ns)
         if self._height_ns < -self._jump_ns:
             return self._restart(board_us, arrival_ns)
         if self._height_ns <= self._jump_ns:

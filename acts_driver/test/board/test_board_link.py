@@ -387,30 +387,3 @@ def test_a_silent_board_may_be_listened_to(tmp_path: Path) -> None:
         begin_s = time.monotonic()
         host.close()
         assert time.monotonic() - begin_s < 10.0
-
-
-@pytest.mark.parametrize(
-    ("content", "words"),
-    [
-        ({"atoms": np.ones((63, 5))}, "a patch is square"),
-        ({"columns": np.ones((1024, 2)), "classes": [0, 2]}, "none left out"),
-        ({"atoms": np.ones((64, 5000))}, "use fewer columns"),
-        ({"other": [1]}, "needed is a dictionary"),
-    ],
-)
-def test_models_that_no_board_can_hold(content: dict[str, object], words: str, tmp_path: Path) -> None:
-    np.savez(tmp_path / "m.npz", **content)
-    with pytest.raises(BoardError, match=words) as caught:
-        load_model(tmp_path / "m.npz")
-    assert "m.npz" in str(caught.value)
-
-
-@given(st.integers(1, 1024), st.integers(1, 1024), st.sampled_from(["tracking", "hybrid", "adaptive"]), st.data())
-def test_quotas_always_fit_the_frame(own_m: int, m: int, scheme: str, data: st.DataObject) -> None:
-    own = BoardSettings(
-        m=own_m, search_quota=data.draw(st.integers(0, 1024)), adaptive_quota=data.draw(st.integers(0, 1024))
-    )
-    # Whatever is asked, BoardSettings itself refuses what a board would.
-    wanted = BoardParameters(scheme=scheme, m=m).wanted(own)
-    assert (wanted.scheme, wanted.m) == (scheme, m)
-    assert BoardParameters().wanted(own) == own

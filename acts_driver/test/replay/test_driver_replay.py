@@ -162,6 +162,14 @@ def test_samples_that_do_not_fit_together(changes: dict[str, object], words: str
     assert "samples.npz" in str(caught.value)
 
 
+def test_samples_of_one_taxel_are_replayed(tmp_path: Path) -> None:
+    again = np.full((2, 5), 7)
+    path = write_samples(tmp_path / "samples.npz", [frame(0), frame(1)], indices=again, scheme="fixed")
+    found = list(open_recording(ReplayOptions(path)).frames())
+    assert [one.indices.tolist() for one in found] == again.tolist()
+    assert {one.scheme for one in found} == {Scheme.FIXED}
+
+
 def test_files_that_are_no_recordings(tmp_path: Path) -> None:
     def refused(path: Path, words: str, topic: str = "") -> None:
         with pytest.raises(RecordingError, match=words):

@@ -120,6 +120,20 @@ def test_a_stall_of_five_seconds_is_no_jump() -> None:
     assert clock.state.resets == 0
 
 
+def test_what_a_host_that_is_too_slow_reads_late_is_stamped_as_old_as_it_is() -> None:
+    clock, board_us, arrival_ns = settled()
+    # A terminal hands over 16 frames at a time. The host begins 1.5 s late, keeps up for 10 s, and then catches up.
+    late_ms = 1500.0
+    for k in range(0, 20_000, 16):
+        read_us = [board_us + 1000 * (k + i) for i in range(16)]
+        late_ms = max(late_ms - (8.0 if k > 10_000 else 0.0), 0.0)
+        arrived_ns = arrival_ns + (k + 15) * MS + int(late_ms * MS)
+        stamps = clock.step_batch(read_us, arrived_ns)
+        assert abs(stamps[-1] - (arrival_ns + (k + 15) * MS)) < 10 * MS
+    assert late_ms == 0
+    assert clock.state.resets == 0
+
+
 def test_slope_of_the_lower_hull() -> None:
     assert hull_slope([(0, 5)]) == 0
     assert hull_slope([(0, 0), (1, 9), (2, 2), (3, 9), (4, 4)]) == 1

@@ -1,0 +1,47 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""What is wanted of a board, before it is asked: models that it can hold, and quotas that fit the frame."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from acts_core.errors import BoardError
+from acts_core.wire import (
+    BoardSettings,
+)
+from acts_driver.board import BoardParameters
+from acts_driver.board.model_file import load_model
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        ({"atoms": np.ones((63, 5))}, "a patch is square"),
+        ({"columns": np.ones((1024, 2)), "classes": [0, 2]}, "none left out"),
+        ({"atoms": np.ones((64, 5000))}, "use fewer columns"),
+        ({"other": [1]}, "needed is a dictionary"),
+    ],
+)
+def test_models_that_no_board_can_hold(content: dict[str, object], words: str, tmp_path: Path) -> None:
+    np.savez(tmp_path / "m.npz", **content)
+    with pytest.raises(BoardError, match=words) as caught:
+        load_model(tmp_path / "m.npz")
+    assert "m.npz" in str(caught.value)
+
+
+@given(st.integers(1, 1024), st.integers(1, 1024), st.sampled_from(["tracking", "hybrid", "adaptive"]), st.data())
+def test_quotas_always_fit_the_frame(own_m: int, m: int, scheme: str, data: st.DataObject) -> None:
+    own = BoardSettings(
+        m=own_m, search_quota=data.draw(st.integers(0, 1024)), adaptive_quota=data.draw(st.integers(0, 1024))
+    )
+    # Whatever is asked, BoardSettings itself refuses what a board would.
+    wanted = BoardParameters(scheme=scheme, m=m).wanted(own)
+    assert (wanted.scheme, wanted.m) == (scheme, m)
+    assert BoardParameters().wanted(own) == own

@@ -1,0 +1,44 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""The driver's report on frames that are read late."""
+
+import numpy as np
+
+from acts_core.frames import SampleFrame, Scheme
+from acts_core.wire import StreamDecoder
+from acts_driver.nodes.report import DriverReport
+from acts_driver.port import Reader, SerialSource
+from acts_driver.stream import FrameStream
+from acts_ros.diagnostics import WARN
+
+MS = 1_000_000
+NO_TAXELS = np.empty(0, dtype=np.uint16)
+
+
+def test_frames_that_are_read_late_are_told() -> None:
+    source, decoder = SerialSource("/dev/ttyACM0"), StreamDecoder()
+    stream = FrameStream(32, 32)
+    reader = Reader(source, decoder, lambda frames, arrival_ns: None)
+    reader.connected = True
+    report = DriverReport(source, reader, decoder, stream, (32, 32))
+
+    def receive(sequence: int, count: int, late_ms: int) -> None:
+        numbers = range(sequence, sequence + count)
+        frames = [
+            SampleFrame(number, 1000 * number, 900, Scheme.RANDOM, 32, 32, 0, NO_TAXELS, NO_TAXELS)
+            for number in numbers
+        ]
+        stream.accept(frames, (1000 + numbers[-1] + late_ms) * MS)
+
+    for sequence in range(100):
+        receive(sequence, 1, late_ms=0)
+    report.make("active", 1100 * MS)
+    receive(100, 16, late_ms=1300)
+    level, message, values = report.make("active", 2500 * MS)
+    assert level == WARN
+    assert message.startswith("frames are read 1.3 s late: this machine is too slow or too busy")
+    assert values["delay_us"] == 1_300_000
+    receive(116, 1, late_ms=0)
+    _, message, _ = report.make("active", 2600 * MS)
+    assert "late" not in message
