@@ -25,7 +25,7 @@ from acts_core.skin.skin_patch import SkinPatch
 
 __all__ = ["LAYOUTS", "NO_PATCH", "Layout", "SkinPatch", "layout", "layout_path"]
 
-LAYOUTS = ("square", "insole", "glove", "leap_right")
+LAYOUTS = ("square", "arm", "chest", "end_effector", "glove", "helmet", "insole", "leap_right", "leg")
 """Names of the layouts that come with ACTS; ``square`` is the matrix itself, of any size."""
 
 
@@ -153,7 +153,8 @@ def layout(name_or_path: str, rows: int = 32, cols: int = 32) -> Layout:
     name_or_path : str
         One of `LAYOUTS`: ``square``, the matrix as it is; ``insole``, 64 x 16; ``glove``, 32 x 32 turned, with palm,
         thumb and four fingers (both as in the authors' published analysis); ``leap_right``, the right LEAP hand, 13
-        patches. Or the path of a layout file of one's own.
+        patches; ``arm``, ``chest``, ``end_effector``, ``helmet`` and ``leg``, the matrix as it is, with the size and
+        the bend of each. Or the path of a layout file of one's own.
     rows, cols : int
         Size of the matrix.
 

@@ -81,7 +81,7 @@ def test_patches_cover_the_picture_once(name: str) -> None:
         assert (patch.of(shape.patch_of) == index).all()
     assert (covered == 1).all()
     assert np.array_equal(shape.picture(shape.patch_of_taxel), shape.patch_of)
-    assert shape.is_matrix == (name == "square")
+    assert shape.is_matrix == (name not in ("insole", "glove", "leap_right"))
 
 
 def test_patches_of_the_leap_hand() -> None:
@@ -109,13 +109,35 @@ def test_the_patch_of_a_pad_lies_as_its_picture() -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "width_m", "height_m"), [("square", 0.140, 0.140), ("insole", 0.085, 0.280), ("glove", 0.180, 0.230)]
+    ("name", "width_m", "height_m"),
+    [
+        ("square", 0.140, 0.140),
+        ("insole", 0.085, 0.280),
+        ("glove", 0.180, 0.230),
+        ("arm", 0.140, 0.140),
+        ("chest", 0.140, 0.140),
+        ("end_effector", 0.064, 0.064),
+        ("helmet", 0.140, 0.140),
+        ("leg", 0.140, 0.140),
+    ],
 )
 def test_sizes_of_the_papers_skins(name: str, width_m: float, height_m: float) -> None:
     geometry = layout(name).geometry()
     assert geometry.cols * geometry.pitch_m == pytest.approx(width_m)
     assert geometry.rows * geometry.pitch_y_m == pytest.approx(height_m)
     assert geometry.size * geometry.taxel_area_m2 == pytest.approx(width_m * height_m)
+
+
+@pytest.mark.parametrize(("name", "radius_m"), [("arm", 0.050), ("helmet", 0.115), ("leg", 0.080)])
+def test_bent_skins_stand_out_in_the_middle(name: str, radius_m: float) -> None:
+    shape = layout(name)
+    (patch,) = shape.patches
+    middle, edge = patch.points_m()[16, [16, 0]]
+    angle = 15.5 * shape.pitch_m / radius_m
+    assert edge[0] == pytest.approx(-radius_m * np.sin(angle))
+    assert middle[2] - edge[2] == pytest.approx(radius_m * (1 - np.cos(angle)), rel=0.01)
+    corner = patch.normals()[0, 0]
+    assert (abs(corner[1]) > 0.1) == (name == "helmet")
 
 
 def test_a_pitch_of_ones_own() -> None:
@@ -128,7 +150,7 @@ def test_a_pitch_of_ones_own() -> None:
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (("sock",), "'sock'.*square, insole, glove, leap_right, or the path"),
+        (("sock",), "'sock'.*square, arm, .*, leap_right, leg, or the path"),
         (("insole", 64, 16), "64 x 16.*use square"),
         (("glove", 16, 32), "16 x 32"),
         (("square", 65, 1), "rows = 65"),

@@ -1,0 +1,84 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""A worn skin as the reconstruction sees it: baseline, fusion and the detector of impacts."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.sampling import SkinMap
+from acts_core.skin import Layout
+from acts_recon.contacts import BlobConfig
+from acts_recon.fusion import FusionConfig, FusionEstimator
+from acts_recon.images import BaselineSubtraction
+from acts_recon.impacts import Impact, ImpactConfig, ImpactDetector
+from acts_sim.wearables import WORN_RATE_HZ, WornScene
+from acts_tools.evaluate.images.scene_frames import Frame, frames_of
+
+SCHEME = "tracking"
+THRESHOLD_COUNTS = 60
+"""Above which the board follows a taxel, as shipped: of raw counts, so above the offsets."""
+
+TOUCH_COUNTS = 25
+"""A taxel above is pressed: eight times the noise of a reading."""
+
+INSOLE_CONFIG = ImpactConfig(impact_join_m=0.3)
+"""Settings of impacts on an insole: heel and toes are one touch."""
+
+BODY_CONFIG = ImpactConfig(impact_step_m2=1.0)
+"""And on all other skins: nobody steps on them."""
+
+
+class Watcher:
+    """Looks at the frames of one skin.
+
+    Parameters
+    ----------
+    arranged : Layout
+    noise_counts : float
+        Of a reading.
+    """
+
+    def __init__(self, arranged: Layout, noise_counts: float) -> None:
+        self.skin_map = None if arranged.is_matrix else SkinMap.of(arranged)
+        geometry = arranged.geometry()
+        self.fusion = FusionEstimator(
+            geometry, FusionConfig(noise_counts=noise_counts), None if arranged.is_matrix else arranged
+        )
+        self._baseline = BaselineSubtraction(arranged.taxels.size)
+        self._detector = ImpactDetector(
+            geometry,
+            blobs=BlobConfig(touch_counts=TOUCH_COUNTS, noise_counts=noise_counts),
+            config=INSOLE_CONFIG if arranged.name == "insole" else BODY_CONFIG,
+            borders=self.fusion.borders,
+        )
+
+    def set_baseline(self, counts: NDArray[np.float32]) -> None:
+        """What each taxel of the matrix reads untouched; np.ndarray [shape=(size,), dtype=float32]."""
+        self._baseline.set(counts, np.ones(counts.size, dtype=bool))
+
+    def reset(self) -> None:
+        """Forget all frames."""
+        self.fusion.reset()
+        self._detector.reset()
+
+    def step(self, frame: Frame) -> tuple[Impact, ...]:
+        """What is told after the next frame."""
+        fusion = self.fusion
+        counts = self._baseline.apply(frame.indices, frame.counts)
+        image = fusion.step(frame.indices, counts, frame.end_s, frame.duration_s)
+        return self._detector.step(frame.end_s, frame.duration_s, image, fusion.sigma, fusion.age_s, fusion.measured)
+
+    def watch(self, shown: WornScene, m: int, noise_counts: float, seed: int) -> list[tuple[float, Impact]]:
+        """What is told of a scene, each with the end of the frame that told it [s]."""
+        self.reset()
+        self.set_baseline(shown.baseline)
+        return [
+            (frame.end_s, impact)
+            for frame in frames_of(
+                shown.frames, WORN_RATE_HZ, SCHEME, m, THRESHOLD_COUNTS, noise_counts, seed, self.skin_map
+            )
+            for impact in self.step(frame)
+        ]

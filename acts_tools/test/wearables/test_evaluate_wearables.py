@@ -1,0 +1,64 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""`acts evaluate wearables`: events on worn skins with their onset, and untouched skins of which nothing is told."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from acts_core.skin import layout
+from acts_recon.impacts import Kind
+from acts_sim.wearables import worn_scene
+from acts_tools.cli import main
+from acts_tools.evaluate.wearables.watching import Watcher
+from acts_tools.evaluate.wearables.wearables_command import SKINS
+
+
+def test_a_hit_and_an_untouched_skin_are_reported(tmp_path: Path) -> None:
+    out = tmp_path / "wearables.json"
+    words = ["evaluate", "wearables", "--scene", "helmet_hit", "--seeds", "1", "--untouched", "end_effector"]
+    assert main([*words, "--minutes", "0.02", "--json", str(out), "--recordings", str(tmp_path)]) == 0
+    hit, alone = json.loads(out.read_text())["results"]
+    assert (hit["scene"], hit["figure"], hit["layout"]) == ("helmet_hit", "8E", "helmet")
+    assert (hit["events"], hit["missed"], hit["false"], hit["as_expected"]) == (1, 0, 0, 1)
+    # 25 hits: 0.95 ms at most.
+    assert hit["onset_error_ms"]["max"] < 1.5
+    assert hit["onset_within_2_ms"] == 1
+    assert (alone["untouched"], alone["seconds"], alone["told"]) == ("end_effector", 1, 0)
+    assert np.load(tmp_path / "helmet_hit.npy").dtype == np.uint16
+
+
+def test_there_is_a_layout_of_every_skin_that_is_watched() -> None:
+    assert {layout(name).name for name in SKINS} == set(SKINS)
+
+
+def test_the_onset_of_a_slow_touch_is_followed_back() -> None:
+    shown = worn_scene("chest_touch", np.random.default_rng([1, 1]))
+    told = Watcher(shown.layout, 3.0).watch(shown, 64, 3.0, 2)
+    (_, begun), (_, over) = told
+    true_s = shown.events[0].onset_s
+    # Felt 10 ms late, since the hand comes at 0.05 m/s; 25 touches, when over: 2.4 ms at most, 0.7 in the mean.
+    assert 0.005 < begun.onset_s - true_s < 0.015
+    assert abs(over.onset_s - true_s) < 0.003
+    assert over.kind is Kind.PRESS
+    assert abs(over.onset_s - true_s) < 4 * over.onset_sd_s
+
+
+def test_fingers_that_tap_together_are_one_tap() -> None:
+    shown = worn_scene("arm_tap", np.random.default_rng([1, 0]))
+    over = [impact for _, impact in Watcher(shown.layout, 3.0).watch(shown, 64, 3.0, 1) if impact.is_over]
+    assert [impact.kind for impact in over] == [Kind.TAP]
+
+
+def test_a_footstep_is_one_step_from_heel_to_toes() -> None:
+    shown = worn_scene("footstep", np.random.default_rng([1, 1]))
+    over = [impact for _, impact in Watcher(shown.layout, 3.0).watch(shown, 64, 3.0, 2) if impact.is_over]
+    assert [impact.kind for impact in over] == [Kind.STEP]
+    # 25 steps: 0.75 ms at most.
+    assert abs(over[0].onset_s - shown.events[0].onset_s) < 0.001
+    assert over[0].duration_s == pytest.approx(max(one.end_s for one in shown.contacts) - over[0].onset_s, abs=0.03)
