@@ -1,0 +1,217 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Spectra of what touches the skin, out of the samples of the last second."""
+
+from __future__ import annotations
+
+from collections import deque
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.array import ArrayGeometry
+from acts_core.skin import ForceResponse, Layout, MeasuredForceResponse, force_table
+from acts_recon.images import PlacedSamples, borders_of, slope_table
+from acts_recon.spectra.config import SpectraConfig
+from acts_recon.spectra.spectrum import Spectrum
+from acts_recon.spectra.tones import Tones
+
+Array = NDArray[np.float64]
+
+_LONGEST_PAUSE_S = 0.5
+# Of a window: with less there is no spectrum yet.
+_LEAST_SHARE = 0.5
+_LEAST_NOISE_COUNTS = 0.3  # of a reading in whole counts
+_LEAST_SLOPE_N = 1e-7  # a count, where a measured response is flat
+# The strongest of a contact; a palm is a thousand.
+_MOST_TAXELS = 64
+# Of the values of a spectrum every second is told: a tone is as wide as eight.
+_TOLD_EVERY = 2
+
+
+class SampleFrame(NamedTuple):
+    """The samples of one frame: when it ended and how long it took [s], places in the picture, and counts there."""
+
+    end_s: float
+    duration_s: float
+    places: NDArray[np.uint16]
+    counts: NDArray[np.float32]
+
+
+class _Window(NamedTuple):
+    """Samples in the order of measurement, with the time of each; the time from one of a taxel to its next [s]."""
+
+    time_s: Array
+    places: NDArray[np.uint16]
+    counts: NDArray[np.float32]
+    step_s: float
+
+
+class SpectrumAnalyser:
+    """Keeps the samples of the last frames; makes spectra of them.
+
+    Parameters
+    ----------
+    geometry : ArrayGeometry
+        Of the picture.
+    response : ForceResponse or MeasuredForceResponse, optional
+        From counts to newtons.
+    touch_counts : float
+        A taxel is touched whose mean is above.
+    noise_counts : float
+        Standard deviation of a reading.
+    config : SpectraConfig, optional
+    layout : Layout, optional
+        No contact reaches over a border of its patches.
+    """
+
+    def __init__(
+        self,
+        geometry: ArrayGeometry,
+        response: ForceResponse | MeasuredForceResponse | None = None,
+        touch_counts: float = 60.0,
+        noise_counts: float = 2.0,
+        config: SpectraConfig | None = None,
+        layout: Layout | None = None,
+    ) -> None:
+        self.config = config or SpectraConfig()
+        self._geometry = geometry
+        self._samples = PlacedSamples(geometry, layout)
+        self._borders = borders_of(geometry.rows, geometry.cols, layout)
+        self._force_n = force_table(response or ForceResponse())
+        # Below it there is no force.
+        self._force_n[0] = 0.0
+        self._slope_n = slope_table(self._force_n)
+        self._touch_counts = touch_counts
+        self._noise_counts = max(noise_counts, _LEAST_NOISE_COUNTS)
+        self._frames: deque[SampleFrame] = deque()
+
+    def reset(self) -> None:
+        """Forget all samples."""
+        self._frames.clear()
+
+    def add(
+        self,
+        indices: NDArray[np.uint16],
+        counts: NDArray[np.uint16],
+        end_s: float,
+        duration_s: float,
+        *,
+        may_repeat: bool = False,
+    ) -> None:
+        """Keep the samples of the next frame; parameters and errors as of `FusionEstimator.step`.
+
+        With `may_repeat` a frame may have a taxel several times: then faster vibrations are found. Where the time goes
+        back, or on by more than half a second, those before are forgotten.
+        """
+        placed, counts = self._samples.of(indices, counts, may_repeat=may_repeat)
+        if self._frames and not 0.0 < end_s - self._frames[-1].end_s <= _LONGEST_PAUSE_S:
+            self._frames.clear()
+        self._frames.append(SampleFrame(end_s, duration_s, placed.copy(), counts.astype(np.float32)))
+        while self._frames[0].end_s < end_s - self.config.spectra_window_s:
+            self._frames.popleft()
+
+    def window(self) -> tuple[SampleFrame, ...]:
+        """The frames that are kept; none while they are of less than half of the time asked for."""
+        frames = self._frames
+        is_short = len(frames) < 3 or frames[-1].end_s - frames[0].end_s < _LEAST_SHARE * self.config.spectra_window_s
+        return () if is_short else tuple(frames)
+
+    def spectra(self, frames: tuple[SampleFrame, ...] | None = None) -> tuple[Spectrum, ...]:
+        """The spectrum of each contact, the strongest first; takes some ten milliseconds.
+
+        Parameters
+        ----------
+        frames : tuple of SampleFrame, optional
+            What `window` returned, so that one thread can work while another adds; by default what there is now.
+        """
+        frames = self.window() if frames is None else frames
+        if not frames:
+            return ()
+        window = _in_one(frames)
+        size = self._geometry.size
+        number = np.bincount(window.places, minlength=size)
+        mean = np.bincount(window.places, weights=window.counts, minlength=size) / np.maximum(number, 1)
+        labels = self._labels(mean)
+        contacts = [np.flatnonzero((labels == label) & (number > 0)) for label in range(1, int(labels.max()) + 1)]
+        found = [self._of(window, places, mean) for places in contacts]
+        return tuple(sorted((one for one in found if one is not None), key=lambda one: -one.force_n))
+
+    def _labels(self, mean: Array) -> NDArray[np.intp]:
+        """The number of the contact that each taxel belongs to, 0: none; shape (taxels,)."""
+        from scipy import ndimage
+
+        shape = (self._geometry.rows, self._geometry.cols)
+        pressed = (mean > self._touch_counts).reshape(shape)
+        labels = np.zeros(shape, dtype=np.intp)
+        around = np.ones((3, 3))
+        for first_row, end_row, first_col, end_col in self._borders.rectangles.tolist():
+            there = np.s_[first_row:end_row, first_col:end_col]
+            if not pressed[there].any():
+                continue
+            if self.config.spectra_of == "patches":
+                own: NDArray[np.intp] = pressed[there].astype(np.intp)
+            else:
+                own = ndimage.label(pressed[there], structure=around)[0].astype(np.intp)
+            # What lies beside carries some of the force, too.
+            beside = ndimage.maximum_filter(own, size=3, mode="constant")
+            own = np.where(own > 0, own, beside)
+            labels[there] = np.where(own > 0, own + labels.max(), 0)
+        return labels.ravel()
+
+    def _of(self, window: _Window, places: NDArray[np.intp], mean: Array) -> Spectrum | None:
+        """The spectrum of what presses these taxels; None where that is no force."""
+        places = places[np.argsort(-mean[places], kind="stable")][:_MOST_TAXELS]
+        slot_of = np.full(self._geometry.size, -1, dtype=np.intp)
+        slot_of[places] = np.arange(places.size)
+        mine = slot_of[window.places] >= 0
+        whole = np.clip(np.rint(mean[places]), 0, self._slope_n.size - 1).astype(np.intp)
+        time_s = window.time_s[mine]
+        x_m = np.asarray(self._geometry.x_m(places % self._geometry.cols))
+        y_m = np.asarray(self._geometry.y_m(places // self._geometry.cols))
+        tones = Tones(
+            time_s,
+            slot_of[window.places[mine]],
+            np.interp(window.counts[mine], np.arange(self._force_n.size), self._force_n),
+            self._noise_counts * np.maximum(self._slope_n[whole], _LEAST_SLOPE_N),
+            x_m,
+            y_m,
+            window.step_s,
+        )
+        total = float(tones.mean_n.sum())
+        if total <= 0:
+            return None
+        return Spectrum(
+            begin_s=float(time_s[0]),
+            end_s=float(time_s[-1]),
+            x_m=float(tones.mean_n @ x_m) / total,
+            y_m=float(tones.mean_n @ y_m) / total,
+            force_n=total,
+            taxels=places.size,
+            sample_rate_hz=1.0 / window.step_s,
+            step_hz=_TOLD_EVERY * tones.step_hz,
+            amplitude_n=tones.amplitude_n()[::_TOLD_EVERY],
+            peaks=tones.peaks(self.config.spectra_lowest_hz, self.config.spectra_peaks),
+        )
+
+
+def _in_one(frames: tuple[SampleFrame, ...]) -> _Window:
+    ends_s, durations_s = (np.array([frame[k] for frame in frames]) for k in (0, 1))
+    sizes = np.array([frame.places.size for frame in frames])
+    # The last sample ends with its frame; they are evenly spaced.
+    before_end = np.repeat(np.cumsum(sizes), sizes) - 1 - np.arange(sizes.sum())
+    time_s = np.repeat(ends_s, sizes) - before_end * np.repeat(durations_s / sizes, sizes)
+    places, counts = (np.concatenate([frame[k] for frame in frames]) for k in (2, 3))
+    rounds = _rounds(sizes, places)
+    # Within frames that repeat the pace is even, also where frames are lost.
+    frame_s = float(np.median(durations_s if rounds > 1 else np.diff(ends_s)))
+    return _Window(time_s, places, counts, max(frame_s / rounds, 1e-6))
+
+
+def _rounds(sizes: NDArray[np.intp], places: NDArray[np.uint16]) -> float:
+    """How often a frame has each of its taxels, at least; of frames of these sizes."""
+    frame = np.repeat(np.arange(sizes.size), sizes)
+    distinct = np.bincount(np.unique(frame * 2**16 + places) // 2**16, minlength=sizes.size)
+    return float((sizes / distinct).min())

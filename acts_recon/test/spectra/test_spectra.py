@@ -1,0 +1,142 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Spectra of samples at uneven times: which tones are told, how strong, and when there are none."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from acts_core.array import ArrayGeometry
+from acts_core.errors import SettingsError
+from acts_core.skin import ForceResponse, layout
+from acts_recon.spectra import SpectraConfig, Spectrum, SpectrumAnalyser
+
+GEOMETRY = ArrayGeometry()
+RESPONSE = ForceResponse()
+FRAME_S = 1.144e-3
+CONTACT = [32 * row + col for row in range(10, 14) for col in range(8, 12)]
+SHARE = np.array([1, 2, 2, 1, 2, 4, 4, 2, 2, 4, 4, 2, 1, 2, 2, 1]) / 36
+
+
+def hear(
+    analyser: SpectrumAnalyser,
+    tones: dict[float, float],
+    *,
+    force_n: float = 3.0,
+    noise: float = 2.0,
+    seed: int = 1,
+    lost: float = 0.2,
+    first_s: float = 1.7e9,
+    frames: int = 880,
+    taxels: list[int] = CONTACT,
+) -> None:
+    """Frames in which taxels are measured in random order, and some not at all."""
+    rng = np.random.default_rng(seed)
+    for number in range(frames):
+        order = rng.permutation(16)[: 16 - rng.binomial(15, lost)]
+        sample_s = FRAME_S / order.size
+        # The last sample ends with the frame.
+        end_s = number * FRAME_S + FRAME_S
+        at_s = end_s - sample_s * np.arange(order.size)[::-1]
+        force = force_n + sum(size * np.cos(2 * np.pi * hz * at_s + 1.0) for hz, size in tones.items())
+        counts = RESPONSE.counts(SHARE[order] * force) + noise * rng.standard_normal(order.size)
+        analyser.add(
+            np.array(taxels, dtype=np.uint16)[order],
+            np.clip(np.rint(counts), 0, 1023).astype(np.uint16),
+            first_s + end_s,
+            FRAME_S,
+        )
+
+
+def heard(tones: dict[float, float], **options: float) -> Spectrum:
+    analyser = SpectrumAnalyser(GEOMETRY, RESPONSE, noise_counts=2.0)
+    hear(analyser, tones, **options)
+    (spectrum,) = analyser.spectra()
+    return spectrum
+
+
+@settings(max_examples=6, deadline=None)
+@given(hz=st.floats(10.0, 420.0), size=st.floats(0.05, 1.0), seed=st.integers(0, 1000))
+def test_a_tone_is_found_with_its_uncertainty(hz: float, size: float, seed: int) -> None:
+    peak = heard({hz: size}, seed=seed).peaks[0]
+    assert abs(peak.frequency_hz - hz) < min(5 * peak.frequency_sd_hz, 0.5)
+    assert peak.amplitude_n == pytest.approx(size, rel=0.05)
+    assert abs(peak.amplitude_n - size) < 5 * peak.amplitude_sd_n
+
+
+def test_several_tones_are_told_the_largest_first_and_nothing_else() -> None:
+    spectrum = heard({50.0: 0.3, 57.0: 0.1, 333.0: 0.6})
+    assert [round(peak.frequency_hz) for peak in spectrum.peaks] == [333, 50, 57]
+    assert [peak.amplitude_n for peak in spectrum.peaks] == pytest.approx([0.6, 0.3, 0.1], rel=0.05)
+    assert spectrum.sample_rate_hz == pytest.approx(1 / FRAME_S, rel=1e-3)
+    assert spectrum.frequency_hz[-1] == pytest.approx(0.5 / FRAME_S, abs=1)
+    for peak in spectrum.peaks:
+        near = np.abs(spectrum.frequency_hz - peak.frequency_hz) < 1
+        assert spectrum.amplitude_n[near].max() == pytest.approx(peak.amplitude_n, rel=0.1)
+    assert spectrum.force_n == pytest.approx(3.0, rel=0.02)
+    assert spectrum.x_m == pytest.approx(float(GEOMETRY.x_m(9.5)), abs=2e-4)
+    assert spectrum.y_m == pytest.approx(float(GEOMETRY.y_m(11.5)), abs=2e-4)
+
+
+def test_a_contact_that_does_not_vibrate_has_no_peaks_and_an_untouched_skin_no_spectrum() -> None:
+    assert all(heard({}, seed=seed).peaks == () for seed in range(5))
+    # What is slower than what is asked for is not told, and does not hide what is faster.
+    assert [round(peak.frequency_hz) for peak in heard({2.0: 0.5, 80.0: 0.05}).peaks] == [80]
+    analyser = SpectrumAnalyser(GEOMETRY, RESPONSE)
+    hear(analyser, {}, force_n=0.0)
+    assert analyser.spectra() == ()
+
+
+def test_there_is_no_spectrum_before_half_of_the_window_and_after_a_jump_of_the_clock() -> None:
+    analyser = SpectrumAnalyser(GEOMETRY, RESPONSE)
+    hear(analyser, {100.0: 0.3}, frames=430)
+    assert not analyser.window()
+    hear(analyser, {100.0: 0.3}, frames=880, first_s=5.0)
+    assert len(analyser.window()) == 875
+    hear(analyser, {100.0: 0.3}, frames=10, first_s=1.0)
+    assert not analyser.window()
+    hear(analyser, {100.0: 0.3}, frames=880, first_s=2.0)
+    analyser.reset()
+    assert analyser.spectra() == ()
+
+
+@pytest.mark.parametrize("of", ["contacts", "patches"])
+def test_no_contact_reaches_over_a_border_and_a_patch_is_one_if_asked_for(of: str) -> None:
+    glove = layout("glove", 32, 32)
+    geometry = glove.geometry(0.0, 0.0)
+    first, second = (glove.taxels[glove.patch_of == patch] for patch in (0, 1))
+    analyser = SpectrumAnalyser(geometry, RESPONSE, noise_counts=2.0, config=SpectraConfig(spectra_of=of), layout=glove)
+    hear(analyser, {100.0: 0.3}, taxels=[*first[:8].tolist(), *second[-8:].tolist()])
+    spectra = analyser.spectra()
+    assert len(spectra) >= 2
+    for spectrum in spectra:
+        assert round(spectrum.peaks[0].frequency_hz) == 100
+    if of == "patches":
+        assert len(spectra) == 2
+
+
+@settings(max_examples=25, deadline=None)
+@given(data=st.data())
+def test_any_samples_have_finite_spectra(data: st.DataObject) -> None:
+    rng = np.random.default_rng(data.draw(st.integers(0, 10**6)))
+    analyser = SpectrumAnalyser(GEOMETRY, RESPONSE, config=SpectraConfig(spectra_window_s=0.1))
+    end_s = 0.0
+    top = data.draw(st.sampled_from([1, 300, 1023]))
+    size = data.draw(st.sampled_from([1, 16, 256]))
+    for _ in range(data.draw(st.integers(1, 60))):
+        end_s += rng.exponential(0.01)
+        taxels = rng.permutation(1024)[:size].astype(np.uint16)
+        analyser.add(taxels, rng.integers(0, top + 1, size).astype(np.uint16), end_s, rng.uniform(0, 0.01))
+    for spectrum in analyser.spectra():
+        assert np.isfinite(spectrum.amplitude_n).all()
+        for peak in spectrum.peaks:
+            assert np.isfinite([*vars(peak).values()]).all()
+
+
+def test_settings_out_of_range_are_refused() -> None:
+    with pytest.raises(SettingsError, match="contacts, patches"):
+        SpectraConfig(spectra_of="hands")
