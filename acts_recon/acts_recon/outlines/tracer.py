@@ -1,0 +1,279 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Outlines of all contacts, frame by frame."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.array import ArrayGeometry
+from acts_core.errors import ArrayError
+from acts_core.skin import ForceResponse, Layout, MeasuredForceResponse, force_table
+from acts_recon.images import PlacedSamples, borders_of
+from acts_recon.outlines.config import OutlinesConfig
+from acts_recon.outlines.contours import area, contours
+from acts_recon.outlines.edge_filter import EdgeFilter
+from acts_recon.outlines.outline import Outline
+
+Array = NDArray[np.float64]
+
+MOST_OUTLINES = 16
+"""In one frame; of the largest contacts."""
+
+_LONGEST_PAUSE_S = 0.5
+_LEAST_TAXELS = 3
+# A reading above so many standard deviations is of a pressed taxel.
+_NOISE = 4.0
+# Samples further outside of an edge say nothing of it [taxels].
+_OUTSIDE = 4.0
+# From a force of the edge over this to one times this a taxel changes from outside to inside.
+_BAND = 3.0
+# Of the taxels of a contact this share press less than what the level is a share of: not the largest of an image,
+# which is a guess where taxels saturate.
+_TOP = 0.6
+_LEAST_AREA = 0.3
+_NUMBERS = 2**32
+
+
+def load() -> None:
+    """Import what `OutlineTracer.step` uses, so that the first frame does not wait for it, up to a second."""
+    import scipy.ndimage  # noqa: F401
+
+
+class _Track:
+    """One contact while it lasts."""
+
+    def __init__(self, number: int, began_s: float) -> None:
+        self.number, self.began_s = number, began_s
+        self.mask: NDArray[np.bool_] = np.zeros((0, 0), dtype=np.bool_)
+        self.edge: EdgeFilter | None = None
+        self.is_felt = False
+        self.last: Outline | None = None
+
+
+class OutlineTracer:
+    """Follows contacts, and finds the outline of each in every frame.
+
+    Young contacts are followed by their edge (see `edge_filter`), older ones have the contour of the image.
+
+    Parameters
+    ----------
+    geometry : ArrayGeometry
+        Of the images.
+    response : ForceResponse or MeasuredForceResponse, optional
+        From counts to newtons.
+    touch_counts : float
+        A taxel above is pressed.
+    noise_counts : float
+        Standard deviation of a reading.
+    config : OutlinesConfig, optional
+    layout : Layout, optional
+        No outline reaches over a border of its patches.
+    """
+
+    def __init__(
+        self,
+        geometry: ArrayGeometry,
+        response: ForceResponse | MeasuredForceResponse | None = None,
+        touch_counts: float = 60.0,
+        noise_counts: float = 2.0,
+        config: OutlinesConfig | None = None,
+        layout: Layout | None = None,
+    ) -> None:
+        self.config = config or OutlinesConfig()
+        self._geometry = geometry
+        self._shape = geometry.rows, geometry.cols
+        self._samples = PlacedSamples(geometry, layout)
+        borders = borders_of(geometry.rows, geometry.cols, layout)
+        self._rectangles: list[list[int]] = borders.rectangles.tolist()
+        self._rectangle_of = borders.rectangle_of.reshape(self._shape)
+        self._force_n = force_table(response or ForceResponse())
+        self._touch_counts = touch_counts
+        self._least_n = float(np.interp(touch_counts, np.arange(self._force_n.size), self._force_n))
+        self._noise_counts = _NOISE * noise_counts
+        self._tracks: list[_Track] = []
+        self._next_number = 1
+        self._before_s: float | None = None
+
+    @property
+    def is_fast(self) -> bool:
+        """Whether a contact is so young that its outline changes from frame to frame, or there was none at all."""
+        return not self._tracks or any(track.edge is not None for track in self._tracks)
+
+    def reset(self) -> None:
+        """Forget all contacts; numbers go on."""
+        self._tracks.clear()
+        self._before_s = None
+
+    def step(
+        self,
+        indices: NDArray[np.uint16],
+        counts: NDArray[np.uint16],
+        end_s: float,
+        duration_s: float,
+        image: NDArray[np.float32],
+    ) -> tuple[Outline, ...]:
+        """Look at the next frame.
+
+        Parameters
+        ----------
+        indices, counts, end_s, duration_s
+            Of the frame, as of `FusionEstimator.step`. Where the time goes back, or on by more than half a second, all
+            contacts are forgotten.
+        image : np.ndarray [shape=(rows, cols), dtype=float32]
+            Counts, recovered from it.
+
+        Returns
+        -------
+        tuple of Outline
+            One of each contact that has one.
+
+        Raises
+        ------
+        ArrayError
+            When frame or image are of another kind or size.
+        """
+        if image.shape != self._shape:
+            raise ArrayError(f"image {image.shape}: needed is {self._shape}")
+        places, placed_counts = self._samples.of(indices, counts)
+        if self._before_s is not None and not 0.0 < end_s - self._before_s <= _LONGEST_PAUSE_S:
+            self.reset()
+        self._before_s = end_s
+        if not (image > self._touch_counts).any():
+            self._tracks.clear()
+            return ()
+        values = np.arange(self._force_n.size)
+        force_n = np.where(image > 0, np.interp(image, values, self._force_n), 0.0)
+        labels, number = self._labels(image)
+        middle_s = end_s - duration_s / 2
+        tracks = self._match(labels, number, middle_s)
+        # The last sample ends with the frame; they are evenly spaced.
+        before_end = np.arange(places.size)[::-1] / max(places.size, 1)
+        since_ms = 1e3 * duration_s * (0.5 - before_end)
+        sampled_n = np.where(placed_counts > self._noise_counts, np.interp(placed_counts, values, self._force_n), 0.0)
+        found = []
+        sizes = np.bincount(labels.ravel(), minlength=number + 1)
+        for label, track in sorted(tracks, key=lambda one: -int(sizes[one[0]]))[:MOST_OUTLINES]:
+            corners = self._corners(track, labels, label, force_n, places, sampled_n, since_ms, middle_s, duration_s)
+            outline = self._outline(track, corners, middle_s)
+            if outline is not None:
+                found.append(outline)
+            track.last = outline
+        return tuple(sorted(found, key=lambda outline: outline.number))
+
+    def _labels(self, image: NDArray[np.float32]) -> tuple[NDArray[np.intp], int]:
+        from scipy import ndimage
+
+        pressed = image > self._touch_counts
+        labels = np.zeros(self._shape, dtype=np.intp)
+        number = 0
+        for first_row, end_row, first_col, end_col in self._rectangles:
+            there = np.s_[first_row:end_row, first_col:end_col]
+            if pressed[there].any():
+                own, count = ndimage.label(pressed[there], structure=np.ones((3, 3)))
+                labels[there] = np.where(own > 0, own + number, 0)
+                number += int(count)
+        return labels, number
+
+    def _match(self, labels: NDArray[np.intp], number: int, time_s: float) -> list[tuple[int, _Track]]:
+        """Give each contact of the image to the track that covered most of it; the others begin."""
+        shared = []
+        for track in self._tracks:
+            covered = np.bincount(labels[track.mask], minlength=number + 1)
+            shared += [(int(covered[label]), label, track) for label in range(1, number + 1) if covered[label]]
+        matched: dict[int, _Track] = {}
+        for _, label, track in sorted(shared, key=lambda one: (-one[0], one[2].number)):
+            if label not in matched and track not in matched.values():
+                matched[label] = track
+        for label in range(1, number + 1):
+            if label not in matched:
+                matched[label] = _Track(self._next_number, time_s)
+                self._next_number = self._next_number % (_NUMBERS - 1) + 1
+            matched[label].mask = labels == label
+        self._tracks = list(matched.values())
+        return sorted(matched.items())
+
+    def _corners(
+        self,
+        track: _Track,
+        labels: NDArray[np.intp],
+        label: int,
+        force_n: Array,
+        places: NDArray[np.uint16],
+        sampled_n: Array,
+        since_ms: Array,
+        middle_s: float,
+        duration_s: float,
+    ) -> Array:
+        """Rows and columns of the outline; empty where there is none."""
+        inside = track.mask
+        level_n = max(self.config.outlines_level * float(np.quantile(force_n[inside], _TOP)), self._least_n)
+        row, col = places // self._shape[1], places % self._shape[1]
+        # Between what was measured an image is a guess, which may show contacts that are none.
+        track.is_felt = track.is_felt or bool((sampled_n[inside[row, col]] > self._least_n).any())
+        if not track.is_felt:
+            return np.zeros((0, 2))
+        if middle_s - track.began_s > self.config.outlines_fast_s:
+            track.edge = None
+            return self._contour(labels, label, force_n, level_n)
+        if track.edge is None:
+            edge = self._begun(inside, force_n, level_n, 1e3 * (middle_s - track.began_s), duration_s)
+            if edge is None:
+                return np.zeros((0, 2))
+            track.edge = edge
+        else:
+            edge = track.edge
+            edge.predict(1e3 * (middle_s - track.began_s))
+        patch = self._rectangle_of[inside][0]
+        other = (labels > 0) & (labels != label) | (self._rectangle_of != patch)
+        near = ~other[row, col] & (np.hypot(row - edge.row, col - edge.col) < edge.radius + _OUTSIDE)
+        share = np.log(np.maximum(sampled_n[near] / level_n, 1e-6)) / (2 * np.log(_BAND))
+        edge.update(row[near].astype(float), col[near].astype(float), since_ms[near], np.clip(0.5 + share, 0.0, 1.0))
+        first_row, end_row, first_col, end_col = self._rectangles[patch]
+        return np.clip(edge.corners(), (first_row - 0.5, first_col - 0.5), (end_row - 0.5, end_col - 0.5))
+
+    def _begun(
+        self, inside: NDArray[np.bool_], force_n: Array, level_n: float, since_ms: float, duration_s: float
+    ) -> EdgeFilter | None:
+        rows, cols = np.nonzero(inside)
+        if rows.size < _LEAST_TAXELS:
+            return None
+        weights = force_n[inside]
+        radius = math.sqrt(max(int(np.count_nonzero(weights > level_n)), 1) / math.pi)
+        whole = float(weights.sum())
+        row, col = float(rows @ weights) / whole, float(cols @ weights) / whole
+        return EdgeFilter(row, col, radius, radius / (1e3 * duration_s + 1e-3), since_ms)
+
+    def _contour(self, labels: NDArray[np.intp], label: int, force_n: Array, level_n: float) -> Array:
+        """The largest contour of one contact in the image."""
+        from scipy import ndimage
+
+        mine = labels == label
+        first_row, end_row, first_col, end_col = self._rectangles[self._rectangle_of[mine][0]]
+        there = np.s_[first_row:end_row, first_col:end_col]
+        # Its own taxels and those beside it; between taxels the root of the force is nearer to a straight line.
+        field = np.where(ndimage.maximum_filter(mine[there], size=3), np.sqrt(force_n[there]), 0.0)
+        loops = contours(field, float(np.sqrt(level_n)))
+        largest = max(loops, key=area, default=np.zeros((0, 2)))
+        if len(largest) < 3 or area(largest) < _LEAST_AREA:
+            return np.zeros((0, 2))
+        shifted: Array = largest + np.array([first_row, first_col])
+        return shifted
+
+    def _outline(self, track: _Track, corners: Array, time_s: float) -> Outline | None:
+        if not len(corners):
+            return None
+        x_m = np.asarray(self._geometry.x_m(corners[:, 1]), dtype=np.float64)
+        y_m = np.asarray(self._geometry.y_m(corners[:, 0]), dtype=np.float64)
+        outline = Outline(track.number, time_s, x_m, y_m)
+        if outline.area_m2 < 0:
+            outline = Outline(track.number, time_s, x_m[::-1].copy(), y_m[::-1].copy())
+        before = track.last
+        if before is None:
+            return outline
+        growth = (outline.area_m2 - before.area_m2) / max(time_s - before.time_s, 1e-9)
+        return Outline(track.number, time_s, outline.x_m, outline.y_m, growth)

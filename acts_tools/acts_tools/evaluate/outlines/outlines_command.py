@@ -1,0 +1,132 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""`acts evaluate outlines`: tennis ball, silicone block and balloon on the simulated skin. The paper's figure 6.
+
+What the numbers mean is told in docs/outlines.md.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from acts_core.array import ArrayGeometry
+from acts_sim.deforming import BODIES, Meeting, body_named, meeting
+from acts_sim.impacts import skin_of
+from acts_tools.evaluate import report
+from acts_tools.evaluate.images.options import at_least_one
+from acts_tools.evaluate.images.recovery import SAMPLE_US
+from acts_tools.evaluate.images.scores import distribution
+from acts_tools.evaluate.outlines import tracing
+from acts_tools.evaluate.outlines.surface_files import write_surfaces
+from acts_tools.evaluate.outlines.tracing import Traced
+from acts_tools.progress import Progress
+
+_M = (64, 88, 128, 256, 352, 512)
+_FIRST = 2
+"""Frames of a touch that are not judged: from the third on."""
+_TITLE = (
+    f"{'body':8} {'M':>4} {'method':6} {'scheme':9} {'frames/s':>8} {'touches':>7} {'frames':>6} {'of':>5} "
+    f"{'from 3rd: error':>15} {'p95':>5} {'none':>5}"
+)
+
+
+def add_parser(commands: Any) -> None:
+    """Add ``acts evaluate outlines``."""
+    parser = commands.add_parser(
+        "outlines",
+        help="on soft objects that meet the simulated skin",
+        description="Let a tennis ball, a silicone block and a balloon meet the simulated skin, and compare the "
+        "outline of each frame with the true one. docs/outlines.md tells what the numbers mean.",
+    )
+    parser.add_argument(
+        "--m", type=int, nargs="+", default=list(_M), help=f"taxels per frame (default: {' '.join(map(str, _M))})"
+    )
+    parser.add_argument("--body", nargs="+", choices=tuple(BODIES), default=list(BODIES), help="default: all")
+    parser.add_argument(
+        "--seeds", type=at_least_one, default=25, metavar="N", help="touches of each body (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--noise-counts", type=float, default=3.0, metavar="X", help="noise of a reading (default: %(default)s)"
+    )
+    parser.add_argument("--seed", type=int, default=1, metavar="X", help="of everything random (default: %(default)s)")
+    parser.add_argument("--json", type=Path, metavar="OUT", help="write the results here, too")
+    parser.add_argument(
+        "--surfaces", type=Path, metavar="FOLDER", help="write the first touch of each body here: PNG, and PLY for 3D"
+    )
+    parser.set_defaults(evaluate=_run)
+
+
+def _run(arguments: argparse.Namespace) -> int:
+    about = {name: getattr(arguments, name) for name in ("noise_counts", "seed", "seeds")}
+    results = report.Results(arguments.json, about)
+    print(_TITLE, flush=True)
+    with Progress("outlines", len(arguments.body) * len(arguments.m) * arguments.seeds) as progress:
+        done = 0
+        for name in arguments.body:
+            touches = [touch_of(name, arguments.seed, number) for number in range(arguments.seeds)]
+            for m in arguments.m:
+                scheme_of_paper = tracing.PAPER_SCHEMES[name]
+                told: dict[tuple[str, str], list[list[Traced]]] = {
+                    ("paper", scheme_of_paper): [],
+                    ("acts", tracing.SCHEME): [],
+                    ("acts", scheme_of_paper): [],
+                }
+                for number, shown in enumerate(touches, start=1):
+                    for (method, scheme), all_traced in told.items():
+                        if method == "paper":
+                            all_traced.append(tracing.paper(shown, m, arguments.noise_counts, number))
+                        else:
+                            all_traced.append(tracing.ours(shown, m, arguments.noise_counts, number, scheme))
+                    progress.show(done := done + 1)
+                for (method, scheme), traced in told.items():
+                    entry = {"body": name, "m": m, "method": method, "scheme": scheme, **scores_of(traced, m)}
+                    results.add(entry)
+                    print(_line(entry), flush=True)
+                if arguments.surfaces is not None:
+                    outlines = tracing.our_outlines(touches[0], m, arguments.noise_counts, 1)
+                    write_surfaces(arguments.surfaces, f"{name}_m{m}", outlines)
+    return 0
+
+
+def touch_of(name: str, seed: int, number: int) -> Meeting:
+    """A touch of a body, by its number."""
+    rng = np.random.default_rng([seed, number])
+    return meeting(skin_of(rng), body_named(name), rng)
+
+
+def scores_of(touches: Sequence[Sequence[Traced]], m: int) -> dict[str, Any]:
+    """An entry of the report, without names."""
+    pitch_m = ArrayGeometry().pitch_m
+    late = [one.error_taxels(pitch_m) for traced in touches for one in traced[_FIRST:]]
+    errors = [error for error in late if error is not None]
+    most = max((len(traced) for traced in touches), default=0)
+    by_frame = [
+        [error for traced in touches if len(traced) > k and (error := traced[k].error_taxels(pitch_m)) is not None]
+        for k in range(most)
+    ]
+    return {
+        "rate_hz": 1e6 / (m * SAMPLE_US),
+        "touches": len(touches),
+        "frames_with_outline": float(np.mean([tracing.frames_seen(traced) for traced in touches])),
+        "frames_of_touch": float(np.mean([len(traced) for traced in touches])),
+        "error_taxels_from_third": {**distribution(np.array(errors)), "max": max(errors, default=None)},
+        "frames_from_third": len(late),
+        "without_outline_from_third": len(late) - len(errors),
+        "error_taxels_by_frame": [float(np.mean(one)) if one else None for one in by_frame],
+    }
+
+
+def _line(entry: dict[str, Any]) -> str:
+    error = entry["error_taxels_from_third"]
+    return (
+        f"{entry['body']:8} {entry['m']:4} {entry['method']:6} {entry['scheme']:9} {entry['rate_hz']:8.1f} "
+        f"{entry['touches']:7} {entry['frames_with_outline']:6.1f} {entry['frames_of_touch']:5.1f} "
+        f"{report.number(error['mean'], 15, 3)} {report.number(error['p95'], 5, 2)} "
+        f"{entry['without_outline_from_third']:5}"
+    )

@@ -1,0 +1,32 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""`acts evaluate outlines`: what it reports of a few touches, and the surfaces that it writes."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from acts_tools.cli import main
+
+pytestmark = pytest.mark.slow
+
+
+def test_outlines_are_nearer_to_the_truth_than_by_the_papers_method(tmp_path: Path) -> None:
+    out, folder = tmp_path / "outlines.json", tmp_path / "surfaces"
+    words = ["evaluate", "outlines", "--seeds", "2", "--m", "64", "--json", str(out), "--surfaces", str(folder)]
+    assert main(words) == 0
+    results = json.loads(out.read_text())["results"]
+    assert [entry["body"] for entry in results] == ["tennis"] * 3 + ["block"] * 3 + ["balloon"] * 3
+    for paper, ours, alike in zip(results[::3], results[1::3], results[2::3], strict=True):
+        assert (paper["method"], ours["method"], ours["scheme"]) == ("paper", "acts", "tracking")
+        assert alike["scheme"] == paper["scheme"]
+        assert ours["error_taxels_from_third"]["mean"] < min(paper["error_taxels_from_third"]["mean"], 0.5)
+        assert ours["frames_with_outline"] > 0.8 * ours["frames_of_touch"]
+    assert sorted(path.name for path in folder.iterdir()) == [
+        f"{body}_m64.{kind}" for body in ("balloon", "block", "tennis") for kind in ("ply", "png")
+    ]
+    assert (folder / "tennis_m64.png").read_bytes().startswith(b"\x89PNG")
