@@ -1,9 +1,9 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Impacts: told at the first touch, and when over with time, force, path, direction and what kind of touch it was.
+"""Impacts: one report when a touch begins, and one when it is over, with time, force, path, direction and kind.
 
-In come images with how sure they are and when each taxel was measured; out come touches that begin and that are over.
+In come images, the standard deviation of each taxel and the time at which it was measured; out come `Impact` reports.
 """
 
 from acts_recon.impacts.config import ImpactConfig

@@ -30,5 +30,12 @@ class ImpactConfig:
         0.0025, "what is larger than this, and no impact, is a step [m^2]", minimum=1e-5, maximum=1.0
     )
 
+    impact_foam_spread_m: float = setting(
+        0.002,
+        "how far pressure spreads sideways in the skin's foam, for the onset of slow touches [m]",
+        minimum=0.0,
+        maximum=0.05,
+    )
+
     def __post_init__(self) -> None:
         validate(self)

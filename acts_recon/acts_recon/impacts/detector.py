@@ -17,6 +17,7 @@ from acts_recon.images import Borders, borders_of
 from acts_recon.impacts.config import ImpactConfig
 from acts_recon.impacts.footprint_fit import Footprint
 from acts_recon.impacts.impact import UNKNOWN_DIRECTION_SD_RAD, Impact, Kind
+from acts_recon.impacts.onset_fit import follow_back
 from acts_recon.impacts.samples import RecentSamples
 from acts_recon.impacts.touch import Touch, impulse_of, reach_m_of
 
@@ -61,6 +62,7 @@ class ImpactDetector:
         blobs = blobs or BlobConfig()
         response = response or ForceResponse()
         self._geometry = geometry
+        self._touch_counts = blobs.touch_counts
         self._borders = borders or borders_of(geometry.rows, geometry.cols)
         self._tracker = BlobTracker(geometry, response, blobs, self._borders)
         memory_s = self.config.impact_longest_s + self.config.impact_quiet_s + 0.1
@@ -121,12 +123,19 @@ class ImpactDetector:
         else:
             is_sampled = False
         found = self._tracker.step(image, time_s, sigma)
-        told = self._follow(found, time_s, before_s, is_sampled) if found else []
+        told = self._follow(found, time_s, before_s, is_sampled, image) if found else []
         if self._touches:
-            told += self._end(time_s, time_s - before_s)
+            told += self._end(time_s, time_s - before_s, image)
         return tuple(told)
 
-    def _follow(self, found: tuple[TrackedBlob, ...], time_s: float, before_s: float, is_sampled: bool) -> list[Impact]:
+    def _follow(
+        self,
+        found: tuple[TrackedBlob, ...],
+        time_s: float,
+        before_s: float,
+        is_sampled: bool,
+        image: NDArray[np.float32],
+    ) -> list[Impact]:
         """Give each contact to the touch that it belongs to; tell of the touches that begin."""
         parts: dict[int, list[TrackedBlob]] = {}
         for blob in sorted(found, key=lambda one: -one.force_n):
@@ -143,7 +152,7 @@ class ImpactDetector:
         for touch in list(self._touches):
             blobs = parts.get(touch.number, [])
             if blobs and self._is_felt(touch, blobs, time_s, is_sampled):
-                touch.add(time_s, blobs, self.config)
+                touch.add(time_s, blobs, image, self.config)
                 if touch.began_s == time_s:
                     begun.append(self._begun(touch))
             elif not touch.frames_seen:
@@ -175,9 +184,12 @@ class ImpactDetector:
         return bool(pressed_s.size) or bool(touch.frames_seen and is_unseen)
 
     def _patch(self, blob: TrackedBlob) -> int:
-        row = round(float(self._geometry.row_of(blob.y_m)))
-        col = round(float(self._geometry.col_of(blob.x_m)))
+        row, col = self._place(blob.x_m, blob.y_m)
         return int(self._borders.rectangle_of[row * self._geometry.cols + col])
+
+    def _place(self, x_m: float, y_m: float) -> tuple[int, int]:
+        """Row and column of a place."""
+        return round(float(self._geometry.row_of(y_m))), round(float(self._geometry.col_of(x_m)))
 
     def _nearest(self, blob: TrackedBlob, patch: int) -> Touch | None:
         nearest, nearest_m = None, math.inf
@@ -209,24 +221,34 @@ class ImpactDetector:
         first_s = 2 * touch.before_s - touch.began_s
         return self._samples.untouched_s(*touch.start_m, first_s, touch.first_sample_s)
 
-    def _end(self, time_s: float, period_s: float) -> list[Impact]:
+    def _end(self, time_s: float, period_s: float, image: NDArray[np.float32]) -> list[Impact]:
         """Tell of the touches that are over, and of impacts that stay on the skin."""
         config = self.config
         told, still = [], []
         for touch in self._touches:
             gone_s = time_s - touch.last_s
             if gone_s > 0 and gone_s >= config.impact_quiet_s:
-                if not touch.is_told:
+                if not touch.is_told and not self._is_part(touch, image):
                     told.append(self._over(touch, period_s))
                 continue
             still.append(touch)
             is_late = time_s - touch.began_s > config.impact_longest_s
+            if is_late and not touch.is_followed_back:
+                touch.is_followed_back = True
+                touch.slow_onset = self._followed_back(touch, time_s)
             rose = touch.peak_s - touch.began_s <= config.impact_rise_s
             if not touch.is_told and is_late and rose and touch.stays_after_impact():
                 touch.is_told = True
                 told.append(self._over(touch, period_s, stays=True))
         self._touches = still
         return told
+
+    def _is_part(self, touch: Touch, image: NDArray[np.float32]) -> bool:
+        """Whether a touch that is not felt any more has become one with another: the skin there is still pressed."""
+        row, col = self._place(touch.x_m, touch.y_m)
+        around = image[max(row - 1, 0) : row + 2, max(col - 1, 0) : col + 2]
+        others = (other for other in self._touches if other.patch == touch.patch)
+        return bool(around.max() > self._touch_counts) and any(other.last_s > touch.last_s for other in others)
 
     def _over(self, touch: Touch, period_s: float, *, stays: bool = False) -> Impact:
         time, force_n, path_x_m, path_y_m = touch.path()
@@ -243,6 +265,8 @@ class ImpactDetector:
             peak_n, peak_sd_n = float(fitted.force_n.max()), _FORCE_SD * float(fitted.force_n.max())
         force = (time, force_n) if fitted is None else (fitted.time_s, fitted.force_n)
         onset_s, onset_sd_s = touch.onset(self._untouched_before(touch), force if is_short else None)
+        if not is_short and touch.slow_onset is not None:
+            onset_s, onset_sd_s = touch.slow_onset
         if stays:
             end_s = touch.last_s
         else:
@@ -282,6 +306,12 @@ class ImpactDetector:
             path_x_m=path_x_m,
             path_y_m=path_y_m,
         )
+
+    def _followed_back(self, touch: Touch, time_s: float) -> tuple[float, float] | None:
+        """When a touch that is no impact began, and the standard deviation [s]."""
+        first_s = touch.first_sample_s - self.config.impact_longest_s
+        rise = self._samples.rise(first_s, time_s, *touch.start_m, touch.peak_image, self.config.impact_foam_spread_m)
+        return None if rise is None else follow_back(rise)
 
     def _footprint(self, time_s: Array, force_n: Array, x_m: Array, y_m: Array, spread_m: float) -> Footprint | None:
         total = float(force_n.sum())

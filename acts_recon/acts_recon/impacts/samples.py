@@ -14,12 +14,21 @@ from acts_core.array import ArrayGeometry
 from acts_core.skin import ForceResponse, MeasuredForceResponse, force_table
 from acts_recon.images import slope_table
 from acts_recon.impacts.footprint_fit import Footprint, fit_footprint
+from acts_recon.impacts.onset_fit import Rise
 
 Array = NDArray[np.float64]
 
 _MARGIN_TAXELS = 2.0
 # What lies nearer than this to where it first touches is soon touched, too.
 _AROUND_TAXELS = 2.5
+# A sample of more than this many standard deviations of the noise is no noise.
+_NOISES = 3.0
+# Share of its largest force in the first sample of a taxel that was measured early.
+_EARLY = 0.4
+# Until this share of the largest force, a touch rises.
+_RISEN = 0.9
+# Fingers that touch together are further apart than this from middle to middle.
+_WIDEST_M = 0.013
 
 
 class RecentSamples:
@@ -86,6 +95,80 @@ class RecentSamples:
             free = around & (counts <= self._touch_counts) & (time_s > first_s) & (time_s < last_s)
             found.append(time_s[free])
         return np.concatenate(found) if found else np.zeros(0)
+
+    def rise(
+        self, first_s: float, last_s: float, x_m: float, y_m: float, image: NDArray[np.float32], spread_m: float
+    ) -> Rise | None:
+        """How the force rose at the taxel near a place that is pressed most; None where none is.
+
+        Parameters
+        ----------
+        first_s, last_s : float
+            From the time before the first pressed sample that is looked at, to the last [s].
+        x_m, y_m : float
+            Where it first touched [m].
+        image : np.ndarray [shape=(rows, cols), dtype=float32]
+            When the force was largest until then.
+        spread_m : float
+            Standard deviation of the sideways spread of pressure in the foam [m].
+        """
+        geometry = self._geometry
+        time_s, counts = (np.concatenate([one[k] for one in self._frames]) for k in (1, 3))
+        taxel = np.concatenate([one[2] for one in self._frames])
+        around = np.hypot(self._x_m - x_m, self._y_m - y_m) <= _AROUND_TAXELS * max(
+            geometry.pitch_m, geometry.pitch_y_m
+        )
+        seen = around[taxel] & (time_s >= first_s) & (time_s <= last_s)
+        if not seen.any():
+            return None
+        least = _NOISES * self._noise_counts
+        most = self._most_pressed(
+            taxel[seen], time_s[seen], self._force(counts[seen]), counts[seen] > self._touch_counts
+        )
+        if most is None:
+            return None
+        seen &= taxel == most
+        order = np.argsort(time_s[seen])
+        time_s, counts = time_s[seen][order], counts[seen][order]
+        pressed = counts > least
+        # From the last reading of no more than noise before it was pressed enough.
+        enough = int(np.argmax(counts > self._touch_counts))
+        begin = enough
+        while begin and pressed[begin - 1]:
+            begin -= 1
+        risen = begin + int(np.argmax(self._force(counts[begin:]) >= _RISEN * self._force(counts).max())) + 1
+        whole = np.clip(np.rint(counts[begin:risen]), 0, self._force_n.size - 2).astype(np.intp)
+        shown = self._force(np.where(image.ravel() > least, image.ravel(), 0.0))
+        near = np.hypot(self._x_m - self._x_m[most], self._y_m - self._y_m[most]) <= _WIDEST_M
+        # Taxels at half of the force, each as far as it is above: the area is finer than a taxel.
+        share = np.clip((shown[near] / max(float(shown[most]), 1e-9) - 0.5) / 0.25 + 0.5, 0.0, 1.0)
+        blur_m2 = spread_m**2 + (geometry.pitch_m**2 + geometry.pitch_y_m**2) / 24
+        return Rise(
+            time_s[begin:risen],
+            self._force(counts[begin:risen]),
+            self._noise_counts * self._slope_n[whole],
+            time_s[:begin],
+            float(self._force(np.array([least]))[0]),
+            float(share.sum()) * geometry.taxel_area_m2,
+            blur_m2,
+        )
+
+    def _most_pressed(
+        self, taxel: NDArray[np.intp], time_s: Array, force_n: Array, pressed: NDArray[np.bool_]
+    ) -> int | None:
+        """The taxel that is pressed most, of those that were measured early in their rise; None where there is none."""
+        largest_n, first_n = np.zeros((2, self._geometry.size))
+        np.maximum.at(largest_n, taxel, force_n)
+        # Later samples first: the first pressed one of each taxel stays.
+        order = np.argsort(-time_s)
+        order = order[pressed[order]]
+        first_n[taxel[order]] = force_n[order]
+        early = (first_n > 0) & (first_n <= _EARLY * largest_n)
+        return int(np.where(early, largest_n, 0.0).argmax()) if early.any() else None
+
+    def _force(self, counts: Array | NDArray[np.float32]) -> Array:
+        force_n: Array = np.where(counts > 0, np.interp(counts, np.arange(self._force_n.size), self._force_n), 0.0)
+        return force_n
 
     def footprint(self, first_s: float, last_s: float, x_m: float, y_m: float, spread_m: float) -> Footprint | None:
         """The footprint that was pressed between two frames, both with; None where it cannot be told.

@@ -52,16 +52,19 @@ class Touch:
         self.last_s = began_s
         self.first_sample_s = self.last_sample_s = began_s
         self.is_told = False
+        self.is_followed_back = False
+        self.slow_onset: tuple[float, float] | None = None
         self.frames_seen = 0
         self.x_m = self.y_m = 0.0
         self.start_m = 0.0, 0.0
-        self.reach_m = 0.0
+        self.reach_m = self.most_reach_m = 0.0
         self.most_area_m2 = 0.0
         self.way_m = 0.0
         self.spread_m = 0.0
         self.peak_n = self.peak_sd_n = 0.0
         self.peak_s = began_s
         self.peak_x_m = self.peak_y_m = 0.0
+        self.peak_image = np.zeros((0, 0), dtype=np.float32)
         self._settled_m: tuple[float, float] | None = None
         self._rows = np.zeros((MAX_FRAMES, 5))
         self._n = 0
@@ -78,8 +81,9 @@ class Touch:
         self.frames_seen += 1
         self.last_sample_s = float(pressed_s.max())
 
-    def add(self, time_s: float, blobs: list[TrackedBlob], config: ImpactConfig) -> None:
+    def add(self, time_s: float, blobs: list[TrackedBlob], image: NDArray[np.float32], config: ImpactConfig) -> None:
         """Take what was found of it in the next frame: one contact, or several near each other."""
+        age_s = time_s - self.began_s
         force_n = sum(blob.force_n for blob in blobs)
         x_m = sum(blob.force_n * blob.x_m for blob in blobs) / force_n
         y_m = sum(blob.force_n * blob.y_m for blob in blobs) / force_n
@@ -88,12 +92,14 @@ class Touch:
         if not self._n:
             self.start_m = x_m, y_m
         self.reach_m = max(math.hypot(b.x_m - x_m, b.y_m - y_m) + reach_m_of(b) for b in blobs)
+        self.most_reach_m = max(self.most_reach_m, self.reach_m)
         self.most_area_m2 = max(self.most_area_m2, sum(blob.area_m2 for blob in blobs))
         if force_n > self.peak_n:
             self.peak_n, self.peak_sd_n, self.peak_s = force_n, sd_n, time_s
             self.peak_x_m, self.peak_y_m = x_m, y_m
             self.spread_m = max(blob.spread_m for blob in blobs)
-        age_s = time_s - self.began_s
+            if age_s <= config.impact_longest_s:
+                self.peak_image = image.copy()
         if age_s >= config.impact_rise_s:
             # While a contact begins, its centre moves though it does not.
             self._settled_m = self._settled_m or (x_m, y_m)
@@ -131,9 +137,12 @@ class Touch:
         duration_s = end_s - onset_s
         if duration_s <= config.impact_longest_s and not self._is_held(duration_s):
             return Kind.IMPACT
-        if self.way_m > max(config.impact_slide_m, 2 * self.spread_m):
+        is_large = self.most_area_m2 > config.impact_step_m2
+        # The weight of a foot rolls over it, but not beyond it.
+        is_rolled = is_large and self.way_m <= 2 * self.most_reach_m
+        if self.way_m > max(config.impact_slide_m, 2 * self.spread_m) and not is_rolled:
             return Kind.SLIDE
-        if self.most_area_m2 > config.impact_step_m2:
+        if is_large:
             return Kind.STEP
         return Kind.TAP if duration_s <= config.impact_tap_s else Kind.PRESS
 

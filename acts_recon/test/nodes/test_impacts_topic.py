@@ -75,7 +75,7 @@ def test_the_node_tells_a_touch_when_it_begins_and_when_it_is_over(context: Cont
     told: list[Impact] = []
     publisher = listener.create_publisher(TactileSamples, "samples", qos.STREAM)
     listener.create_subscription(Impact, "impacts", told.append, qos.STREAM)
-    impacts = node._impacts
+    impacts = node._abilities.impacts
     assert impacts is not None
     until(lambda: publisher.get_subscription_count() == 1 and impacts._send)
     for sequence, image in enumerate(bounce()):

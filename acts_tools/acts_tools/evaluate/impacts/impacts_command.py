@@ -26,7 +26,9 @@ from acts_tools.progress import Progress
 
 _M = (42, 64, 88, 128, 256, 512, 1024)
 _SCHEMES = ("adaptive", "tracking")
-_TOUCH_MS = 8.7
+TOUCH_MS = 8.7
+"""How long a ball touches, as published [ms]."""
+
 _MIDDLE_M = 0.035
 _UNTOUCHED_S = (0.045, 0.065)
 _TITLE = (
@@ -48,13 +50,14 @@ def add_parser(commands: Any) -> None:
         "--m", type=int, nargs="+", default=list(_M), help=f"taxels per frame (default: {' '.join(map(str, _M))})"
     )
     parser.add_argument(
-        "--touch-ms", type=float, default=_TOUCH_MS, metavar="T", help="how long a ball touches (default: %(default)s)"
+        "--touch-ms", type=float, default=TOUCH_MS, metavar="T", help="how long a ball touches (default: %(default)s)"
     )
     plays.add_arguments(parser, 100, "drops")
     parser.set_defaults(evaluate=_run)
 
 
-def _drops(drops: int, seed: int, touch_ms: float) -> list[Scene]:
+def drops_of(drops: int, seed: int, touch_ms: float) -> list[Scene]:
+    """Tennis balls from table height, each on its own skin."""
     ball = ball_named("tennis")
     # The time of a touch goes with stiffness to the power -2 / 5, as in Hertz's law without losses.
     longer = 1e-3 * touch_ms / collide(ball, dropped()).duration_s
@@ -71,16 +74,16 @@ def _drops(drops: int, seed: int, touch_ms: float) -> list[Scene]:
 def _run(arguments: argparse.Namespace) -> int:
     about = {name: getattr(arguments, name) for name in ("touch_ms", "noise_counts", "seed", "seeds")}
     results = report.Results(arguments.json, about)
-    scenes = _drops(arguments.seeds, arguments.seed, arguments.touch_ms)
+    scenes = drops_of(arguments.seeds, arguments.seed, arguments.touch_ms)
     work = len(arguments.m) * (1 + len(_SCHEMES)) * len(scenes)
     print(_TITLE, flush=True)
     with Progress("impacts", work) as progress:
         done = 0
         for m in arguments.m:
-            entries = [_paper(scenes, m, arguments.noise_counts)]
+            entries = [seen_by_paper(scenes, m, arguments.noise_counts)]
             progress.show(done := done + len(scenes))
             for scheme in _SCHEMES:
-                entries.append(_ours(scenes, scheme, m, arguments.noise_counts))
+                entries.append(seen_by_us(scenes, scheme, m, arguments.noise_counts))
                 progress.show(done := done + len(scenes))
             for entry in entries:
                 results.add(entry)
@@ -88,7 +91,8 @@ def _run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _paper(scenes: Sequence[Scene], m: int, noise_counts: float) -> dict[str, Any]:
+def seen_by_paper(scenes: Sequence[Scene], m: int, noise_counts: float) -> dict[str, Any]:
+    """An entry of the report: the paper's method."""
     frames, changes = [], []
     for seed, shown in enumerate(scenes, start=1):
         sampled = plays.frames_of_paper(shown, m, noise_counts, seed)
@@ -101,7 +105,8 @@ def _paper(scenes: Sequence[Scene], m: int, noise_counts: float) -> dict[str, An
     return {**_common("paper", "raster" if m >= 1024 else "adaptive", m, frames, changes), "told": _seen(frames)}
 
 
-def _ours(scenes: Sequence[Scene], scheme: str, m: int, noise_counts: float) -> dict[str, Any]:
+def seen_by_us(scenes: Sequence[Scene], scheme: str, m: int, noise_counts: float) -> dict[str, Any]:
+    """An entry of the report: ours with a scheme."""
     ours = plays.Ours(scheme, m, noise_counts)
     frames, changes, begun, further, bounced = [], [], 0, 0, 0
     delays_ms, onsets_ms, within, durations_ms, peaks_share, impulses_share = [], [], [], [], [], []

@@ -7,21 +7,16 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-from numpy.typing import NDArray
-
 from acts_core.array import ArrayGeometry
-from acts_core.sampling import SCHEMES, SamplingConfig
 from acts_recon.contacts import BlobConfig
 from acts_recon.fusion import FusionConfig, FusionEstimator
 from acts_recon.impacts import Impact, ImpactDetector
 from acts_sim.impacts import SCENE_RATE_HZ, Scene
-from acts_tools.evaluate.images.board_sampler import sampler_of
 from acts_tools.evaluate.images.options import at_least_one
-from acts_tools.evaluate.images.recovery import FOLLOW_COUNTS, SAMPLE_US
+from acts_tools.evaluate.images.recovery import FOLLOW_COUNTS
+from acts_tools.evaluate.images.scene_frames import Frame, frames_of
 
 PAPER_TOUCH_COUNTS = 50
 """The paper takes less for no touch."""
@@ -40,36 +35,11 @@ def add_arguments(parser: argparse.ArgumentParser, seeds: int, what: str) -> Non
     parser.add_argument("--json", type=Path, metavar="OUT", help="write the results here, too")
 
 
-@dataclass(frozen=True)
-class Frame:
-    """What one frame has measured.
-
-    Attributes
-    ----------
-    end_s, duration_s : float
-        When its last measurement ended on the scene's clock, and how long all took [s].
-    indices, counts : np.ndarray [shape=(m,), dtype=uint16]
-    """
-
-    end_s: float
-    duration_s: float
-    indices: NDArray[np.uint16]
-    counts: NDArray[np.uint16]
-
-
 def sampled(
     scene: Scene, scheme: str, m: int, threshold_counts: int, noise_counts: float, seed: int
 ) -> Iterator[Frame]:
     """Sample a scene frame by frame as fast as a board measures; one frame follows the other at once."""
-    m = scene.frames[0].size if SCHEMES[scheme].measures_all else m
-    config = SamplingConfig(scheme=scheme, m=m, threshold_counts=threshold_counts, seed=seed)
-    sampler = sampler_of(config, noise_counts)
-    sample_s = 1e-6 * SAMPLE_US
-    duration_s = m * sample_s
-    for number in range(int(scene.duration_s / duration_s)):
-        begin_s = number * duration_s
-        indices, counts = sampler.frame(scene.frames, begin_s * SCENE_RATE_HZ, sample_s * SCENE_RATE_HZ)
-        yield Frame(begin_s + duration_s, duration_s, indices, counts)
+    return frames_of(scene.frames, SCENE_RATE_HZ, scheme, m, threshold_counts, noise_counts, seed)
 
 
 def frames_of_paper(scene: Scene, m: int, noise_counts: float, seed: int) -> Iterator[Frame]:

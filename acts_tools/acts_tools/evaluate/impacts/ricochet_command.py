@@ -27,12 +27,12 @@ from acts_tools.evaluate.impacts import plays
 from acts_tools.evaluate.shares import wilson
 from acts_tools.progress import Progress
 
-_ANGLES_DEG = (0, 45, 90, 135, 180, -135, -90, -45)
-_SPEEDS_M_S = (1.0, 2.0, 3.0)
+ANGLES_DEG = (0, 45, 90, 135, 180, -135, -90, -45)
+SPEEDS_M_S = (1.0, 2.0, 3.0)
 _DESCENT_DEG = (25.0, 35.0)
 _TOUCH_S = 0.008
 _MIDDLE_M = 0.02
-_SCHEME = "tracking"
+SCHEME = "tracking"
 _TITLE = (
     f"{'m/s':>4} {'angle':>5} {'throws':>6} {'paper deg':>9} {'none':>4} {'ours deg':>8} {'none':>4} "
     f"{'within 1 sigma':>14}"
@@ -51,13 +51,13 @@ def add_parser(commands: Any) -> None:
     )
     parser.add_argument("--m", type=int, default=64, help="taxels per frame (default: %(default)s)")
     parser.add_argument(
-        "--speeds", type=float, nargs="+", default=list(_SPEEDS_M_S), metavar="V", help="[m/s] (default: 1 2 3)"
+        "--speeds", type=float, nargs="+", default=list(SPEEDS_M_S), metavar="V", help="[m/s] (default: 1 2 3)"
     )
     plays.add_arguments(parser, 25, "throws of each angle and speed")
     parser.set_defaults(evaluate=_run)
 
 
-def _throw(speed_m_s: float, angle_deg: int, rng: np.random.Generator) -> Scene:
+def throw_of(speed_m_s: float, angle_deg: int, rng: np.random.Generator) -> Scene:
     """A rubber ball off a ramp: it comes down at about 30 degrees and rolls by a random share."""
     ball = ball_named("rubber")
     direction_rad, descent_rad = math.radians(angle_deg), math.radians(rng.uniform(*_DESCENT_DEG))
@@ -79,7 +79,7 @@ def _throw(speed_m_s: float, angle_deg: int, rng: np.random.Generator) -> Scene:
     return scene(skin_of(rng), ball, throw, rng=rng)
 
 
-class _Paper:
+class PaperDirections:
     """Adaptive sampling, recovery of each frame by itself, and the way of the centre of pressure."""
 
     def __init__(self, m: int, noise_counts: float) -> None:
@@ -91,64 +91,71 @@ class _Paper:
 
     def direction_rad(self, shown: Scene, seed: int) -> float | None:
         """None where fewer than two frames show the ball."""
+        centres = self.path_m(shown, seed)
+        if len(centres) < 2:
+            return None
+        return math.atan2(centres[-1][1] - centres[0][1], centres[-1][0] - centres[0][0])
+
+    def path_m(self, shown: Scene, seed: int) -> list[tuple[float, float]]:
+        """Centre of pressure in each frame that shows the ball [m]."""
         centres = []
         for frame in plays.frames_of_paper(shown, self._m, self._noise_counts, seed):
             image = self._recovery.step(frame.indices, frame.counts, frame.end_s, frame.duration_s)
             contact = self._finder.find(image.ravel())
             if contact.in_contact:
                 centres.append((contact.x_m, contact.y_m))
-        if len(centres) < 2:
-            return None
-        return math.atan2(centres[-1][1] - centres[0][1], centres[-1][0] - centres[0][0])
+        return centres
 
 
 def _run(arguments: argparse.Namespace) -> int:
     about = {name: getattr(arguments, name) for name in ("m", "speeds", "noise_counts", "seed", "seeds")}
     results = report.Results(arguments.json, about)
-    paper = _Paper(arguments.m, arguments.noise_counts)
-    ours = plays.Ours(_SCHEME, arguments.m, arguments.noise_counts)
+    paper = PaperDirections(arguments.m, arguments.noise_counts)
+    ours = plays.Ours(SCHEME, arguments.m, arguments.noise_counts)
     all_paper: list[float | None] = []
     all_ours: list[tuple[float, float] | None] = []
     print(_TITLE, flush=True)
-    with Progress("ricochet", len(arguments.speeds) * len(_ANGLES_DEG) * arguments.seeds) as progress:
+    with Progress("ricochet", len(arguments.speeds) * len(ANGLES_DEG) * arguments.seeds) as progress:
         done = 0
         for speed_m_s in arguments.speeds:
-            for angle_deg in _ANGLES_DEG:
+            for angle_deg in ANGLES_DEG:
                 of_paper: list[float | None] = []
                 of_ours: list[tuple[float, float] | None] = []
                 for number in range(arguments.seeds):
                     key = [arguments.seed, round(1000 * speed_m_s), angle_deg % 360, number]
-                    shown = _throw(speed_m_s, angle_deg, np.random.default_rng(key))
-                    of_paper.append(_error_deg(paper.direction_rad(shown, number + 1), angle_deg))
-                    of_ours.append(_told(ours, shown, number + 1, angle_deg))
+                    shown = throw_of(speed_m_s, angle_deg, np.random.default_rng(key))
+                    of_paper.append(error_deg(paper.direction_rad(shown, number + 1), angle_deg))
+                    of_ours.append(told_by_us(ours, shown, number + 1, angle_deg))
                     progress.show(done := done + 1)
                 all_paper += of_paper
                 all_ours += of_ours
-                entry = {"speed_m_s": speed_m_s, "angle_deg": angle_deg, **_scores(of_paper, of_ours)}
+                entry = {"speed_m_s": speed_m_s, "angle_deg": angle_deg, **scores_of(of_paper, of_ours)}
                 results.add(entry)
                 print(_line(entry), flush=True)
-    entry = {"speed_m_s": None, "angle_deg": None, **_scores(all_paper, all_ours)}
+    entry = {"speed_m_s": None, "angle_deg": None, **scores_of(all_paper, all_ours)}
     results.add(entry)
     print(_line(entry), flush=True)
     return 0
 
 
-def _error_deg(direction_rad: float | None, angle_deg: int) -> float | None:
+def error_deg(direction_rad: float | None, angle_deg: int) -> float | None:
+    """Error of a direction [deg]; None where none is told."""
     if direction_rad is None:
         return None
     return abs(math.remainder(math.degrees(direction_rad) - angle_deg, 360.0))
 
 
-def _told(ours: plays.Ours, shown: Scene, seed: int, angle_deg: int) -> tuple[float, float] | None:
+def told_by_us(ours: plays.Ours, shown: Scene, seed: int, angle_deg: int) -> tuple[float, float] | None:
     """Error and standard deviation [deg]; None where no direction is told."""
     for _, impact in ours.play(shown, seed):
         if impact.is_over and impact.direction_sd_rad < UNKNOWN_DIRECTION_SD_RAD:
-            error = _error_deg(impact.direction_rad, angle_deg)
+            error = error_deg(impact.direction_rad, angle_deg)
             return None if error is None else (error, math.degrees(impact.direction_sd_rad))
     return None
 
 
-def _scores(paper: Sequence[float | None], ours: Sequence[tuple[float, float] | None]) -> dict[str, Any]:
+def scores_of(paper: Sequence[float | None], ours: Sequence[tuple[float, float] | None]) -> dict[str, Any]:
+    """An entry of the report, from the errors of throws; ours with their standard deviations."""
     told = [one for one in ours if one is not None]
     within = sum(error <= sd for error, sd in told)
     return {

@@ -1,0 +1,93 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""When a slow touch began: some milliseconds before a taxel was pressed enough to be told from an untouched one.
+
+A hand that comes at 0.1 m/s has touched for 3 to 8 ms until a taxel reads 25 counts. So the readings of the taxel that
+is pressed most are followed back to 0. What touches is taken to be round where it first touches, to come at a speed
+that fades, and to press with a pressure that goes with depth, as foam does. With R the radius of curvature, d(t) the
+depth, and a taxel that takes the mean over a Gaussian of standard deviation s (its own square and the spread of the
+foam), the force is
+
+    force(t) = c (u - 1 + exp(-u))        u = R d(t) / s^2        d(t) = v T (1 - exp(-(t - t0) / T))
+
+It begins with the square of the depth, while the contact is smaller than what a taxel sees, and goes on in proportion.
+How large R d is tells the area of the contact; t0 and T are looked for on a grid.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+_LEAST_SAMPLES = 4
+_MISFIT = 0.04  # of the force: sensitivities do not matter, but shapes and motions do
+_EARLIEST_S, _STEP_S = 0.016, 0.0002
+_SLOWING_S = np.array([0.006, 0.010, 0.015, 0.022, 0.033, 0.050, 0.100, 1.0])
+# What an onset errs by beyond what the readings say, as a share of how far it is followed back.
+_SHARE_SD = 0.15
+
+
+@dataclass(frozen=True)
+class Rise:
+    """The rise of a touch.
+
+    Attributes
+    ----------
+    time_s, force_n, noise_n : np.ndarray [shape=(n,), dtype=float64]
+        When the taxel that is pressed most was measured pressed, the force on it, and the standard deviation of that,
+        until it is about largest.
+    free_s : np.ndarray [shape=(k,), dtype=float64]
+        When it was measured before, and no more than noise.
+    free_n : float
+        The largest force that can be noise.
+    area_m2 : float
+        Of the contact at the end of that time: where the force is at least half of the largest.
+    blur_m2 : float
+        s^2.
+    """
+
+    time_s: Array
+    force_n: Array
+    noise_n: Array
+    free_s: Array
+    free_n: float
+    area_m2: float
+    blur_m2: float
+
+
+def follow_back(rise: Rise) -> tuple[float, float] | None:
+    """When a touch began, and the standard deviation [s]; None where there are too few samples to tell."""
+    time_s, force_n = rise.time_s, rise.force_n
+    if force_n.size < _LEAST_SAMPLES:
+        return None
+    # The mean over a Gaussian is half of its top where r^2 is 2 ln 2 s^2; a paraboloid is at R d.
+    curved_m2 = max(rise.area_m2 / math.pi - 2 * math.log(2) * rise.blur_m2, 0.3 * rise.blur_m2)
+    first_s, last_s = float(time_s[0]), float(time_s[-1])
+    onset_s = np.arange(first_s - _EARLIEST_S, first_s, _STEP_S)[:, None]
+
+    def shape(at_s: Array) -> Array:
+        """Of the force, by onset, slowing and time."""
+        since_s = np.maximum(at_s - onset_s[..., None], 0.0)
+        slowing_s = _SLOWING_S[:, None]
+        depth = slowing_s * -np.expm1(-since_s / slowing_s)
+        whole = _SLOWING_S * -np.expm1(-(last_s - onset_s) / _SLOWING_S)
+        u = (curved_m2 / rise.blur_m2) * depth / whole[..., None]
+        return u + np.expm1(-u)
+
+    weight = 1.0 / np.hypot(rise.noise_n, _MISFIT * force_n)
+    model = shape(time_s) * weight
+    size = (model @ (force_n * weight)) / np.maximum((model**2).sum(-1), 1e-30)
+    squares = ((model * size[..., None] - force_n * weight) ** 2).sum(-1)
+    too_much = np.maximum(shape(rise.free_s) * size[..., None] - rise.free_n, 0.0) / rise.noise_n[0]
+    squares += (too_much**2).sum(-1)
+    likely = np.exp(-0.5 * (squares - squares.min()))
+    likely /= likely.sum()
+    mean_s = float((likely * onset_s).sum())
+    sd_s = math.sqrt(float((likely * (onset_s - mean_s) ** 2).sum()))
+    return mean_s, math.hypot(sd_s, _SHARE_SD * (first_s - mean_s), _STEP_S)
