@@ -1,0 +1,233 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Steps of one foot and of two, from force curves that are drawn by hand."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from acts_core.errors import ArrayError, SettingsError
+from acts_recon.gait import FootTracker, GaitConfig, GaitTracker, Step, force_and_centre
+
+Array = NDArray[np.float64]
+
+STRIDE_S, STANCE_S, RAMP_S = 1.2, 0.72, 0.1
+FIRST_S = 0.5
+
+
+def times_s(rate_hz: float, duration_s: float = 11.9) -> Array:
+    return np.arange(0.0, duration_s, 1.0 / rate_hz)
+
+
+def walked(time_s: Array, first_s: float = FIRST_S) -> Array:
+    """Share of the load: rises and falls in straight lines."""
+    phase_s = (time_s - first_s) % STRIDE_S
+    curve: Array = np.interp(phase_s, [0.0, RAMP_S, STANCE_S - RAMP_S, STANCE_S, STRIDE_S], [0.0, 1.0, 1.0, 0.0, 0.0])
+    return np.where(time_s < first_s, 0.0, curve)
+
+
+def steps_of(time_s: Array, force: Array, x_m: float = 0.0, y_m: float = 0.0) -> list[Step]:
+    tracker = FootTracker()
+    told = [
+        step
+        for at_s, value in zip(time_s.tolist(), force.tolist(), strict=True)
+        for step in tracker.step(at_s, value, x_m, y_m)
+    ]
+    return told + list(tracker.finish())
+
+
+@pytest.mark.parametrize(("rate_hz", "within_s"), [(8.0, 0.06), (30.0, 0.02), (100.0, 0.003), (1000.0, 0.003)])
+@pytest.mark.parametrize(("unit", "offset"), [(1.0, 0.0), (3e5, 2e4), (0.02, 0.005), (700.0, -20.0)])
+def test_steps_are_found_at_any_rate_in_any_unit(rate_hz: float, within_s: float, unit: float, offset: float) -> None:
+    time_s = times_s(rate_hz)
+    steps = steps_of(time_s, offset + unit * walked(time_s))
+    strikes_s = FIRST_S + 0.25 * RAMP_S + STRIDE_S * np.arange(9)
+    assert [step.strike_s for step in steps] == pytest.approx(strikes_s, abs=within_s)
+    assert [step.stance_s for step in steps] == pytest.approx([STANCE_S - 0.5 * RAMP_S] * 9, abs=2 * within_s)
+    assert [step.swing_s for step in steps[1:]] == pytest.approx([STRIDE_S - STANCE_S + 0.05] * 8, abs=2 * within_s)
+    assert steps[0].swing_s is None
+    assert all(0.0 < step.strike_sd_s < 1.0 / rate_hz + 0.01 for step in steps)
+    assert [step.peak_force for step in steps] == pytest.approx([unit] * 9, rel=0.02)
+
+
+@pytest.mark.parametrize("rate_hz", [8.0, 200.0])
+def test_feet_that_stand_or_hang_make_no_steps(rate_hz: float) -> None:
+    rng = np.random.default_rng(1)
+    time_s = times_s(rate_hz, 40.0)
+    noise = rng.standard_normal(time_s.size)
+    sway = 0.25 * np.sin(2 * np.pi * 0.3 * time_s)
+    one_foot_then_both = np.where(time_s % 6.0 < 3.0, 1.0, 0.5) + 0.01 * noise
+    for force in (1.0 + sway + 0.01 * noise, noise, np.abs(noise), 0.0 * noise, one_foot_then_both):
+        assert steps_of(time_s, force) == []
+
+
+def test_what_has_been_learnt_is_kept_while_standing_for_long() -> None:
+    time_s = times_s(20.0, 120.0)
+    stands = (time_s > 20.0) & (time_s < 100.0)
+    force = np.where(stands, 1.0 + 0.05 * np.sin(time_s), walked(time_s))
+    steps = steps_of(time_s, force)
+    expected = len(steps_of(time_s, walked(time_s))) - round(80.0 / STRIDE_S)
+    assert len(steps) == pytest.approx(expected, abs=1)
+
+
+def test_a_step_is_told_soon_after_the_foot_was_lifted() -> None:
+    tracker, time_s = FootTracker(), times_s(100.0)
+    delays_s = [
+        at_s - step.toe_off_s
+        for at_s, value in zip(time_s, walked(time_s), strict=True)
+        for step in tracker.step(at_s, value)
+        if at_s > 6.0
+    ]
+    assert len(delays_s) >= 4
+    assert max(delays_s) < 0.15
+
+
+def test_the_foot_tells_that_it_carries() -> None:
+    tracker, time_s = FootTracker(), times_s(100.0, 9.6)
+    assert tracker.carries_since_s is None
+    for at_s, value in zip(time_s, walked(time_s), strict=True):
+        tracker.step(at_s, value)
+    assert tracker.carries_since_s == pytest.approx(FIRST_S + 7 * STRIDE_S + 0.25 * RAMP_S, abs=0.003)
+
+
+def test_a_short_dip_does_not_end_a_step() -> None:
+    time_s = times_s(100.0)
+    force = walked(time_s)
+    middle = (time_s - FIRST_S) % STRIDE_S
+    force[(np.abs(middle - STANCE_S / 2) < 0.02) & (time_s > FIRST_S)] = 0.0
+    steps = steps_of(time_s, force)
+    assert [step.stance_s for step in steps] == pytest.approx([STANCE_S - 0.5 * RAMP_S] * 9, abs=0.01)
+    assert all(np.all(np.diff(step.time_s) > 0) for step in steps)
+    assert steps[3].time_s[0] < steps[3].strike_s + 0.02
+
+
+def test_steps_around_a_gap_are_left_out() -> None:
+    time_s = times_s(50.0)
+    begin_s = FIRST_S + 4 * STRIDE_S + 0.3
+    keep = (time_s < begin_s) | (time_s > begin_s + 0.8)
+    steps = steps_of(time_s[keep], walked(time_s)[keep])
+    strikes_s = [FIRST_S + 0.025 + STRIDE_S * number for number in range(9) if number not in (4, 5)]
+    known = [number for number, step in enumerate(steps) if step.swing_s is None]
+    assert [step.strike_s for step in steps if step.strike_s < begin_s] == pytest.approx(strikes_s[:4], abs=0.005)
+    assert len(known) == 2
+    assert steps[known[1]].strike_s > begin_s + 0.8
+
+
+def test_samples_that_are_no_numbers_or_come_late_are_left_out() -> None:
+    tracker, time_s = FootTracker(), times_s(50.0)
+    steps: list[Step] = []
+    for at_s, value in zip(time_s, walked(time_s), strict=True):
+        steps += tracker.step(at_s, value)
+        assert tracker.step(at_s + 0.001, float("nan")) == ()
+        assert tracker.step(at_s - 0.1, 77.0) == ()
+    assert len(steps) == 9
+
+
+def test_a_clock_that_is_set_back_begins_anew() -> None:
+    tracker, time_s = FootTracker(), times_s(50.0)
+    counts = []
+    for begin_s in (1000.0, 0.0):
+        counts.append(sum(len(tracker.step(begin_s + t, f)) for t, f in zip(time_s, walked(time_s), strict=True)))
+    assert counts == [9, 9]
+
+
+def test_an_object_in_the_shoe_does_not_move_the_path() -> None:
+    time_s = times_s(100.0)
+    share = walked(time_s)
+    place_m = -0.1 + 0.2 * np.clip(((time_s - FIRST_S) % STRIDE_S) / STANCE_S, 0.0, 1.0)
+    object_n, object_m = 150.0, 0.05
+    force = 700.0 * share + object_n
+    centre_m = (700.0 * share * place_m + object_n * object_m) / force
+    tracker = FootTracker()
+    rows = zip(time_s.tolist(), force.tolist(), centre_m.tolist(), strict=True)
+    steps = [step for at_s, value, y_m in rows for step in tracker.step(at_s, value, 0.01, y_m)]
+    true_m = -0.1 + 0.2 * ((steps[4].time_s - FIRST_S) % STRIDE_S) / STANCE_S
+    assert steps[4].y_m == pytest.approx(true_m, abs=0.002)
+    assert steps[4].x_m == pytest.approx(0.01, abs=1e-6)
+    assert steps[4].progress_m == pytest.approx(0.19, abs=0.01)
+    assert steps[4].path_m == pytest.approx(steps[4].progress_m, rel=1e-6)
+
+
+def both(left: Array, right: Array, time_s: Array) -> GaitTracker:
+    tracker = GaitTracker()
+    for number, at_s in enumerate(time_s.tolist()):
+        tracker.step(0, at_s, float(left[number]))
+        tracker.step(1, at_s, float(right[number]))
+    return tracker
+
+
+def test_both_feet_make_a_gait() -> None:
+    time_s = times_s(100.0, 20.0)
+    gait = both(walked(time_s), 2 * walked(time_s, FIRST_S + STRIDE_S / 2), time_s).gait()
+    assert gait.cadence_per_min == pytest.approx(100.0, rel=0.01)
+    assert gait.double_support == pytest.approx(2 * (STANCE_S - 0.05 - STRIDE_S / 2) / STRIDE_S, abs=0.01)
+    assert gait.asymmetry("stance_s") == pytest.approx(0.0, abs=0.02)
+    assert gait.asymmetry("peak_force") == pytest.approx(-2 / 3, abs=0.02)
+    assert gait.feet[0].swing_s == pytest.approx(STRIDE_S - STANCE_S + 0.05, abs=0.01)
+
+
+@pytest.mark.parametrize("other", ["missing", "lifted", "noise"])
+def test_a_foot_without_steps_leaves_the_other_its_own(other: str) -> None:
+    time_s = times_s(100.0, 20.0)
+    rng = np.random.default_rng(1)
+    drift = 0.03 * np.abs(np.sin(time_s)) + 0.002 * rng.standard_normal(time_s.size)
+    right = {"missing": time_s * np.nan, "lifted": 0.0 * time_s, "noise": drift}[other]
+    gait = both(walked(time_s), right, time_s).gait()
+    assert gait.feet[0].steps == 16
+    assert gait.feet[1].steps == 0
+    assert gait.cadence_per_min == pytest.approx(100.0, rel=0.01)
+    assert gait.double_support is None
+    assert gait.asymmetry("stance_s") is None
+
+
+def test_the_gait_is_of_the_last_time() -> None:
+    tracker, time_s = GaitTracker(GaitConfig(summary_s=5.0)), times_s(100.0, 30.0)
+    for at_s, value in zip(time_s.tolist(), walked(time_s).tolist(), strict=True):
+        tracker.step(0, at_s, value)
+    assert 4 <= tracker.gait().feet[0].steps <= 5
+
+
+@given(
+    st.lists(
+        st.tuples(st.floats(-0.5, 3.0), st.floats(-1e9, 1e9) | st.sampled_from([0.0, 1.0, 100.0, np.inf, np.nan])),
+        max_size=150,
+    )
+)
+def test_of_any_samples_steps_come_one_after_the_other(samples: list[tuple[float, float]]) -> None:
+    tracker, at_s = FootTracker(), 0.0
+    steps: list[Step] = []
+    for pause_s, force in samples:
+        at_s += pause_s
+        steps += tracker.step(at_s, force, 0.1, -0.1)
+        if pause_s < -1.0:
+            steps.clear()
+    steps += tracker.finish()
+    for step in steps:
+        assert step.stance_s >= tracker.config.shortest_s
+        assert np.isfinite([step.peak_force, step.strike_sd_s, step.toe_off_sd_s, step.progress_m]).all()
+    for before, after in pairwise(steps):
+        assert after.strike_s > before.toe_off_s
+
+
+def test_force_and_centre_of_frames() -> None:
+    frames = np.zeros((3, 4, 2), dtype=np.uint16)
+    frames[1, 0, 1] = 10
+    frames[2] = 5
+    force, x_m, y_m = force_and_centre(frames, 0.28, 0.08)
+    assert force.tolist() == [0.0, 10.0, 40.0]
+    assert x_m == pytest.approx([0.0, 0.02, 0.0])
+    assert y_m == pytest.approx([0.0, 0.105, 0.0])
+    with pytest.raises(ArrayError, match=r"needed is \(n, rows, cols\)"):
+        force_and_centre(frames[0], 0.28, 0.08)
+
+
+def test_settings_that_cannot_be_are_refused() -> None:
+    with pytest.raises(SettingsError, match="allowed is above lifted_share"):
+        GaitConfig(lifted_share=0.5, loaded_share=0.4)

@@ -1,0 +1,105 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""The node gait over real DDS; ROS_DOMAIN_ID 22."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from functools import partial
+
+import numpy as np
+import pytest
+import rclpy
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+
+from acts_core.errors import SettingsError
+from acts_msgs.msg import Contact, FootStep, Gait
+from acts_recon.nodes.gait_node import GaitNode, GaitSettings
+from acts_ros import qos
+
+DEADLINE_S = 30.0
+FIRST_NS = 1_700_000_000_000_000_000
+RATE_HZ = 50
+STRIDE_S = 1.0
+
+
+@pytest.fixture
+def context() -> Iterator[Context]:
+    context = Context()
+    rclpy.init(context=context, domain_id=22)
+    yield context
+    rclpy.try_shutdown(context=context)
+
+
+def contact_of(foot: int, number: int) -> Contact:
+    """The feet carry 600 N in turn, for 0.6 s of each second, and roll 0.2 m."""
+    phase_s = (number / RATE_HZ + foot * STRIDE_S / 2) % STRIDE_S
+    force_n = 600.0 * float(np.interp(phase_s, [0.0, 0.05, 0.55, 0.6], [0.0, 1.0, 1.0, 0.0]))
+    message = Contact(in_contact=force_n > 0.0, force=force_n)
+    message.header.frame_id = ("left_sole", "right_sole")[foot]
+    message.header.stamp.sec, message.header.stamp.nanosec = divmod(FIRST_NS + number * 10**9 // RATE_HZ, 10**9)
+    if force_n:
+        message.centre_of_pressure.y = -0.1 + 0.2 * min(phase_s / 0.6, 1.0)
+    return message
+
+
+def test_steps_and_gait_of_two_insoles(context: Context) -> None:
+    node, listener = GaitNode(context=context), Node("listener", context=context)
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+    executor.add_node(listener)
+    steps: list[FootStep] = []
+    gaits: list[Gait] = []
+    listener.create_subscription(FootStep, "steps", steps.append, qos.STATE)
+    listener.create_subscription(Gait, "gait", gaits.append, qos.STATE)
+    publishers = [listener.create_publisher(Contact, f"{name}_sole/contact", qos.STREAM) for name in ("left", "right")]
+
+    def until(condition: Callable[[], bool]) -> None:
+        deadline = time.monotonic() + DEADLINE_S
+        while not condition():
+            assert time.monotonic() < deadline, "timed out"
+            executor.spin_once(timeout_sec=0.02)
+
+    def has_received(count: int) -> bool:
+        return min(node._received.values()) > count
+
+    until(lambda: all(publisher.get_subscription_count() for publisher in publishers))
+    heard = (node._steps_publisher, node._gait_publisher)
+    until(lambda: all(publisher.get_subscription_count() for publisher in heard))
+    for number in range(8 * RATE_HZ):
+        for foot, publisher in enumerate(publishers):
+            publisher.publish(contact_of(foot, number))
+        if number % 50 == 49:
+            until(partial(has_received, number - 5))
+    until(lambda: sum(step.foot == FootStep.LEFT for step in steps) >= 6 and len(gaits) == len(steps))
+    step = [step for step in steps if step.foot == FootStep.LEFT][4]
+    assert step.header.frame_id == "left_sole"
+    strike_s = step.strike.sec - FIRST_NS // 10**9 + 1e-9 * step.strike.nanosec
+    assert strike_s % STRIDE_S == pytest.approx(0.0125, abs=0.02)
+    assert 0 < step.strike_sigma < 0.02
+    assert (step.stance, step.swing) == pytest.approx((0.575, 0.425), abs=0.02)
+    assert step.peak_force == pytest.approx(600.0, rel=0.01)
+    assert step.path_y[-1] - step.path_y[0] == pytest.approx(0.19, abs=0.02)
+    assert len(step.time) == len(step.force) == len(step.path_x) == len(step.path_y)
+    gait = gaits[-1]
+    assert gait.cadence == pytest.approx(120.0, rel=0.02)
+    assert gait.double_support == pytest.approx(0.15, abs=0.03)
+    assert list(gait.stance) == pytest.approx([0.575, 0.575], abs=0.02)
+    assert abs(gait.stance_asymmetry) < 0.05
+    assert node._steps[0] >= 6
+    # The second report is of a time without contacts.
+    node._report()
+    assert "no contacts on /left_sole/contact, /right_sole/contact" in node._report()[1]
+    executor.shutdown()
+    node.destroy_node()
+    listener.destroy_node()
+
+
+@pytest.mark.parametrize("feet", [("", ""), ("sole", "sole")])
+def test_feet_that_are_none_or_one_are_refused(feet: tuple[str, str]) -> None:
+    with pytest.raises(SettingsError, match="needed are the namespaces of two insoles, or of one"):
+        GaitSettings(left=feet[0], right=feet[1])

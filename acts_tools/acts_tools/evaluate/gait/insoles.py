@@ -1,0 +1,133 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Recordings of one insole or two, and the steps in them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.errors import RecordingError
+from acts_core.files import half_of_memory_bytes, read_npz
+from acts_recon.gait import FEET, Gait, GaitConfig, GaitTracker, Step, force_and_centre, summarise
+
+Array = NDArray[np.float64]
+
+_NEEDED = (
+    "needed are `frames` (n, feet, rows, cols) or (n, rows, cols), with `t_s` (n) or `rate_hz`, and where there are "
+    "several recordings `start` and `length`, or `rec_start` and `rec_len`, of each"
+)
+
+
+@dataclass(frozen=True)
+class InsoleRecording:
+    """Frames of one insole, or of the left one and the right one.
+
+    Attributes
+    ----------
+    name : str
+    time_s : np.ndarray [shape=(n,), dtype=float64]
+        Ascending.
+    frames : np.ndarray [shape=(n, feet, rows, cols)]
+        The toes at the first row.
+    """
+
+    name: str
+    time_s: Array
+    frames: NDArray[np.generic]
+
+
+def read_insoles(path: Path) -> list[InsoleRecording]:
+    """Read the recordings of a file; those of no frames are left out.
+
+    Raises
+    ------
+    RecordingError
+        When it cannot be read, or its arrays do not fit together.
+    """
+    names = ("frames", "t_s", "rate_hz", "start", "length", "rec_start", "rec_len", "kind", "label")
+    content = read_npz(path, names, error=RecordingError, hint=_NEEDED, limit_bytes=half_of_memory_bytes())
+    frames = content.get("frames", np.zeros(0))
+    if frames.ndim == 3:
+        frames = frames[:, None]
+    if frames.ndim != 4 or not frames.size or frames.shape[1] > len(FEET) or frames.dtype.kind not in "iuf":
+        raise RecordingError(f"{path}: frames {frames.shape}, {frames.dtype}: {_NEEDED}")
+    time_s = _time_s(path, content, len(frames))
+    starts = np.atleast_1d(content.get("start", content.get("rec_start", np.array([0]))))
+    lengths = np.atleast_1d(content.get("length", content.get("rec_len", np.array([len(frames)]))))
+    whole = starts.dtype.kind in "iu" and lengths.dtype.kind in "iu" and starts.ndim == 1
+    if not whole or starts.shape != lengths.shape or (starts < 0).any() or (lengths < 0).any():
+        raise RecordingError(f"{path}: recordings do not fit: {_NEEDED}")
+    if ((starts > len(frames)) | (lengths > len(frames) - starts.astype(np.int64))).any():
+        raise RecordingError(f"{path}: recordings lie beyond the {len(frames)} frames: {_NEEDED}")
+    labels = np.atleast_1d(content.get("kind", content.get("label", np.arange(starts.size))))
+    labels = labels if labels.shape == starts.shape else np.arange(starts.size)
+    found = []
+    for number, (start, length, label) in enumerate(
+        zip(starts.tolist(), lengths.tolist(), labels.tolist(), strict=True)
+    ):
+        if not length:
+            continue
+        part = np.s_[start : start + length]
+        if not (np.diff(time_s[part]) > 0).all():
+            raise RecordingError(f"{path}: t_s of recording {number} does not ascend")
+        name = f"{number} {label}" if labels.dtype.kind in "SU" else str(number)
+        found.append(InsoleRecording(name, time_s[part], frames[part]))
+    return found
+
+
+def _time_s(path: Path, content: dict[str, NDArray[np.generic]], count: int) -> Array:
+    if "t_s" in content:
+        time_s = content["t_s"]
+        if time_s.shape != (count,) or time_s.dtype.kind not in "iuf" or not np.isfinite(time_s).all():
+            raise RecordingError(f"{path}: t_s {time_s.shape}, {time_s.dtype}: {_NEEDED}")
+        return time_s.astype(np.float64)
+    rate = content.get("rate_hz")
+    if rate is None or rate.size != 1 or rate.dtype.kind not in "iuf" or not 0 < rate.item() < np.inf:
+        raise RecordingError(f"{path}: neither t_s nor one rate_hz above 0: {_NEEDED}")
+    return np.arange(count) / float(rate.item())
+
+
+@dataclass(frozen=True)
+class FoundSteps:
+    """What `GaitTracker` finds in a recording, sample by sample.
+
+    Attributes
+    ----------
+    steps : tuple of lists of Step
+        Of the left foot and of the right, those that begin and end in the recording.
+    begun : tuple of int
+        Further ones that begin, but do not end: 0 or 1 of each foot.
+    gait : Gait
+        Of all steps.
+    force : tuple of np.ndarray
+        The force curve of each foot that is there.
+    """
+
+    steps: tuple[list[Step], list[Step]]
+    begun: tuple[int, int]
+    gait: Gait
+    force: tuple[Array, ...]
+
+
+def find_steps(
+    recording: InsoleRecording, length_m: float, width_m: float, config: GaitConfig | None = None
+) -> FoundSteps:
+    """Find the steps of a recording; the size is that of the insoles [m]."""
+    config = config or GaitConfig()
+    tracker = GaitTracker(config)
+    feet = [force_and_centre(recording.frames[:, foot], length_m, width_m) for foot in range(recording.frames.shape[1])]
+    rows = [list(zip(*(column.tolist() for column in foot), strict=True)) for foot in feet]
+    steps: tuple[list[Step], list[Step]] = ([], [])
+    for number, time_s in enumerate(recording.time_s.tolist()):
+        for foot, of_foot in enumerate(rows):
+            steps[foot].extend(tracker.step(foot, time_s, *of_foot[number]))
+    for foot, told in enumerate(tracker.finish()):
+        steps[foot].extend(told)
+    begun = tuple(int(since_s is not None) for since_s in tracker.carries_since_s)
+    gait = summarise(*steps, longest_stride_s=config.longest_stride_s)
+    return FoundSteps(steps, (begun[0], begun[1]), gait, tuple(force for force, _, _ in feet))
