@@ -19,5 +19,7 @@ setup(
     zip_safe=False,
     description="Sparse recovery of full tactile images, and the contact in them.",
     license="Apache-2.0",
-    entry_points={"console_scripts": ["reconstruction = acts_recon.programs:reconstruction"]},
+    entry_points={
+        "console_scripts": [f"{name} = acts_recon.programs:{name}" for name in ("gait", "reconstruction")],
+    },
 )

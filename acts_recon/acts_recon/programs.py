@@ -5,4 +5,5 @@
 
 from acts_ros.executables.program import Program
 
+gait = Program("acts_recon.nodes.gait_node")
 reconstruction = Program("acts_recon.nodes.reconstruction_node")

@@ -20,9 +20,11 @@ from acts_recon.fusion import FusionConfig
 from acts_recon.impacts import ImpactConfig, ImpactDetector
 from acts_recon.methods import METHODS, Recovery, SkinSetup
 from acts_recon.objects import load_object_library
+from acts_recon.outlines import OutlinesConfig, OutlineTracer
 from acts_recon.regions import Regions, SharpnessConfig
 from acts_recon.slip import SlipConfig
 from acts_recon.sparse import ReconstructorConfig
+from acts_recon.spectra import SpectraConfig, SpectrumAnalyser
 
 _ARRAY = ArrayGeometry()
 _RESPONSE = ForceResponse()
@@ -32,7 +34,7 @@ _LEAST_NOISE_COUNTS = 0.3
 
 
 @dataclass(frozen=True)
-class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig, ImpactConfig):
+class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig, ImpactConfig, SpectraConfig, OutlinesConfig):
     """The node's own parameters; those of methods and classifiers come with `ReconstructionSettings`."""
 
     rows: int = setting(_ARRAY.rows, "rows of the array", minimum=1, maximum=MAX_SIDE)
@@ -61,7 +63,7 @@ class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig, ImpactCo
     )
     noise_counts: float = setting(
         default_of(FusionConfig, "noise_counts"),
-        "standard deviation of a reading about the truth, for fusion [counts]",
+        "standard deviation of a reading about the truth, for fusion where the topic baseline does not say it [counts]",
         minimum=0.0,
         maximum=100.0,
     )
@@ -94,7 +96,7 @@ class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig, ImpactCo
     )
     image_rate_hz: float = setting(
         30.0,
-        "largest rate of the topics image, view/image_raw and view/confidence [Hz]",
+        "largest rate of the topics image, view/image_raw, view/confidence and view/age [Hz]",
         minimum=0.1,
         maximum=1000.0,
         changeable=Changeable.RUNNING,
@@ -126,6 +128,22 @@ class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig, ImpactCo
         maximum=1000.0,
     )
     impacts: bool = setting(True, "offer the topic impacts, which costs nothing while nobody listens")
+    spectra: bool = setting(True, "offer the topic spectra, which costs nothing while nobody listens")
+    spectra_rate_hz: float = setting(
+        2.0,
+        "largest rate of the topic spectra [Hz]; 0: as often as they can be made",
+        minimum=0.0,
+        maximum=100.0,
+        changeable=Changeable.RUNNING,
+    )
+    outlines: bool = setting(True, "offer the topic outlines, which costs nothing while nobody listens")
+    outlines_rate_hz: float = setting(
+        50.0,
+        "largest rate of the topic outlines while no contact is younger than outlines_fast_s [Hz]; 0: every frame",
+        minimum=0.0,
+        maximum=1000.0,
+        changeable=Changeable.RUNNING,
+    )
     regions_rate_hz: float = setting(
         0.0,
         "largest rate of the topic regions [Hz]; 0: every frame",
@@ -255,6 +273,32 @@ class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig, ImpactCo
             What `recovery` returned.
         """
         return ImpactDetector(recovery.geometry, recovery.response, self.blob_config(), self, recovery.borders)
+
+    def spectrum_analyser(self, recovery: Recovery) -> SpectrumAnalyser:
+        """Make ready what tells how contacts vibrate.
+
+        Parameters
+        ----------
+        recovery : Recovery
+            What `recovery` returned.
+        """
+        skin = recovery.skin
+        return SpectrumAnalyser(
+            skin.geometry, skin.response, float(self.touch_counts), self.noise_counts, self, skin.layout
+        )
+
+    def outline_tracer(self, recovery: Recovery) -> OutlineTracer:
+        """Make ready what finds the outlines of contacts.
+
+        Parameters
+        ----------
+        recovery : Recovery
+            What `recovery` returned.
+        """
+        skin = recovery.skin
+        return OutlineTracer(
+            skin.geometry, skin.response, float(self.touch_counts), self.noise_counts, self, skin.layout
+        )
 
     def regions(self, recovery: Recovery) -> Regions | None:
         """Make ready what finds the contact on each patch; None where the skin is one patch that lies on no link.

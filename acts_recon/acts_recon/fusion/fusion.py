@@ -11,17 +11,27 @@ instead of a covariance matrix. One frame takes five steps:
    over the samples of the 20 x 20 taxels around it. g is the image's gradient at a sample, dc/dt the change of the
    taxel since its last measurement; older samples fade. A velocity that explains less than `motion_share` of the
    changes is not used.
-2. **Prediction.** The image is shifted by v. What v does not explain follows each taxel's slope, which fades.
+2. **Prediction.** The estimate is shifted by v. What v does not explain follows each taxel's slope, which fades.
    Value and slope of a taxel are an alpha-beta filter: ``value = count`` (alpha = 1) and ``slope += b (dc/dt - slope)``
-   with ``b = t / (t + slope_memory_s)``, where t is the time between two measurements.
+   with ``b = t^2 / (t^2 + slope_memory_s^2)``, where t is the time between two measurements.
 3. **Update.** The innovation of a sample is its count less the prediction for its time. The taxel takes the count. The
    taxels around it are corrected by inverse-distance interpolation: the mean of the innovations within two taxels,
    weighted by ``1 / distance^4``, times `spread_gain`.
-4. **Untouched taxels.** A taxel measured untouched, with no pressed taxel beside it, is set to 0. Otherwise the noise
-   of a thousand taxels would pull the centre of pressure to the middle. A taxel of the current frame keeps its count.
+4. **Image.** A taxel shows its last count and, as far as predictions are trusted, how it has changed since: those of
+   this frame, too, since an image is of the end of its frame. A count that can be noise has no slope. The trust is
+   the least squares solution of ``measured change = trust * predicted change``, of each taxel for predictions over
+   less than `horizon_s`, of each tile for longer ones. Where nothing predicted comes true, the image is that of the
+   last values. Readings of untouched skin are shown as 0, since the noise of a thousand taxels would pull the centre
+   of pressure to the middle. What untouched skin reads is learnt, see below.
 5. **Uncertainty.** ``sigma^2 = noise^2 + s q t^2 + ...``, where t is the taxel's age and q its process noise: the
    exponential average of ``(innovation^2 - 2 noise^2) / t^2``. The factor s is innovation-based adaptive noise. It
    follows the normalised innovation squared, slowly over frames and at once within a frame.
+
+**Noise.** It begins as calibrated for every taxel (`FusionEstimator.set_noise`). While running, each tile sums up its
+low readings, which are those of taxels with none beside that reads more than 4.6 standard deviations. A low reading is
+shown as 0 if, lately in its tile, 0 was about as good a prediction of the next reading as the last one, and if the
+readings changed no more than the noise of fast measured taxels explains. A light steady pressure fails the first, slow
+changes of the skin the second. So on a skin with little noise readings of one count are shown.
 
 `fusion_kernels` does the work; `fusion_reference` is the reference implementation, in double precision.
 """
@@ -39,7 +49,7 @@ from acts_core.errors import ArrayError
 from acts_core.settings import setting, validate
 from acts_core.skin import Layout
 from acts_recon.fusion import fusion_kernels as kernels
-from acts_recon.fusion.fusion_state import Tuning, forget, new_memory, state_of
+from acts_recon.fusion.fusion_state import LEAST_NOISE_COUNTS, Tuning, expect_noise, forget, new_memory, state_of
 from acts_recon.images import PlacedSamples, borders_of
 
 
@@ -48,16 +58,16 @@ class FusionConfig:
     """Settings of the fusion of samples over time."""
 
     noise_counts: float = setting(
-        2.0, "standard deviation of a reading about the truth [counts]", minimum=0.0, maximum=100.0
-    )
-    quiet_counts: float = setting(
-        9.0, "a taxel at or below is untouched, an innovation at or below is noise [counts]", minimum=0.0, maximum=500.0
+        2.0,
+        "standard deviation of a reading about the truth, where it is not calibrated [counts]",
+        minimum=0.0,
+        maximum=100.0,
     )
     quiet_s: float = setting(0.010, "how long a taxel measured untouched is taken for untouched [s]", minimum=0.0)
     horizon_s: float = setting(0.020, "measurements older than this predict no change [s]", minimum=1e-4, maximum=10.0)
     damping_s: float = setting(0.050, "time constant with which a taxel's slope fades [s]", minimum=1e-4, maximum=10.0)
     slope_memory_s: float = setting(
-        0.001, "time between two measurements at which half of the slope is replaced [s]", minimum=1e-5, maximum=10.0
+        0.0004, "time between two measurements at which half of the slope is replaced [s]", minimum=1e-5, maximum=10.0
     )
     motion_memory_s: float = setting(
         0.004, "time constant of the sums that motion is found from [s]", minimum=1e-4, maximum=10.0
@@ -107,8 +117,9 @@ class FusionEstimator:
         self.config = config or FusionConfig()
         self._tuning = self.config.tuning
         self._samples = PlacedSamples(geometry, layout)
+        self._places = np.arange(geometry.size) if layout is None else layout.places.astype(np.intp)
         self.borders = borders_of(geometry.rows, geometry.cols, layout)
-        self._memory = new_memory(geometry.rows, geometry.cols, self.borders)
+        self._memory = new_memory(geometry.rows, geometry.cols, self.borders, self.config.noise_counts)
         self._state = state_of(self._memory)
         self._confidence = np.zeros(geometry.size, dtype=np.uint8)
         self._end_s: float | None = None
@@ -127,9 +138,38 @@ class FusionEstimator:
         self._warm_up()
 
     def reset(self) -> None:
-        """Start anew, as if nothing had been measured."""
+        """Start anew, as if nothing had been measured; what was learnt of the noise is kept."""
         forget(self._memory)
         self._end_s = None
+
+    def set_noise(self, noise_counts: NDArray[np.float32], valid: NDArray[np.bool_]) -> None:
+        """Take over the calibrated noise of the taxels; what was learnt of it while running is forgotten.
+
+        The same noise once more changes nothing.
+
+        Parameters
+        ----------
+        noise_counts : np.ndarray [shape=(taxels of the matrix,), dtype=float32]
+            Standard deviation of each taxel's readings [counts].
+        valid : np.ndarray [shape=(taxels of the matrix,), dtype=bool]
+            Where it is known; elsewhere `FusionConfig.noise_counts` holds.
+
+        Raises
+        ------
+        ArrayError
+            For another size, or noise that is negative or not finite.
+        """
+        size = self._places.size
+        if noise_counts.shape != (size,) or valid.shape != (size,):
+            raise ArrayError(f"noise {noise_counts.shape} and valid {valid.shape}: needed are {size} values of each")
+        if not (np.isfinite(noise_counts[valid]).all() and (noise_counts[valid] >= 0).all()):
+            raise ArrayError("the noise has values that are negative or not finite")
+        noise = np.full(self.geometry.size, self.config.noise_counts, dtype=np.float32)
+        noise[self._places[valid]] = noise_counts[valid]
+        noise = np.maximum(noise, np.float32(LEAST_NOISE_COUNTS))
+        if not np.array_equal(noise, self._state.noise):
+            self._state.noise[:] = noise
+            expect_noise(self._memory)
 
     def step(
         self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float
@@ -191,3 +231,4 @@ class FusionEstimator:
         self.step(one, one, 1e-3, 1e-3)
         self.confidence()
         self.reset()
+        expect_noise(self._memory)

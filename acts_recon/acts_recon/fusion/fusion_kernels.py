@@ -18,7 +18,25 @@ from numpy.typing import NDArray
 from acts_core.array import COUNT_MAX
 from acts_core.kernels import kernel
 from acts_recon.fusion.fusion_motion_kernels import FASTMATH, TINY, find_velocities, moved, observe_motion
-from acts_recon.fusion.fusion_state import TILE, UNKNOWN_COUNTS, Memory, State, Tuning, state_of
+from acts_recon.fusion.fusion_state import (
+    CHANGES,
+    CLIPPED_CHANGE,
+    EXPECTED,
+    IS_NOISE,
+    PRODUCT,
+    QUIET,
+    QUIET_SIGMAS,
+    READINGS,
+    SQUARE,
+    SUMS,
+    TILE,
+    TRUST,
+    UNKNOWN_COUNTS,
+    Memory,
+    State,
+    Tuning,
+    state_of,
+)
 
 REACH = 2
 """Taxels so far from a sample, along rows and columns, are corrected by its innovation."""
@@ -40,6 +58,25 @@ NIS_PRIOR_SAMPLES = 4.0
 OUTLIER = 25.0
 # The correction of a taxel is halved where the weights of the samples around it sum up to this.
 SPREAD_PRIOR = 0.5
+
+# What was learnt of the noise fades with this time constant, and what was learnt of predictions with the next [s].
+NOISE_MEMORY_S = 1.0
+TRUST_MEMORY_S = 0.3
+# Predictions are trusted until sums of squares of this size say otherwise [counts^2].
+TRUST_PRIOR = 0.3
+# Smaller predicted changes are not shown: one step of the converter looks like a slope of nearly one count.
+LEAST_CHANGE_COUNTS = 0.85
+# Readings are noise where 0 predicts them at least so well, in squares of their changes,
+ZERO_MARGIN = 1.5
+# and where their changes are at most so large, in squares of those of fast measured taxels.
+NOISE_MARGIN = 2.0
+# Step of the logarithm of a patch's noise variance per squared innovation above the mean of normal ones; its limits.
+NOISE_STEP = 0.05
+NOISE_STEP_LIMIT = 1.0
+NOISE_LIMIT = 6.0
+# A squared innovation counts as at most this; and the mean of normal ones that are limited so.
+NOISE_OUTLIER = 4.0
+NOISE_MEAN = 0.92
 
 _F = np.float32
 _TOP = np.float32(COUNT_MAX)
@@ -64,19 +101,21 @@ def _predict(state: State, period_s: float, cols: int, tuning: Tuning) -> None:
 
     First all taxels by their slopes, without a branch, so that the compiler vectorises; then again those that move.
     """
-    image, before, age, elapsed, rate = state.image, state.before, state.age, state.elapsed, state.rate
+    estimate, before, age, elapsed, rate = state.estimate, state.before, state.age, state.elapsed, state.rate
     period, horizon = _F(period_s), _F(tuning.horizon_s)
     fading = _F(math.exp(-period_s / tuning.damping_s))
-    for i in range(image.shape[0]):
-        before[i] = image[i]
+    for i in range(estimate.shape[0]):
+        before[i] = estimate[i]
         age[i] += period
         # The estimate of a measured taxel is of the time of its measurement, not of the end of the frame.
         elapsed[i] = min(age[i] if state.fresh[i] else period, horizon)
         state.fresh[i] = False
         faded = state.fade[i] * fading
         state.fade[i] = faded if faded > TINY else _F(0)
-        rate[i] = state.slope[i] * state.fade[i] if age[i] < horizon and elapsed[i] > _F(0) else _F(0)
-        image[i] = min(max(before[i] + rate[i] * elapsed[i], _F(0)), _TOP)
+        # What can be noise has no slope worth following: in 20 ms one of 3 sigma would look like a touch.
+        follows = (age[i] < horizon) & (elapsed[i] > _F(0)) & (not state.low[i])
+        rate[i] = state.slope[i] * state.fade[i] if follows else _F(0)
+        estimate[i] = min(max(before[i] + rate[i] * elapsed[i], _F(0)), _TOP)
     patches = state.patches
     for p in range(patches.shape[0]):
         top, bottom, left, right = patches[p, 0], patches[p, 1], patches[p, 2], patches[p, 3]
@@ -96,16 +135,87 @@ def _predict(state: State, period_s: float, cols: int, tuning: Tuning) -> None:
                     )
                     change = share * (came - before[i]) + (_F(1) - share) * rate[i] * time
                     rate[i] = change / time if time > _F(0) else _F(0)
-                    image[i] = min(max(before[i] + change, _F(0)), _TOP)
+                    estimate[i] = min(max(before[i] + change, _F(0)), _TOP)
+
+
+@kernel(fastmath=FASTMATH)
+def _trust(product: np.float32, square: np.float32) -> np.float32:
+    """Share of what was predicted that came true, by least squares, 0 to 1."""
+    share = (product + _F(TRUST_PRIOR)) / (square + _F(TRUST_PRIOR))
+    return min(max(share, _F(0)), _F(1))
+
+
+@kernel(fastmath=FASTMATH)
+def _learn(
+    state: State,
+    indices: NDArray[np.uint16],
+    counts: NDArray[np.uint16],
+    period_s: float,
+    lag_step_s: float,
+    tuning: Tuning,
+) -> None:
+    """Innovations of all samples; what they say of predictions and of the noise.
+
+    All in one function: a call for every sample would count the references of all arrays of the state.
+    """
+    m = indices.shape[0]
+    horizon, tile_fade = _F(tuning.horizon_s), _F(math.exp(-period_s / NOISE_MEMORY_S))
+    learnt, product, square, noise_excess = state.learnt, state.product, state.square, state.noise_excess
+    for p in range(noise_excess.shape[0]):
+        state.noise_scale[p] = _F(math.exp(state.log_noise[p]))
+        noise_excess[p] = _F(0)
+    for k in range(m):
+        i = int(np.int64(indices[k]))
+        p = int(np.int64(state.patch_of[i]))
+        tile = state.tile_of[i]
+        lag = _F(lag_step_s * (m - 1 - k))
+        since = state.age[i] - lag
+        count, value, noise = _F(counts[k]), state.value[i], state.noise[i]
+        predicted = state.estimate[i] - state.rate[i] * lag - value
+        change = count - value
+        if _F(0) < since < horizon:
+            innovation = change - _trust(product[i], square[i]) * predicted
+            fade = _F(math.exp(-since / _F(TRUST_MEMORY_S)))
+            product[i] = product[i] * fade + predicted * change
+            square[i] = square[i] * fade + predicted * predicted
+            if value > _F(0):
+                expected = _F(2) * noise * noise * state.noise_scale[p]
+                noise_excess[p] += min(innovation * innovation / expected, _F(NOISE_OUTLIER)) - _F(NOISE_MEAN)
+        else:
+            innovation = change - learnt[tile, TRUST] * predicted
+            if not since < horizon:
+                learnt[tile, PRODUCT] += predicted * change
+                learnt[tile, SQUARE] += predicted * predicted
+                product[i], square[i] = _F(0), _F(0)
+        if since > _F(0) and state.low[i] and count <= _F(2) * noise * learnt[tile, QUIET]:
+            learnt[tile, READINGS] += count * count
+            learnt[tile, CHANGES] += change * change
+            learnt[tile, EXPECTED] += noise * noise
+        state.innovation[k] = innovation
+    for p in range(noise_excess.shape[0]):
+        step = min(max(_F(NOISE_STEP) * noise_excess[p], -_F(NOISE_STEP_LIMIT)), _F(NOISE_STEP_LIMIT))
+        state.log_noise[p] = min(max(state.log_noise[p] + step, -_F(NOISE_LIMIT)), _F(NOISE_LIMIT))
+        limit = _F(NOISE_MARGIN) * state.noise_scale[p]
+        first = state.patches[p, 4]
+        for t in range(first, first + state.patches[p, 5] * state.patches[p, 6]):
+            for q in range(SUMS):
+                faded = learnt[t, q] * tile_fade
+                learnt[t, q] = faded if abs(faded) > TINY else _F(0)
+            changes, expected = learnt[t, CHANGES], learnt[t, EXPECTED]
+            if expected > TINY:
+                learnt[t, QUIET] = _F(QUIET_SIGMAS) * _F(math.sqrt(changes / (_F(CLIPPED_CHANGE) * expected)))
+            learnt[t, TRUST] = _trust(learnt[t, PRODUCT], learnt[t, SQUARE])
+            is_noise = learnt[t, READINGS] < _F(ZERO_MARGIN) * changes and changes < limit * expected
+            learnt[t, IS_NOISE] = _F(1) if is_noise else _F(0)
 
 
 @kernel(fastmath=FASTMATH)
 def _update(
     state: State, indices: NDArray[np.uint16], counts: NDArray[np.uint16], lag_step_s: float, tuning: Tuning
 ) -> None:
-    """Innovations of all samples; update of value, slope and process noise of their taxels, and of the scales."""
+    """Update of value, slope and process noise of the taxels of all samples, and of the scales."""
     m = indices.shape[0]
-    horizon, noise_variance = _F(tuning.horizon_s), _F(tuning.noise_counts) ** 2
+    horizon = _F(tuning.horizon_s)
     scale, nis_excess, compared = state.scale, state.nis_excess, state.compared
     for p in range(scale.shape[0]):
         scale[p] = _F(math.exp(state.log_scale[p]))
@@ -113,18 +223,24 @@ def _update(
     for k in range(m):
         i = int(np.int64(indices[k]))
         p = int(np.int64(state.patch_of[i]))
+        noise_variance = state.noise[i] * state.noise[i]
         lag = _F(lag_step_s * (m - 1 - k))
         since = state.age[i] - lag
         count = _F(counts[k])
-        innovation = count - (state.image[i] - state.rate[i] * lag)
-        state.innovation[k] = innovation
-        if _F(0) < since < horizon:
-            predicted_variance = state.process_noise[i] * since * since
-            if predicted_variance > noise_variance:
+        is_known = _F(0) < since < horizon
+        innovation = state.innovation[k]
+        slope_before = state.slope[i] * state.fade[i] if state.age[i] < horizon else _F(0)
+        if is_known:
+            # As `_update_sigma` had it, of touched taxels only: beside them it is too large.
+            process_noise = _F(0.5) * (state.process_noise[i] + state.around[i])
+            predicted_variance = process_noise * since * since
+            if predicted_variance > noise_variance and count > _F(QUIET_SIGMAS) * state.noise[i]:
                 ratio = innovation * innovation / (_F(2) * noise_variance + scale[p] * predicted_variance)
                 nis_excess[p] += min(ratio, _F(OUTLIER)) - _F(1)
                 compared[p] += _F(1)
-            share = since / (since + _F(tuning.slope_memory_s))
+            # By the square, as the noise of a slope: two measurements in quick succession say little of it.
+            square_s = since * since
+            share = square_s / (square_s + _F(tuning.slope_memory_s) * _F(tuning.slope_memory_s))
             state.slope[i] += share * ((count - state.value[i]) / since - state.slope[i])
         elif not since < horizon:
             state.slope[i] = _F(0)
@@ -138,6 +254,9 @@ def _update(
         state.age[i] = lag
         state.fade[i] = _F(math.exp(-lag / _F(tuning.damping_s)))
         state.fresh[i] = True
+        # From here on the taxel changes as its new slope says, for the share that motion does not explain.
+        unexplained = _F(1) - state.velocity[state.tile_of[i], 2]
+        state.rate[i] += unexplained * (state.slope[i] * state.fade[i] - slope_before)
     for p in range(scale.shape[0]):
         log_scale = state.log_scale[p] + _F(SCALE_STEP) * nis_excess[p]
         state.log_scale[p] = min(max(log_scale, -_F(SCALE_LIMIT)), _F(SCALE_LIMIT))
@@ -156,14 +275,14 @@ def _spread(state: State, indices: NDArray[np.uint16], cols: int, tuning: Tuning
     """Scatter the innovations to the taxels around the samples, then correct each taxel by their weighted mean."""
     m = indices.shape[0]
     total, process_noise_total, weight = state.total, state.process_noise_total, state.weight
-    image, process_noise, fresh = state.image, state.process_noise, state.fresh
+    estimate, process_noise, fresh = state.estimate, state.process_noise, state.fresh
     patches, patch_of = state.patches, state.patch_of
     for k in range(m):
         i = int(np.int64(indices[k]))
         row = i // cols
         col = i - row * cols
         innovation = state.innovation[k]
-        if abs(innovation) <= _F(tuning.quiet_counts):
+        if abs(innovation) <= _F(QUIET_SIGMAS) * state.noise[i]:
             innovation = _F(0)
         p = patch_of[i]
         top, bottom, left, right = patches[p, 0], patches[p, 1], patches[p, 2], patches[p, 3]
@@ -176,16 +295,16 @@ def _spread(state: State, indices: NDArray[np.uint16], cols: int, tuning: Tuning
                 weight[j] += near
     gain = _F(tuning.spread_gain)
     # All taxels without a branch, so that the compiler vectorises; where no weight arrived nothing changes.
-    for j in range(image.shape[0]):
+    for j in range(estimate.shape[0]):
         shrunk = weight[j] + _F(SPREAD_PRIOR)
-        image[j] = min(max(image[j] + gain * total[j] / shrunk, _F(0)), _TOP)
+        estimate[j] = min(max(estimate[j] + gain * total[j] / shrunk, _F(0)), _TOP)
         learnt = (process_noise_total[j] - weight[j] * process_noise[j]) / shrunk
         updated = process_noise[j] + _F(PROCESS_NOISE_GAIN) * learnt
         process_noise[j] = updated if updated > TINY else _F(0)
         total[j], process_noise_total[j], weight[j] = _F(0), _F(0), _F(0)
     for k in range(m):
         i = int(np.int64(indices[k]))
-        image[i] = state.value[i]
+        estimate[i] = state.value[i]
 
 
 @kernel(fastmath=FASTMATH)
@@ -216,22 +335,44 @@ def _maximum_filter(state: State, values: NDArray[np.float32], cols: int) -> NDA
 
 
 @kernel(fastmath=FASTMATH)
-def _zero_untouched(state: State, cols: int, tuning: Tuning) -> None:
-    """Set to 0 what was measured untouched, with none beside it pressed: lately, or while the image is low."""
-    image, age, fresh = state.image, state.age, state.fresh
-    quiet, quiet_s = _F(tuning.quiet_counts), _F(tuning.quiet_s)
-    around = _maximum_filter(state, state.value, cols)
+def _show(state: State, cols: int, tuning: Tuning) -> None:
+    """Image of the estimates as far as they are trusted; 0 where readings are low, with none beside, and are noise."""
+    above, quiet, tile_of = state.total, state.weight, state.tile_of
+    image, value, age, low, fresh = state.image, state.value, state.age, state.low, state.fresh
+    rate, estimate, product, square = state.rate, state.estimate, state.product, state.square
+    learnt = state.learnt
     for i in range(image.shape[0]):
-        is_settled = image[i] <= quiet or age[i] < quiet_s
-        image[i] = _F(0) if around[i] <= quiet and is_settled and not fresh[i] else image[i]
+        t = tile_of[i]
+        usual = state.noise[i] * learnt[t, QUIET]
+        above[i] = value[i] - usual
+        quiet[i] = usual if learnt[t, IS_NOISE] > _F(0) else _F(-1)
+    around = _maximum_filter(state, above, cols)
+    least, quiet_s, horizon = _F(LEAST_CHANGE_COUNTS), _F(tuning.quiet_s), _F(tuning.horizon_s)
+    for i in range(image.shape[0]):
+        ahead = rate[i] * age[i] if around[i] > _F(0) else _F(0)
+        change = ahead if fresh[i] else estimate[i] - value[i]
+        above[i] = change if abs(change) >= least else _F(0)
+        image[i] = value[i]
+    for i in range(image.shape[0]):
+        if above[i] != _F(0):
+            change = above[i] * (_trust(product[i], square[i]) if age[i] < horizon else learnt[tile_of[i], TRUST])
+            if abs(change) >= least:
+                # Whole counts, as readings are: with a fraction more, a taxel that reads just the threshold would be
+                # pressed.
+                image[i] = _F(int(min(max(value[i] + change, _F(0)), _TOP) + _F(0.5)))
+    for i in range(image.shape[0]):
+        low[i] = around[i] <= _F(0)
+        is_settled = (image[i] <= quiet[i]) | ((age[i] < quiet_s) & (quiet[i] >= _F(0)))
+        image[i] = _F(0) if low[i] & is_settled & (not fresh[i]) else image[i]
+        above[i], quiet[i] = _F(0), _F(0)
 
 
 @kernel(fastmath=FASTMATH)
 def _update_sigma(state: State, cols: int, tuning: Tuning) -> None:
     """Sigma of every taxel from measurement noise, drift, process noise over its age, and the scales.
 
-    What moves beside a taxel may have come to it since it was measured. So half of the process noise of a taxel that
-    is not of this frame is the maximum of the 3 x 3 taxels around it.
+    What moves beside a taxel may have come to it since it was measured. So half of its process noise is the maximum of
+    the 3 x 3 taxels around it.
     """
     around = _maximum_filter(state, state.process_noise, cols)
     for p in range(state.patches.shape[0]):
@@ -250,18 +391,16 @@ def _update_sigma_of(
 ) -> None:
     """`_update_sigma` of consecutive taxels."""
     idle, horizon = _F(IDLE_COUNTS_PER_S), _F(tuning.horizon_s)
-    noise_variance = _F(tuning.noise_counts) ** 2
+    noise = state.noise[first:end]
     limit = _F(UNKNOWN_COUNTS)
-    process_noise, rate, sigma = state.process_noise[first:end], state.rate[first:end], state.sigma[first:end]
-    fresh_ones, ages, around = state.fresh[first:end], state.age[first:end], around[first:end]
+    process_noise, sigma = state.process_noise[first:end], state.sigma[first:end]
+    ages, around = state.age[first:end], around[first:end]
     for i in range(sigma.shape[0]):
-        # A fresh taxel's value is kept as measured, though it has been changing since.
-        fresh, age = fresh_ones[i], ages[i]
-        q = process_noise[i] if fresh else _F(0.5) * (process_noise[i] + around[i])
-        lag_error = rate[i] * age if fresh else _F(0)
+        age = ages[i]
+        q = _F(0.5) * (process_noise[i] + around[i])
         time = min(age, horizon)
         idled = idle * min(age, _F(1e3))
-        variance = noise_variance + idled * idled + scale * q * time * time + lag_error * lag_error
+        variance = noise[i] * noise[i] + idled * idled + scale * q * time * time
         sigma[i] = min(_F(math.sqrt(variance)), limit)
 
 
@@ -295,9 +434,10 @@ def fuse(
     observe_motion(state, indices, counts, period_s, lag_step_s, cols, tuning)
     find_velocities(state, tuning)
     _predict(state, period_s, cols, tuning)
+    _learn(state, indices, counts, period_s, lag_step_s, tuning)
     _update(state, indices, counts, lag_step_s, tuning)
     _spread(state, indices, cols, tuning)
-    _zero_untouched(state, cols, tuning)
+    _show(state, cols, tuning)
     _update_sigma(state, cols, tuning)
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.kernels import kernel
-from acts_recon.fusion.fusion_state import TILE, State, Tuning
+from acts_recon.fusion.fusion_state import State, Tuning
 
 AROUND = 2
 """The window of a tile reaches so many tiles beyond it on every side."""
@@ -39,7 +39,7 @@ def observe_motion(
     """Add the samples to the sums of the normal equations of their tiles: products of gradients and changes."""
     m = indices.shape[0]
     fade = _F(math.exp(-period_s / tuning.motion_memory_s))
-    image, normal_sums = state.image, state.normal_sums
+    image, normal_sums = state.estimate, state.normal_sums
     for a in range(normal_sums.shape[0]):
         for q in range(6):
             faded = normal_sums[a, q] * fade
@@ -58,7 +58,7 @@ def observe_motion(
         top, bottom, left, right = patches[p, 0], patches[p, 1] - 1, patches[p, 2], patches[p, 3] - 1
         along_cols = (image[row * cols + min(col + 1, right)] - image[row * cols + max(col - 1, left)]) * _F(0.5)
         along_rows = (image[min(row + 1, bottom) * cols + col] - image[max(row - 1, top) * cols + col]) * _F(0.5)
-        tile = normal_sums[patches[p, 4] + (row - top) // TILE * patches[p, 6] + (col - left) // TILE]
+        tile = normal_sums[state.tile_of[i]]
         tile[0] += along_cols * along_cols
         tile[1] += along_cols * along_rows
         tile[2] += along_rows * along_rows

@@ -12,8 +12,16 @@ from scipy import ndimage
 from acts_core.array import COUNT_MAX
 from acts_recon.fusion.fusion_kernels import (
     IDLE_COUNTS_PER_S,
+    LEAST_CHANGE_COUNTS,
     NEW_CONTACT_AGE_S,
     NIS_PRIOR_SAMPLES,
+    NOISE_LIMIT,
+    NOISE_MARGIN,
+    NOISE_MEAN,
+    NOISE_MEMORY_S,
+    NOISE_OUTLIER,
+    NOISE_STEP,
+    NOISE_STEP_LIMIT,
     OUTLIER,
     PROCESS_NOISE_GAIN,
     REACH,
@@ -21,9 +29,20 @@ from acts_recon.fusion.fusion_kernels import (
     SCALE_STEP,
     SHORTEST_S,
     SPREAD_PRIOR,
+    TRUST_MEMORY_S,
+    TRUST_PRIOR,
+    ZERO_MARGIN,
 )
 from acts_recon.fusion.fusion_motion_kernels import AROUND, RIDGE
-from acts_recon.fusion.fusion_state import TILE, UNKNOWN_COUNTS, Tuning
+from acts_recon.fusion.fusion_state import (
+    CLIPPED_CHANGE,
+    LEAST_NOISE_COUNTS,
+    PRIOR_SAMPLES,
+    QUIET_SIGMAS,
+    TILE,
+    UNKNOWN_COUNTS,
+    Tuning,
+)
 from acts_recon.images import Borders
 
 Floats = NDArray[np.float64]
@@ -36,19 +55,40 @@ class FusionReference:
     ----------
     rows, cols : int
     tuning : Tuning
+    noise : np.ndarray [shape=(rows, cols)] or float
+        Calibrated standard deviation of a reading [counts].
     """
 
-    def __init__(self, rows: int, cols: int, tuning: Tuning) -> None:
+    def __init__(self, rows: int, cols: int, tuning: Tuning, noise: Floats | float) -> None:
         shape = (rows, cols)
         tiles = (-(-rows // TILE), -(-cols // TILE))
         self._tuning = tuning
         self._tile_of = np.ix_(np.arange(rows) // TILE, np.arange(cols) // TILE)
+        self.noise = np.maximum(np.broadcast_to(np.asarray(noise, dtype=np.float64), shape), LEAST_NOISE_COUNTS)
+        taxels = self._by_tile(np.ones(shape))
+        variance = self._by_tile(self.noise**2) / taxels
+        self.readings = PRIOR_SAMPLES * 0.5 * variance
+        self.changes = PRIOR_SAMPLES * CLIPPED_CHANGE * variance
+        self.expected = PRIOR_SAMPLES * variance
+        self.quiet_sigmas = np.full(tiles, QUIET_SIGMAS)
+        self.is_noise = np.ones(tiles, dtype=bool)
+        self.log_noise = 0.0
+        self.forget()
+
+    def forget(self) -> None:
+        """Start anew, but keep what was learnt of the noise."""
+        shape, tiles = self.noise.shape, self.readings.shape
+        self.tile_product, self.tile_square = np.zeros(tiles), np.zeros(tiles)
+        self.product, self.square = np.zeros(shape), np.zeros(shape)
+        self.low = np.zeros(shape, dtype=bool)
         self.image = np.zeros(shape)
+        self.estimate = np.zeros(shape)
         self.sigma = np.full(shape, UNKNOWN_COUNTS)
         self.value = np.zeros(shape)
         self.slope = np.zeros(shape)
         self.age = np.full(shape, np.inf)
         self.process_noise = np.zeros(shape)
+        self.around = np.zeros(shape)
         self.fresh = np.zeros(shape, dtype=bool)
         self.normal_sums = np.zeros((6, *tiles))
         self.log_scale = 0.0
@@ -66,18 +106,25 @@ class FusionReference:
         y = counts.astype(np.float64)
 
         self._observe_motion(at, y, self.age[at] + period_s - lag, period_s)
-        rate = self._predict(period_s)
-        innovation = self._update(at, y, lag, rate)
+        rate, unexplained = self._predict(period_s)
+        innovation = self._learn(at, y, lag, rate, period_s)
+        self._update(at, y, lag, rate, innovation, unexplained)
         self._spread(at, innovation)
-        self._zero_untouched()
-        self._update_sigma(rate)
+        self._show(rate)
+        self._update_sigma()
+
+    def _by_tile(self, values: Floats) -> Floats:
+        """Sums over the taxels of each tile."""
+        rows, cols = values.shape
+        across = np.add.reduceat(values, np.arange(0, rows, TILE), axis=0)
+        return np.asarray(np.add.reduceat(across, np.arange(0, cols, TILE), axis=1), dtype=np.float64)
 
     def _observe_motion(self, at: tuple[NDArray[np.intp], ...], y: Floats, since: Floats, period_s: float) -> None:
         self.normal_sums *= np.exp(-period_s / self._tuning.motion_memory_s)
         used = (since > 0) & (since < self._tuning.horizon_s)
         row, col = at[0][used], at[1][used]
         change = (y[used] - self.value[row, col]) / since[used]
-        padded = np.pad(self.image, 1, mode="edge")
+        padded = np.pad(self.estimate, 1, mode="edge")
         along_cols = (padded[row + 1, col + 2] - padded[row + 1, col]) / 2
         along_rows = (padded[row + 2, col + 1] - padded[row, col + 1]) / 2
         terms = (
@@ -103,38 +150,99 @@ class FusionReference:
         share = np.where(share > self._tuning.motion_share, np.minimum(share, 1), 0)
         return by_cols[self._tile_of], by_rows[self._tile_of], share[self._tile_of]
 
-    def _predict(self, period_s: float) -> Floats:
+    def _predict(self, period_s: float) -> tuple[Floats, Floats]:
+        """Rate of change of every taxel, and the share of it that is not motion."""
         tuning = self._tuning
         by_cols, by_rows, share = self._velocities()
         self.age += period_s
         elapsed = np.minimum(np.where(self.fresh, self.age, period_s), tuning.horizon_s)
         self.fresh[:] = False
-        row, col = np.indices(self.image.shape)
+        row, col = np.indices(self.estimate.shape)
         places = np.array([row - by_rows * elapsed, col - by_cols * elapsed])
-        moved = ndimage.map_coordinates(self.image, places, order=1, mode="nearest")
-        slope = np.where(self.age < tuning.horizon_s, self.slope * np.exp(-self.age / tuning.damping_s), 0)
-        change = share * (moved - self.image) + (1 - share) * slope * elapsed
-        self.image = np.clip(self.image + change, 0, COUNT_MAX)
+        moved = ndimage.map_coordinates(self.estimate, places, order=1, mode="nearest")
+        slope = np.where(
+            (self.age < tuning.horizon_s) & ~self.low, self.slope * np.exp(-self.age / tuning.damping_s), 0
+        )
+        change = share * (moved - self.estimate) + (1 - share) * slope * elapsed
+        self.estimate = np.clip(self.estimate + change, 0, COUNT_MAX)
         rate: Floats = np.zeros_like(change)
         np.divide(change, elapsed, out=rate, where=elapsed > 0)
-        return rate
+        return rate, 1 - share
 
-    def _update(self, at: tuple[NDArray[np.intp], ...], y: Floats, lag: Floats, rate: Floats) -> Floats:
+    def _learn(self, at: tuple[NDArray[np.intp], ...], y: Floats, lag: Floats, rate: Floats, period_s: float) -> Floats:
+        """Innovations; what they say of the predictions and of the noise."""
+        tile = (at[0] // TILE, at[1] // TILE)
+        value, noise, since = self.value[at], self.noise[at], self.age[at] - lag
+        predicted, change = self.estimate[at] - rate[at] * lag - value, y - value
+        known = (since > 0) & (since < self._tuning.horizon_s)
+        taxel_trust, tile_trust = self._trust()
+        innovation = change - np.where(known, taxel_trust[at], tile_trust[tile]) * predicted
+
+        stale = since >= self._tuning.horizon_s
+        fade = np.where(stale, 0, np.exp(-np.where(known, since, 0) / TRUST_MEMORY_S))
+        self.product[at] = fade * self.product[at] + np.where(known, predicted * change, 0)
+        self.square[at] = fade * self.square[at] + np.where(known, predicted**2, 0)
+        scale = np.exp(self.log_noise)
+        used = known & (value > 0)
+        ratio = np.minimum(innovation[used] ** 2 / (2 * noise[used] ** 2 * scale), NOISE_OUTLIER)
+        step = np.clip(NOISE_STEP * (ratio - NOISE_MEAN).sum(), -NOISE_STEP_LIMIT, NOISE_STEP_LIMIT)
+        self.log_noise = float(np.clip(self.log_noise + step, -NOISE_LIMIT, NOISE_LIMIT))
+
+        low = (since > 0) & self.low[at] & (y <= 2 * noise * self.quiet_sigmas[tile])
+        for sums, terms, where in (
+            (self.tile_product, predicted * change, stale),
+            (self.tile_square, predicted**2, stale),
+            (self.readings, y**2, low),
+            (self.changes, change**2, low),
+            (self.expected, noise**2, low),
+        ):
+            np.add.at(sums, tile, np.where(where, terms, 0))
+            sums *= np.exp(-period_s / NOISE_MEMORY_S)
+        known_noise = self.expected > 1e-20
+        ratio = np.divide(
+            self.changes, CLIPPED_CHANGE * self.expected, out=np.zeros_like(self.changes), where=known_noise
+        )
+        self.quiet_sigmas = np.where(known_noise, QUIET_SIGMAS * np.sqrt(ratio), self.quiet_sigmas)
+        self.is_noise = self.readings < ZERO_MARGIN * self.changes
+        self.is_noise &= self.changes < NOISE_MARGIN * scale * self.expected
+        return innovation
+
+    def _trust(self) -> tuple[Floats, Floats]:
+        """Shares of what was predicted that came true: of every taxel lately, and of every tile."""
+
+        def share(product: Floats, square: Floats) -> Floats:
+            return np.clip((product + TRUST_PRIOR) / (square + TRUST_PRIOR), 0, 1)
+
+        return share(self.product, self.square), share(self.tile_product, self.tile_square)
+
+    def _update(
+        self,
+        at: tuple[NDArray[np.intp], ...],
+        y: Floats,
+        lag: Floats,
+        rate: Floats,
+        innovation: Floats,
+        unexplained: Floats,
+    ) -> None:
         tuning = self._tuning
-        noise_variance = tuning.noise_counts**2
+        noise_variance = self.noise[at] ** 2
         since = self.age[at] - lag
-        innovation = y - (self.image[at] - rate[at] * lag)
         known = (since > 0) & (since < tuning.horizon_s)
+        faded = np.exp(-np.where(self.age[at] < tuning.horizon_s, self.age[at], np.inf) / tuning.damping_s)
+        slope_before = self.slope[at] * faded
 
-        predicted_variance = np.where(known, self.process_noise[at] * np.where(known, since, 0) ** 2, 0)
-        moving = predicted_variance > noise_variance
-        ratio = innovation[moving] ** 2 / (2 * noise_variance + np.exp(self.log_scale) * predicted_variance[moving])
+        process_noise = (self.process_noise[at] + self.around[at]) / 2
+        predicted_variance = np.where(known, process_noise * np.where(known, since, 0) ** 2, 0)
+        moving = (predicted_variance > noise_variance) & (y > QUIET_SIGMAS * self.noise[at])
+        ratio = innovation[moving] ** 2 / (
+            2 * noise_variance[moving] + np.exp(self.log_scale) * predicted_variance[moving]
+        )
         nis_excess = float((np.minimum(ratio, OUTLIER) - 1).sum())
         self.frame_scale = max(1 + nis_excess / (np.count_nonzero(moving) + NIS_PRIOR_SAMPLES), 1.0)
         self.log_scale = float(np.clip(self.log_scale + SCALE_STEP * nis_excess, -SCALE_LIMIT, SCALE_LIMIT))
 
         time = np.where(known, since, 1.0)
-        share = time / (time + tuning.slope_memory_s)
+        share = time**2 / (time**2 + tuning.slope_memory_s**2)
         slope = self.slope[at] + share * ((y - self.value[at]) / time - self.slope[at])
         self.slope[at] = np.where(known, slope, np.where(since < tuning.horizon_s, self.slope[at], 0))
         stale = since >= tuning.horizon_s
@@ -144,7 +252,7 @@ class FusionReference:
         share = np.where(is_new_contact, 1, np.where(since > 0, PROCESS_NOISE_GAIN, 0))
         self.process_noise[at] += share * (excess - self.process_noise[at])
         self.value[at], self.age[at], self.fresh[at] = y, lag, True
-        return innovation
+        rate[at] += unexplained[at] * (self.slope[at] * np.exp(-lag / tuning.damping_s) - slope_before)
 
     def _spread(self, at: tuple[NDArray[np.intp], ...], innovation: Floats) -> None:
         tuning = self._tuning
@@ -158,32 +266,38 @@ class FusionReference:
             return ndimage.convolve(field, near, mode="constant")
 
         weight = reached(1.0)
-        total = reached(np.where(np.abs(innovation) > tuning.quiet_counts, innovation, 0))
+        total = reached(np.where(np.abs(innovation) > QUIET_SIGMAS * self.noise[at], innovation, 0))
         process_noise_total = reached(self.process_noise[at])
         to = ~self.fresh & (weight > 1e-9)
         shrunk = weight[to] + SPREAD_PRIOR
-        self.image[to] = np.clip(self.image[to] + tuning.spread_gain * total[to] / shrunk, 0, COUNT_MAX)
+        self.estimate[to] = np.clip(self.estimate[to] + tuning.spread_gain * total[to] / shrunk, 0, COUNT_MAX)
         self.process_noise[to] += (
             PROCESS_NOISE_GAIN * weight[to] / shrunk * (process_noise_total[to] / weight[to] - self.process_noise[to])
         )
-        self.image[at] = self.value[at]
+        self.estimate[at] = self.value[at]
 
-    def _zero_untouched(self) -> None:
+    def _show(self, rate: Floats) -> None:
         tuning = self._tuning
-        untouched = self.value <= tuning.quiet_counts
-        beside = ndimage.binary_dilation(~untouched, structure=np.ones((3, 3)))
-        lately = self.age < tuning.quiet_s
-        quiet = untouched & ~beside & ~self.fresh & (lately | (self.image <= tuning.quiet_counts))
-        self.image[quiet] = 0
+        quiet = self.noise * self.quiet_sigmas[self._tile_of]
+        above = np.where(self.value <= quiet, 0.0, 1.0)
+        self.low = ndimage.maximum_filter(above, size=3, mode="nearest") == 0
+        taxel_trust, tile_trust = self._trust()
+        trust = np.where(self.age < tuning.horizon_s, taxel_trust, tile_trust[self._tile_of])
+        of_fresh = np.where(self.low, 0, rate * np.where(self.fresh, self.age, 0))
+        ahead = np.where(self.fresh, of_fresh, self.estimate - self.value)
+        is_change = (np.abs(ahead) >= LEAST_CHANGE_COUNTS) & (np.abs(trust * ahead) >= LEAST_CHANGE_COUNTS)
+        self.image = np.clip(self.value + np.where(is_change, trust * ahead, 0), 0, COUNT_MAX)
+        self.image = np.floor(self.image + 0.5)
+        is_settled = (self.image <= quiet) | (self.age < tuning.quiet_s)
+        self.image[self.low & ~self.fresh & self.is_noise[self._tile_of] & is_settled] = 0
 
-    def _update_sigma(self, rate: Floats) -> None:
+    def _update_sigma(self) -> None:
         tuning = self._tuning
         time = np.minimum(self.age, tuning.horizon_s)
-        around = ndimage.maximum_filter(self.process_noise, size=3, mode="nearest")
-        process_noise = np.where(self.fresh, self.process_noise, (self.process_noise + around) / 2)
-        variance = tuning.noise_counts**2 + self.frame_scale * np.exp(self.log_scale) * process_noise * time**2
+        self.around = ndimage.maximum_filter(self.process_noise, size=3, mode="nearest")
+        process_noise = (self.process_noise + self.around) / 2
+        variance = self.noise**2 + self.frame_scale * np.exp(self.log_scale) * process_noise * time**2
         variance += (IDLE_COUNTS_PER_S * np.minimum(self.age, 1e3)) ** 2
-        variance += np.where(self.fresh, rate * np.where(self.fresh, self.age, 0), 0) ** 2
         self.sigma = np.minimum(np.sqrt(variance), UNKNOWN_COUNTS)
 
 
@@ -195,12 +309,14 @@ class PatchesReference:
     rows, cols : int
     borders : Borders
     tuning : Tuning
+    noise : float
+        As of `FusionReference`.
     """
 
-    def __init__(self, rows: int, cols: int, borders: Borders, tuning: Tuning) -> None:
+    def __init__(self, rows: int, cols: int, borders: Borders, tuning: Tuning, noise: float) -> None:
         self._shape = (rows, cols)
         self._rectangles = borders.rectangles.tolist()
-        self.parts = [FusionReference(r1 - r0, c1 - c0, tuning) for r0, r1, c0, c1 in self._rectangles]
+        self.parts = [FusionReference(r1 - r0, c1 - c0, tuning, noise) for r0, r1, c0, c1 in self._rectangles]
 
     def step(
         self, indices: NDArray[np.integer], counts: NDArray[np.integer], period_s: float, duration_s: float
@@ -211,6 +327,11 @@ class PatchesReference:
         for part, (r0, r1, c0, c1) in zip(self.parts, self._rectangles, strict=True):
             own = (row >= r0) & (row < r1) & (col >= c0) & (col < c1)
             part.update((row[own] - r0) * (c1 - c0) + col[own] - c0, counts[own], lag[own], period_s)
+
+    def forget(self) -> None:
+        """See `FusionReference.forget`."""
+        for part in self.parts:
+            part.forget()
 
     def field(self, name: str) -> Floats:
         """One of the arrays of `FusionReference`, of the whole skin."""

@@ -21,12 +21,27 @@ PATCH_COLUMNS = 7
 UNKNOWN_COUNTS = 300.0
 """Sigma of a taxel that was never measured: about that of equally likely counts, ``1024 / sqrt(12)``."""
 
+LEAST_NOISE_COUNTS = 0.29
+"""Smallest standard deviation of a reading: whole counts are rounded, ``1 / sqrt(12)``."""
+
+SUMS = 5
+LEARNT_COLUMNS = SUMS + 3
+PRODUCT, SQUARE, READINGS, CHANGES, EXPECTED, QUIET, TRUST, IS_NOISE = range(LEARNT_COLUMNS)
+"""Columns of `State.learnt`; the first `SUMS` are sums that fade."""
+
+CLIPPED_CHANGE = 0.68
+"""Mean square of the change from reading to reading over the variance of the noise, where readings below 0 are 0."""
+
+QUIET_SIGMAS = 4.6
+"""A taxel reads less than this many standard deviations of its noise while nothing touches it."""
+
+PRIOR_SAMPLES = 4.0
+"""As if so many readings of untouched taxels had shown the calibrated noise."""
+
 
 class Tuning(NamedTuple):
     """`acts_recon.fusion.fusion.FusionConfig` for the kernels; times [s], counts."""
 
-    noise_counts: float
-    quiet_counts: float
     quiet_s: float
     horizon_s: float
     damping_s: float
@@ -42,15 +57,34 @@ class State(NamedTuple):
     Attributes
     ----------
     image, sigma : np.ndarray [shape=(taxels,), dtype=float32]
-        Estimate at the end of the last frame and its standard deviation [counts].
+        The skin at the end of the last frame, as far as the estimate is trusted, and its standard deviation [counts].
+    estimate : np.ndarray [shape=(taxels,), dtype=float32]
+        What motion, slopes and innovations beside predict [counts]; of fresh taxels what was measured.
+    noise : np.ndarray [shape=(taxels,), dtype=float32]
+        Calibrated standard deviation of a reading [counts].
     value, slope, age : np.ndarray [shape=(taxels,), dtype=float32]
         Last measurement [counts], how fast it changed [counts/s], and how long it has been [s]; inf: never.
     process_noise : np.ndarray [shape=(taxels,), dtype=float32]
         Mean square of the prediction error per second [(counts/s)^2].
+    around : np.ndarray [shape=(taxels,), dtype=float32]
+        Maximum of the process noise of the 3 x 3 taxels around each, as `sigma` was computed from it.
     fade : np.ndarray [shape=(taxels,), dtype=float32]
         Factor of the slope, from 1 at the time of the measurement towards 0.
     fresh : np.ndarray [shape=(taxels,), dtype=bool]
         Whether the taxel was measured in the last frame.
+    low : np.ndarray [shape=(taxels,), dtype=bool]
+        Whether the last readings of the taxel and of all beside it can be noise.
+    product, square : np.ndarray [shape=(taxels,), dtype=float32]
+        Sums, fading, of predicted times measured change and of predicted change squared [counts^2], where a taxel was
+        measured within the horizon.
+    learnt : np.ndarray [shape=(tiles + 1, LEARNT_COLUMNS), dtype=float32]
+        Fading sums of each tile [counts^2]: the same two of taxels not measured for longer, and of low readings their
+        squares, squares of their changes, and calibrated variances. From them: what untouched taxels may read, in
+        standard deviations of their calibrated noise; the share of predictions that came true; 1 where 0 is better
+        than low readings, else 0. The last row is of places without skin.
+    log_noise : np.ndarray [shape=(patches,), dtype=float32]
+        Logarithm of the noise variance of fast measured taxels over the calibrated one.
+    tile_of : np.ndarray [shape=(taxels,), dtype=uint16]
     normal_sums, row_sums : np.ndarray [shape=(tiles, 6), dtype=float32]
         Sums of the normal equations of Lucas-Kanade: of a tile, fading; and over the tiles beside it.
     velocity : np.ndarray [shape=(tiles, 3), dtype=float32]
@@ -64,7 +98,9 @@ class State(NamedTuple):
     patch_of : np.ndarray [shape=(taxels,), dtype=uint16]
     nis_excess : np.ndarray [shape=(patches,), dtype=float32]
         Sum of the normalised innovations squared of a frame, less their number.
-    scale, compared, before, elapsed, rate, innovation, total, process_noise_total, weight, in_row, around
+    rate : np.ndarray [shape=(taxels,), dtype=float32]
+        How fast the estimate changes [counts/s].
+    noise_scale, noise_excess, scale, compared, before, elapsed, innovation, total, process_noise_total, weight, in_row
         Scratch.
     """
 
@@ -75,7 +111,17 @@ class State(NamedTuple):
     age: NDArray[np.float32]
     process_noise: NDArray[np.float32]
     fade: NDArray[np.float32]
+    estimate: NDArray[np.float32]
+    noise: NDArray[np.float32]
     fresh: NDArray[np.bool_]
+    low: NDArray[np.bool_]
+    product: NDArray[np.float32]
+    square: NDArray[np.float32]
+    learnt: NDArray[np.float32]
+    log_noise: NDArray[np.float32]
+    noise_scale: NDArray[np.float32]
+    noise_excess: NDArray[np.float32]
+    tile_of: NDArray[np.uint16]
     normal_sums: NDArray[np.float32]
     row_sums: NDArray[np.float32]
     velocity: NDArray[np.float32]
@@ -102,39 +148,68 @@ class Memory(NamedTuple):
 
     Attributes
     ----------
-    taxels : np.ndarray [shape=(16, taxels), dtype=float32]
-    fresh : np.ndarray [shape=(taxels,), dtype=bool]
-    tiles : np.ndarray [shape=(2, tiles, 6), dtype=float32]
-    velocity : np.ndarray [shape=(tiles, 3), dtype=float32]
-    scales : np.ndarray [shape=(5, patches), dtype=float32]
+    taxels : np.ndarray [shape=(20, taxels), dtype=float32]
+    flags : np.ndarray [shape=(2, taxels), dtype=bool]
+    tiles : np.ndarray [shape=(2, tiles + 1, 6), dtype=float32]
+    velocity : np.ndarray [shape=(tiles + 1, 3), dtype=float32]
+    scales : np.ndarray [shape=(8, patches), dtype=float32]
+    learnt : np.ndarray [shape=(tiles + 1, LEARNT_COLUMNS), dtype=float32]
     patches : np.ndarray [shape=(patches, PATCH_COLUMNS), dtype=int64]
-    patch_of : np.ndarray [shape=(taxels,), dtype=uint16]
+    owners : np.ndarray [shape=(2, taxels), dtype=uint16]
+        Patch and tile of every taxel.
     """
 
     taxels: NDArray[np.float32]
-    fresh: NDArray[np.bool_]
+    flags: NDArray[np.bool_]
     tiles: NDArray[np.float32]
     velocity: NDArray[np.float32]
     scales: NDArray[np.float32]
+    learnt: NDArray[np.float32]
     patches: NDArray[np.int64]
-    patch_of: NDArray[np.uint16]
+    owners: NDArray[np.uint16]
 
 
-def new_memory(rows: int, cols: int, borders: Borders) -> Memory:
+def new_memory(rows: int, cols: int, borders: Borders, noise_counts: float) -> Memory:
     """Allocate the memory of an array that was never measured."""
     patches = _with_tiles(borders.rectangles)
     tiles = int((patches[:, 5] * patches[:, 6]).sum())
     memory = Memory(
-        taxels=np.zeros((16, rows * cols), dtype=np.float32),
-        fresh=np.zeros(rows * cols, dtype=np.bool_),
-        tiles=np.zeros((2, tiles, 6), dtype=np.float32),
-        velocity=np.zeros((tiles, 3), dtype=np.float32),
-        scales=np.zeros((5, len(patches)), dtype=np.float32),
+        taxels=np.zeros((20, rows * cols), dtype=np.float32),
+        flags=np.zeros((2, rows * cols), dtype=np.bool_),
+        tiles=np.zeros((2, tiles + 1, 6), dtype=np.float32),
+        velocity=np.zeros((tiles + 1, 3), dtype=np.float32),
+        scales=np.zeros((8, len(patches)), dtype=np.float32),
+        learnt=np.zeros((tiles + 1, LEARNT_COLUMNS), dtype=np.float32),
         patches=patches,
-        patch_of=borders.rectangle_of.copy(),
+        owners=np.stack((borders.rectangle_of.ravel(), _tile_of(rows, cols, patches, tiles))).astype(np.uint16),
     )
+    state_of(memory).noise.fill(max(noise_counts, LEAST_NOISE_COUNTS))
     forget(memory)
+    expect_noise(memory)
     return memory
+
+
+def expect_noise(memory: Memory) -> None:
+    """Forget what was learnt of the noise: it is as calibrated until readings say otherwise."""
+    state = state_of(memory)
+    tiles = len(memory.learnt)
+    taxels = np.maximum(np.bincount(state.tile_of, minlength=tiles), 1)
+    variance = np.bincount(state.tile_of, np.square(state.noise, dtype=np.float64), tiles) / taxels
+    # Readings below 0 are 0, so that their mean square is half of the variance.
+    for column, share in ((READINGS, 0.5), (CHANGES, CLIPPED_CHANGE), (EXPECTED, 1.0)):
+        memory.learnt[:, column] = PRIOR_SAMPLES * share * variance
+    memory.learnt[:, QUIET] = QUIET_SIGMAS
+    memory.learnt[:, IS_NOISE] = 1.0
+    state.log_noise.fill(0.0)
+
+
+def _tile_of(rows: int, cols: int, patches: NDArray[np.int64], none: int) -> NDArray[np.uint16]:
+    """Tile of every taxel; `none` where there is no skin."""
+    tile_of = np.full((rows, cols), none, dtype=np.uint16)
+    for top, bottom, left, right, first, _, tile_cols in patches.tolist():
+        row, col = np.ogrid[: bottom - top, : right - left]
+        tile_of[top:bottom, left:right] = first + row // TILE * tile_cols + col // TILE
+    return tile_of.ravel()
 
 
 def _with_tiles(rectangles: NDArray[np.int32]) -> NDArray[np.int64]:
@@ -156,14 +231,24 @@ def state_of(memory: Memory) -> State:
         age=taxels[4],
         process_noise=taxels[5],
         fade=taxels[6],
-        fresh=memory.fresh,
+        estimate=taxels[16],
+        noise=taxels[19],
+        fresh=memory.flags[0],
+        low=memory.flags[1],
+        product=taxels[17],
+        square=taxels[18],
+        learnt=memory.learnt,
+        log_noise=scales[5],
+        noise_scale=scales[6],
+        noise_excess=scales[7],
+        tile_of=memory.owners[1],
         normal_sums=tiles[0],
         row_sums=tiles[1],
         velocity=memory.velocity,
         log_scale=scales[0],
         frame_scale=scales[1],
         patches=memory.patches,
-        patch_of=memory.patch_of,
+        patch_of=memory.owners[0],
         scale=scales[2],
         nis_excess=scales[3],
         compared=scales[4],
@@ -180,9 +265,11 @@ def state_of(memory: Memory) -> State:
 
 
 def forget(memory: Memory) -> None:
-    """Reset a memory to the state of an array that was never measured."""
-    for array in (memory.taxels, memory.fresh, memory.tiles, memory.velocity, memory.scales):
+    """Reset a memory to the state of an array that was never measured, but for what was learnt of its noise."""
+    for array in (memory.taxels[:19], memory.flags, memory.tiles, memory.velocity, memory.scales[:5]):
         array.fill(0)
     state = state_of(memory)
     state.age.fill(np.inf)
     state.sigma.fill(UNKNOWN_COUNTS)
+    memory.learnt[:, [PRODUCT, SQUARE]] = 0.0
+    memory.learnt[:, TRUST] = 1.0

@@ -1,9 +1,9 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What is true of every tactile image: its borders, its noise, its baseline, and what a frame must be.
+"""What all methods of recovery use: borders between patches, noise of taxels, the baseline, and checks of a frame.
 
-In come frames and layouts; out come tables and checks by which the methods of recovery work, and images as bytes.
+In come frames and layouts; out come tables, checked samples, and images as bytes of messages.
 """
 
 from acts_recon.images.baseline import BaselineSubtraction

@@ -18,7 +18,9 @@ COUNT_OUT_OF_RANGE = 3
 
 
 @kernel
-def check_frame(indices: NDArray[np.uint16], counts: NDArray[np.uint16], seen: NDArray[np.bool_]) -> int:
+def check_frame(
+    indices: NDArray[np.uint16], counts: NDArray[np.uint16], seen: NDArray[np.bool_], may_repeat: bool
+) -> int:
     """Return the code of a frame.
 
     Parameters
@@ -26,6 +28,8 @@ def check_frame(indices: NDArray[np.uint16], counts: NDArray[np.uint16], seen: N
     indices, counts : np.ndarray [shape=(m,), dtype=uint16]
     seen : np.ndarray [shape=(n_taxels,), dtype=bool]
         All False, before and after.
+    may_repeat : bool
+        Whether an index may be there several times.
     """
     code = OK
     checked = 0
@@ -34,7 +38,7 @@ def check_frame(indices: NDArray[np.uint16], counts: NDArray[np.uint16], seen: N
             code = INDEX_OUT_OF_RANGE
         elif counts[k] > COUNT_MAX:
             code = COUNT_OUT_OF_RANGE
-        elif seen[indices[k]]:
+        elif seen[indices[k]] and not may_repeat:
             code = INDEX_TWICE
         if code != OK:
             break

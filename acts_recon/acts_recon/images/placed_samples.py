@@ -42,7 +42,7 @@ class PlacedSamples:
         self._seen = np.zeros(geometry.size, dtype=np.bool_)
 
     def of(
-        self, indices: NDArray[np.uint16], counts: NDArray[np.uint16]
+        self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], *, may_repeat: bool = False
     ) -> tuple[NDArray[np.uint16], NDArray[np.uint16]]:
         """Places in the picture, and counts there; 0 where there is no skin.
 
@@ -50,6 +50,8 @@ class PlacedSamples:
         ----------
         indices, counts : np.ndarray [shape=(m,), dtype=uint16]
             Row-major taxel indices of the matrix, and what was measured there.
+        may_repeat : bool
+            Whether a taxel may be there several times; else that is an error.
 
         Raises
         ------
@@ -58,7 +60,7 @@ class PlacedSamples:
         """
         require_samples(indices, counts)
         places = indices if self._places is None else self._places[indices]
-        code = check_frame(places, counts, self._seen)
+        code = check_frame(places, counts, self._seen, may_repeat)
         if code != OK:
             raise ArrayError(why_refused(code, indices, counts, *self._matrix_size))
         return places, counts if self._skin is None else counts * self._skin[indices]

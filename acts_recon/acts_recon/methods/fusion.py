@@ -35,6 +35,10 @@ class Fusion(Method):
         """See `Method.step`."""
         return self._estimator.step(indices, counts, end_s, duration_s)
 
+    def set_noise(self, noise_counts: NDArray[np.float32], valid: NDArray[np.bool_]) -> None:
+        """See `Method.set_noise`."""
+        self._estimator.set_noise(noise_counts, valid)
+
     def confidence(self) -> NDArray[np.uint8]:
         """See `Method.confidence`."""
         return self._estimator.confidence()

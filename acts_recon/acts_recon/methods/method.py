@@ -110,6 +110,9 @@ class Method(ABC):
             When the frame does not fit the array or holds impossible values. Everything is left as it was.
         """
 
+    def set_noise(self, noise_counts: NDArray[np.float32], valid: NDArray[np.bool_]) -> None:  # noqa: B027
+        """Take over the calibrated noise of every taxel, as `FusionEstimator.set_noise`; by default it is not used."""
+
     def confidence(self) -> NDArray[np.uint8] | None:
         """0 to 255 of every taxel, as `FusionEstimator.confidence`; None from a method that does not know."""
         return None

@@ -60,6 +60,10 @@ class Recovery:
         self.method.step(indices, counts, end_s, duration_s)
         return self._finder.find(*self._flat)
 
+    def set_noise(self, noise_counts: NDArray[np.float32], valid: NDArray[np.bool_]) -> None:
+        """See `Method.set_noise`."""
+        self.method.set_noise(noise_counts, valid)
+
     def confidence(self) -> NDArray[np.uint8] | None:
         """See `Method.confidence`."""
         return self.method.confidence()

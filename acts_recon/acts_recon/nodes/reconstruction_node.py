@@ -3,8 +3,8 @@
 
 """Node ``reconstruction``: samples in; full images and the contact in them out, as fast as the samples come.
 
-Topics: samples and baseline in; contact, contacts, impacts, regions, cop, image_raw, image, confidence, object and
-view/* out.
+Topics: samples and baseline in; contact, contacts, impacts, spectra, outlines, regions, cop, image_raw, image,
+confidence, object and view/* out.
 """
 
 from __future__ import annotations
@@ -32,8 +32,9 @@ from acts_msgs.msg import Baseline, TactileSamples
 from acts_msgs.msg import Contact as ContactMessage
 from acts_recon.contacts import Contact
 from acts_recon.images import BaselineSubtraction, mono16, rgb8
+from acts_recon.nodes.abilities import Abilities
+from acts_recon.nodes.age_publisher import AgePublisher
 from acts_recon.nodes.contacts_publisher import ContactsPublisher
-from acts_recon.nodes.impacts_publisher import ImpactsPublisher
 from acts_recon.nodes.object_publisher import ObjectPublisher
 from acts_recon.nodes.region_publisher import RegionsPublisher
 from acts_recon.settings import ReconstructionConfig, ReconstructionSettings
@@ -63,10 +64,10 @@ class ReconstructionNode(Node):
     Subscribes ``samples`` (acts_msgs/TactileSamples), or takes frames by `take` from a driver in the same process.
     Publishes for every frame ``contact`` (acts_msgs/Contact), while in contact ``cop`` (geometry_msgs/PointStamped),
     and where somebody listens ``image_raw`` (sensor_msgs/Image, mono16, counts), ``confidence`` (mono8, with the method
-    ``fusion``), ``image`` (rgb8, for viewers), ``contacts``, ``impacts`` (acts_msgs/Impact), with a layout of several
-    patches, or of one on a link, ``regions`` (acts_msgs/RegionContacts), and, with an object library, ``object``
+    ``fusion``), ``image`` (rgb8, for viewers), ``contacts``, what `Abilities` offers, with a layout of several patches,
+    or of one on a link, ``regions`` (acts_msgs/RegionContacts), and, with an object library, ``object``
     (acts_msgs/ObjectClass). For viewers that draw by themselves ``image_raw``, ``confidence`` and ``contacts`` are also
-    below ``view/``, at most `image_rate_hz` times a second.
+    below ``view/``, at most `image_rate_hz` times a second, and beside them ``view/age`` (32FC1, see `AgePublisher`).
 
     Parameters
     ----------
@@ -95,6 +96,7 @@ class ReconstructionNode(Node):
         rows, cols = self._recovery.image.shape
         self._raw = _empty_image(rows, cols, "mono16", 2)
         self._sureness = _empty_image(rows, cols, "mono8", 1)
+        self._ages = AgePublisher(self, rows, cols)
         scale = self._settings.image_scale
         self._view = _empty_image(rows * scale, cols * scale, "rgb8", 3)
         self._raw_limit = RateLimit(self._settings.image_raw_rate_hz)
@@ -106,9 +108,7 @@ class ReconstructionNode(Node):
         self._contacts = ContactsPublisher(
             self, self._recovery.geometry, self._recovery.response, self._settings.blob_config(), self._recovery.borders
         )
-        self._impacts: ImpactsPublisher | None = None
-        if self._settings.impacts:
-            self._impacts = ImpactsPublisher(self, self._settings.impact_detector(self._recovery))
+        self._abilities = Abilities(self, self._settings, self._recovery)
         regions = self._settings.regions(self._recovery)
         self._regions: RegionsPublisher | None = None
         if regions is not None:
@@ -146,6 +146,7 @@ class ReconstructionNode(Node):
         self._view_limit.set_rate(settings.image_rate_hz)
         if self._objects is not None:
             self._objects.set_rate(settings.object_rate_hz)
+        self._abilities.set_rates(settings)
         if self._regions is not None:
             self._regions.set_rate(settings.regions_rate_hz)
         return ""
@@ -157,9 +158,9 @@ class ReconstructionNode(Node):
         self._send_view = self._view_publisher.get_subscription_count() > 0
         self._send_view_raw = self._view_raw_publisher.get_subscription_count() > 0
         self._send_view_confidence = self._view_confidence_publisher.get_subscription_count() > 0
+        self._ages.look_for_subscribers()
         self._contacts.look_for_subscribers()
-        if self._impacts is not None:
-            self._impacts.look_for_subscribers()
+        self._abilities.look_for_subscribers()
         if self._objects is not None:
             self._objects.look_for_subscribers()
         if self._regions is not None:
@@ -221,10 +222,11 @@ class ReconstructionNode(Node):
             )
             return
         self._begin_anew_with(frame.sequence)
-        counts = self._baseline.apply(frame.indices, frame.counts)
+        every = frame._replace(counts=self._baseline.apply(frame.indices, frame.counts))
+        frame = every.once()
         end_s, duration_s = stamp_ns * 1e-9, frame.duration_us * 1e-6
         try:
-            contact = self._recovery.step(frame.indices, counts, end_s, duration_s)
+            contact = self._recovery.step(frame.indices, frame.counts, end_s, duration_s)
         except ArrayError as error:
             self._reject("bad_frame", str(error))
             return
@@ -238,16 +240,15 @@ class ReconstructionNode(Node):
         self._publish_contact(stamp_ns, frame_id, frame.sequence, contact)
         if self._regions is not None:
             self._regions.publish(stamp_ns, frame_id, frame.sequence, self._recovery)
-        self._publish_images()
+        self._publish_images(duration_s)
         self._contacts.publish(header, frame.sequence, self._recovery.image, self._recovery.sigma)
-        if self._impacts is not None:
-            self._impacts.publish(header, frame.sequence, end_s, duration_s, self._recovery)
+        self._abilities.publish(header, frame, every, end_s)
         if self._objects is not None:
-            self._objects.publish(header, frame.sequence, frame.indices, counts, end_s, duration_s)
+            self._objects.publish(header, frame.sequence, frame.indices, frame.counts, end_s, duration_s)
         self._durations_s.append(time.perf_counter() - began_s)
 
-    def _publish_images(self) -> None:
-        is_view_wanted = self._send_view or self._send_view_raw or self._send_view_confidence
+    def _publish_images(self, duration_s: float) -> None:
+        is_view_wanted = self._send_view or self._send_view_raw or self._send_view_confidence or self._ages.is_wanted
         is_view_due = is_view_wanted and self._view_limit.due(time.monotonic())
         if self._send_raw and self._raw_limit.due(time.monotonic()):
             self._publish_raw(self._raw_publisher)
@@ -257,6 +258,8 @@ class ReconstructionNode(Node):
             self._publish_confidence(self._confidence_publisher)
         if self._send_view_confidence and is_view_due:
             self._publish_confidence(self._view_confidence_publisher)
+        if self._ages.is_wanted and is_view_due:
+            self._ages.publish(self._header, self._recovery, duration_s)
         if self._send_view and is_view_due:
             self._publish_view()
 
@@ -268,9 +271,9 @@ class ReconstructionNode(Node):
                     f"baseline of {message.rows} x {message.cols}: the parameters rows and cols say "
                     f"{settings.rows} x {settings.cols}"
                 )
-            self._baseline.set(
-                np.asarray(message.baseline, dtype=np.float32), np.asarray(message.valid, dtype=np.bool_)
-            )
+            valid = np.asarray(message.valid, dtype=np.bool_)
+            self._baseline.set(np.asarray(message.baseline, dtype=np.float32), valid)
+            self._recovery.set_noise(np.asarray(message.noise, dtype=np.float32), valid)
         except ArrayError as error:
             self._rejected["bad_baseline"] += 1
             self.get_logger().warning(f"baseline not used: {error}")
@@ -309,8 +312,7 @@ class ReconstructionNode(Node):
         """Forget all frames where this one is of a board that counts from the start again."""
         if self._began_anew(sequence):
             self._recovery.reset()
-            if self._impacts is not None:
-                self._impacts.reset()
+            self._abilities.reset()
             if self._objects is not None:
                 self._objects.reset()
             if self._regions is not None:

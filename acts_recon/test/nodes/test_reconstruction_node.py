@@ -240,19 +240,27 @@ def test_the_viewer_image_keeps_its_rate_and_costs_nothing_unheard(make_bench: C
     bench.send(0, indices, indices)
     bench.contact(0)
     assert bench.node._view_limit.taken == 0
-    topics = ("image", "view/image_raw", "view/confidence")
+    topics = ("image", "view/image_raw", "view/confidence", "view/age")
     for topic in topics:
         bench.listen(Image, topic, qos.VIEW)
     bench.until(
-        lambda: bench.node._send_view and bench.node._send_view_raw and bench.node._send_view_confidence,
+        lambda: (
+            bench.node._send_view
+            and bench.node._send_view_raw
+            and bench.node._send_view_confidence
+            and bench.node._ages.is_wanted
+        )
     )
     for sequence in range(1, 20):
         bench.send(sequence, indices, indices)
     bench.contact(19)
     bench.until(lambda: all(bench.received[topic] for topic in topics))
-    assert [len(bench.received[topic]) for topic in topics] == [1, 1, 1]
-    assert [bench.received[topic][0].encoding for topic in topics] == ["rgb8", "mono16", "mono8"]
+    assert [len(bench.received[topic]) for topic in topics] == [1, 1, 1, 1]
+    assert [bench.received[topic][0].encoding for topic in topics] == ["rgb8", "mono16", "mono8", "32FC1"]
     assert len({bench.received[topic][0].header.stamp.nanosec for topic in topics}) == 1
+    age_s = np.frombuffer(bench.received["view/age"][0].data, np.float32)
+    assert not age_s[indices].any()
+    assert np.isinf(np.delete(age_s, indices)).all()
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,79 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Frames recovered without the node: what is lost between them, and what a board that begins anew leaves behind."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from acts_core.errors import ArrayError
+from acts_core.frames import SampleFrame, Scheme
+from acts_recon.frame_recovery import FrameRecovery
+from acts_recon.settings import ReconstructionSettings
+
+SIDE = 8
+
+
+def frame(sequence: int, counts: int, side: int = SIDE) -> SampleFrame:
+    """All taxels at once, a patch of 3 x 3 of them pressed."""
+    image = np.zeros((side, side), np.uint16)
+    image[2:5, 2:5] = counts
+    indices = np.arange(side * side, dtype=np.uint16)
+    return SampleFrame(sequence, 1000 * sequence, 900, Scheme.RASTER, side, side, 0, indices, image.ravel())
+
+
+@pytest.fixture(scope="module")
+def recovery() -> FrameRecovery:
+    return FrameRecovery(ReconstructionSettings(rows=SIDE, cols=SIDE))
+
+
+def test_a_press_is_one_contact_and_what_is_missing_before_it_is_counted(recovery: FrameRecovery) -> None:
+    recovery.reset()
+    lost = [recovery.step(frame(sequence, 500), 1_000_000 * sequence) for sequence in (5, 6, 9)]
+    assert lost == [0, 0, 2]
+    assert recovery.contact.in_contact
+    (blob,) = recovery.blobs
+    assert blob.x_m == pytest.approx(recovery.contact.x_m, abs=1e-3)
+    assert recovery.regions == ()
+
+
+def test_a_board_that_begins_anew_is_another_one(recovery: FrameRecovery) -> None:
+    recovery.reset()
+    number = 0
+    for sequence in range(100, 110):
+        recovery.step(frame(sequence, 500), 1_000_000 * sequence)
+        number = recovery.blobs[0].number if recovery.blobs else number
+    assert recovery.step(frame(0, 0), 200_000_000) == 0
+    assert not recovery.recovery.image.any()
+    assert not recovery.contact.in_contact
+    # It is not the one of before, which would be bridged.
+    for sequence in range(1, 5):
+        recovery.step(frame(sequence, 500), 200_000_000 + 1_000_000 * sequence)
+    assert recovery.blobs[0].number != number
+
+
+def test_a_frame_of_another_size_is_refused(recovery: FrameRecovery) -> None:
+    with pytest.raises(ArrayError, match="16 x 16 taxels, expected are 8 x 8"):
+        recovery.step(frame(0, 0, side=16), 0)
+
+
+def test_the_noise_of_a_baseline_is_that_of_its_taxels(recovery: FrameRecovery) -> None:
+    recovery.reset()
+    noise = np.where(np.arange(SIDE * SIDE) < 8, 12.0, 1.0).astype(np.float32)
+    recovery.set_baseline(np.zeros(SIDE * SIDE, np.float32), noise, np.ones(SIDE * SIDE, dtype=np.bool_))
+    recovery.step(frame(0, 0), 0)
+    sigma = recovery.recovery.sigma
+    assert sigma is not None
+    assert sigma.ravel() == pytest.approx(noise, rel=0.01)
+    recovery.set_baseline(np.zeros(SIDE * SIDE, np.float32), noise, noise < 0)
+
+
+def test_a_baseline_is_subtracted(recovery: FrameRecovery) -> None:
+    recovery.reset()
+    still = np.zeros(SIDE * SIDE, np.float32)
+    recovery.set_baseline(still + 500, still, still == 0)
+    recovery.step(frame(0, 500), 0)
+    assert not recovery.recovery.image.any()
+    recovery.set_baseline(still, still, still == 0)
