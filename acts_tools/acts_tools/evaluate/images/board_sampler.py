@@ -137,13 +137,13 @@ class PythonSampler:
 
     Parameters
     ----------
-    config, noise_counts
+    config, noise_counts, skin_map
         See `BoardSampler`.
     """
 
-    def __init__(self, config: SamplingConfig, noise_counts: float = 0.0) -> None:
+    def __init__(self, config: SamplingConfig, noise_counts: float = 0.0, skin_map: SkinMap | None = None) -> None:
         self.config = config
-        self._sampler = Sampler(config)
+        self._sampler = Sampler(config, skin_map)
         self._noise_counts = noise_counts
         self._random = np.random.default_rng(config.seed)
 
@@ -165,10 +165,12 @@ class PythonSampler:
         return self._sampler.frame(measure)
 
 
-def sampler_of(config: SamplingConfig, noise_counts: float = 0.0) -> BoardSampler | PythonSampler:
+def sampler_of(
+    config: SamplingConfig, noise_counts: float = 0.0, skin_map: SkinMap | None = None
+) -> BoardSampler | PythonSampler:
     """The firmware's sampler if it has the scheme, else Python's."""
     in_firmware = any(line.split("\t")[0] == config.scheme for line in scheme_table().splitlines())
-    return (BoardSampler if in_firmware else PythonSampler)(config, noise_counts)
+    return (BoardSampler if in_firmware else PythonSampler)(config, noise_counts, skin_map=skin_map)
 
 
 def scheme_table(library: Path | None = None) -> str:

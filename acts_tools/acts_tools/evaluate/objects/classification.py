@@ -76,11 +76,13 @@ class Contender(Protocol):
 
 
 class PerFrameSrc:
-    """The paper's method: adaptive sampling, SRC on the samples of one frame."""
+    """The paper's method: SRC on the samples of one frame, of adaptive sampling or another of its schemes."""
 
-    def __init__(self, library: ObjectLibrary, m: int, *, touch_counts: int = TOUCH_COUNTS) -> None:
+    def __init__(
+        self, library: ObjectLibrary, m: int, *, touch_counts: int = TOUCH_COUNTS, scheme: str = "adaptive"
+    ) -> None:
         self.sampling = SamplingConfig(
-            scheme="adaptive", rows=library.rows, cols=library.cols, m=m, threshold_counts=touch_counts
+            scheme=scheme, rows=library.rows, cols=library.cols, m=m, threshold_counts=touch_counts
         )
         self._classifier = Classifier(library, ClassifierConfig(touch_counts=touch_counts))
         self.spent_us: list[float] = []
@@ -293,6 +295,21 @@ def accuracy(right: int, n: int) -> dict[str, Any]:
     return {"accuracy": right / n, "low": low, "high": high, "presses": n}
 
 
+def arm_of(trials: Trials, number: int) -> tuple[PressingArm, ObjectLibrary, ObjectLibrary]:
+    """An arm by its number, and libraries of its presses: without counts below the paper's threshold, and with them."""
+    arm = PressingArm(trials.objects, trials.pressing, trials.foam, seed=trials.seed * 1000 + number)
+    known, labels = arm.held_frames(trials.columns)
+    coarse = build_object_library(known, labels, touch_counts=TOUCH_COUNTS)
+    fine = build_object_library(known, labels, touch_counts=ImageClassifierConfig().touch_counts)
+    return arm, coarse, fine
+
+
+def press_of(arm: PressingArm, item: int, after_s: float) -> tuple[NDArray[np.uint16], float]:
+    """A new press of an object, recorded until `after_s` after the foam is touched, and the time of contact [s]."""
+    frames = arm.recording(item, _BEFORE_S, after_s)
+    return frames, float(np.argmax(frames.max(axis=(1, 2)) > TOUCH_COUNTS)) / RECORDED_HZ
+
+
 def run_trials(
     trials: Trials,
     ms: Sequence[int] = MS,
@@ -313,19 +330,14 @@ def run_trials(
     times_s = [1e-3 * time_ms for time_ms in times_ms]
     after_s = 1e-3 * max(MIDDLE_MS, *times_ms) + 0.015
     for number in range(trials.arms):
-        arm = PressingArm(trials.objects, trials.pressing, trials.foam, seed=trials.seed * 1000 + number)
-        known, labels = arm.held_frames(trials.columns)
-        coarse = build_object_library(known, labels, touch_counts=TOUCH_COUNTS)
-        fine = build_object_library(known, labels, touch_counts=ImageClassifierConfig().touch_counts)
-
+        arm, coarse, fine = arm_of(trials, number)
         judged = {m: contenders(coarse, fine, m) for m in ms}
         timed = contenders(coarse, fine, M_OVER_TIME)
         for item in range(len(arm.objects)):
             show((number + item / len(arm.objects)) / trials.arms)
             wanted = coarse.names.index(arm.objects[item].name)
             for _ in range(trials.presses):
-                frames = arm.recording(item, _BEFORE_S, after_s)
-                contact_s = float(np.argmax(frames.max(axis=(1, 2)) > TOUCH_COUNTS)) / RECORDED_HZ
+                frames, contact_s = press_of(arm, item, after_s)
                 for method, contender in timed.items():
                     found = answers(contender, frames, RECORDED_HZ, contact_s, times_s)
                     over_time[method].rows.append([answer == wanted for answer in found])

@@ -1,0 +1,114 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""`acts figures`: draw figures of the paper, with the paper's curves, its method here, and ours."""
+
+from __future__ import annotations
+
+import argparse
+import time
+from pathlib import Path
+from typing import Any
+
+from acts_core.errors import RecordingError
+from acts_tools.evaluate import report
+from acts_tools.figures.differences import differences
+from acts_tools.figures.drawing import draw
+from acts_tools.figures.figure import Figure
+from acts_tools.figures.files import read_stamped, write_csv, write_stamped
+from acts_tools.figures.published import VARIABLE, PublishedData, published_data
+from acts_tools.figures.registry import FIGURES, figures_named
+from acts_tools.figures.run import Run
+from acts_tools.figures.sheet import PUBLISHED, Panel, from_json, rows, to_json
+from acts_tools.progress import Progress
+
+_HEADER = ("panel", "curve", "by", "x", "y", "low", "high")
+_WITHOUT = f"The paper's curves are not drawn: give their folder as --paper-data or {VARIABLE} (docs/paper.md)."
+
+
+def add_parser(subparsers: Any) -> None:
+    """Add ``acts figures`` to the acts command."""
+    parser = subparsers.add_parser(
+        "figures",
+        help="draw the paper's figures beside ours",
+        description="Draw figures of the paper, each with the paper's curves where it has some, the paper's method on "
+        "our simulated skin, and our method. Beside each picture are its numbers, as JSON and CSV. A figure that was "
+        "measured with the same version, seed and size is not measured again. docs/paper.md discusses every figure.",
+    )
+    parser.add_argument("name", nargs="*", metavar="NAME", help=f"of {', '.join(FIGURES)} (default: all)")
+    parser.add_argument("--out", type=Path, default=Path("figures"), metavar="DIR", help="default: %(default)s")
+    parser.add_argument("--fast", action="store_true", help="few presses and drops, rough numbers: a minute for all")
+    parser.add_argument("--seed", type=int, default=1, metavar="X", help="of everything random (default: %(default)s)")
+    parser.add_argument("--again", action="store_true", help="measure again what was measured before")
+    parser.add_argument(
+        "--paper-data",
+        type=Path,
+        metavar="DIR",
+        help=f"folder with the published curves (default: that of the environment variable {VARIABLE}, else none)",
+    )
+    parser.add_argument("--json", type=Path, metavar="OUT", help="write all figures' numbers to one JSON file, too")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Draw the figures and return the exit code.
+
+    Raises
+    ------
+    ActsError
+        When a name is unknown, a file cannot be written, or the published curves cannot be read.
+    """
+    figures = figures_named(arguments.name)
+    published = published_data(arguments.paper_data)
+    try:
+        arguments.out.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise RecordingError(f"--out {arguments.out}: the folder cannot be made ({error.strerror})") from error
+    one = Run(arguments.out, arguments.seed, arguments.fast, arguments.again)
+    results = report.Results(arguments.json, one.settings)
+    if published is None and any(figure.has_published for figure in figures):
+        print(_WITHOUT)
+    with Progress("figures", len(figures)) as progress:
+        for number, figure in enumerate(figures):
+            progress.show(number, figure.name)
+            results.add(_make(figure, one, published))
+    return 0
+
+
+def _make(figure: Figure, one: Run, published: PublishedData | None) -> dict[str, Any]:
+    """Measure a figure, or read what was measured, draw it, and return what its JSON file contains."""
+    path = one.out / f"{figure.file_name}.json"
+    known = None if one.again else read_stamped(path, one.settings)
+    began_s = time.monotonic()
+    panels = figure.measure(one) if known is None else _measured(known)
+    spent_s = time.monotonic() - began_s
+    whole = panels if published is None else figure.with_published(published, panels)
+    command = one.command(figure.name)
+    compared = differences(whole)
+    entry = {
+        "figure": figure.name,
+        "title": figure.title,
+        "command": command,
+        **one.settings,
+        "notes": list(figure.notes),
+        "published": published is not None and figure.has_published,
+        "differences": compared,
+        "panels": to_json(whole),
+    }
+    write_stamped(path, entry)
+    write_csv(path.with_suffix(".csv"), command, _HEADER, rows(whole))
+    notes = [*figure.notes, *([_WITHOUT] if published is None and figure.has_published else [])]
+    draw(path.with_suffix(".png"), figure, whole, command, notes)
+    how = "as measured before" if known is not None else f"measured in {spent_s:.1f} s"
+    print(f"{figure.name:5} {path.with_suffix('.png')}, {how}", flush=True)
+    for line in compared:
+        print(
+            f"      {line['panel']}: {line['curve']} differs from {line['published']} by {line['mean_absolute']:.3g} "
+            f"({100 * line['mean_relative']:.1f} %) in the mean, {line['mean']:+.3g} with sign",
+            flush=True,
+        )
+    return entry
+
+
+def _measured(known: dict[str, Any]) -> list[Panel]:
+    """Panels of a file without what is published, which is read anew."""
+    return [panel.without_published() for panel in from_json(known["panels"]) if panel.by != PUBLISHED]

@@ -1,0 +1,62 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Files of figures: numbers as JSON and CSV, each with the command and the seed that made them."""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from acts_core.errors import RecordingError
+
+
+def read_stamped(path: Path, settings: Mapping[str, Any]) -> dict[str, Any] | None:
+    """The content of a JSON file that was made with the same settings; None where there is none."""
+    try:
+        found = json.loads(path.read_text())
+    except (OSError, ValueError):
+        return None
+    if not isinstance(found, dict) or any(found.get(name) != value for name, value in settings.items()):
+        return None
+    return found
+
+
+def write_stamped(path: Path, content: Mapping[str, Any]) -> None:
+    """Write a JSON file as a whole or not at all, so that an interruption leaves no half of it.
+
+    Raises
+    ------
+    RecordingError
+        When it cannot be written.
+    """
+    partial = path.with_name(path.name + ".partial")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        partial.write_text(json.dumps(content, allow_nan=False) + "\n")
+        partial.replace(path)
+    except OSError as error:
+        raise RecordingError(f"{path}: cannot be written ({error.strerror})") from error
+    except ValueError as error:
+        raise RecordingError(f"{path}: a number is not finite ({error}); please report this") from error
+
+
+def write_csv(path: Path, command: str, header: Sequence[str], rows: Sequence[Sequence[Any]]) -> None:
+    """Write a CSV file whose first line, a comment, is the command.
+
+    Raises
+    ------
+    RecordingError
+        When it cannot be written.
+    """
+    try:
+        with path.open("w", newline="") as file:
+            file.write(f"# {command}\n")
+            writer = csv.writer(file)
+            writer.writerow(header)
+            writer.writerows(rows)
+    except OSError as error:
+        raise RecordingError(f"{path}: cannot be written ({error.strerror})") from error

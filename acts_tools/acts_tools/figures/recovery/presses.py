@@ -1,0 +1,127 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Presses of the 30 simulated objects, and the scores of a method on them: what the figures on recovery share."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+
+from acts_core.sampling import SamplingConfig
+from acts_recon.learning import KsvdConfig, learn_dictionary
+from acts_recon.sparse import Dictionary, load_dictionary, shipped_dictionary_path
+from acts_sim.pressing import OBJECTS, PRESS_RATE_HZ, ContactModel, ContactObject, FoamConfig, press_over_time
+from acts_tools.evaluate.images.recovery import FOLLOW_COUNTS, Recording, Task, evaluate
+from acts_tools.figures.run import Run
+from acts_tools.train import choose_patches, model_frames
+
+TOUCH_COUNTS = 50
+"""A taxel above it is pressed; the paper takes less for no touch."""
+
+SCHEMES = ("adaptive", "uniform", "random")
+"""The paper's."""
+
+M = (42, 56, 64, 88, 128, 176, 256, 352, 512)
+M_FAST = (64, 256)
+TENTH_HZ = 100.0
+"""Frame rate where methods of single frames are compared: a tenth of the frames has the same mean."""
+
+_NOISE_COUNTS = 3.0
+_OBJECTS_FAST = 5
+
+
+def objects(run: Run) -> list[ContactObject]:
+    """All objects, or a few of different size."""
+    items = list(OBJECTS.values())
+    return run.pick(items, items[:: len(items) // _OBJECTS_FAST][:_OBJECTS_FAST])
+
+
+def presses(run: Run, items: Sequence[ContactObject]) -> list[Recording]:
+    """One press of every object, as `acts evaluate objects` makes them of the same seed."""
+    model = ContactModel(config=FoamConfig(noise_counts=0.0), seed=run.seed)
+    live = np.ones((model.geometry.rows, model.geometry.cols), dtype=bool)
+    return [Recording(press_over_time(model, item), PRESS_RATE_HZ, live) for item in items]
+
+
+def task(
+    run: Run, method: str, scheme: str, m: int, *, rate_hz: float = 1000.0, sparsity_ratio: float | None = None
+) -> Task:
+    """A method with a scheme and M taxels, scored over whole presses."""
+    threshold = FOLLOW_COUNTS if scheme == "tracking" else TOUCH_COUNTS
+    sampling = SamplingConfig(scheme=scheme, m=m, threshold_counts=threshold, seed=run.seed)
+    return Task(
+        sampling,
+        method,
+        rate_hz=rate_hz,
+        onset_s=0.0,
+        noise_counts=_NOISE_COUNTS,
+        settings=() if sparsity_ratio is None else (("sparsity_ratio", sparsity_ratio),),
+    )
+
+
+def shipped() -> Dictionary:
+    """The dictionary that comes with ACTS."""
+    return load_dictionary(shipped_dictionary_path())
+
+
+def support(recordings: Sequence[Recording], its: Task, dictionary: Dictionary) -> float:
+    """Support accuracy, mean over all frames in contact."""
+    return float(evaluate(recordings, its, dictionary)["support_accuracy"])
+
+
+def over_m(
+    run: Run,
+    title: str,
+    recordings: Sequence[Recording],
+    pairs: Sequence[tuple[str, str]],
+    dictionary: Dictionary,
+    *,
+    ms: Sequence[int] | None = None,
+    rate_hz: float = 1000.0,
+) -> dict[str, Any]:
+    """Support accuracy of methods with schemes over M.
+
+    Returns
+    -------
+    dict
+        `m`, and `support`: by "method, scheme" a list of one number for each M.
+    """
+    ms = run.pick(M if ms is None else ms, M_FAST)
+    found: dict[str, list[float]] = {}
+    with run.progress(title, len(pairs) * len(ms)) as progress:
+        for method, scheme in pairs:
+            values = found.setdefault(f"{method}, {scheme}", [])
+            for m in ms:
+                values.append(support(recordings, task(run, method, scheme, m, rate_hz=rate_hz), dictionary))
+                progress.show(sum(map(len, found.values())))
+    return {"m": list(ms), "support": found}
+
+
+def learn(
+    run: Run,
+    items: Sequence[ContactObject],
+    *,
+    atoms: int,
+    patches: int,
+    frames: int,
+    show: Callable[[float], None] = lambda _: None,
+) -> Dictionary:
+    """Learn a dictionary from presses of some objects, with the settings of `acts train`.
+
+    Parameters
+    ----------
+    items : sequence of ContactObject
+    atoms, patches, frames : int
+        How many there are.
+    show : callable
+        Called with the share of the iterations that is done.
+    """
+    config = KsvdConfig(atoms=atoms)
+    rng = np.random.default_rng(run.seed)
+    pressed = model_frames(list(items), frames, run.seed)
+    chosen = choose_patches(pressed, patches, size=8, touch_counts=60.0, min_active=4, coherence=0.99, rng=rng)
+    learnt = learn_dictionary(chosen, config, rng=rng, progress=lambda state: show(state.iteration / config.iterations))
+    return Dictionary(learnt, 8, {}, f"{atoms} atoms of {len(items)} objects")

@@ -1,0 +1,206 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Figures 4E, S6, S8-1 and S8-2: support accuracy over the taxels measured, by object size, and by dictionary."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from acts_core.array import ArrayGeometry
+from acts_recon.methods import SkinSetup
+from acts_sim.pressing import FoamConfig, PressingArm, object_named
+from acts_tools.evaluate.estimators.methods import method_named
+from acts_tools.evaluate.images.board_sampler import sampler_of
+from acts_tools.figures.figure import Figure
+from acts_tools.figures.published import PublishedData
+from acts_tools.figures.recovery import presses
+from acts_tools.figures.recovery.presses import SCHEMES
+from acts_tools.figures.run import Run
+from acts_tools.figures.sheet import OURS, PUBLISHED, SAME, Curve, Panel, Picture
+
+_M_LABEL, _SUPPORT = "taxels measured per frame, M", "support accuracy"
+_PUBLISHED_SCHEMES = {"adaptive": "Binary Sampling", "uniform": "Down Sampling", "random": "Random Sampling"}
+_TAXELS = 1024
+_M_OF_SIZES = (64, 512)
+_M_OF_DICTIONARIES = (42, 64, 88, 128, 256, 512)
+_M_OF_PICTURES = (64, 128, 256)
+_DICTIONARIES = {"paper": "learnt", "dct": "DCT", "haar": "Haar"}
+_PUBLISHED_DICTIONARIES = {"paper": "Learned", "dct": "DCT", "haar": "Haar"}
+
+
+def _measure_support(run: Run) -> list[Panel]:
+    def measure() -> Any:
+        pairs = [(method, scheme) for method in ("paper", "linear") for scheme in SCHEMES] + [("acts", "tracking")]
+        recordings = presses.presses(run, presses.objects(run))
+        return presses.over_m(run, "support over M", recordings, pairs, presses.shipped())
+
+    found = run.shared("support", measure)
+    ms = [float(m) for m in found["m"]]
+    of = found["support"]
+    panels = []
+    for method, title in (("paper", "dictionary"), ("linear", "linear interpolation")):
+        curves = [Curve(f"{scheme}", ms, of[f"{method}, {scheme}"], SAME, scheme) for scheme in SCHEMES]
+        curves.append(Curve("ours, tracking", ms, of["acts, tracking"], OURS, "tracking"))
+        panels.append(Panel(title, _M_LABEL, _SUPPORT, curves, log_x=True))
+    return panels
+
+
+def _published_support(data: PublishedData, panels: Sequence[Panel]) -> dict[str, list[Curve]]:
+    names = {"dictionary": "Learned Dictionary", "linear interpolation": "Linear Interpolation"}
+    return {
+        title: [
+            data.curve(
+                "fig4/M_Acc_recon.fig",
+                f"{word} + {name}",
+                named=f"{scheme}, published",
+                beside=scheme,
+                scheme=scheme,
+                scale=1 / _TAXELS,
+            )
+            for scheme, word in _PUBLISHED_SCHEMES.items()
+        ]
+        for title, name in names.items()
+    }
+
+
+def _measure_sizes(run: Run) -> list[Panel]:
+    items = presses.objects(run)
+    recordings = presses.presses(run, items)
+    sizes = [float((one.frames.max(axis=0) > presses.TOUCH_COUNTS).sum()) for one in recordings]
+    order = np.argsort(sizes).tolist()
+    pairs = [("paper", scheme) for scheme in SCHEMES] + [("acts", "tracking")]
+    dictionary = presses.shipped()
+    panels = []
+    with run.progress("support over size", len(_M_OF_SIZES) * len(pairs) * len(items)) as progress:
+        done = 0
+        for m in _M_OF_SIZES:
+            curves = []
+            for method, scheme in pairs:
+                values = []
+                for number in order:
+                    its = presses.task(run, method, scheme, m, rate_hz=presses.TENTH_HZ)
+                    values.append(presses.support([recordings[number]], its, dictionary))
+                    progress.show(done := done + 1)
+                ours = method == "acts"
+                label = "ours, tracking" if ours else scheme
+                x = [sizes[number] for number in order]
+                curves.append(Curve(label, x, values, OURS if ours else SAME, scheme, points=True))
+                if not ours:
+                    line = np.polyfit(x, values, 1)
+                    ends = [x[0], x[-1]]
+                    curves.append(Curve(f"{scheme}, line", ends, np.polyval(line, ends).tolist(), SAME, scheme))
+            panels.append(Panel(f"M = {m}", "taxels pressed by the object", _SUPPORT, curves))
+    return panels
+
+
+def _published_sizes(data: PublishedData, panels: Sequence[Panel]) -> dict[str, list[Curve]]:
+    files = {64: "figS_sizeAcc/objsize_acc_smallM.fig", 512: "figS_sizeAcc/objsize_acc_bigM.fig"}
+    words = {"adaptive": "Binary Sampling", "uniform": "Down-Sampling", "random": "Random Sampling"}
+    found = {}
+    for m, file in files.items():
+        curves = []
+        for scheme, word in words.items():
+            points = data.points(file, word)
+            x, y = points[:, 0], points[:, 1] / _TAXELS
+            ends = [float(x.min()), float(x.max())]
+            line = np.polyval(np.polyfit(x, y, 1), ends).tolist()
+            curves.append(Curve(f"{scheme}, published line", ends, line, PUBLISHED, scheme, beside=f"{scheme}, line"))
+        found[f"M = {m}"] = curves
+    return found
+
+
+def _measure_dictionaries(run: Run) -> list[Panel]:
+    def measure() -> Any:
+        pairs = [(method, scheme) for method in _DICTIONARIES for scheme in SCHEMES]
+        recordings = presses.presses(run, presses.objects(run))
+        return presses.over_m(
+            run,
+            "support over M by dictionary",
+            recordings,
+            pairs,
+            presses.shipped(),
+            ms=_M_OF_DICTIONARIES,
+            rate_hz=presses.TENTH_HZ,
+        )
+
+    found = run.shared("dictionaries", measure)
+    ms = [float(m) for m in found["m"]]
+    panels = []
+    for scheme in SCHEMES:
+        curves = [
+            Curve(name, ms, found["support"][f"{method}, {scheme}"], SAME, _colour(method))
+            for method, name in _DICTIONARIES.items()
+        ]
+        panels.append(Panel(scheme, _M_LABEL, _SUPPORT, curves, log_x=True))
+    return panels
+
+
+def _published_dictionaries(data: PublishedData, panels: Sequence[Panel]) -> dict[str, list[Curve]]:
+    return {
+        scheme: [
+            data.curve(
+                "figS_otherDict/M_acc_otherDict.fig",
+                f"{word} + {_PUBLISHED_DICTIONARIES[method]} Dictionary",
+                named=f"{name}, published",
+                beside=name,
+                scheme=_colour(method),
+                scale=1 / _TAXELS,
+            )
+            for method, name in _DICTIONARIES.items()
+        ]
+        for scheme, word in _PUBLISHED_SCHEMES.items()
+    }
+
+
+def _colour(method: str) -> str:
+    return {"paper": "tab:blue", "dct": "tab:orange", "haar": "tab:green"}[method]
+
+
+def _measure_pictures(run: Run) -> list[Panel]:
+    """One press of the printed X, its samples, and its recovery by three dictionaries."""
+    arm = PressingArm([object_named("x")], foam=FoamConfig(noise_counts=0.0), seed=run.seed)
+    frame = arm.held_frame(0)
+    middle = frame[None]
+    skin = SkinSetup(ArrayGeometry(), touch_counts=presses.TOUCH_COUNTS)
+    panels = []
+    for m in _M_OF_PICTURES:
+        its = presses.task(run, "paper", "random", m)
+        indices, counts = sampler_of(its.sampling, its.noise_counts).frame(middle, 0.0, 0.0)
+        measured = np.zeros(_TAXELS)
+        measured[indices] = counts
+        panels.append(_image(f"measured, M = {m}", measured))
+        for method, name in _DICTIONARIES.items():
+            recovered = method_named(method)(skin, presses.shipped(), {}).step(indices, counts, 0.0, 0.0)
+            panels.append(_image(f"{name}, M = {m}", recovered))
+    panels.append(_image("truth", frame.astype(float)))
+    return panels
+
+
+def _image(title: str, counts: Any) -> Panel:
+    return Panel(
+        title, picture=Picture(np.asarray(counts, dtype=float).reshape(32, 32).tolist(), lowest=0.0, highest=800.0)
+    )
+
+
+FIGURES = (
+    Figure("4E", "support accuracy over the taxels measured", _measure_support, _published_support, columns=2),
+    Figure(
+        "S6",
+        "support accuracy over the size of the object",
+        _measure_sizes,
+        _published_sizes,
+        columns=2,
+        notes=("Lines: least squares through the points of a scheme.",),
+    ),
+    Figure(
+        "S8-1",
+        "recovery of one frame by other dictionaries, random sampling",
+        _measure_pictures,
+        columns=4,
+    ),
+    Figure("S8-2", "support accuracy by other dictionaries", _measure_dictionaries, _published_dictionaries),
+)

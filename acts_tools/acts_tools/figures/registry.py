@@ -1,0 +1,54 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""The figures by name.
+
+To add one, write a module with ``FIGURES`` (see `acts_tools.figures.figure.Figure`), and name it here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from acts_core.errors import SettingsError
+from acts_tools.figures.board import force_response, frame_rates, on_board
+from acts_tools.figures.control import hand, letters
+from acts_tools.figures.events import bounces, ricochets, rotator, soft_bodies, wearables
+from acts_tools.figures.figure import Figure
+from acts_tools.figures.recovery import dictionaries, large_area, new_objects, recognition, support
+
+_MODULES = (
+    frame_rates,
+    support,
+    recognition,
+    bounces,
+    ricochets,
+    soft_bodies,
+    large_area,
+    wearables,
+    on_board,
+    letters,
+    hand,
+    new_objects,
+    dictionaries,
+    force_response,
+    rotator,
+)
+
+FIGURES: dict[str, Figure] = {figure.name: figure for module in _MODULES for figure in module.FIGURES}
+"""All figures in the order in which they are drawn."""
+
+
+def figures_named(names: Sequence[str]) -> list[Figure]:
+    """Figures by name, upper or lower case; all for no name.
+
+    Raises
+    ------
+    SettingsError
+        When there is none of a name.
+    """
+    known = {name.lower(): figure for name, figure in FIGURES.items()}
+    for name in names:
+        if name.lower() not in known:
+            raise SettingsError(f"figure {name!r}: allowed are {', '.join(FIGURES)}")
+    return [known[name.lower()] for name in names] if names else list(FIGURES.values())

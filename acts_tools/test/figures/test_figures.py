@@ -1,0 +1,94 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""`acts figures --fast`: every figure is made, of finite numbers, and says by which command."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from acts_tools.cli import main
+from acts_tools.figures.registry import FIGURES
+
+PNG = b"\x89PNG\r\n\x1a\n"
+
+
+def numbers(value: Any) -> Iterator[float]:
+    """All numbers in plain data."""
+    if isinstance(value, dict):
+        value = list(value.values())
+    if isinstance(value, list):
+        for one in value:
+            yield from numbers(one)
+    elif isinstance(value, int | float):
+        yield float(value)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """One for all figures, because some share measurements."""
+    return tmp_path_factory.mktemp("figures")
+
+
+@pytest.mark.parametrize("name", FIGURES)
+def test_a_figure_is_made_of_finite_numbers(name: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("ACTS_PAPER_DATA", raising=False)
+    assert main(["figures", name, "--fast", "--out", str(folder)]) == 0
+    path = folder / f"{FIGURES[name].file_name}.json"
+    made = json.loads(path.read_text())
+    assert made["command"] == f"acts figures {name} --seed 1 --fast"
+    assert (made["seed"], made["fast"], made["published"]) == (1, True, False)
+    assert made["panels"]
+    for panel in made["panels"]:
+        values = list(numbers([panel.get("curves", []), panel.get("picture", {}), panel.get("contours", {})]))
+        assert values, panel["title"]
+        assert all(map(math.isfinite, values)), panel["title"]
+    assert path.with_suffix(".png").read_bytes().startswith(PNG)
+    first, header, *rows = path.with_suffix(".csv").read_text().splitlines()
+    assert first == f"# {made['command']}"
+    assert header == "panel,curve,by,x,y,low,high"
+    assert rows
+
+
+def test_the_published_curves_are_drawn_where_they_are_given(
+    recording_path: Callable[[str], Path], tmp_path: Path
+) -> None:
+    data = recording_path("paper/curves.csv").parent
+    words = ["figures", "4D", "S9", "--out", str(tmp_path), "--json", str(tmp_path / "all.json")]
+    assert main([*words, "--paper-data", str(data)]) == 0
+    rates, force = json.loads((tmp_path / "all.json").read_text())["results"]
+    assert rates["published"]
+    assert {line["curve"]: line["mean_relative"] < 0.01 for line in rates["differences"]} == dict.fromkeys(
+        ["uniform, board's model", "random, board's model", "adaptive, board's model", "raster, board's model"], True
+    )
+    assert force["differences"][0]["mean_absolute"] < 50
+    # Again without: what was measured stays, what was published goes.
+    assert main(words) == 0
+    again = json.loads((tmp_path / "fig_s9.json").read_text())
+    assert not again["published"]
+    assert [curve["by"] for curve in again["panels"][0]["curves"]] == ["ours"]
+
+
+def test_a_figure_is_not_measured_again(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["figures", "4D", "--out", str(tmp_path)]
+    told = []
+    for more in ([], [], ["--seed", "2"], ["--fast"], ["--fast", "--again"]):
+        assert main([*words, *more]) == 0
+        told.append("as measured before" in capsys.readouterr().out)
+    assert told == [False, True, False, False, False]
+
+
+def test_unknown_figures_and_folders_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["figures", "3Z", "--out", str(tmp_path)]) == 1
+    assert "allowed are 4D" in capsys.readouterr().err
+    assert main(["figures", "4D", "--out", str(tmp_path), "--paper-data", str(tmp_path / "none")]) == 1
+    assert "docs/paper.md" in capsys.readouterr().err
+    (tmp_path / "file").touch()
+    assert main(["figures", "4D", "--out", str(tmp_path / "file")]) == 1
+    assert "--out" in capsys.readouterr().err
