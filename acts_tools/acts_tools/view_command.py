@@ -17,7 +17,7 @@ examples:
   acts view --bag touch              a bag with samples, with pause and seek, without ROS nodes
   acts view --npz FILE.npz           the same for frames in an npz file
   acts view --board auto             the connected board, without a driver
-  acts view --control                the page can tare, set the sampling, start and stop balancing and grasps
+  acts view --control                the page can tare, set the sampling, record, start and stop balancing and grasps
   acts view --host 0.0.0.0           also for other machines: the printed address contains a token for access
 
 docs/view.md explains the page.
@@ -52,8 +52,10 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument(
         "--control",
         action="store_true",
-        help="let the page tare, calibrate, set the sampling, start and stop balancing and grasps: this moves robots",
+        help="let the page tare, calibrate, set the sampling, record, start and stop balancing and grasps: "
+        "this moves robots",
     )
+    parser.add_argument("--outlines", action="store_true", help="show outlines of contacts, which costs CPU")
     parser.add_argument("--host", default="127.0.0.1", help="address to listen on (127.0.0.1: this machine only)")
     parser.add_argument("--port", type=int, default=8080, help="port to listen on; 0: any that is free (8080)")
 
@@ -68,7 +70,7 @@ def run(arguments: argparse.Namespace) -> int:
     from acts_view.main import main
 
     given = {"skins": ",".join(arguments.skins), "host": arguments.host, "port": arguments.port}
-    given["control"] = str(arguments.control).lower()
+    given |= {name: str(getattr(arguments, name)).lower() for name in ("control", "outlines")}
     words = [word for name, value in given.items() for word in ("--set", f"view.{name}={value}")]
     return main(StopSignals(), ["acts view", *words])
 
@@ -79,6 +81,7 @@ def _show_local(arguments: argparse.Namespace, signals: object) -> int:
     from acts_driver.settings import DriverSettings
     from acts_view.local.show import log, show
     from acts_view.local.sources import BoardSource, LocalSource, open_recorded
+    from acts_view.settings import ViewSettings
 
     assert isinstance(signals, StopSignals)
     source: LocalSource
@@ -88,7 +91,12 @@ def _show_local(arguments: argparse.Namespace, signals: object) -> int:
             port=arguments.board, baud=arguments.baud, protocol=arguments.protocol, rows=rows, cols=cols
         )
         name = f"/{arguments.skins[0].strip('/')}" if arguments.skins else "/board"
-        source = BoardSource(name, driver, arguments.layout, log)
+        record_dir = Path(ViewSettings().record_dir) if arguments.control else None
+        source = BoardSource(
+            name, driver, arguments.layout, log, with_outlines=arguments.outlines, record_dir=record_dir
+        )
     else:
-        source, name = open_recorded(arguments.bag or arguments.npz, arguments.skins, arguments.layout)
+        source, name = open_recorded(
+            arguments.bag or arguments.npz, arguments.skins, arguments.layout, with_outlines=arguments.outlines
+        )
     return show(source, name, host=arguments.host, port=arguments.port, signals=signals)

@@ -22,7 +22,17 @@ class ViewSettings:
     host: str = setting("127.0.0.1", "address to listen on; another than this machine's own gets a token, see the log")
     port: int = setting(8080, "port to listen on; 0: any that is free, see the log", minimum=0, maximum=65535)
     control: bool = setting(
-        False, "whether pages may call the services of drivers, ball_control and hand_reflexes: this moves robots"
+        False,
+        "whether pages may call the services of drivers, ball_control and hand_reflexes, and record: this moves robots",
+    )
+    record_dir: str = setting(
+        "recordings", "folder for what pages record; made when needed, relative to where the node was started"
+    )
+    record_max_mb: float = setting(
+        1000.0, "a recording ends by itself at this size [MB]", minimum=0.001, maximum=1_000_000.0
+    )
+    outlines: bool = setting(
+        False, "whether to ask the reconstruction for outlines of contacts, which costs CPU there while a page is open"
     )
     rate_hz: float = setting(30.0, "how often the page is sent what is new", minimum=1.0, maximum=100.0)
     send_limit_s: float = setting(
@@ -33,6 +43,8 @@ class ViewSettings:
         validate(self)
         if not self.host.strip():
             raise SettingsError("host is empty: needed is an address or a name, such as 127.0.0.1 or 0.0.0.0")
+        if not self.record_dir:
+            raise SettingsError("record_dir is empty: needed is a folder, such as recordings")
         for name in self.namespaces:
             if _NAMESPACE.fullmatch(name) is None:
                 raise SettingsError(

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import math
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -101,6 +102,16 @@ def test_a_hand_is_drawn_as_a_right_hand_seen_from_its_palm() -> None:
         heights = [boxes[f"{finger}_{segment}"].y_m for segment in ("distal", "medial", "proximal")]
         assert heights == sorted(heights)
     assert boxes["middle_proximal"].y_m < boxes["palm"].y_m
+
+
+@pytest.mark.parametrize("name", ["secret.txt", "secret.yaml"])
+def test_of_a_file_that_is_no_layout_nothing_is_told(tmp_path: Path, name: str) -> None:
+    file = tmp_path / name
+    file.write_text("password: swordfish\n")
+    told = describe_skin("/sole", SkinShape(str(file), 16, 24))
+    assert len(told["patches"]) == 1
+    assert name in told["note"]
+    assert not any(word in json.dumps(told) for word in ("password", "swordfish"))
 
 
 def test_a_layout_file_of_another_machine_is_shown_as_the_plain_picture() -> None:

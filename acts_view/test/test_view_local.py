@@ -130,7 +130,7 @@ def test_a_recording_is_gone_through_from_any_time(tmp_path: Path, kind: str) ->
 
 
 def test_touch_is_recovered_as_by_the_node(tmp_path: Path) -> None:
-    source, name = open_recorded(write_frames(tmp_path / "press.npz"), [], "square")
+    source, name = open_recorded(write_frames(tmp_path / "press.npz"), [], "square", with_outlines=True)
     assert name == "/press"
     skin = source.skin
     skin.take([(one, 1000 * one.board_us) for one in itertools.islice(source.recording.frames(), 60)], None)
@@ -144,6 +144,8 @@ def test_touch_is_recovered_as_by_the_node(tmp_path: Path) -> None:
     )
     assert len(frame.contacts) == 1
     np.testing.assert_allclose(frame.contacts[0, :2], [(COL - 15.5) * 0.004375, (15.5 - ROW) * 0.004375], atol=0.003)
+    (outline,) = frame.outlines
+    np.testing.assert_allclose(outline.mean(axis=0), frame.contacts[0, :2], atol=0.003)
     assert skin.newest() is None
 
 

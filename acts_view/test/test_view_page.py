@@ -5,9 +5,11 @@
 
 from __future__ import annotations
 
+import csv
 import threading
 import time
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -24,6 +26,8 @@ pytestmark = [needs_browser, pytest.mark.slow]
 
 ROW, COL = 8, 20
 PERIOD_S = 1 / 30
+# A triangle in the lower half of the skin, far from the press.
+OUTLINE = [(-0.03, -0.05), (0.03, -0.05), (0.0, -0.02)]
 
 
 def pressed(name: str, time_s: float) -> tuple[str, Frame, list[Sample]]:
@@ -31,14 +35,18 @@ def pressed(name: str, time_s: float) -> tuple[str, Frame, list[Sample]]:
     image = np.zeros((32, 32), np.uint16)
     image[ROW, COL] = 800
     confidence = np.full((32, 32), 255, np.uint8)
+    age_s = np.full((32, 32), 0.0123, np.float32)
+    age_s[ROW, COL], age_s[0, 0] = 0.0, np.inf
     x_m, y_m = (COL - 15.5) * 0.004375, (15.5 - ROW) * 0.004375
     contacts = np.array([[x_m, y_m, 1.25, 800, 1.9e-5, 0.001, 0.125, 1.0]], np.float32)
     frame = Frame(
         stamp_s=time_s,
         image=image,
         confidence=confidence,
+        age_s=age_s,
         contact_numbers=np.array([42], np.uint32),
         contacts=contacts,
+        outlines=[np.array(OUTLINE, np.float32)],
         touch=(x_m, y_m, 1.25, 800.0, 1.9e-5),
         regions=[RegionState("palm", 2.5, 0.0, False), RegionState("index_distal", 0.75, 0.0032, True)],
         hand={
@@ -152,12 +160,86 @@ def test_a_taxel_tells_its_value_to_mouse_and_keyboard(
     assert box is not None
     page.mouse.move(box["x"] + (COL + 0.5) * box["width"] / 32, box["y"] + (ROW + 0.5) * box["height"] / 32)
     pointed = page.locator(".pointed")
-    assert pointed.inner_text() == f"row {ROW}, column {COL} · 800 counts · ± 0 counts (100 % sure)"
+    assert pointed.inner_text() == f"row {ROW}, column {COL} · 800 counts · ± 0 counts (100 % sure) · measured now"
     page.focus("canvas.marks")
     page.keyboard.press("ArrowDown")
     assert pointed.inner_text().startswith(f"row {ROW + 1}, column {COL} · 0 counts")
+    assert pointed.inner_text().endswith("measured 12.3 ms before")
     page.keyboard.press("Escape")
     assert pointed.inner_text() == ""
+
+
+def dots(page: Page) -> list[list[int]]:
+    """Rows and columns of the taxels in whose middle the page has drawn something over the picture."""
+    found = page.evaluate(
+        """() => {
+          const canvas = document.querySelector("canvas.marks"), side = canvas.width / 32, found = [];
+          const data = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
+          for (let row = 0; row < 32; row += 1) for (let col = 0; col < 32; col += 1) {
+            const at = 4 * (Math.floor((row + 0.5) * side) * canvas.width + Math.floor((col + 0.5) * side));
+            if (data[at + 3]) found.push([row, col]);
+          }
+          return found;
+        }"""
+    )
+    assert isinstance(found, list)
+    return found
+
+
+def test_dots_are_on_the_taxels_that_were_measured(play: Callable[..., Player], open_page: Callable[..., Page]) -> None:
+    page = open_page(play())
+    page.click("#contacts")
+    page.click("#measured")
+    assert dots(page) == [[ROW, COL]]
+
+
+def test_outlines_are_drawn_in_place_of_rings(play: Callable[..., Player], open_page: Callable[..., Page]) -> None:
+    page = open_page(play())
+    row, col = 15.5 + 0.05 / 0.004375, 15.5
+    # In the middle of the triangle's lower edge.
+    drawn = """([row, col]) => {
+      const canvas = document.querySelector("canvas.marks"), side = canvas.width / 32;
+      const [x, y] = [Math.round((col + 0.5) * side), Math.round((row + 0.5) * side)];
+      const copy = new OffscreenCanvas(1, 1).getContext("2d");
+      copy.drawImage(canvas, x, y, 1, 1, 0, 0, 1, 1);
+      return copy.getImageData(0, 0, 1, 1).data[3] > 0;
+    }"""
+    page.wait_for_function(drawn, arg=[row, col])
+    page.keyboard.press("o")
+    page.wait_for_function(f"(place) => !({drawn})(place)", arg=[row, col])
+
+
+def test_what_is_shown_can_be_saved(
+    play: Callable[..., Player], open_page: Callable[..., Page], tmp_path: Path
+) -> None:
+    page = open_page(play())
+    expect(page.locator("[data-number=rate]")).to_have_text("1000")
+
+    def saved(what: str) -> Path:
+        with page.expect_download() as downloading:
+            page.click(f"[data-save={what}]")
+        path = tmp_path / downloading.value.suggested_filename
+        downloading.value.save_as(path)
+        return path
+
+    picture = saved("picture")
+    assert picture.name.startswith("plate_20")
+    assert picture.read_bytes().startswith(b"\x89PNG")
+    tables = {what: list(csv.DictReader(saved(what).open())) for what in ("taxels", "contacts", "plots")}
+    assert len(tables["taxels"]) == 1024
+    pressed_taxel = tables["taxels"][ROW * 32 + COL]
+    assert pressed_taxel.pop("force_n") == "1.08123"
+    assert pressed_taxel == {
+        "row": str(ROW), "col": str(COL), "x_m": "0.0196875", "y_m": "0.0328125",
+        "counts": "800", "confidence": "255", "age_s": "0",
+    }  # fmt: skip
+    assert [tables["taxels"][place]["age_s"] for place in (0, 1)] == ["", "0.0123"]
+    (contact,) = tables["contacts"]
+    assert (contact["number"], contact["force_n"], contact["speed_m_s"]) == ("42", "1.25", "0.125")
+    assert {row["force_max_n"] for row in tables["plots"]} == {"1.25"}
+    times_s = [float(row["time_s"]) for row in tables["plots"]]
+    assert times_s == sorted(times_s)
+    assert abs(times_s[-1] - time.time()) < 60.0
 
 
 def test_a_ball_its_reference_and_the_tilt_of_the_plate(
@@ -228,6 +310,45 @@ def test_a_pause_holds_and_a_part_of_a_plot_can_be_seen_alone(
     assert page.inner_text("#pause") == "Go on"
     page.click("#pause")
     page.wait_for_selector(".skin .pill[data-state=live]")
+
+
+def test_keys_act_wherever_the_last_click_was(play: Callable[..., Player], open_page: Callable[..., Page]) -> None:
+    page = open_page(play())
+    # A click leaves the focus on the button.
+    page.click("#measured")
+    page.keyboard.press("s")
+    expect(page.locator("#scale")).to_have_value("adaptive")
+    # Of the keys only the blank is the button's own.
+    page.keyboard.press(" ")
+    expect(page.locator("#measured")).to_have_attribute("aria-pressed", "false")
+    expect(page.locator(".skin .pill")).to_have_text("live")
+    page.focus("canvas.marks")
+    page.keyboard.press(" ")
+    expect(page.locator(".skin .pill")).to_have_text("paused")
+
+
+def test_without_a_skin_it_tells_how_to_start_one(play: Callable[..., Player], open_page: Callable[..., Page]) -> None:
+    page = open_page(play(()), is_live=False)
+    expect(page.locator("#empty")).to_contain_text("acts launch acts_bringup tactile.launch.xml")
+
+
+@pytest.mark.parametrize(("width", "height"), [(1280, 800), (1920, 1080)])
+def test_picture_and_legend_fit_the_window_and_nothing_leaves_its_card(
+    play: Callable[..., Player], open_page: Callable[..., Page], width: int, height: int
+) -> None:
+    page = open_page(play(("/left", "/right")), width, height)
+    expect(page.locator(".regions li")).to_have_count(4)
+    legend = page.locator(".legend").first.bounding_box()
+    assert legend is not None
+    assert legend["y"] + legend["height"] < height
+    assert legend["width"] > 0.3 * width
+    outside = page.evaluate(
+        """() => [...document.querySelectorAll(".skin *")].filter((element) => {
+          const own = element.getBoundingClientRect(), card = element.closest(".skin").getBoundingClientRect();
+          return own.right > card.right - 8;
+        }).map((element) => element.className)"""
+    )
+    assert outside == []
 
 
 def test_a_server_that_is_gone_and_back(play: Callable[..., Player], open_page: Callable[..., Page]) -> None:

@@ -6,17 +6,24 @@
 from __future__ import annotations
 
 import http.client
+import json
 import os
 import re
 import signal
 import subprocess
 import sys
+import time
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
+from websockets import Origin
 from websockets.sync.client import connect
 
 from acts_core.errors import REFUSED_EXIT_CODE
+from acts_driver.replay import ReplayOptions, open_recording
+from acts_ros.bags.reading import open_bag
 from acts_tools.bench.rigs.processes import virtual_board
 
 pytestmark = pytest.mark.slow
@@ -24,9 +31,10 @@ pytestmark = pytest.mark.slow
 DEADLINE_S = 60.0
 
 
-def start(*words: str) -> subprocess.Popen[str]:
+def start(*words: str, folder: Path | None = None) -> subprocess.Popen[str]:
     return subprocess.Popen(
         [sys.executable, "-m", "acts_tools", "view", *words],
+        cwd=folder,
         env={**os.environ, "ROS_DOMAIN_ID": "221"},
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
@@ -77,6 +85,53 @@ def test_a_board_is_shown_without_any_graph(tmp_path: Path) -> None:
             assert process.wait(DEADLINE_S) == 0
         finally:
             process.kill()
+
+
+def test_a_board_without_a_graph_is_recorded_by_its_page(tmp_path: Path) -> None:
+    words = ("--board", str(tmp_path / "board"), "--port", "0", "--control")
+    with virtual_board(tmp_path) as board, start(*words, folder=tmp_path) as process:
+        try:
+            assert board.link == tmp_path / "board"
+            assert process.stdout is not None
+            found = next(
+                found for line in process.stdout if (found := re.search(r"open (http://127\.0\.0\.1:\d+)", line))
+            )
+            place, origin = f"ws{found[1][4:]}", Origin(found[1])
+            with connect(f"{place}/stream", origin=origin, compression=None) as page:
+
+                def until(condition: Callable[[dict[str, Any]], Any]) -> dict[str, Any]:
+                    deadline_s = time.monotonic() + DEADLINE_S
+                    while time.monotonic() < deadline_s:
+                        message = bytes(page.recv(DEADLINE_S))  # type: ignore[arg-type]
+                        header = json.loads(message[4 : 4 + int.from_bytes(message[:4], "little")])
+                        if condition(header):
+                            assert isinstance(header, dict)
+                            return header
+                    raise AssertionError("it was not told")
+
+                page.send('{"id":1,"do":"record"}')
+                assert until(lambda header: header.get("id") == 1)["done"]
+                until(lambda header: header.get("recording", {}).get("messages", 0) > 200)
+                page.send('{"id":2,"do":"tare"}')
+                assert until(lambda header: header.get("id") == 2)["done"]
+                page.send('{"id":3,"do":"stop_recording"}')
+                assert until(lambda header: header.get("id") == 3)["done"]
+                ((name, size),) = until(lambda header: header.get("recording", {}).get("files"))["recording"]["files"]
+            with connect(f"{place}/recordings/{name}", origin=origin, compression=None) as file:
+                data = b"".join(bytes(piece) for piece in file)  # type: ignore[arg-type]
+            process.send_signal(signal.SIGINT)
+            assert process.wait(DEADLINE_S) == 0
+        finally:
+            process.kill()
+    (bag,) = (tmp_path / "recordings").iterdir()
+    assert (bag / name).read_bytes() == data
+    assert len(data) == size
+    with open_bag(bag) as recorded:
+        kinds = {topic for topic, _, _ in recorded.messages(["/board/samples", "/board/baseline"])}
+        assert kinds == {"/board/samples", "/board/baseline"}
+    frames = list(open_recording(ReplayOptions(bag)).frames())
+    assert [frame.sequence - frames[0].sequence for frame in frames] == list(range(len(frames)))
+    assert len(frames) > 200
 
 
 @pytest.mark.parametrize(

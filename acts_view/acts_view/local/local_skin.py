@@ -10,16 +10,16 @@ import threading
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from acts_core.errors import ArrayError
 from acts_core.frames import SampleFrame
 from acts_driver.baseline import Baseline
-from acts_recon.contacts import BlobTracker, Contact, TrackedBlob
-from acts_recon.images import BaselineSubtraction
+from acts_recon.contacts import TrackedBlob
+from acts_recon.frame_recovery import FrameRecovery
 from acts_recon.settings import ReconstructionConfig
 from acts_view.skin.snapshot import CONTACT_COLUMNS, Frame, RegionState, Sample, SkinShape
 
-_SEQUENCE_MODULUS = 1 << 32
 # Where nobody takes them, so many samples are kept: ten seconds at 1 kHz.
 _SAMPLES_MAX = 10_000
 
@@ -31,6 +31,8 @@ class LocalSkin:
     ----------
     settings : ReconstructionConfig
         Size, layout and method, as the node's parameters.
+    with_outlines : bool
+        Whether to find the outlines of contacts, whenever the newest is asked for; that costs CPU.
 
     Raises
     ------
@@ -38,21 +40,13 @@ class LocalSkin:
         As of `ReconstructionConfig.recovery`.
     """
 
-    def __init__(self, settings: ReconstructionConfig) -> None:
-        self._recovery = settings.recovery()
-        self._regions = settings.regions(self._recovery)
-        self._tracker = BlobTracker(
-            self._recovery.geometry, self._recovery.response, settings.blob_config(), self._recovery.borders
-        )
-        self._size = (settings.rows, settings.cols)
-        self._baseline = BaselineSubtraction(settings.rows * settings.cols)
+    def __init__(self, settings: ReconstructionConfig, *, with_outlines: bool = False) -> None:
+        self._recovery = FrameRecovery(settings)
+        self._tracer = settings.outline_tracer(self._recovery.recovery) if with_outlines else None
         self._lock = threading.Lock()
         self._samples: list[Sample] = []
-        self._blobs: tuple[TrackedBlob, ...] = ()
-        self._contact = Contact()
-        self._region_states: list[RegionState] = []
         self._stamp_ns = 0
-        self._sequence: int | None = None
+        self._duration_s = 0.0
         self.rejected = 0
         """Frames that did not fit."""
         self.problem = ""
@@ -95,58 +89,53 @@ class LocalSkin:
             samples, self._samples = self._samples, []
             if not samples:
                 return None
-            confidence = self._recovery.confidence()
-            contact = self._contact
+            found = self._recovery
+            recovery, contact = found.recovery, found.contact
+            confidence, age_s = recovery.confidence(), recovery.age_s
             frame = Frame(
                 stamp_s=self._stamp_ns * 1e-9,
-                image=np.rint(self._recovery.image).astype(np.uint16),
+                image=np.rint(recovery.image).astype(np.uint16),
                 confidence=None if confidence is None else confidence.copy(),
-                contact_numbers=np.array([blob.number for blob in self._blobs], np.uint32),
-                contacts=np.array([_row(blob) for blob in self._blobs], np.float32).reshape(-1, len(CONTACT_COLUMNS)),
+                age_s=None if age_s is None else np.where(age_s <= self._duration_s, np.float32(0.0), age_s),
+                contact_numbers=np.array([blob.number for blob in found.blobs], np.uint32),
+                contacts=np.array([_row(blob) for blob in found.blobs], np.float32).reshape(-1, len(CONTACT_COLUMNS)),
+                outlines=self._outlines(),
                 touch=(contact.x_m, contact.y_m, contact.force_n, contact.peak_counts, contact.area_m2)
                 if contact.in_contact
                 else None,
-                regions=tuple(self._region_states),
+                regions=[RegionState(one.name, one.force_n, one.slip_m, one.slipping) for one in found.regions],
             )
         return frame, samples
+
+    def _outlines(self) -> list[NDArray[np.float32]]:
+        found = self._recovery
+        if self._tracer is None or found.frame is None:
+            return []
+        duration_s = found.frame.duration_us * 1e-6
+        outlines = self._tracer.step(
+            found.frame.indices, found.frame.counts, self._stamp_ns * 1e-9, duration_s, found.recovery.image
+        )
+        return [np.column_stack((one.x_m, one.y_m)).astype(np.float32) for one in outlines]
 
     def set_baseline(self, baseline: Baseline) -> None:
         """Subtract from now on what the taxels read untouched."""
         with self._lock:
-            self._baseline.set(baseline.counts.ravel(), baseline.valid.ravel())
+            self._recovery.set_baseline(baseline.counts.ravel(), baseline.noise_counts.ravel(), baseline.valid.ravel())
 
     def reset(self) -> None:
         """Forget all frames: the next one is long after or before, or of another board."""
         with self._lock:
             self._recovery.reset()
-            self._tracker.reset()
-            if self._regions is not None:
-                self._regions.reset()
+            if self._tracer is not None:
+                self._tracer.reset()
             self._samples.clear()
-            self._sequence = None
 
     def _step(self, frame: SampleFrame, stamp_ns: int, latency_ms: float) -> None:
-        if (frame.rows, frame.cols) != self._size:
-            raise ArrayError(
-                f"frame of {frame.rows} x {frame.cols} taxels, expected are {self._size[0]} x {self._size[1]}"
-            )
-        counts = self._baseline.apply(frame.indices, frame.counts)
-        time_s = stamp_ns * 1e-9
-        recovery = self._recovery
-        self._contact = recovery.step(frame.indices, counts, time_s, frame.duration_us * 1e-6)
-        self._blobs = self._tracker.step(recovery.image, time_s, recovery.sigma)
-        if self._regions is not None:
-            found = self._regions.step(time_s, recovery.image, recovery.measured, recovery.age_s)
-            self._region_states = [RegionState(one.name, one.force_n, one.slip_m, one.slipping) for one in found]
+        lost = self._recovery.step(frame, stamp_ns)
         self._stamp_ns = stamp_ns
+        self._duration_s = frame.duration_us * 1e-6
         if len(self._samples) < _SAMPLES_MAX:
-            self._samples.append(Sample(time_s, self._contact.force_n, latency_ms, self._lost(frame.sequence)))
-
-    def _lost(self, sequence: int) -> int:
-        before, self._sequence = self._sequence, sequence
-        missing = 0 if before is None else (sequence - before - 1) % _SEQUENCE_MODULUS
-        # Half the range back is a board that began anew.
-        return missing if missing < _SEQUENCE_MODULUS // 2 else 0
+            self._samples.append(Sample(stamp_ns * 1e-9, self._recovery.contact.force_n, latency_ms, lost))
 
 
 def _row(blob: TrackedBlob) -> tuple[float, ...]:

@@ -9,7 +9,9 @@ import sys
 import threading
 import time
 from collections.abc import Callable
+from queue import SimpleQueue
 
+from acts_core.errors import ActsError
 from acts_core.stop_signals import StopSignals
 from acts_view.local.sources import LocalSource
 from acts_view.web.requests import Answer, Request
@@ -46,17 +48,24 @@ def show(
     """
     stopped = threading.Event()
     signals.on_stop(stopped.set)
-
-    def on_request(request: Request, answer: Answer) -> None:
-        answer(True, source.do(request))
-
-    server = ViewServer(host, port, on_clients=lambda _: None, log=log, on_request=on_request)
+    # Of each page only a few wait at a time.
+    asked: SimpleQueue[tuple[Request, Answer]] = SimpleQueue()
+    server = ViewServer(
+        host,
+        port,
+        on_clients=lambda _: None,
+        log=log,
+        on_request=lambda request, answer: asked.put((request, answer)),
+        find_file=source.find_file,
+    )
     try:
         (on_address or _print_address)(server.address.url)
         server.show_shape(name, source.skin.shape)
         source.start(lambda: server.forget(name))
         told_s = -_STATUS_PERIOD_S
         while not stopped.wait(1.0 / rate_hz):
+            while not asked.empty():
+                _act(source, *asked.get())
             newest = source.skin.newest()
             if newest is not None:
                 server.show_frame(name, *newest)
@@ -67,6 +76,13 @@ def show(
         source.stop()
         server.close()
     return 0
+
+
+def _act(source: LocalSource, request: Request, answer: Answer) -> None:
+    try:
+        answer(True, source.do(request))
+    except ActsError as error:
+        answer(False, str(error))
 
 
 def log(level: str, sentence: str) -> None:

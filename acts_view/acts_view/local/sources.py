@@ -8,7 +8,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from acts_core.errors import ActsError, SettingsError, ViewRequestError
 from acts_core.frames import SampleFrame
@@ -20,7 +20,14 @@ from acts_driver.settings import DriverSettings
 from acts_recon.settings import ReconstructionSettings
 from acts_view.local.local_skin import LocalSkin
 from acts_view.local.playback import Playback
+from acts_view.recording.recording import Feed, Recording
+from acts_view.settings import ViewSettings
 from acts_view.web.requests import Request
+from acts_view.web.server import READ_ONLY
+
+if TYPE_CHECKING:
+    from acts_view.local.board_feed import BoardFeed
+    from acts_view.recording.bounded_bag import BoundedBag
 
 _DIAGNOSTICS_PERIOD_S = 1.0
 _NS_PER_US = 1000
@@ -28,6 +35,7 @@ _NS_PER_US = 1000
 _FULL_HZ = 200.0
 _FULL_M = 220
 _TRACKED_COUNTS = 30
+_RECORD_BYTES_MAX = int(1e6 * ViewSettings.record_max_mb)
 
 
 class LocalSource(Protocol):
@@ -42,7 +50,7 @@ class LocalSource(Protocol):
         """End for good."""
 
     def status(self) -> dict[str, Any]:
-        """What the page is told besides the skin, several times a second."""
+        """What the page is told besides the skin; to be called several times a second, on the thread of `do`."""
 
     def do(self, request: Request) -> str:
         """Act on what a page asks for; what came of it, in words.
@@ -52,6 +60,9 @@ class LocalSource(Protocol):
         ViewRequestError
             It cannot be done.
         """
+
+    def find_file(self, name: str) -> Path | None:
+        """The file of a finished recording; None where there is none of that name. From any thread."""
 
 
 class RecordedSource:
@@ -64,6 +75,8 @@ class RecordedSource:
     recording : SeekableRecording
     layout : str
         As `acts_core.skin.layouts.layout` takes it.
+    with_outlines : bool
+        See `LocalSkin`.
 
     Raises
     ------
@@ -73,9 +86,12 @@ class RecordedSource:
         The layout does not fit.
     """
 
-    def __init__(self, name: str, recording: SeekableRecording, layout: str = "square") -> None:
+    def __init__(
+        self, name: str, recording: SeekableRecording, layout: str = "square", *, with_outlines: bool = False
+    ) -> None:
         first = next(recording.frames())
-        self.skin = LocalSkin(ReconstructionSettings(rows=first.rows, cols=first.cols, layout=layout))
+        settings = ReconstructionSettings(rows=first.rows, cols=first.cols, layout=layout)
+        self.skin = LocalSkin(settings, with_outlines=with_outlines)
         self._name = name
         self._zero_us = first.board_us
         self._begin_ns = time.time_ns()
@@ -105,6 +121,7 @@ class RecordedSource:
         if self.skin.rejected:
             level, message = 1, f"{message}; {self.skin.rejected} frames do not fit: {self.skin.problem}"
         return {
+            "note": "A recording is shown: there is nothing to record, and no node to ask.",
             "replay": {
                 "name": self._name,
                 "position_s": state.position_s,
@@ -127,6 +144,10 @@ class RecordedSource:
             raise ViewRequestError("a recording can be told play, pause, and seek with a time in seconds")
         return ""
 
+    def find_file(self, name: str) -> Path | None:
+        """See `LocalSource.find_file`."""
+        return None
+
     def _take(self, frames: list[SampleFrame]) -> None:
         stamped = [(one, self._begin_ns + _NS_PER_US * (one.board_us - self._zero_us)) for one in frames]
         self.skin.take(stamped, None)
@@ -144,6 +165,10 @@ class BoardSource:
         As `acts_core.skin.layouts.layout` takes it.
     log : callable
         Takes a level and a sentence.
+    with_outlines : bool
+        See `LocalSkin`.
+    record_dir : Path or None
+        Where pages may record to; None: they may not.
 
     Raises
     ------
@@ -153,16 +178,30 @@ class BoardSource:
         The layout does not fit.
     """
 
-    def __init__(self, name: str, driver: DriverSettings, layout: str, log: Callable[[str, str], None]) -> None:
+    def __init__(
+        self,
+        name: str,
+        driver: DriverSettings,
+        layout: str,
+        log: Callable[[str, str], None],
+        *,
+        with_outlines: bool = False,
+        record_dir: Path | None = None,
+    ) -> None:
         self._name = name
         self._source = driver.make_source()
         self._source.open()
         # Now, since frames come as soon as the port is read.
-        self.skin = LocalSkin(ReconstructionSettings(rows=driver.rows, cols=driver.cols, layout=layout))
+        settings = ReconstructionSettings(rows=driver.rows, cols=driver.cols, layout=layout)
+        self.skin = LocalSkin(settings, with_outlines=with_outlines)
         self._tracker = BaselineTracker(driver.rows, driver.cols, driver.baseline_config())
         self._intake = Intake(driver, self._source, self._take, log=log, on_board=lambda _: None)
         self._told: dict[str, Any] = {}
         self._told_s = -_DIAGNOSTICS_PERIOD_S
+        self._feed: BoardFeed | None = None
+        self._recording = (
+            None if record_dir is None else Recording(record_dir, _RECORD_BYTES_MAX, lambda: [name], self._begin, log)
+        )
 
     def start(self, on_jump: Callable[[], None]) -> None:
         """See `LocalSource.start`."""
@@ -171,6 +210,8 @@ class BoardSource:
     def stop(self) -> None:
         """See `LocalSource.stop`."""
         self._intake.stop()
+        if self._recording is not None:
+            self._recording.close()
 
     def status(self) -> dict[str, Any]:
         """See `LocalSource.status`."""
@@ -179,25 +220,58 @@ class BoardSource:
             self._told_s = now_s
             level, message, values = self._intake.report("active", time.time_ns())
             self._told = _diagnosis("driver", level, message, values)
-        return {"offers": [["tare", self._name]], "diagnostics": [self._told]}
+            if self._recording is not None:
+                self._recording.step()
+        told = {"offers": [["tare", self._name]], "diagnostics": [self._told]}
+        if self._recording is None:
+            return {**told, "note": "With acts view --control this page can record, too."}
+        return {**told, "recording": self._recording.state()}
 
     def do(self, request: Request) -> str:
         """See `LocalSource.do`."""
-        if request.do != "tare":
-            raise ViewRequestError("a board that is shown without a graph can be told tare; all else the driver can")
+        if request.do == "tare":
+            return self._tare()
+        if request.do in ("record", "stop_recording"):
+            if self._recording is None:
+                raise ViewRequestError(READ_ONLY)
+            return self._recording.start() if request.do == "record" else self._recording.stop()
+        raise ViewRequestError(
+            "a board that is shown without a graph can be told tare, record and stop_recording; all else the driver can"
+        )
+
+    def find_file(self, name: str) -> Path | None:
+        """See `LocalSource.find_file`."""
+        return None if self._recording is None else self._recording.file(name)
+
+    def _tare(self) -> str:
         try:
             baseline = self._tracker.tare()
         except ActsError as error:
             raise ViewRequestError(str(error)) from error
         self.skin.set_baseline(baseline)
+        if self._feed is not None:
+            self._feed.set_baseline(baseline)
         return f"tared {int(baseline.valid.sum())} of {baseline.valid.size} taxels"
+
+    def _begin(self, _skins: Sequence[str], bag: BoundedBag) -> Feed:
+        # Imported here, because it is slow to import and few record.
+        from acts_view.local.board_feed import BoardFeed
+
+        statistics = self._intake.stream.statistics
+        self._feed = BoardFeed(self._name, self._tracker.present(), lambda: statistics.lost, bag)
+        return self._feed
 
     def _take(self, frames: Sequence[tuple[SampleFrame, int]], _results: object) -> None:
         self._tracker.observe(frames)
         self.skin.take(frames, time.time_ns())
+        feed = self._feed
+        if feed is not None:
+            feed.take(frames)
 
 
-def open_recorded(path: Path, namespaces: Sequence[str], layout: str) -> tuple[RecordedSource, str]:
+def open_recorded(
+    path: Path, namespaces: Sequence[str], layout: str, *, with_outlines: bool = False
+) -> tuple[RecordedSource, str]:
     """A recording to show, and the name of its skin.
 
     Raises
@@ -219,7 +293,7 @@ def open_recorded(path: Path, namespaces: Sequence[str], layout: str) -> tuple[R
     )
     recording = open_recording(options)
     found = str(getattr(recording, "topic", "")).removesuffix("/samples")
-    return RecordedSource(path.name, recording, layout), found or f"/{path.stem}"
+    return RecordedSource(path.name, recording, layout, with_outlines=with_outlines), found or f"/{path.stem}"
 
 
 def _diagnosis(name: str, level: int, message: str, values: Mapping[str, object]) -> dict[str, Any]:

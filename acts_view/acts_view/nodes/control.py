@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What pages ask for, done by the services of the nodes, of which none can hold the view up."""
+"""What pages ask for: services of the nodes, of which none can hold the view up, and recording."""
 
 from __future__ import annotations
 
@@ -22,6 +22,7 @@ from std_srvs.srv import Trigger
 from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import ViewRequestError
 from acts_core.sampling import SCHEME_NUMBERS
+from acts_view.recording.recording import Recording
 from acts_view.web.requests import Answer, Request
 
 TRIGGERS = {
@@ -61,12 +62,14 @@ class Control:
     ----------
     node : Node
         Spun by somebody else.
+    recording : Recording
     patience_s : float
         A service that has not answered within this time is waited for no longer [s].
     """
 
-    def __init__(self, node: Node, patience_s: float = _PATIENCE_S) -> None:
+    def __init__(self, node: Node, recording: Recording, patience_s: float = _PATIENCE_S) -> None:
         self._node = node
+        self._recording = recording
         self._patience_s = patience_s
         self._requests: deque[tuple[Request, Answer]] = deque()
         self._services: dict[str, list[str]] = {}
@@ -107,7 +110,7 @@ class Control:
         Returns
         -------
         dict
-            ``offers``: pairs of what and of which namespace; ``settings``: of drivers, by namespace.
+            ``offers``: pairs of what and of which namespace; ``settings``: of drivers, by namespace; ``recording``.
         """
         self._services = dict(self._node.get_service_names_and_types())
         offers: list[list[str]] = [
@@ -128,6 +131,7 @@ class Control:
             "offers": [*offers, *(["set", driver] for driver in drivers)],
             "settings": {driver: values for driver, values in self._settings.items() if values},
             "schemes": list(SCHEME_NUMBERS),
+            "recording": self._recording.state(),
         }
 
     def _begin(self, request: Request, answer: Answer) -> None:
@@ -136,8 +140,13 @@ class Control:
         elif request.do == "set":
             asked = SetParameters.Request(parameters=[_parameter(request)])
             self._call(f"{request.skin}/{_SET}", SetParameters, asked, answer, _of_set)
+        elif request.do == "record":
+            answer(True, self._recording.start())
+        elif request.do == "stop_recording":
+            answer(True, self._recording.stop())
         else:
-            raise ViewRequestError(f"what is asked for is one of {', '.join(TRIGGERS)}, set; not '{request.do}'")
+            known = ", ".join([*TRIGGERS, "set", "record", "stop_recording"])
+            raise ViewRequestError(f"what is asked for is one of {known}; not '{request.do}'")
 
     def _call(
         self, service: str, kind: type, asked: object, answer: Answer, read: Callable[[Any], tuple[bool, str]]

@@ -20,6 +20,7 @@ from acts_msgs.msg import BalanceStatus, BallReference, BallState, Contact, Cont
 from acts_ros import qos
 from acts_ros.messages import ContactFields, read_contact, read_regions
 from acts_ros.polled import PolledSubscription, PollingNode
+from acts_view.nodes.outline_topic import OutlineTopic
 from acts_view.nodes.robot_states import (
     SHOWN,
     TEXT,
@@ -34,7 +35,7 @@ from acts_view.skin.snapshot import CONTACT_COLUMNS, Frame, RegionState, Sample
 _SEQUENCE_MODULUS = 1 << 32
 # A stamp further from the clock than this is by another clock, as in a bag that is played.
 _SAME_CLOCK_S = 10.0
-_MONO = {"mono16": "u2", "mono8": "u1"}
+_PIXELS = {"mono16": "u2", "mono8": "u1", "32FC1": "f4"}
 _ROBOT: dict[str, tuple[type, Callable[[Any], dict[str, Any]], str]] = {
     "hand/status": (HandStatus, hand_state, "hand"),
     "joint_states": (JointState, lambda message: {"joints": joint_angles(message)}, "hand"),
@@ -53,9 +54,11 @@ class SkinTopics:
     node : PollingNode
     namespace : str
         Of the skin, with a slash before.
+    with_outlines : bool
+        Whether to subscribe to ``outlines`` as well.
     """
 
-    def __init__(self, node: PollingNode, namespace: str) -> None:
+    def __init__(self, node: PollingNode, namespace: str, *, with_outlines: bool = False) -> None:
         self._node = node
         self._namespace = namespace
         self._polled: dict[str, PolledSubscription[Any]] = {}
@@ -67,12 +70,14 @@ class SkinTopics:
         )
         for topic, (kind, _, _) in _ROBOT.items():
             self._polled[topic] = node.create_polled_subscription(kind, f"{namespace}/{topic}", qos.STATE, depth=1)
+        self._outlines = OutlineTopic(node, namespace) if with_outlines else None
         self.look()
 
     def look(self) -> None:
         """Choose anew, now and then, between the topics for viewers and, as in a bag, those at 1 kHz."""
         self._choose("image_raw", Image)
         self._choose("confidence", Image)
+        self._choose("age", Image)
         self._choose("contacts", Contacts)
         # What a controller has said is no longer so when it is gone.
         old = self._frame
@@ -85,11 +90,13 @@ class SkinTopics:
         for subscription in self._polled.values():
             self._node.destroy_polled_subscription(subscription)
         self._polled.clear()
+        if self._outlines is not None:
+            self._outlines.close()
 
     def take(self) -> tuple[Frame, list[Sample]] | None:
         """The newest of everything and all of the 1 kHz stream since the last call; None where nothing came."""
         samples, touch, stamp_ns = self._contact()
-        images = {name: self._newest(name) for name in ("image_raw", "confidence")}
+        images = {name: self._newest(name) for name in ("image_raw", "confidence", "age")}
         contacts, regions = (self._newest(name) for name in ("contacts", "regions"))
         robot = {topic: self._newest(topic) for topic in _ROBOT}
         if not samples and all(one is None for one in (*images.values(), contacts, regions, *robot.values())):
@@ -97,13 +104,16 @@ class SkinTopics:
         old = self._frame
         image = _pixels(images["image_raw"], "mono16")
         confidence = _pixels(images["confidence"], "mono8")
+        age_s = _pixels(images["age"], "32FC1")
         numbers, table = (old.contact_numbers, old.contacts) if contacts is None else _table(contacts)
         self._frame = Frame(
             stamp_s=old.stamp_s if stamp_ns is None else stamp_ns * 1e-9,
             image=old.image if image is None else image,
             confidence=old.confidence if confidence is None else confidence,
+            age_s=old.age_s if age_s is None else age_s,
             contact_numbers=numbers,
             contacts=table,
+            outlines=() if self._outlines is None else self._outlines.take(),
             touch=touch if samples else old.touch,
             regions=old.regions if regions is None else _regions(regions, old.regions),
             hand=old.hand | _told(robot, "hand"),
@@ -157,15 +167,15 @@ class SkinTopics:
 
 
 def _pixels(message: Image | None, encoding: str) -> NDArray[Any] | None:
-    """The pixels of an image of counts or of confidence; None for any other."""
+    """The pixels of an image of counts, confidence or ages; None for any other."""
     if message is None or message.encoding != encoding:
         return None
     if not (1 <= message.width <= MAX_SIDE and 1 <= message.height <= MAX_SIDE):
         return None
-    kind = np.dtype(_MONO[encoding]).newbyteorder(">" if message.is_bigendian else "<")
+    kind = np.dtype(_PIXELS[encoding]).newbyteorder(">" if message.is_bigendian else "<")
     if message.step != message.width * kind.itemsize or len(message.data) != message.step * message.height:
         return None
-    return np.frombuffer(message.data, kind).reshape(message.height, message.width).astype(_MONO[encoding])
+    return np.frombuffer(message.data, kind).reshape(message.height, message.width).astype(_PIXELS[encoding])
 
 
 def _table(message: Contacts) -> tuple[NDArray[np.uint32], NDArray[np.float32]]:

@@ -9,7 +9,9 @@ While no page is open it subscribes to no skin, so that nothing is computed for 
 from __future__ import annotations
 
 import time
-from typing import Any
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from rcl_interfaces.msg import ParameterType, ParameterValue
@@ -25,9 +27,13 @@ from acts_ros.parameters import declare, node_options
 from acts_ros.polled import PollingNode
 from acts_view.nodes.control import Control
 from acts_view.nodes.skin_topics import SkinTopics
+from acts_view.recording.recording import Feed, Recording
 from acts_view.settings import ViewSettings
 from acts_view.skin.snapshot import SkinShape
 from acts_view.web.server import ViewServer
+
+if TYPE_CHECKING:
+    from acts_view.recording.bounded_bag import BoundedBag
 
 _LOOK_PERIOD_S = 1.0
 _DIAGNOSTICS_DEPTH = 100
@@ -37,6 +43,7 @@ _SKINS_MAX = 32
 _NODES_MAX = 200
 _VALUES_MAX = 100
 _TEXT = 500
+_ONLY_SHOWS = "This page only shows. With acts view --control it can also record, tare, and start and stop motion."
 _CONTACT_TYPE = "acts_msgs/msg/Contact"
 _CONTACT_TOPIC = "/contact"
 # As SkinShape has them.
@@ -48,9 +55,10 @@ class ViewNode(PollingNode):
     """Shows skins on a page, see `ViewServer`.
 
     Subscribes of every skin ``contact``, ``regions``, ``hand/status``, ``joint_states``, ``ball/state``,
-    ``ball/reference``, ``ball/status``, and ``view/image_raw``, ``view/confidence`` and ``view/contacts`` or where they
-    are not, those without ``view/``; and ``/diagnostics``. Asks the node ``reconstruction`` beside them for its
-    parameters.
+    ``ball/reference``, ``ball/status``, and ``view/age``, ``view/image_raw``, ``view/confidence`` and
+    ``view/contacts``, or where they are not, those without ``view/``; with `outlines` also ``outlines``; and
+    ``/diagnostics``. Asks the node
+    ``reconstruction`` beside them for its parameters.
     """
 
     def __init__(self, **options: Any) -> None:
@@ -61,7 +69,14 @@ class ViewNode(PollingNode):
         self._names = list(settings.namespaces)
         self._heard: dict[str, tuple[float, DiagnosticStatus]] = {}
         self._pages = 0
-        self._control = Control(self) if settings.control else None
+        self._recording = Recording(
+            Path(settings.record_dir),
+            int(settings.record_max_mb * 1e6),
+            lambda: tuple(self._names),
+            self._feed,
+            log_of(self),
+        )
+        self._control = Control(self, self._recording) if settings.control else None
         self._server = ViewServer(
             settings.host,
             settings.port,
@@ -69,6 +84,7 @@ class ViewNode(PollingNode):
             on_clients=self._on_pages,
             log=log_of(self),
             on_request=None if self._control is None else self._control.take,
+            find_file=None if self._control is None else self._recording.file,
         )
         self.address = self._server.address
         self.create_subscription(DiagnosticArray, "/diagnostics", self._on_diagnostics, _DIAGNOSTICS_DEPTH)
@@ -78,8 +94,15 @@ class ViewNode(PollingNode):
         self.get_logger().info(f"open {self.address.url}")
 
     def close(self) -> None:
-        """End the server."""
+        """End the server, and what is being recorded."""
         self._server.close()
+        self._recording.close()
+
+    def _feed(self, skins: Sequence[str], bag: BoundedBag) -> Feed:
+        # Imported here, because it is slow to import and few record.
+        from acts_view.nodes.graph_feed import GraphFeed
+
+        return GraphFeed(self, skins, bag)
 
     def _on_pages(self, pages: int) -> None:
         """From the server's thread."""
@@ -100,6 +123,7 @@ class ViewNode(PollingNode):
 
     def _look(self) -> None:
         """Now and then: which skins there are, what they are like, and what is said of all."""
+        self._recording.step()
         if not self._pages:
             return
         if not self._settings.namespaces:
@@ -108,9 +132,9 @@ class ViewNode(PollingNode):
             if name in self._skins:
                 self._skins[name].look()
             else:
-                self._skins[name] = SkinTopics(self, name)
+                self._skins[name] = SkinTopics(self, name, with_outlines=self._settings.outlines)
             self._ask_shape(name)
-        told = {} if self._control is None else self._control.look()
+        told = {"note": _ONLY_SHOWS} if self._control is None else self._control.look()
         self._server.show_status(
             {"time_s": time.time(), "pages": self._pages, "skins": self._names, "diagnostics": self._statuses(), **told}
         )

@@ -13,6 +13,7 @@ const ADVICE = [
   [/no samples/i, "Does the driver of this skin run and have a board? Its own line says."],
   [/no contact messages|no touch/i, "Does the reconstruction of this skin run? Its own line says."],
   [/stopped|given up/i, "Motion has ended. Mend the reason that is told, then start it again."],
+  [/\bhand\b|motor/i, "Is the hand powered and its adapter plugged in, and may this user open its port? See docs/hand.md."],
   [/robot|connect/i, "Is the robot on, reachable and in remote control? See docs/ball_balancing.md."],
 ];
 const STALE = "The node has ended or hangs: look where it was started, and start it again.";

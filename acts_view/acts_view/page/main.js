@@ -7,17 +7,19 @@ import { connect } from "./connection.js";
 import { Controls } from "./controls.js";
 import { Diagnostics } from "./diagnostics.js";
 import { Panel } from "./skin/panel.js";
+import { Recording } from "./recording.js";
 import { Replay } from "./replay.js";
 import { answered, forgetAll, useConnection } from "./requests.js";
 import { next, onChange, set, settings } from "./settings.js";
 
 const TICK_MS = 50;
 const STATES = { connecting: "connecting", live: "connected", gone: "server gone, trying again" };
-const KEYS = { s: "scale", n: "unit", m: "colours", i: "smooth", c: "contacts", u: "unsure", d: "theme" };
+const KEYS = { s: "scale", n: "unit", m: "colours", i: "smooth", c: "contacts", o: "outlines", u: "unsure", t: "measured", d: "theme" };
 
 const panels = new Map();
 const diagnostics = new Diagnostics(document.getElementById("diagnostics"));
 const replay = new Replay(document.getElementById("replay"));
+const recording = new Recording(document.getElementById("recording"));
 const controls = new Controls(document.getElementById("controls"));
 let isHeld = false;
 
@@ -43,7 +45,10 @@ function onMessage(message) {
   else if (message.type === "status") {
     diagnostics.show(message.diagnostics);
     replay.show(message.replay);
+    recording.show(message.recording);
     controls.show(message);
+    byId("note").textContent = message.note ?? "";
+    byId("empty").hidden = panels.size > 0;
   }
 }
 
@@ -65,20 +70,22 @@ function hold(held) {
 
 function show() {
   for (const name of ["scale", "unit", "colours", "window"]) byId(name).value = settings[name];
-  for (const name of ["smooth", "contacts", "unsure"]) byId(name).setAttribute("aria-pressed", String(settings[name]));
+  for (const name of ["smooth", "contacts", "outlines", "unsure", "measured"]) byId(name).setAttribute("aria-pressed", String(settings[name]));
   byId("theme").textContent = `Theme: ${settings.theme}`;
   document.documentElement.dataset.theme = settings.theme;
   for (const one of panels.values()) one.redraw();
 }
 
 for (const name of ["scale", "unit", "colours", "window"]) byId(name).onchange = (event) => set(name, event.target.value);
-for (const name of ["smooth", "contacts", "unsure", "theme"]) byId(name).onclick = () => next(name);
+for (const name of ["smooth", "contacts", "outlines", "unsure", "measured", "theme"]) byId(name).onclick = () => next(name);
 byId("pause").onclick = () => hold(!isHeld);
 document.addEventListener("keydown", (event) => {
-  if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest("select, button, summary, input")) return;
+  if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest("select, input")) return;
   if (event.key in KEYS) next(KEYS[event.key]);
-  else if (event.key === " ") hold(!isHeld);
-  else return;
+  // On a button it presses that.
+  else if (event.key !== " " || event.target.closest("button, summary")) return;
+  else if (replay.isShown) replay.toggle();
+  else hold(!isHeld);
   event.preventDefault();
 });
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", show);

@@ -23,9 +23,14 @@ export class Replay {
     };
   }
 
+  /** Whether there is one. */
+  get isShown() {
+    return !this.element.hidden;
+  }
+
   /** Whether there is one that is held. */
   get isHeld() {
-    return !this.element.hidden && !this.isPlaying;
+    return this.isShown && !this.isPlaying;
   }
 
   /** The newest of the server; without a replay it is hidden. */

@@ -11,7 +11,9 @@ const CHOICES = {
   window: ["5", "10", "30", "60"],
   smooth: [false, true],
   contacts: [true, false],
+  outlines: [true, false],
   unsure: [false, true],
+  measured: [false, true],
   theme: ["auto", "light", "dark"],
 };
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from acts_core.array import MAX_SIDE
 from acts_core.errors import ActsError, ArrayError
-from acts_core.skin import ForceResponse, Layout, force_table, layout
+from acts_core.skin import LAYOUTS, ForceResponse, Layout, force_table, layout
 from acts_view.skin.arrangement import arrangement
 from acts_view.skin.history import COLUMNS
 from acts_view.web.codec import encode
@@ -25,6 +25,9 @@ CONTACT_COLUMNS = ("x_m", "y_m", "force_n", "peak_counts", "area_m2", "spread_m"
 
 
 _LARGEST_PITCH_M = 1.0
+_LAYOUT_FILES = (".yaml", ".yml")
+_AGE_STEP_S = 1e-4
+_AGE_STEPS_MAX = 65535
 
 
 @dataclass(frozen=True)
@@ -59,9 +62,13 @@ class Frame:
         Counts.
     confidence : np.ndarray [shape=(rows, cols), dtype=uint8] or None
         255: sure.
+    age_s : np.ndarray [shape=(rows, cols), dtype=float32] or None
+        How long ago each taxel was measured [s]; 0: by the newest frame, inf or NaN: not known.
     contact_numbers : np.ndarray [shape=(n,), dtype=uint32]
     contacts : np.ndarray [shape=(n, 8), dtype=float32]
         `CONTACT_COLUMNS`.
+    outlines : sequence of np.ndarray [shape=(n, 2), dtype=float32]
+        Corners of closed polygons around what touches, x and y [m].
     touch : tuple of float or None
         Of all that presses: centre of pressure x and y [m], force [N], peak [counts], area [m^2]; None without contact.
     regions : sequence of RegionState
@@ -74,8 +81,10 @@ class Frame:
     stamp_s: float = 0.0
     image: NDArray[np.uint16] | None = None
     confidence: NDArray[np.uint8] | None = None
+    age_s: NDArray[np.float32] | None = None
     contact_numbers: NDArray[np.uint32] = field(default_factory=lambda: np.zeros(0, np.uint32))
     contacts: NDArray[np.float32] = field(default_factory=lambda: np.zeros((0, len(CONTACT_COLUMNS)), np.float32))
+    outlines: Sequence[NDArray[np.float32]] = ()
     touch: tuple[float, ...] | None = None
     regions: Sequence[RegionState] = ()
     hand: dict[str, Any] = field(default_factory=dict)
@@ -137,7 +146,7 @@ class SkinShape:
 def describe_skin(name: str, shape: SkinShape) -> dict[str, Any]:
     """What the page has to know of a skin before it can draw it, as JSON can say it."""
     try:
-        found = layout(shape.layout, shape.rows, shape.cols)
+        found = _layout_of(shape)
         note = ""
     except ActsError as error:
         # A layout file of another machine: its picture can be shown, its patches not.
@@ -160,6 +169,24 @@ def describe_skin(name: str, shape: SkinShape) -> dict[str, Any]:
         "force_n": force_n,
         "patches": _patches(found, shape),
     }
+
+
+def _layout_of(shape: SkinShape) -> Layout:
+    """The layout; of a file that is none nothing is told but that: any program can name any file for it.
+
+    Raises
+    ------
+    ArrayError
+        It does not fit, or cannot be read here.
+    """
+    if shape.layout in LAYOUTS:
+        return layout(shape.layout, shape.rows, shape.cols)
+    if not shape.layout.endswith(_LAYOUT_FILES):
+        raise ArrayError(f"{shape.layout!r} is neither one of {', '.join(LAYOUTS)} nor a file *.yaml")
+    try:
+        return layout(shape.layout, shape.rows, shape.cols)
+    except ActsError:
+        raise ArrayError(f"{shape.layout!r} holds no layout of this skin, or cannot be read here") from None
 
 
 def _force_n(shape: SkinShape) -> list[float] | None:
@@ -188,6 +215,14 @@ def _patches(found: Layout, shape: SkinShape) -> list[dict[str, Any]]:
     ]
 
 
+def _age_steps(age_s: NDArray[np.float32]) -> NDArray[np.uint16]:
+    """Ages in tenths of a millisecond: half the bytes; what is older than 6.5 s or not known is all the same."""
+    # Only what the newest frame measured is 0.
+    steps = np.maximum(np.rint(age_s / _AGE_STEP_S), age_s > 0.0)
+    # A comparison with NaN is false.
+    return np.where(steps < _AGE_STEPS_MAX, steps, _AGE_STEPS_MAX).astype(np.uint16)
+
+
 def encode_frame(name: str, frame: Frame, history: NDArray[np.float64], life: int) -> bytes:
     """The newest state of a skin and what is new of its history, as one message.
 
@@ -201,10 +236,16 @@ def encode_frame(name: str, frame: Frame, history: NDArray[np.float64], life: in
         "contact_numbers": frame.contact_numbers,
         "contacts": frame.contacts,
     }
+    if frame.outlines:
+        # One after another, and how many corners each has.
+        arrays["outlines"] = np.concatenate(frame.outlines).astype(np.float32)
+        arrays["outline_sizes"] = np.array([len(one) for one in frame.outlines], np.uint32)
     if frame.image is not None:
         arrays["image"] = frame.image
     if frame.confidence is not None:
         arrays["confidence"] = frame.confidence
+    if frame.age_s is not None:
+        arrays["age"] = _age_steps(frame.age_s)
     header = {
         "type": "frame",
         "skin": name,

@@ -12,6 +12,7 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from http import HTTPStatus
+from pathlib import Path
 from typing import Any
 
 from websockets.asyncio.server import Server, ServerConnection, broadcast, serve
@@ -29,9 +30,12 @@ from acts_view.web.page_files import read_page
 from acts_view.web.requests import RequestHandler, read_request
 
 STREAM_PATH = "/stream"
+FILES_PATH = "/recordings/"
 MAX_UNANSWERED = 4
 READ_ONLY = "this page only shows; started with `acts view --control` it can also do that"
 MAX_CLIENTS = 32
+MAX_DOWNLOADS = 4
+_PIECE_BYTES = 1 << 16
 # Enough for two pictures of 64 x 64: what waits in the system's buffers is old when it arrives.
 _SEND_BUFFER_BYTES = 65536
 _LARGEST_REQUEST_BYTES = 1024
@@ -96,6 +100,8 @@ class ViewServer:
     log : LogCallback
     on_request : RequestHandler, optional
         Acts on what pages ask for; None: they are refused.
+    find_file : callable, optional
+        Gives the path of a file that pages may have by its name, or None; called on the server's thread.
     display : Display, optional
 
     Raises
@@ -113,6 +119,7 @@ class ViewServer:
         on_clients: Callable[[int], None],
         log: LogCallback,
         on_request: RequestHandler | None = None,
+        find_file: Callable[[str], Path | None] | None = None,
         display: Display | None = None,
     ) -> None:
         self._display = Display() if display is None else display
@@ -120,6 +127,8 @@ class ViewServer:
         self._on_clients = on_clients
         self._log = log
         self._on_request = on_request
+        self._find_file = find_file
+        self._downloads = 0
         self._files = read_page()
         self._clients: set[_Client] = set()
         self._token = "" if is_local_host(host) else new_token()
@@ -173,9 +182,10 @@ class ViewServer:
         self._server.close()
         try:
             await asyncio.wait_for(self._server.wait_closed(), 1.0)
-        except TimeoutError:
+        except asyncio.TimeoutError:
             for connection in list(self._server.connections):
                 connection.transport.abort()
+        await self._loop.shutdown_default_executor()
 
     def _end_loop(self) -> None:
         self._loop.call_soon_threadsafe(self._loop.stop)
@@ -185,10 +195,12 @@ class ViewServer:
     def _answer(self, connection: ServerConnection, request: Request) -> Response | None:
         """Answer a request for a file; None for the socket, which the library goes on with."""
         path = request.path.partition("?")[0]
-        if path == STREAM_PATH:
+        if path == STREAM_PATH or path.startswith(FILES_PATH):
             reason = refusal(_one(request, "Host"), _one(request, "Origin"), request.path, self._token)
             if reason:
                 return connection.respond(HTTPStatus.FORBIDDEN, f"{reason}\n")
+            if path.startswith(FILES_PATH):
+                return self._refuse_file(connection, path)
             if len(self._clients) >= MAX_CLIENTS:
                 return connection.respond(HTTPStatus.SERVICE_UNAVAILABLE, f"{MAX_CLIENTS} pages are open already\n")
             return None
@@ -198,7 +210,45 @@ class ViewServer:
         headers = {"Content-Type": file.content_type, "Content-Length": str(len(file.body)), "Connection": "close"}
         return Response(HTTPStatus.OK, "OK", Headers({**_HEADERS, **headers}), file.body)
 
+    def _refuse_file(self, connection: ServerConnection, path: str) -> Response | None:
+        """Why a file is not sent; None where it is."""
+        if self._file(path) is None:
+            return connection.respond(HTTPStatus.NOT_FOUND, "there is no such recording\n")
+        if self._downloads >= MAX_DOWNLOADS:
+            return connection.respond(HTTPStatus.SERVICE_UNAVAILABLE, f"{MAX_DOWNLOADS} files are sent already\n")
+        return None
+
+    def _file(self, path: str) -> Path | None:
+        return None if self._find_file is None else self._find_file(path.removeprefix(FILES_PATH))
+
     async def _serve(self, connection: ServerConnection) -> None:
+        path = (connection.request.path if connection.request else "").partition("?")[0]
+        if path.startswith(FILES_PATH):
+            await self._send_file(connection, path)
+        else:
+            await self._stream(connection)
+
+    async def _send_file(self, connection: ServerConnection, path: str) -> None:
+        """Send a file in pieces, as the client takes them; it is whole where the socket is closed normally."""
+        file = self._file(path)
+        assert file is not None
+        self._downloads += 1
+        try:
+            with file.open("rb") as stream:
+                while piece := await asyncio.to_thread(stream.read, _PIECE_BYTES):
+                    await asyncio.wait_for(connection.send(piece), self._send_limit_s)
+        except ConnectionClosed:
+            pass  # the page was closed, or does not want it any more
+        except asyncio.TimeoutError:
+            self._log("warning", f"{file} was not sent to its end: a page took nothing for {self._send_limit_s:g} s")
+            connection.transport.abort()
+        except OSError as error:
+            self._log("warning", f"{file} was not sent to its end: {error}")
+            connection.transport.abort()
+        finally:
+            self._downloads -= 1
+
+    async def _stream(self, connection: ServerConnection) -> None:
         own = connection.transport.get_extra_info("socket")
         own.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, _SEND_BUFFER_BYTES)
         client = _Client(connection, self._display.reader())

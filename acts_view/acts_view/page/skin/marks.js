@@ -1,7 +1,9 @@
 // Copyright 2026 ACTS contributors
 // SPDX-License-Identifier: Apache-2.0
 
-// What is drawn over the taxels: contacts with number and force, their trails, the centre of pressure, the cursor.
+// What is drawn over the taxels: contacts with number and force, outlines, trails, the centre of pressure, the cursor.
+
+import { settings } from "../settings.js";
 
 const TRAIL_MS = 1200;
 
@@ -31,18 +33,38 @@ export class Marks {
     }
   }
 
-  /** Draw the contacts of a message (null: none) and the taxel {row, col} that is pointed at (likewise). */
-  draw(message, pointed) {
+  /**
+   * Draw the contacts of a message, the taxel {row, col} that is pointed at, and dots where the age of a taxel is 0; of
+   * each null for none.
+   */
+  draw(message, pointed, age) {
     this.ratio = window.devicePixelRatio || 1;
     const context = this.canvas.getContext("2d");
     context.clearRect(0, 0, this.canvas.width, this.canvas.height);
+    if (age) this.#drawMeasured(context, age);
     if (message) {
       this.#drawTrails(context);
-      this.#drawContacts(context, message.arrays);
+      const { outlines } = message.arrays;
+      if (outlines && settings.outlines) this.#drawOutlines(context, message.arrays);
+      this.#drawContacts(context, message.arrays, !(outlines && settings.outlines));
       this.#drawCentre(context, message.touch);
       this.#drawReference(context, message.ball.reference);
     }
     if (pointed) this.#drawPointed(context, pointed);
+  }
+
+  #drawMeasured(context, age) {
+    const { cols, pitch_m } = this.geometry.shape;
+    const half = Math.max(0.12 * pitch_m * this.geometry.px_per_m, this.ratio);
+    for (let place = 0; place < age.length; place += 1) {
+      const centre = age[place] === 0 && this.geometry.toPixels(Math.floor(place / cols), place % cols);
+      if (!centre) continue;
+      // White on black can be seen on any colour.
+      context.fillStyle = "rgb(0 0 0 / 0.7)";
+      context.fillRect(centre[0] - 1.5 * half, centre[1] - 1.5 * half, 3 * half, 3 * half);
+      context.fillStyle = "white";
+      context.fillRect(centre[0] - half, centre[1] - half, 2 * half, 2 * half);
+    }
   }
 
   #drawTrails(context) {
@@ -64,7 +86,25 @@ export class Marks {
     }
   }
 
-  #drawContacts(context, { contacts, contact_numbers }) {
+  #drawOutlines(context, { outlines, outline_sizes }) {
+    let first = 0;
+    for (const size of outline_sizes.data) {
+      const corners = [];
+      for (let at = first; at < first + size; at += 1) {
+        const corner = this.geometry.metres(outlines.data[2 * at], outlines.data[2 * at + 1]);
+        // Between the patches of a hand there is no skin.
+        if (corner) corners.push(corner);
+      }
+      first += size;
+      if (corners.length < 3) continue;
+      context.beginPath();
+      corners.forEach((corner, index) => (index ? context.lineTo(...corner) : context.moveTo(...corner)));
+      context.closePath();
+      outlined(context, this.ratio, 1.75);
+    }
+  }
+
+  #drawContacts(context, { contacts, contact_numbers }, hasRings) {
     const { ratio, geometry } = this;
     const width = contacts.shape[1];
     context.font = `600 ${13 * ratio}px system-ui, "DejaVu Sans", sans-serif`;
@@ -75,9 +115,11 @@ export class Marks {
       const centre = geometry.metres(x_m, y_m);
       if (!centre) return;
       const radius = Math.max(6 * ratio, Math.sqrt(area_m2 / Math.PI) * geometry.px_per_m + 3 * ratio);
-      context.beginPath();
-      context.arc(...centre, radius, 0, 2 * Math.PI);
-      outlined(context, ratio, 1.75);
+      if (hasRings) {
+        context.beginPath();
+        context.arc(...centre, radius, 0, 2 * Math.PI);
+        outlined(context, ratio, 1.75);
+      }
       const text = `${number}  ${force_n.toFixed(2)} N`;
       const half = context.measureText(text).width / 2 + 3 * ratio;
       const away = radius + 10 * ratio;

@@ -8,6 +8,7 @@ import { gradient } from "./colours.js";
 import { BIN_S, FRAMES, History, LATENCY, LOST } from "./history.js";
 import { Plots } from "./plots.js";
 import { Regions } from "./regions.js";
+import { saveContacts, savePicture, savePlots, saveTaxels } from "./saving.js";
 import { settings } from "../settings.js";
 import { SkinView } from "./view.js";
 
@@ -23,7 +24,7 @@ const NUMBERS = [
   ["area", "Area", "mm²"],
   ["rate", "Rate", "Hz"],
   ["latency", "Latency, worst", "ms"],
-  ["lost", "Lost in 60 s", "frames"],
+  ["lost", "Lost", "in 60 s"],
 ];
 
 export class Panel {
@@ -44,6 +45,7 @@ export class Panel {
           <div class="canvases"><canvas class="taxels"></canvas><canvas class="marks" tabindex="0" role="img"></canvas></div>
           <div class="legend"><div class="ramp"></div><p class="ends"><span>0</span><span class="unit">counts</span><span class="top">1023</span></p></div>
           <p class="pointed" aria-live="polite"></p>
+          <p class="savers" role="group" aria-label="Save what is shown"><button type="button" data-save="picture" title="of the skin, as it is shown (PNG)">Picture</button><button type="button" data-save="taxels" title="a row for each taxel">Taxels, CSV</button><button type="button" data-save="contacts" title="a row for each contact">Contacts, CSV</button><button type="button" data-save="plots" title="what the plots show, 8 ms a row">Plots, CSV</button></p>
         </div>
         <div class="facts">
           <dl class="numbers">${NUMBERS.map(([key, title, unit]) => `<div data-of="${key}"><dt>${title} [${unit}]</dt><dd><output data-number="${key}">–</output></dd></div>`).join("")}</dl>
@@ -65,12 +67,14 @@ export class Panel {
     this.plots = new Plots(this.find(".plots"), this.history, onHold);
     this.ball = new Ball(this.find(".ball"));
     this.regions = new Regions(this.find(".regions"));
+    for (const button of this.element.querySelectorAll("[data-save]")) button.onclick = () => this.#save(button.dataset.save);
     this.outputs = Object.fromEntries(NUMBERS.map(([key]) => [key, this.find(`[data-number=${key}]`)]));
     this.rows = [...this.element.querySelectorAll("tbody tr")].map((row) => [...row.cells]);
   }
 
   /** What the skin is like. */
   describe(shape) {
+    this.shape = shape;
     const [width_mm, height_mm] = [shape.cols * shape.pitch_m, shape.rows * shape.row_pitch_m].map((side) => Math.round(1000 * side));
     const size = shape.patches.length > 1 ? `${shape.patches.length} patches` : `${width_mm} × ${height_mm} mm`;
     const layout = shape.layout === "square" ? "" : `${shape.layout.split("/").pop().replace(/\.ya?ml$/, "").replaceAll("_", " ")} · `;
@@ -125,6 +129,18 @@ export class Panel {
     pill.dataset.state = state;
     this.plots.draw();
     if (!this.isHeld && now_ms - this.numbers_ms > NUMBERS_EVERY_MS) this.#showFigures(now_ms);
+  }
+
+  /** Save what is shown; before the first message there is nothing. */
+  #save(what) {
+    const { message, name } = this;
+    if (!message || !this.shape) return;
+    const { top, unit } = this.view.taxels;
+    const scale = `0 to ${unit === "counts" ? Math.round(top) : top.toFixed(2)} ${unit}`;
+    if (what === "picture") savePicture(this.view.layers, name, message.stamp_s, scale);
+    if (what === "taxels") saveTaxels(name, this.shape, message);
+    if (what === "contacts") saveContacts(name, message);
+    if (what === "plots") savePlots(name, message.stamp_s, this.plots.shown());
   }
 
   #showFigures(now_ms) {

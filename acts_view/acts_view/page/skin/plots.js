@@ -53,6 +53,13 @@ export class Plots {
     if (!isHeld) this.reset();
   }
 
+  /** The rows of the history that are shown, without what is out of the window or of a zoom. */
+  shown() {
+    const history = this.held ?? this.history;
+    const { min, max } = this.plots[0].plot.scales.x;
+    return history.rows.filter(([time_s]) => time_s - history.newest_s >= min && time_s - history.newest_s <= max);
+  }
+
   /** Show the whole window again. */
   reset() {
     this.isZoomed = false;

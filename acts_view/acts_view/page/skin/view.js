@@ -9,6 +9,7 @@ import { Marks } from "./marks.js";
 import { Taxels } from "./taxels.js";
 
 const NOISE_COUNTS = 30; // as acts_recon's confidence has it
+const AGE_UNKNOWN = 65535; // in tenths of a millisecond, as acts_view/skin/snapshot.py has it
 const STEPS = { ArrowUp: [-1, 0], ArrowDown: [1, 0], ArrowLeft: [0, -1], ArrowRight: [0, 1] };
 
 export class SkinView {
@@ -52,6 +53,11 @@ export class SkinView {
     if (this.pointed) this.#tell();
   }
 
+  /** The canvases, one over another. */
+  get layers() {
+    return [this.below, this.above];
+  }
+
   draw() {
     if (!this.geometry) return;
     const ratio = window.devicePixelRatio || 1;
@@ -65,7 +71,7 @@ export class SkinView {
   }
 
   #drawMarks() {
-    this.marks.draw(settings.contacts ? this.state : null, this.pointed);
+    this.marks.draw(settings.contacts ? this.state : null, this.pointed, settings.measured ? this.#array("age") : null);
   }
 
   /** An array of the newest state that has a value for each taxel; null without. */
@@ -111,8 +117,16 @@ export class SkinView {
     words.push(settings.unit === "newtons" && force_n ? `${force_n[image[place]].toFixed(3)} N (${image[place]} counts)` : `${image[place]} counts`);
     const confidence = this.#array("confidence");
     if (confidence) words.push(uncertainty(confidence[place]));
+    const age = this.#array("age");
+    if (age) words.push(measured(age[place]));
     this.onPoint(words.join(" · "));
   }
+}
+
+/** An age in tenths of a millisecond, in words. */
+function measured(age) {
+  if (age === AGE_UNKNOWN) return "not measured for long";
+  return age === 0 ? "measured now" : `measured ${(age / 10).toFixed(1)} ms before`;
 }
 
 /** A confidence of 0 to 255 in words: 255 / (1 + (sigma / 30 counts)^2). */

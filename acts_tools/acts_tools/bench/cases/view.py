@@ -1,0 +1,184 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""The page: what it costs, how soon and how often it shows touch, and whether the stream notices.
+
+A skin is read at 1 kHz, half of the time with nobody looking, half with four clients and one that takes nothing. Where
+playwright and chromium are installed, one of the four is the page in a real browser.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import socket
+import subprocess
+import time
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+
+import numpy as np
+import psutil
+
+from acts_core.runtime import StreamCounter
+from acts_msgs.msg import Contact
+from acts_ros.messages import seconds_of
+from acts_ros.processes.packages import executable
+from acts_ros.qos import STREAM
+from acts_tools.bench.result import Figure, Result
+from acts_tools.bench.rigs import view_browser
+from acts_tools.bench.rigs.graph import Graph
+from acts_tools.bench.rigs.processes import (
+    NAMESPACE,
+    START_TIMEOUT_S,
+    check_alive,
+    command_line,
+    python_module,
+    tactile,
+    virtual_board,
+)
+from acts_tools.bench.rigs.skin import pressed
+from acts_tools.bench.rigs.view_clients import Watched
+from acts_tools.bench.workbench import Workbench
+from acts_tools.percentiles import percentiles
+from acts_tools.process_load import cpu_s
+
+CLIENTS = 4
+_SETTLE_S = 3.0
+_MB = 1e6
+# Programs that watch start, and tell what they have got, in this time besides [s].
+_WATCHERS_S = 60.0
+
+
+def measure(workbench: Workbench) -> Result:
+    """Count contacts without and with clients; watch the server meanwhile."""
+    counter = StreamCounter()
+
+    def count(message: Contact) -> None:
+        counter.step(message.sequence, time.time() - seconds_of(message.header.stamp))
+
+    port = _free_port()
+    with (
+        virtual_board(workbench.folder, "--rate-hz", "1000", *pressed(workbench.folder)) as board,
+        Graph(workbench) as graph,
+        tactile(workbench.folder, board.link, NAMESPACE) as skin,
+        _server(workbench, port) as server,
+    ):
+
+        def check() -> None:
+            check_alive(skin, workbench.folder / "tactile.log")
+            check_alive(server, workbench.folder / "view.log")
+
+        graph.node.create_subscription(Contact, "contact", count, STREAM)
+        graph.spin_until(lambda: counter.received, START_TIMEOUT_S, "the first contact", check)
+        graph.spin_until(lambda: _listens(port), START_TIMEOUT_S, "the page", check)
+        graph.spin_for(_SETTLE_S)
+        half_s = workbench.seconds / 2
+        alone = _Stretch(counter)
+        graph.spin_for(half_s)
+        alone.end()
+        with _watchers(workbench, port, half_s + _SETTLE_S) as watchers:
+            graph.spin_for(_SETTLE_S)
+            watched = _Stretch(counter)
+            memory, used_s, began_s = psutil.Process(server.pid).memory_info().rss, cpu_s(server.pid), time.monotonic()
+            graph.spin_for(half_s)
+            watched.end()
+            percent = 100 * (cpu_s(server.pid) - used_s) / (time.monotonic() - began_s)
+            grown_mb = (psutil.Process(server.pid).memory_info().rss - memory) / _MB
+            graph.spin_until(
+                lambda: all(one.poll() is not None for one in watchers.values()), _WATCHERS_S, "the clients' end", check
+            )
+        got = {name: _told(workbench, name) for name in watchers}
+    figures = [
+        *alone.figures("alone", "nobody looks"),
+        *watched.figures("watched", f"{CLIENTS} clients and a stalled one"),
+    ]
+    if alone.p99_ms and watched.p99_ms:
+        ratio = watched.p99_ms / alone.p99_ms
+        figures.append(Figure("p99_ratio", "    with to without", ratio, "times", is_ratio=True))
+    figures += [
+        Figure("server_percent", "server of the page", percent, "% of one core"),
+        Figure("server_growth_mb", "    growth of its memory meanwhile", grown_mb, "MB"),
+        *_of_clients("clients", "clients", got["clients"]),
+        *_of_clients("browser", "page in a browser", got.get("browser", Watched())),
+    ]
+    pictures = sum(len(one.images_hz) for one in got.values())
+    return Result(figures, [] if pictures == CLIENTS else [f"{pictures} of {CLIENTS} clients got pictures"])
+
+
+class _Stretch:
+    """What came of the stream from now until `end`."""
+
+    def __init__(self, counter: StreamCounter) -> None:
+        self._counter = counter
+        counter.take_latencies()
+        self._began = time.monotonic(), counter.received, counter.lost
+        self.p99_ms: float | None = None
+
+    def end(self) -> None:
+        """It is over."""
+        began_s, received, lost = self._began
+        self._hz = (self._counter.received - received) / (time.monotonic() - began_s)
+        self._lost = self._counter.lost - lost
+        self.p99_ms = percentiles(np.asarray(self._counter.take_latencies(), dtype=np.float64) * 1e3)["p99"]
+
+    def figures(self, key: str, label: str) -> list[Figure]:
+        """As figures."""
+        return [
+            Figure(f"{key}_hz", f"contacts, {label}", self._hz, "Hz"),
+            Figure(f"{key}_lost", "    lost", self._lost),
+            Figure(f"{key}_p99_ms", "    stamp to reception, 99 % within", self.p99_ms, "ms"),
+        ]
+
+
+def _of_clients(key: str, label: str, watched: Watched) -> list[Figure]:
+    ages = percentiles(np.asarray(watched.age_ms, dtype=np.float64))
+    what = "shown" if key == "browser" else "received"
+    return [
+        Figure(f"{key}_images_hz", f"{label}: images {what}, the fewest", min(watched.images_hz, default=None), "Hz"),
+        Figure(f"{key}_first_s", "    first image after", max(watched.first_s, default=None), "s"),
+        Figure(f"{key}_age_ms.median", f"    stamp until {what}, median", ages["median"], "ms"),
+        Figure(f"{key}_age_ms.p99", "    99 % within", ages["p99"], "ms"),
+    ]
+
+
+@contextmanager
+def _server(workbench: Workbench, port: int) -> Iterator[subprocess.Popen[bytes]]:
+    words = ["--set", f"view.port={port}", "--set", f"view.skins={NAMESPACE}"]
+    with command_line(workbench.folder, "view", [str(executable("acts_view", "view", os.environ)), *words]) as process:
+        yield process
+
+
+@contextmanager
+def _watchers(workbench: Workbench, port: int, seconds: float) -> Iterator[dict[str, subprocess.Popen[bytes]]]:
+    """Programs that watch for a while, each by the name of the file it writes."""
+    rigs = view_browser.__package__
+    has_browser = view_browser.browser() is not None
+    words = {"clients": [str(CLIENTS - has_browser)], **({"browser": []} if has_browser else {})}
+    with ExitStack() as stack:
+        yield {
+            name: stack.enter_context(
+                python_module(
+                    workbench.folder,
+                    f"{rigs}.view_{name}",
+                    [str(port), *more, str(seconds), str(workbench.folder / f"{name}.json")],
+                )
+            )
+            for name, more in words.items()
+        }
+
+
+def _told(workbench: Workbench, name: str) -> Watched:
+    file = workbench.folder / f"{name}.json"
+    return Watched(**json.loads(file.read_text())) if file.is_file() else Watched()
+
+
+def _listens(port: int) -> bool:
+    with socket.socket() as probe:
+        return probe.connect_ex(("127.0.0.1", port)) == 0
+
+
+def _free_port() -> int:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return int(probe.getsockname()[1])

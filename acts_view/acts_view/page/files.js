@@ -1,0 +1,38 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
+// Files from the server, and to the person's disk.
+
+const WHOLE = 1000; // how a socket is closed behind a file that is whole
+
+/** Pieces of a file, by a socket of its own, since that is where the server checks who asks; onSent(bytes) meanwhile. */
+export function fetchFile(path, onSent) {
+  const url = new URL(path, location.href);
+  url.protocol = "ws:";
+  url.search = location.search; // the token, if there is one
+  const socket = new WebSocket(url);
+  socket.binaryType = "blob"; // the browser may keep it on disk
+  return new Promise((resolve, reject) => {
+    const pieces = [];
+    let sent = 0;
+    socket.onmessage = ({ data }) => {
+      pieces.push(data);
+      sent += data.size;
+      onSent(sent);
+    };
+    socket.onclose = ({ code }) => {
+      if (code === WHOLE) resolve(pieces);
+      else reject(new Error("the server did not send it to its end; try again"));
+    };
+  });
+}
+
+/** Give pieces of a file to the person, under a name. */
+export function save(name, pieces, type) {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob(pieces, { type }));
+  link.download = name;
+  link.click();
+  // The browser has begun to read it by then.
+  setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
+}

@@ -1,0 +1,73 @@
+// Copyright 2026 ACTS contributors
+// SPDX-License-Identifier: Apache-2.0
+
+// What the skins measure is recorded by the server, raw; here it is begun, ended, and its files are fetched.
+
+import { fetchFile, save } from "./files.js";
+import { ask } from "./requests.js";
+
+const megabytes = (bytes) => `${(bytes / 1e6).toFixed(1)} MB`;
+
+export class Recording {
+  constructor(element) {
+    this.element = element;
+    this.button = element.querySelector("button");
+    this.line = element.querySelector(".answer");
+    this.list = element.querySelector("ul");
+    this.isOn = false;
+    this.key = "";
+    this.button.onclick = () => this.#toggle();
+  }
+
+  /** The newest of the server; hidden where it does not record for pages. */
+  show(recording) {
+    this.element.hidden = !recording;
+    if (!recording) return;
+    this.isOn = recording.on;
+    this.button.textContent = recording.on ? "Stop recording" : "Record";
+    this.button.setAttribute("aria-pressed", String(recording.on));
+    if (recording.on) {
+      this.#tell(`${recording.name}: ${recording.elapsed_s.toFixed(0)} s, ${megabytes(recording.bytes)}, ${recording.messages} messages, ${recording.lost} lost`);
+    } else if (recording.note) {
+      this.#tell(recording.note);
+    }
+    const key = JSON.stringify(recording.files);
+    if (key === this.key) return;
+    this.key = key;
+    this.list.replaceChildren(...recording.files.map(([name, bytes]) => this.#file(name, bytes)));
+  }
+
+  async #toggle() {
+    this.button.disabled = true;
+    const { done, text } = await ask(this.isOn ? "stop_recording" : "record");
+    this.button.disabled = false;
+    this.#tell(text, done);
+  }
+
+  #file(name, bytes) {
+    const item = document.createElement("li");
+    const button = document.createElement("button");
+    button.type = "button";
+    button.textContent = `Download ${name}`;
+    const size = document.createElement("span");
+    size.textContent = megabytes(bytes);
+    button.onclick = async () => {
+      button.disabled = true;
+      try {
+        const pieces = await fetchFile(`recordings/${name}`, (sent) => { size.textContent = `${megabytes(sent)} of ${megabytes(bytes)}`; });
+        save(name, pieces, "application/octet-stream");
+        size.textContent = megabytes(bytes);
+      } catch (error) {
+        size.textContent = error.message;
+      }
+      button.disabled = false;
+    };
+    item.append(button, size);
+    return item;
+  }
+
+  #tell(text, done = true) {
+    this.line.dataset.done = String(done);
+    if (this.line.textContent !== text) this.line.textContent = text;
+  }
+}
