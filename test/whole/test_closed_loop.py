@@ -8,10 +8,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from offline_chain import Chain, run
 
 from acts_control.ball import EstimatorConfig, TrajectoryConfig
-from acts_sim.ball.world import WorldConfig
+from acts_sim.ball import WorldConfig
+from acts_tools.demo.ball.offline_chain import Chain, run
 from acts_tools.demo.ball.score import HOLD_SETTLE_S, LETTERS, rms_error_mm
 
 pytestmark = pytest.mark.slow

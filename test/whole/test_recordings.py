@@ -40,6 +40,8 @@ FRAME_S = 0.001
 NOISE_COUNTS = 1.5
 # Below it reconstruction and contact see nothing.
 TOUCH_COUNTS = 60
+# Share of the samples that a prediction may change by more than the skin does.
+FURTHER_LIMIT = 1e-3
 # Mean relative error: of samples fused over time (0.012 over the whole recording, 0.022 in the worst 400 frames in a
 # row), and of each frame alone (0.39).
 GRASP_ERROR_LIMIT = 0.05
@@ -67,6 +69,12 @@ class TrueField:
         before = int(position)
         after = (before + 1) % len(self.frames)
         return self.frames[before] + (position - before) * (self.frames[after] - self.frames[before])
+
+    def change_counts(self, time_s: float) -> float:
+        """Most that a taxel changes within `FRAME_S` here, or did before the recorded frame that came last."""
+        last = int(time_s * self.rate_hz) % len(self.frames)
+        around = self.frames.take(range(last - 1, last + 2), axis=0, mode="wrap")
+        return float(np.abs(np.diff(around, axis=0)).max()) * self.rate_hz * FRAME_S
 
 
 def replay(npy: Path, rate_hz: float, domain_id: int, run_dir: Path, method: str) -> list[Seen]:
@@ -120,8 +128,12 @@ def frame_time_s(samples: TactileSamples) -> float:
     return float(samples.sequence) * FRAME_S
 
 
-def check_samples(seen: list[Seen], field: TrueField) -> None:
-    """What arrived is what was pressed."""
+def check_samples(seen: list[Seen], field: TrueField, predicts: bool) -> None:
+    """What arrived is what was pressed; where the image predicts, it may differ by as much as a frame changes.
+
+    Of a whole recording, 3 predictions in 1 000 000 were further away.
+    """
+    further = 0
     for one in seen:
         indices = np.array(one.samples.indices, dtype=np.uint16)
         counts = np.array(one.samples.counts, dtype=np.uint16)
@@ -130,9 +142,12 @@ def check_samples(seen: list[Seen], field: TrueField) -> None:
         measurement_s = 1e-9 * one.samples.duration.nanosec / indices.size
         truth = np.array([field.at(start_s + order * measurement_s).flat[index] for order, index in enumerate(indices)])
         assert np.abs(counts - np.clip(truth, 0, 1023)).max() < 6 * NOISE_COUNTS + 1
-        # Measured taxels keep their values, but what cannot be told from noise may show as 0.
+        changes_counts = 2 * NOISE_COUNTS + 1 + field.change_counts(start_s) if predicts else 0.0
+        # What cannot be told from noise may show as 0.
         image = one.image.ravel()[indices]
-        assert np.all((image == counts) | ((image == 0) & (counts <= TOUCH_COUNTS)))
+        is_near = (np.abs(image - counts) <= changes_counts) | ((image == 0) & (counts <= TOUCH_COUNTS))
+        further += np.count_nonzero(~is_near)
+    assert further <= (FURTHER_LIMIT * 55 * len(seen) if predicts else 0)
 
 
 def check_recovery(seen: list[Seen]) -> None:
@@ -199,8 +214,9 @@ def test_real_grasps_arrive_as_they_were_pressed(
     exported = export_recording(grasps, tmp_path / "grasp.npy", recordings=[busiest])
     field = TrueField(exported.path, exported.rate_hz)
     seen = replay(exported.path, exported.rate_hz, 72, run_dir, "fusion")
-    check_samples(seen, field)
-    # The fusion shows small counts, too: those at the rim of a contact are most of what a grasp begins with.
+    # The fusion predicts what it measured to the frame's end.
+    check_samples(seen, field, predicts=True)
+    # It shows small counts, too: those at the rim of a contact are most of what a grasp begins with.
     errors = relative_errors(seen, field, floor_counts=0.0)
     assert errors.size > 0
     assert errors.mean() < GRASP_ERROR_LIMIT
@@ -219,7 +235,7 @@ def test_the_papers_frame_arrives_as_it_was_pressed(
     exported = export_recording(figures, tmp_path / "figure.npy", kind="full_raster", repeat=2)
     field = TrueField(exported.path, exported.rate_hz)
     seen = replay(exported.path, exported.rate_hz, 73, run_dir, "per_frame")
-    check_samples(seen, field)
+    check_samples(seen, field, predicts=False)
     check_recovery(seen)
     assert relative_errors(seen, field, TOUCH_COUNTS).mean() < FIGURE_ERROR_LIMIT
     rows = [(f"paper, {name}", seen[i], field.at(0.0)) for i, name in enumerate(exported.labels)]

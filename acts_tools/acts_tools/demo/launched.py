@@ -17,15 +17,10 @@ from acts_ros.processes.launcher import leave_with_parent
 
 _STOP_TIMEOUT_S = 20.0
 
-NICENESS = 10
-"""Niceness of the observing process: its output may be late, but the launched processes may not."""
-
 
 @contextmanager
-def launched(
-    launch_file: str, arguments: list[str], log_path: Path, niceness: int = NICENESS
-) -> Iterator[subprocess.Popen[bytes]]:
-    """Run a launch file of acts_bringup in a session of its own, with a higher priority than this process.
+def launched(launch_file: str, arguments: list[str], log_path: Path) -> Iterator[subprocess.Popen[bytes]]:
+    """Run a launch file of acts_bringup in a session of its own.
 
     The launch is stopped at the end of the block, or if this process is killed.
 
@@ -37,8 +32,6 @@ def launched(
         Launch arguments, as ``name:=value``.
     log_path : Path
         File for the output of the launch.
-    niceness : int
-        Permanent niceness of this process. Processes that it starts later inherit it, so give 0 if there are any.
     """
     command = [sys.executable, "-m", "acts_tools", "launch", "--own", "acts_bringup", launch_file, *arguments]
     with log_path.open("wb") as log:
@@ -49,8 +42,6 @@ def launched(
             start_new_session=True,
             preexec_fn=leave_with_parent(os.getpid()),
         )
-        # After the start, because children inherit it.
-        os.nice(niceness)
         try:
             yield process
         finally:

@@ -77,6 +77,23 @@ def test_a_letter_out_of_bounds_fails_the_run() -> None:
     assert len(results["failures"]) == 4
 
 
+@pytest.mark.parametrize("track", ["truth", "reference"])
+@pytest.mark.parametrize("kept", [slice(0, 400), slice(430, None)])
+def test_a_demo_that_could_not_watch_itself_is_not_good(track: str, kept: slice) -> None:
+    recording = make_recording()
+    watched: Track = getattr(recording, track)
+    rows = list(zip(watched.time_s, watched.x_m, watched.y_m, strict=True))
+    # The first and the last arrived, as when the observer is held up.
+    rows = [rows[0], *rows[kept], rows[-1]]
+    setattr(recording, track, Track(*(list(column) for column in zip(*rows, strict=True))))
+    if track == "reference":
+        names = recording.segments
+        recording.segments = [names[0], *names[kept], names[-1]]
+    results = score(recording)
+    assert not results["ok"]
+    assert any("received nothing for" in failure for failure in results["failures"])
+
+
 def test_a_nan_error_is_a_failure() -> None:
     recording = make_recording()
     recording.truth.x_m[1000] = float("nan")

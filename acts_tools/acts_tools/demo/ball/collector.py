@@ -13,17 +13,13 @@ from sensor_msgs.msg import Image
 
 from acts_msgs.msg import BalanceStatus, BallReference, StreamStatistics
 from acts_ros import qos
+from acts_ros.messages import seconds_of
 from acts_ros.polled import PollingNode
 from acts_tools.demo.ball.recording import Recording
 from acts_tools.driver.driver_status import driver_values
 
 # Twice the number of messages per second of the most frequent topic.
 _DEPTH = 256
-
-
-def seconds(stamp: object) -> float:
-    """A message stamp in seconds [s]."""
-    return stamp.sec + stamp.nanosec * 1e-9  # type: ignore[attr-defined,no-any-return]
 
 
 class Collector(PollingNode):
@@ -73,7 +69,7 @@ class Collector(PollingNode):
         if message.state == BalanceStatus.STATE_BALANCING:
             self._balancing = True
             recording = self.recording
-            recording.tilt_time_s.append(seconds(message.header.stamp))
+            recording.tilt_time_s.append(seconds_of(message.header.stamp))
             recording.touch_age_s.append(message.touch_age)
             recording.tilt_commanded_rad.append((message.tilt_commanded.x, message.tilt_commanded.y))
             recording.tilt_measured_rad.append((message.tilt_measured.x, message.tilt_measured.y))
@@ -86,13 +82,13 @@ class Collector(PollingNode):
         self.segment = message.segment
         track = self.recording.reference
         before = len(track.time_s)
-        track.add(seconds(message.header.stamp), message.position.x, message.position.y)
+        track.add(seconds_of(message.header.stamp), message.position.x, message.position.y)
         self.recording.segments.extend([message.segment] * (len(track.time_s) - before))
         self.recording.finished = message.finished
 
     def _on_truth(self, message: PointStamped) -> None:
         self.ball_m = (message.point.x, message.point.y)
-        self.recording.truth.add(seconds(message.header.stamp), message.point.x, message.point.y)
+        self.recording.truth.add(seconds_of(message.header.stamp), message.point.x, message.point.y)
 
     def _on_statistics(self, message: StreamStatistics) -> None:
         latencies = np.asarray(message.latencies, dtype=np.float32)
@@ -108,7 +104,7 @@ class Collector(PollingNode):
         recording.latencies_s.append(latencies)
         recording.contacts_received = message.received - self._first.received
         recording.contacts_lost = message.lost - self._first.lost
-        elapsed_s = seconds(message.header.stamp) - seconds(self._first.header.stamp)
+        elapsed_s = seconds_of(message.header.stamp) - seconds_of(self._first.header.stamp)
         recording.contact_rate_hz = recording.contacts_received / elapsed_s if elapsed_s > 0 else 0.0
 
     def _on_diagnostics(self, message: DiagnosticArray) -> None:

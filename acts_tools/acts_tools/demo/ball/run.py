@@ -178,8 +178,8 @@ def _run(seconds: float | None, out: Path, robot_ip: str, realtime_priority: int
             f"trajectory:={trajectory}",
             f"run_dir:={run_dir}",
             f"robot_ip:={robot_ip}",
-            # One image in ten is enough for a map of the pressure.
-            "image_raw_rate_hz:=100",
+            # Enough for a map of the pressure.
+            "image_raw_rate_hz:=20",
             f"realtime_priority:={realtime_priority}",
         ]
         try:

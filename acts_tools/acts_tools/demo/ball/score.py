@@ -27,6 +27,9 @@ LIMITS = {
 
 LETTERS = ("N", "B", "I")
 
+MAX_GAP_S = 0.2
+"""Longest time without a true position or a reference that a judgement may bridge by interpolation [s]."""
+
 
 def rms_error_mm(recording: Recording, segment: str, *, skip_s: float = 0.0) -> float | None:
     """Root mean square distance of the true ball from the reference in one segment [mm].
@@ -58,6 +61,16 @@ def rms_error_mm(recording: Recording, segment: str, *, skip_s: float = 0.0) -> 
     return float(np.sqrt(np.mean(distance_m**2)) * 1000)
 
 
+def largest_gap_s(recording: Recording) -> float:
+    """Longest time without a reference, or without a true position, while the control loop was closed [s]."""
+    reference_s = np.array(recording.reference.time_s)
+    if not reference_s.size:
+        return 0.0
+    truth_s = np.clip(recording.truth.time_s, reference_s[0], reference_s[-1])
+    covered_s = np.concatenate([reference_s[:1], truth_s, reference_s[-1:]])
+    return float(max(np.diff(reference_s).max(initial=0.0), np.diff(covered_s).max()))
+
+
 def score(recording: Recording) -> dict[str, Any]:
     """The results of a run, in the layout of ``out/ball_balancing.json``."""
     latencies_ms = np.concatenate(recording.latencies_s) * 1000 if recording.latencies_s else np.empty(0)
@@ -87,6 +100,12 @@ def failures(recording: Recording, results: dict[str, Any]) -> list[str]:
         found.append(f"the controller stopped: {recording.stop_reason}")
     if not recording.finished:
         found.append("the trajectory did not come to its end")
+    gap_s = largest_gap_s(recording)
+    if gap_s > MAX_GAP_S:
+        found.append(
+            f"the demo itself received nothing for {gap_s:.1f} s, so its errors of position say nothing: "
+            "other programs took its CPU (acts doctor tells)"
+        )
     if results["contact_rate_hz"] < LIMITS["contact_rate_hz"]:
         found.append(
             f"{results['contact_rate_hz']} contacts/s received, at least {LIMITS['contact_rate_hz']:g} are wanted: "

@@ -10,29 +10,31 @@ any machine, however busy. What scheduling and transport add is set as fixed del
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from acts_control.ball import (
     Ball,
+    BallController,
     BallEstimator,
     BallReport,
     ContactMeasurement,
+    ControlInput,
+    ControllerConfig,
     EstimatorConfig,
     ReferenceReport,
     Trajectory,
     TrajectoryConfig,
 )
-from acts_control.ball.controller import BallController, ControlInput, ControllerConfig
 from acts_control.robots.ur import UrConfig
 from acts_core.array import COUNT_MAX, ArrayGeometry
 from acts_core.robots import ur5e
 from acts_core.sampling import SamplingConfig
 from acts_recon.settings import ReconstructionSettings
-from acts_sim.ball.ball_plate import JointMotion
-from acts_sim.ball.world import Phase, World, WorldConfig
-from acts_sim.ur.joints import JointState, Servo
+from acts_sim.ball import JointMotion, Phase, World, WorldConfig
+from acts_sim.ur import JointState, Servo
 from acts_tools.demo.ball.recording import Recording
 from acts_tools.evaluate.images.board_sampler import BoardSampler
 
@@ -70,8 +72,8 @@ class Chain:
     seed: int = 1
 
 
-def run(chain: Chain, limit_s: float = 60.0) -> Recording:
-    """Balance until the trajectory has ended.
+def run(chain: Chain, limit_s: float = 60.0, show: Callable[[float], None] = lambda _: None) -> Recording:
+    """Balance until the trajectory has ended, and call `show` with the time of the simulation [s] now and then.
 
     Returns
     -------
@@ -96,6 +98,8 @@ def run(chain: Chain, limit_s: float = 60.0) -> Recording:
     recording = Recording()
     started_ms: int | None = None
     for now_ms in range(1, round(limit_s / STEP_S)):
+        if now_ms % 100 == 0:
+            show(now_ms * STEP_S)
         while commands and commands[0][0] <= now_ms:
             servo.set(commands.popleft()[1], chain.robot.servo_lookahead_s)
         servo.step(joints, STEP_S)
@@ -144,6 +148,8 @@ def run(chain: Chain, limit_s: float = 60.0) -> Recording:
         recording.truth.add(seconds, state.ball.x_m, state.ball.y_m)
         recording.reference.add(seconds, wanted.reference.x_m, wanted.reference.y_m)
         recording.segments.append(wanted.segment)
+        pressure = recording.segment_pressure.setdefault(wanted.segment, np.zeros(recovery.image.shape))
+        pressure += recovery.image
         if wanted.finished:
             recording.finished = True
             break
