@@ -6,3 +6,8 @@
 In come joint angles; out come the counts of every taxel and the ball's true position. The physics depends on no clock
 and no process.
 """
+
+from acts_sim.ball.ball_plate import JointMotion
+from acts_sim.ball.world import Phase, World, WorldConfig
+
+__all__ = ["JointMotion", "Phase", "World", "WorldConfig"]

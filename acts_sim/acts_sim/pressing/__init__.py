@@ -6,9 +6,10 @@
 In come objects and motions; out come full frames of counts.
 """
 
-from acts_sim.pressing.contact_model import ContactModel, FoamConfig
+from acts_sim.pressing.contact_model import ContactModel, FoamConfig, Press
 from acts_sim.pressing.events import EVENT_RATE_HZ, EVENTS, event_recordings
 from acts_sim.pressing.objects import OBJECTS, ContactObject, object_named
+from acts_sim.pressing.outlines import Field, bar, disc, ellipsoid, prism
 from acts_sim.pressing.presses import PRESS_RATE_HZ, press_over_time
 from acts_sim.pressing.pressing_arm import RATE_HZ, PressingArm, PressingConfig
 
@@ -20,10 +21,16 @@ __all__ = [
     "RATE_HZ",
     "ContactModel",
     "ContactObject",
+    "Field",
     "FoamConfig",
+    "Press",
     "PressingArm",
     "PressingConfig",
+    "bar",
+    "disc",
+    "ellipsoid",
     "event_recordings",
     "object_named",
     "press_over_time",
+    "prism",
 ]

@@ -103,7 +103,7 @@ class ContactModel:
         shape = (self.geometry.rows, self.geometry.cols)
         self._gain = np.maximum(1 + self.config.gain_spread * self._rng.standard_normal(shape), 0.1)
         col, self._to_cols = _spreading(self.geometry.cols, self.geometry.pitch_m, self.config)
-        row, self._to_rows = _spreading(self.geometry.rows, self.geometry.pitch_m, self.config)
+        row, self._to_rows = _spreading(self.geometry.rows, self.geometry.pitch_y_m, self.config)
         self._x, self._y = np.meshgrid(self.geometry.x_m(col), self.geometry.y_m(row))
 
     def forces_n(self, item: ContactObject, press: Press) -> NDArray[np.float64]:
@@ -130,7 +130,7 @@ class ContactModel:
         return self._carried_n(pressure_pa(self._x, self._y))
 
     def _carried_n(self, pressure_pa: Field) -> NDArray[np.float64]:
-        point_area_m2 = (self.geometry.pitch_m / self.config.subsamples) ** 2
+        point_area_m2 = self.geometry.taxel_area_m2 / self.config.subsamples**2
         return self._to_rows @ pressure_pa @ self._to_cols.T * point_area_m2
 
     def counts(self, forces_n: NDArray[np.float64]) -> NDArray[np.uint16]:

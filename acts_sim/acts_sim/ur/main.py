@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from acts_core.errors import ActsError
+from acts_core.errors import ActsError, exit_code
 from acts_core.runtime import RealtimeConfig, enter_realtime
 from acts_core.settings import default_of, describe, from_mapping
 from acts_core.stop_signals import StopSignals
@@ -141,14 +141,14 @@ def run(options: argparse.Namespace, signals: StopSignals) -> None:
 
 
 def main(signals: StopSignals | None = None) -> int:
-    """Run the simulated controller; 0 after a signal, 1 when it could not start."""
+    """Run the simulated controller; 0 after a signal, 2 when it cannot work with its arguments, 1 otherwise."""
     options = parse(sys.argv[1:])
     signals = StopSignals() if signals is None else signals
     try:
         run(options, signals)
     except ActsError as error:
         print(f"ur_controller: {error}", file=sys.stderr, flush=True)
-        return 1
+        return exit_code(error)
     finally:
         signals.ended()
     return 0

@@ -16,7 +16,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
-from acts_core.errors import PacketError, RobotError
+from acts_core.errors import PacketError, RobotError, SettingsError
 from acts_sim.ur import CYCLE_HZ
 
 MAX_CONNECTIONS = 200
@@ -127,7 +127,9 @@ class Server:
     Raises
     ------
     RobotError
-        When a port cannot be bound.
+        When a port is in use, or the name of `host` is not known.
+    SettingsError
+        When `host` is no address of this machine.
     """
 
     def __init__(self, host: str, ports: list[Port], cycle: Callable[[int], None], log: Callable[[str], None]) -> None:
@@ -252,9 +254,13 @@ def _listen(host: str, port: Port) -> socket.socket:
         listener.setblocking(False)
     except (OSError, OverflowError, UnicodeError) as error:
         listener.close()
+        failure = f"cannot listen on {host} port {port.number} ({port.name}): {error}."
         if isinstance(error, OSError) and error.errno == errno.EADDRINUSE:
-            advice = "Is another simulated robot running? Give a second one --host 127.0.0.2"
-        else:
-            advice = "Give an address of this machine, such as --host 127.0.0.2"
-        raise RobotError(f"cannot listen on {host} port {port.number} ({port.name}): {error}. {advice}") from error
+            raise RobotError(
+                f"{failure} Is another simulated robot running? Give a second one --host 127.0.0.2"
+            ) from error
+        if isinstance(error, socket.gaierror):
+            # The network may not be there yet.
+            raise RobotError(f"{failure} Give an address of this machine, such as --host 127.0.0.2") from error
+        raise SettingsError(f"{failure} Give an address of this machine, such as --host 127.0.0.2") from error
     return listener
