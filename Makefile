@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 # make demo and make test do all the set-up they need, in this checkout, and say what they do.
-# `make PYTHON=/path/to/python3 ...` chooses the interpreter.
+# `make PYTHON=/path/to/python3 ...` chooses the interpreter, `make ROS=jazzy ...` the distribution (default: kilted).
 
 .PHONY: help setup demo demo-hand bench firmware test test-quick lint format clean
 
@@ -11,7 +11,7 @@ help:
 	@echo "make demo-hand  the reflexes of a simulated LEAP hand, about a minute (HAND=slip: one act); writes out/"
 	@echo "make bench   throughput, CPU and latency of the sensing end, about five minutes; writes out/bench.json"
 	@echo "make firmware  cross-compile the Teensy's firmware, check that it fits (needs gcc-arm-none-eabi)"
-	@echo "make test    linters and the whole test suite"
+	@echo "make test    linters and the whole test suite (ROS=jazzy: on ROS 2 Jazzy instead of Kilted)"
 	@echo "make test-quick  ruff and the tests that take no time, for every day"
 	@echo "make lint    linters and type checks only"
 	@echo "make format  format Python and C++"

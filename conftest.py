@@ -3,13 +3,17 @@
 
 """For every test: a loaded machine is slow, which is no failure; signals do what they do in a terminal; recordings.
 
-`make test` runs files of tests side by side in as many processes as there are cores (pytest-xdist). Tests that keep
+`make test` runs files of tests side by side in one process more than there are cores (pytest-xdist). Tests that keep
 others from the cores are marked `alone`: while one of them runs, the other processes wait between two tests.
+A process whose test does not end is ended with a traceback of all its threads: a deadlock in a library must not hold
+the run for ever.
 """
 
+import faulthandler
 import fcntl
 import os
 import signal
+import sys
 import tempfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -23,6 +27,10 @@ settings.load_profile("acts")
 # In the background, or under nohup, these are ignored, and the processes that tests send them to would inherit that.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 signal.signal(signal.SIGHUP, signal.SIG_DFL)
+
+# A minute and a half is the longest that a test took on a machine that was far too busy.
+_HANGS_AFTER_S = 600.0
+_STDERR = pytest.StashKey[int]()
 
 RECORDINGS = Path(os.environ.get("ACTS_RECORDINGS") or Path(__file__).resolve().parents[1] / "shared" / "data")
 
@@ -40,6 +48,11 @@ def recording_path() -> Callable[[str], Path]:
     return path_of
 
 
+def pytest_configure(config: pytest.Config) -> None:
+    """Keep the standard error output: pytest redirects it while a test runs."""
+    config.stash[_STDERR] = os.dup(sys.__stderr__.fileno())
+
+
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Keep a file's tests on one process, since they share a ROS domain; all of the driver's share a range of them."""
@@ -50,7 +63,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
-    """Let a test marked `alone` run while no other does."""
+    """Let a test marked `alone` run while no other does; end a process whose test does not end."""
     if "PYTEST_XDIST_WORKER" not in os.environ:
         return (yield)
     path = Path(tempfile.gettempdir()) / f"acts_test_{os.getuid()}"
@@ -58,4 +71,8 @@ def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
         fcntl.flock(turn, fcntl.LOCK_EX)  # whoever waits for the cores keeps others from taking them again and again
         fcntl.flock(cores, fcntl.LOCK_EX if item.get_closest_marker("alone") else fcntl.LOCK_SH)
         fcntl.flock(turn, fcntl.LOCK_UN)
-        return (yield)
+        faulthandler.dump_traceback_later(_HANGS_AFTER_S, exit=True, file=item.config.stash[_STDERR])
+        try:
+            return (yield)
+        finally:
+            faulthandler.cancel_dump_traceback_later()

@@ -4,7 +4,8 @@
 """Set up this checkout on a bare machine: virtual environment, ROS 2 from wheels, colcon build.
 
 Standard library only: it runs before anything is installed. Every step is skipped when its inputs have not changed
-since it last succeeded, so calling it again costs a fraction of a second. `make setup` and `./acts` call it.
+since it last succeeded, so calling it again costs a fraction of a second. `make setup` and `./acts` call it. The
+variable ROS chooses the distribution; each has a virtual environment and a build of its own.
 """
 
 from __future__ import annotations
@@ -26,11 +27,14 @@ from pathlib import Path
 from typing import IO
 
 ROOT = Path(__file__).resolve().parent.parent
-STATE = ROOT / ".acts"
+LOCKS = {"kilted": "requirements.lock", "jazzy": "requirements-jazzy.lock"}
+DEFAULT_DISTRIBUTION = "kilted"
+DISTRIBUTION = os.environ.get("ROS") or DEFAULT_DISTRIBUTION
+STATE = ROOT / ".acts" if DISTRIBUTION == DEFAULT_DISTRIBUTION else ROOT / ".acts" / DISTRIBUTION
 VENV = STATE / "venv"
 BUILD = STATE / "build"
 INSTALL = STATE / "install"
-LOCK = ROOT / "requirements.lock"
+LOCK = ROOT / LOCKS.get(DISTRIBUTION, LOCKS[DEFAULT_DISTRIBUTION])
 PYTHON_RECORD = VENV / "acts.python"
 
 PLAIN = re.compile(r"[\w/.+@~-]")
@@ -77,6 +81,14 @@ def check_place(root: Path) -> None:
         )
 
 
+def check_distribution() -> None:
+    """Refuse a distribution of which there are no wheels."""
+    if DISTRIBUTION not in LOCKS:
+        raise SetupError(
+            f"ROS={DISTRIBUTION}: {' or '.join(LOCKS)} can be set up here; unset, it is {DEFAULT_DISTRIBUTION}"
+        )
+
+
 def check_machine() -> None:
     """Refuse a machine on which a later step would fail, naming everything that is missing at once."""
     if sys.version_info < MINIMUM_PYTHON:
@@ -109,7 +121,7 @@ def up_to_date(stamp: Path, value: str) -> bool:
 
 
 def run(command: list[str], log_name: str, env: dict[str, str] | None = None) -> None:
-    """Run a command with its output in `.acts/log/<log_name>`, shown only when it fails."""
+    """Run a command with its output in `log/<log_name>` of the state's folder, shown only when it fails."""
     log_path = STATE / "log" / log_name
     log_path.parent.mkdir(parents=True, exist_ok=True)
     with log_path.open("wb") as log:
@@ -142,13 +154,13 @@ def create_venv() -> None:
         return
     # Gone while the work is under way: an interrupted one must not pass for whole when its inputs change back.
     stamp.unlink(missing_ok=True)
-    say(f"virtual environment with Python {sys.version.split()[0]} in .acts/venv")
+    say(f"virtual environment with Python {sys.version.split()[0]} in {os.path.relpath(VENV, ROOT)}")
     # What was built, too: CMake remembers the interpreter and the place of the checkout.
     for folder in (VENV, BUILD, INSTALL):
         shutil.rmtree(folder, ignore_errors=True)
     run([python, "-m", "venv", str(VENV)], "venv.log")
     count = sum(1 for line in LOCK.read_text().splitlines() if line and not line.startswith("#"))
-    say(f"installing about {count} wheels, ROS 2 Kilted among them (one to three minutes, 1 GB)")
+    say(f"installing about {count} wheels, ROS 2 {DISTRIBUTION.capitalize()} among them (one to three minutes, 1 GB)")
     started = time.monotonic()
     pip = [str(VENV / "bin/python"), "-m", "pip", "install", "--prefer-binary", "--no-input", "--progress-bar=off"]
     try:
@@ -212,7 +224,7 @@ def environment() -> dict[str, str]:
         "_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1",
         # Also where it is forbidden elsewhere: without it, each start of a node compiles a hundred modules of ours.
         "PYTHONDONTWRITEBYTECODE": "",
-        "ROS_DISTRO": "kilted",
+        "ROS_DISTRO": DISTRIBUTION,
         "ROS_VERSION": "2",
         "ROS_PYTHON_VERSION": "3",
     }
@@ -239,7 +251,7 @@ def packages() -> list[Path]:
 
 
 def build_workspace() -> None:
-    """`colcon build` of every package, merged into `.acts/install`; Python modules are linked, not copied."""
+    """`colcon build` of every package, merged into one installation; Python modules are linked, not copied."""
     files = [
         path
         for package in packages()
@@ -315,9 +327,10 @@ def main() -> int:
     if not arguments.this_python:
         hand_over_to_recorded_python()
     try:
+        check_distribution()
         check_place(ROOT)
         check_machine()
-        STATE.mkdir(exist_ok=True)
+        STATE.mkdir(parents=True, exist_ok=True)
         # Two commands at once must not build into one another.
         with (STATE / "lock").open("w") as lock:
             acquire(lock)

@@ -3,7 +3,8 @@
 
 # Sourced by ./acts and the Makefile: enters the environment of this checkout.
 # With a ROS 2 installation sourced, that is the user's own workspace (colcon build); without one, what
-# scripts/bootstrap.py has set up, which is done here when it is missing or out of date.
+# scripts/bootstrap.py has set up, which is done here when it is missing or out of date; ROS=jazzy chooses another
+# distribution than Kilted for it.
 acts_root=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.." && pwd)
 
 # Whether a sourced workspace holds ACTS.
@@ -22,8 +23,10 @@ if ! command -v ros2 >/dev/null 2>&1; then
     exit 1
   fi
   "${PYTHON:-python3}" "$acts_root/scripts/bootstrap.py" --quiet ${PYTHON:+--this-python}
+  acts_state="$acts_root/.acts"
+  if [ "${ROS:-kilted}" != kilted ]; then acts_state="$acts_state/$ROS"; fi
   # shellcheck disable=SC1091
-  source "$acts_root/.acts/env.sh"
+  source "$acts_state/env.sh"
 elif ! acts_is_sourced; then
   if [ ! -f "$acts_root/install/setup.bash" ]; then
     echo "[setup] ROS 2 ${ROS_DISTRO:-} is sourced, but no workspace with ACTS in it. In the workspace's folder run:" >&2

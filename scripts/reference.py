@@ -28,6 +28,7 @@ PAGE = ROOT / "docs" / "reference.md"
 NODES = (
     ("acts_driver", "driver", "acts_driver.settings", "DriverSettings"),
     ("acts_recon", "reconstruction", "acts_recon.settings", "ReconstructionSettings"),
+    ("acts_recon", "gait", "acts_recon.nodes.gait_node", "GaitSettings"),
     ("acts_control", "ball_state", "acts_control.ball.nodes.ball_state_node", "BallStateSettings"),
     ("acts_control", "ball_trajectory", "acts_control.ball.nodes.ball_trajectory_node", "BallTrajectorySettings"),
     ("acts_control", "ball_control", "acts_control.ball.nodes.ball_control_node", "BallControlSettings"),

@@ -30,6 +30,10 @@ pytestmark = pytest.mark.slow
 
 DOMAIN_ID = 200
 RANGE = "ROS_AUTOMATIC_DISCOVERY_RANGE"
+# Fast DDS of Jazzy knows only the older name, and newer versions complain of it.
+PROFILE = (
+    "FASTRTPS_DEFAULT_PROFILES_FILE" if os.environ.get("ROS_DISTRO") == "jazzy" else "FASTDDS_DEFAULT_PROFILES_FILE"
+)
 HERE = {RANGE: "LOCALHOST"}
 # What another machine does to get at nodes that do not look for it: ask the ports of all participants there may be.
 INTRUDER = f"""
@@ -129,7 +133,7 @@ def test_who_names_this_machine_as_its_peer_gets_nothing(running: Running) -> No
     machines, folder = running.machines, running.folder
     profile = folder / "intruder.xml"
     profile.write_text(INTRUDER)
-    reach = {RANGE: "SYSTEM_DEFAULT", "FASTDDS_DEFAULT_PROFILES_FILE": str(profile)}
+    reach = {RANGE: "SYSTEM_DEFAULT", PROFILE: str(profile)}
     with (
         ear(machines.far, [CONTACT, TRUTH, OPEN_TOPIC], DOMAIN_ID, folder / "far.txt", reach) as far,
         # A node that only has LOCALHOST, as all had: the other machine gets it, so it would get the others as well.
