@@ -8,6 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 import yaml
 from ament_index_python.packages import get_package_share_directory
@@ -46,6 +47,17 @@ def test_the_shipped_file_has_two_skins_that_stand_to_one_another() -> None:
     assert placed["right_arm"].rotation()[:, 2] == pytest.approx([0, -1, 0], abs=1e-6)
     for skin in skins_file.skins:
         assert tactile_parameters(skin, skin.port or "").driver.frame_id == skin.name
+
+
+def test_the_plates_of_the_shipped_chest_lie_side_by_side() -> None:
+    skins_file = read_skins(Path(get_package_share_directory("acts_config")) / "skins" / "chest.yaml")
+    placed = skins_file.in_base()
+    left, right = (placed[f"{side}_chest"] for side in ("left", "right"))
+    # 140 mm and a gap of 10: seen from outside, x is to the left of the torso and y is up.
+    assert np.subtract(left.position_m, right.position_m) == pytest.approx([0, 0.15, 0])
+    assert left.rotation() == pytest.approx(np.array([[0, 0, 1], [1, 0, 0], [0, 1, 0]]), abs=1e-6)
+    for skin in skins_file.skins:
+        assert tactile_parameters(skin, skin.port or "").reconstruction.arranged().name == "chest"
 
 
 def test_the_file_of_the_documents_is_one(tmp_path: Path) -> None:

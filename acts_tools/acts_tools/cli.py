@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from types import ModuleType
 
 from acts_core.errors import ActsError
+from acts_core.shared_memory import check_shared_memory
 from acts_tools import __version__
 
 COMMANDS = {
@@ -30,6 +31,7 @@ COMMANDS = {
     "library": ("acts_tools.library", "write a library of known objects for the classification"),
     "bench": ("acts_tools.bench.command", "measure throughput, CPU and latency"),
     "evaluate": ("acts_tools.evaluate.command", "score the recovery of images on recordings"),
+    "figures": ("acts_tools.figures.command", "draw the paper's figures beside ours"),
     "demo": ("acts_tools.demo.command", "run a demonstration with everything simulated"),
 }
 """Module and summary of every subcommand; the module has ``add_parser(subparsers)`` and ``run(arguments) -> int``."""
@@ -64,12 +66,13 @@ def main(argv: Sequence[str] | None = None) -> int:
     words = list(sys.argv[1:] if argv is None else argv)
     # The first word that is not an option is the subcommand, because acts has no option with a value.
     selected = next((word for word in words if not word.startswith("-")), None)
-    parser, module = _build_parser(selected)
-    arguments = parser.parse_args(words)
-    if module is None:
-        parser.print_help()
-        return 0
     try:
+        check_shared_memory()
+        parser, module = _build_parser(selected)
+        arguments = parser.parse_args(words)
+        if module is None:
+            parser.print_help()
+            return 0
         return int(module.run(arguments))
     except ActsError as error:
         print(f"error: {error}", file=sys.stderr)

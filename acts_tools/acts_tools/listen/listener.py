@@ -14,7 +14,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.node import Node
 
 from acts_ros.bags.message_types import message_class
-from acts_tools.bags.qos import for_subscription
+from acts_ros.bags.qos import for_subscription
 from acts_tools.listen.arrivals import Arrivals
 
 _NS_PER_S = 1_000_000_000

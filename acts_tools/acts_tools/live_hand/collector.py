@@ -16,7 +16,7 @@ from acts_core.errors import ActsError, PacketError
 from acts_core.skin import layout
 from acts_msgs.msg import HandStatus, HandTiming, RegionContacts
 from acts_ros import qos
-from acts_ros.messages import read_regions
+from acts_ros.messages import read_regions, seconds_of
 from acts_ros.polled import PollingNode
 from acts_sim.hand import TruthFollower
 from acts_sim.shared import TimedRingReader
@@ -27,11 +27,6 @@ _DEPTH = 2048
 # One in this many messages of regions is decoded: at 1 kHz a hundred a second.
 _EVERY = 10
 _FRESH_S = 0.1
-
-
-def seconds(stamp: object) -> float:
-    """A message stamp in seconds [s]."""
-    return stamp.sec + stamp.nanosec * 1e-9  # type: ignore[attr-defined,no-any-return]
 
 
 class HandCollector(PollingNode):
@@ -89,7 +84,7 @@ class HandCollector(PollingNode):
         for message, _ in self._statuses.take_all():
             self.touch_age_s = message.touch_age
             self.status = StatusSample(
-                seconds(message.header.stamp) - self._clock_offset_s,
+                seconds_of(message.header.stamp) - self._clock_offset_s,
                 message.state,
                 message.reason,
                 tuple(message.active),

@@ -143,7 +143,7 @@ def live_hand(
     """
     words = [f"{name}:={value}" for name, value in {**arguments, "run_dir": str(run_dir)}.items()]
     # The previous hand may still be ending.
-    with launched("hand_reflexes.launch.xml", words, log_path, niceness=0) as launch:
+    with launched("hand_reflexes.launch.xml", words, log_path) as launch:
         middleware.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
         collector = HandCollector(NAMESPACE, run_dir, recording)
         watcher = Watcher(collector.take_in, launch, stop, lambda: line(collector))
