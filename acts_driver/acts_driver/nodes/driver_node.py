@@ -154,6 +154,12 @@ class DriverNode(LifecycleNode):
             # That topic is kept for late joiners, and what it said of the board is not known any more.
             self._board.publish(BoardStatus(problem="the driver does not read a board now"))
 
+    def destroy_node(self) -> None:
+        """Take the node out of the graph at once."""
+        super().destroy_node()
+        # rclpy leaves this to the garbage collector, and until then the graph holds a node that answers nothing.
+        self._state_machine.destroy_when_not_in_use()
+
     def _publish(self, frames: list[tuple[SampleFrame, int]], results: list[tuple[BoardResult, int]]) -> None:
         """Publish what may be used; on the reader's thread."""
         self._baseline.observe(frames)

@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The node over real DDS: samples, drops, diagnostics, life cycle, parameters. One process on ROS_DOMAIN_ID 149."""
+"""The node over real DDS: samples, drops, diagnostics, life cycle, parameters. ROS_DOMAIN_IDs 23 and 149."""
 
 import threading
 import time
@@ -30,7 +30,7 @@ def board(tmp_path: Path) -> Iterator[PtyBoard]:
 
 @pytest.fixture
 def rig() -> Iterator[Rig]:
-    rig = Rig()
+    rig = Rig(23)
     yield rig
     rig.close()
 
@@ -242,6 +242,20 @@ def test_a_wrong_parameter_ends_the_process_with_the_reason(argument: str, words
     assert process.returncode == REFUSED_EXIT_CODE
     for word in ["error: ", *words]:
         assert word in output
+
+
+def test_a_destroyed_driver_leaves_the_graph_at_once(board: PtyBoard, rig: Rig) -> None:
+    watching = Rig(23)
+    driver = rig.start_driver(port=board.path)
+    service = "/plate/driver/change_state"
+    watching.spin_until(lambda: watching.listener.count_services(service) == 1, "the driver")
+    driver.close()
+    driver.destroy_node()
+    rig.driver = None
+    # While the object is still there: nothing is left to the garbage collector.
+    watching.spin_until(lambda: watching.listener.count_services(service) == 0, "the end of the driver")
+    assert not driver.active
+    watching.close()
 
 
 def test_quality_of_service_can_be_overridden(board: PtyBoard, rig: Rig) -> None:
