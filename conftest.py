@@ -53,14 +53,6 @@ def pytest_configure(config: pytest.Config) -> None:
     config.stash[_STDERR] = os.dup(sys.__stderr__.fileno())
 
 
-@pytest.hookimpl(tryfirst=True)
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Keep a file's tests on one process, since they share a ROS domain; all of the driver's share a range of them."""
-    for item in items:
-        package = item.path.relative_to(item.config.rootpath).parts[0]
-        item.add_marker(pytest.mark.xdist_group(package if package == "acts_driver" else str(item.path)))
-
-
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
     """Let a test marked `alone` run while no other does; end a process whose test does not end."""

@@ -1,11 +1,10 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""A driver and a listener on one executor, and driver processes; every rig has its own ROS_DOMAIN_ID (20 to 39)."""
+"""A driver and a listener on one executor, and driver processes."""
 
 from __future__ import annotations
 
-import itertools
 import os
 import signal
 import subprocess
@@ -29,15 +28,13 @@ from acts_msgs.msg import TactileSamples
 from acts_ros.qos import STREAM
 
 DEADLINE_S = 20.0
-_domains = itertools.count(20)
 
 
 class Rig:
     """Spins what a test adds to it, and keeps what arrives."""
 
-    def __init__(self, domain_id: int | None = None) -> None:
-        self.domain_id = next(_domains) if domain_id is None else domain_id
-        assert domain_id is not None or self.domain_id < 40
+    def __init__(self, domain_id: int) -> None:
+        self.domain_id = domain_id
         self.context = Context()
         rclpy.init(args=[], context=self.context, domain_id=self.domain_id)
         self.listener = Node("listener", namespace="/plate", context=self.context)

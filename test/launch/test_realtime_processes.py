@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The processes of the hot path under SCHED_FIFO: every thread, said once. ROS domains 140 to 144."""
+"""The processes of the hot path under SCHED_FIFO: every thread, said once. ROS_DOMAIN_IDs 140 to 144."""
 
 from __future__ import annotations
 

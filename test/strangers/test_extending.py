@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The examples of docs/extending.md as they stand there: one module and one line each. ROS_DOMAIN_ID 176."""
+"""The examples of docs/extending.md as they stand there: one module and one line each. ROS_DOMAIN_ID 25."""
 
 from __future__ import annotations
 
@@ -297,7 +297,7 @@ class Bench:
 @pytest.fixture
 def bench() -> Iterator[Bench]:
     # A machine that is busy holds contacts up; that is not what is tested here.
-    bench = Bench(176, "touch_stale_after_s:=0.5", "max_acceleration_m_s2:=10.0")
+    bench = Bench(25, "touch_stale_after_s:=0.5", "max_acceleration_m_s2:=10.0")
     yield bench
     bench.close()
 
@@ -328,4 +328,4 @@ def test_what_is_no_number_never_moves_it_and_it_ends_standing_still(bench: Benc
 
 def test_a_misspelt_parameter_of_the_controller_is_refused() -> None:
     with pytest.raises(SettingsError, match=r"'max_speed'.*did you mean 'max_speed_m_s'"):
-        Bench(176, "max_speed:=0.2")
+        Bench(25, "max_speed:=0.2")

@@ -1,11 +1,10 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Calibrate and tare on the driver, over real DDS and a pseudo-terminal; ROS_DOMAIN_IDs 57 to 59, 146 and 147."""
+"""Calibrate and tare on the driver, over real DDS and a pseudo-terminal; ROS_DOMAIN_ID 57."""
 
 from __future__ import annotations
 
-import itertools
 import threading
 import time
 from collections.abc import Iterator
@@ -61,12 +60,9 @@ def stream(tmp_path: Path) -> Iterator[Stream]:
             stream.join()
 
 
-_domains = itertools.cycle([57, 58, 59, 146, 147])
-
-
 @pytest.fixture
 def rig() -> Iterator[Rig]:
-    rig = Rig(next(_domains))
+    rig = Rig(57)
     yield rig
     rig.close()
 

@@ -1,7 +1,10 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""A model on its way to the board: frames and reports go on, wishes are heard, an unplugged board begins again."""
+"""A model on its way to the board: frames and reports go on, wishes are heard, an unplugged board begins again.
+
+ROS_DOMAIN_ID 116.
+"""
 
 from __future__ import annotations
 

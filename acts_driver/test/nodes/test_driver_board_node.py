@@ -1,7 +1,10 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The driver node and its board: parameters, topic `board`, the query service, resets; with a real virtual board."""
+"""The driver node and its board: parameters, topic `board`, the query service, resets; with a real virtual board.
+
+ROS_DOMAIN_ID 36.
+"""
 
 from __future__ import annotations
 

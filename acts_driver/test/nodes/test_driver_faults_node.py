@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The driver node's process while the virtual board plays faults: its messages, its /diagnostics. ROS domain 50."""
+"""The driver node's process while the virtual board plays faults: its messages, its /diagnostics. ROS_DOMAIN_ID 50."""
 
 from __future__ import annotations
 

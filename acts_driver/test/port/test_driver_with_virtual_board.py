@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The driver process on the virtual board: the firmware's own encoder, pseudo-terminal and clock."""
+"""The driver process on the virtual board: the firmware's own encoder, pseudo-terminal and clock. ROS_DOMAIN_ID 24."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ pytestmark = pytest.mark.slow
 
 @pytest.fixture
 def rig() -> Iterator[Rig]:
-    rig = Rig()
+    rig = Rig(24)
     yield rig
     rig.close()
 

@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Recordings in place of a board: what comes out, in which order, when; and files that are none."""
+"""Recordings in place of a board: what comes out, in which order, when; and files that are none. ROS_DOMAIN_ID 34."""
 
 from __future__ import annotations
 

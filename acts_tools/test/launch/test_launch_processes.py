@@ -1,7 +1,10 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""`acts launch` as a process: starting, output, respawn, deaths, and stopping without leaving anything behind."""
+"""`acts launch` as a process: starting, output, respawn, deaths, and stopping without leaving anything behind.
+
+ROS_DOMAIN_ID 80.
+"""
 
 from __future__ import annotations
 

@@ -1,7 +1,10 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The launch tests' own tools, on a node made up here; the bodies run by launch_pytest where it is installed."""
+"""The launch tests' own tools, on a node made up here; the bodies run by launch_pytest where it is installed.
+
+ROS_DOMAIN_IDs 81 to 83.
+"""
 
 from __future__ import annotations
 
