@@ -27,8 +27,6 @@ from dynamixel_sdk import (
 from acts_sim.dynamixel import ask_once
 
 IDS = list(range(16))
-# The library waits for an answer for twice this and 2 ms [ms]; as it comes, it is too short for a loaded machine.
-port_handler.LATENCY_TIMER = 200
 MODE, TORQUE, ERROR, GOAL, CURRENT, VELOCITY, POSITION = 11, 64, 70, 116, 126, 128, 132
 
 
@@ -52,6 +50,9 @@ class Rig:
         self.port = self.open()
 
     def open(self) -> PortHandler:
+        # The library waits for an answer for twice this and 2 ms [ms]; as it comes, or as another test has left it in
+        # this process, it is too short for a loaded machine.
+        port_handler.LATENCY_TIMER = 200
         port = PortHandler(str(self.link))
         assert port.openPort()
         assert port.setBaudRate(4_000_000)
