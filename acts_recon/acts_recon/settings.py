@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import dataclass, make_dataclass
-from pathlib import Path
 
 from acts_core.array import COUNT_MAX, MAX_SIDE, ArrayGeometry
 from acts_core.errors import SettingsError
+from acts_core.files import path_of
 from acts_core.runtime import RealtimeConfig
 from acts_core.settings import Changeable, default_of, describe, part_of, setting
 from acts_core.skin import LAYOUTS, ForceResponse, Layout, MeasuredForceResponse, layout, layout_path
@@ -251,7 +251,7 @@ class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig, ImpactCo
 
     def _response(self) -> ForceResponse | MeasuredForceResponse:
         if self.force_response:
-            return ForceResponse.from_file(Path(self.force_response))
+            return ForceResponse.from_file(path_of(self.force_response, error=SettingsError))
         return ForceResponse(self.force_full_scale_counts, self.force_dead_n, self.force_half_n)
 
     def blob_config(self) -> BlobConfig:
@@ -332,7 +332,7 @@ class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig, ImpactCo
         """
         if not self.object_library:
             return None
-        library = load_object_library(Path(self.object_library).expanduser(), shape=(self.rows, self.cols))
+        library = load_object_library(path_of(self.object_library, error=SettingsError), shape=(self.rows, self.cols))
         kind = self.classifier
         return kind(library, part_of(kind.Config, self), recovery.skin, recovery.method)
 

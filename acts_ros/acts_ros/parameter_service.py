@@ -5,42 +5,71 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import weakref
 
 from rcl_interfaces.msg import Parameter as ParameterMessage
 from rcl_interfaces.msg import SetParametersResult
 from rcl_interfaces.srv import SetParameters, SetParametersAtomically
+from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.parameter_service import ParameterService
 
 _TYPES = {kind.value for kind in Parameter.Type}
+_NAMES = {
+    Parameter.Type.NOT_SET.value: "no value",
+    Parameter.Type.BOOL.value: "true or false",
+    Parameter.Type.INTEGER.value: "a whole number",
+    Parameter.Type.DOUBLE.value: "a number with a decimal point, such as 1.0",
+    Parameter.Type.STRING.value: "text",
+    Parameter.Type.BYTE_ARRAY.value: "an array of bytes",
+    Parameter.Type.BOOL_ARRAY.value: "an array of true and false",
+    Parameter.Type.INTEGER_ARRAY.value: "an array of whole numbers",
+    Parameter.Type.DOUBLE_ARRAY.value: "an array of numbers with a decimal point, such as [1.0, 2.0]",
+    Parameter.Type.STRING_ARRAY.value: "an array of texts",
+}
 
 
 class CheckedParameterService(ParameterService):
-    """Those of rclpy, which raise out of the executor, and so end the process, on a value of no known type."""
+    """Those of rclpy, which raise out of the executor, and so end the process, on a value of no known type.
+
+    A value of the wrong type is refused in words; rclpy gives the numbers of the types.
+    """
+
+    def __init__(self, node: Node) -> None:
+        super().__init__(node)
+        self._checked_node = weakref.ref(node)
 
     def _set_parameters_callback(
         self, request: SetParameters.Request, response: SetParameters.Response
     ) -> SetParameters.Response:
-        reason = _malformed(request.parameters)
-        if not reason:
-            return super()._set_parameters_callback(request, response)
-        response.results = [SetParametersResult(successful=False, reason=reason) for _ in request.parameters]
+        results: list[SetParametersResult] = []
+        for parameter in request.parameters:
+            reason = self._malformed(parameter)
+            if reason:
+                results.append(SetParametersResult(successful=False, reason=reason))
+            else:
+                one = SetParameters.Request(parameters=[parameter])
+                results += super()._set_parameters_callback(one, SetParameters.Response()).results
+        response.results = results
         return response
 
     def _set_parameters_atomically_callback(
         self, request: SetParametersAtomically.Request, response: SetParametersAtomically.Response
     ) -> SetParametersAtomically.Response:
-        reason = _malformed(request.parameters)
+        reason = next(filter(None, map(self._malformed, request.parameters)), "")
         if not reason:
             return super()._set_parameters_atomically_callback(request, response)
         response.result = SetParametersResult(successful=False, reason=reason)
         return response
 
-
-def _malformed(parameters: Sequence[ParameterMessage]) -> str:
-    """What is wrong with a request, or an empty string."""
-    for parameter in parameters:
-        if parameter.value.type not in _TYPES:
-            return f"{parameter.name}: type = {parameter.value.type}: allowed is {min(_TYPES)} to {max(_TYPES)}"
-    return ""
+    def _malformed(self, parameter: ParameterMessage) -> str:
+        """What is wrong with the type of a value, or an empty string."""
+        given, node = parameter.value.type, self._checked_node()
+        if given not in _TYPES:
+            return f"{parameter.name}: type = {given}: allowed is {min(_TYPES)} to {max(_TYPES)}"
+        if node is None or not node.has_parameter(parameter.name):
+            return ""
+        descriptor = node.describe_parameter(parameter.name)
+        if descriptor.dynamic_typing or descriptor.read_only or given == descriptor.type:
+            return ""
+        return f"{parameter.name}: given was {_NAMES[given]}; allowed is {_NAMES[descriptor.type]}"

@@ -171,7 +171,8 @@ class _Changes:
                 },
             )
             reason = self._too_late(changed) or self._on_change(changed)
-        except ActsError as error:
+        # The system's own refusals, of a path for instance, are answers too: raised, they would end the process.
+        except (ActsError, OSError, ValueError) as error:
             return SetParametersResult(successful=False, reason=str(error))
         if reason:
             return SetParametersResult(successful=False, reason=reason)

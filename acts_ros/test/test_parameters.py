@@ -136,11 +136,13 @@ def test_a_change_is_refused_whatever_error_says_why(context: Context) -> None:
     def on_change(settings: Arrays) -> str:
         if settings.layout == "missing":
             raise ActsError("layout 'missing': no such file")
+        if len(settings.layout) > 255:
+            Path(settings.layout).stat()
         return ""
 
     node = make_node(context, [])
     declare(node, Arrays, on_change)
-    for layout, reason in (("round", "allowed is square"), ("missing", "no such file")):
+    for layout, reason in (("round", "allowed is square"), ("missing", "no such file"), ("a" * 300, "too long")):
         result = node.set_parameters([Parameter("layout", value=layout)])[0]
         assert not result.successful
         assert reason in result.reason
@@ -169,5 +171,8 @@ def test_a_value_of_no_known_type_is_refused_and_the_node_goes_on(
     for wrong in (10, 200, ParameterType.PARAMETER_NOT_SET):
         assert not ask(ParameterValue(type=wrong)).successful
     assert "type = 200: allowed is 0 to 9" in ask(ParameterValue(type=200)).reason
+    whole = ask(ParameterValue(type=ParameterType.PARAMETER_INTEGER, integer_value=20))
+    assert whole.reason == "rate_hz: given was a whole number; allowed is a number with a decimal point, such as 1.0"
+    assert "given was no value" in ask(ParameterValue(type=ParameterType.PARAMETER_NOT_SET)).reason
     assert ask(ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=20.0)).successful
     assert node.get_parameter("rate_hz").value == 20.0

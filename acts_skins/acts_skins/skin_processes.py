@@ -8,6 +8,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
+from acts_core.errors import SettingsError
+from acts_core.files import require_regular
 from acts_driver.settings import DriverSettings
 from acts_ros.processes import packages
 from acts_ros.processes.process import Process
@@ -75,8 +77,10 @@ class SkinProcesses:
         words = ["--link", f"{folder}/board", *_board_options(driver), "--seed", f"{number + 1}"]
         words += ["--board-id", f"{_FIRST_BOARD_ID + number}"]
         if skin.recording is not None:
-            if not skin.recording.is_file():
-                raise skin.section.error(f"recording = {skin.recording}: there is no such file", "recording")
+            try:
+                require_regular(skin.recording, error=SettingsError)
+            except SettingsError as error:
+                raise skin.section.error(f"recording = {error}", "recording") from None
             words += ["--recording", f"{skin.recording}", "--recording-rate-hz", f"{skin.recording_rate_hz}", "--loop"]
             return [self._process(skin, "acts_firmware", "virtual_board", *words)]
         ring = f"{folder}/field.ring"

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from acts_core.errors import ActsError, SettingsError
-from acts_core.files import Section, is_number, read_yaml
+from acts_core.files import Section, is_number, path_of, read_yaml
 from acts_core.skin import LAYOUTS, layout_path
 from acts_core.transforms import Transform
 from acts_skins.frame_tree import FrameTree, Pose
@@ -131,7 +131,7 @@ def read_skins(path: Path) -> SkinsFile:
     SettingsError
         For any error in the file, with file, line, skin and key, and what is allowed.
     """
-    path = path.expanduser()
+    path = path_of(str(path), error=SettingsError)
     top = read_yaml(path)
     top.check_keys(_FILE_KEYS)
     frames_section = top.section("frames", "")
@@ -198,7 +198,7 @@ def _skin(name: str, section: Section) -> Skin:
 def _file(section: Section, key: str) -> Path | None:
     """A path; relative ones start at the file's folder."""
     text = section.text(key)
-    return None if text is None else section.path.absolute().parent / Path(text).expanduser()
+    return None if text is None else section.path.absolute().parent / path_of(text, error=SettingsError)
 
 
 def _layout(section: Section) -> str:

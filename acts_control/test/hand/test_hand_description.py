@@ -158,3 +158,5 @@ def test_what_cannot_be_is_refused_with_its_line(tmp_path: Path, wrong: str, rig
 def test_a_hand_that_is_not_shipped_is_refused_with_those_that_are() -> None:
     with pytest.raises(SettingsError, match=r"allowed is one of leap_right, or the path of a \.yaml file"):
         hand_description("leap_wrong")
+    with pytest.raises(SettingsError, match=r"cannot be read .*too long"):
+        hand_description("leap" * 100)

@@ -14,6 +14,37 @@ TEXT_BYTES_MAX = 1 << 20
 """Text that is read whole takes at most so much."""
 
 
+def path_of(text: str, *, error: type[ActsError]) -> Path:
+    """The path that a person names, ``~`` and ``~somebody`` resolved.
+
+    Raises
+    ------
+    error
+        There is no such somebody.
+    """
+    try:
+        return Path(text).expanduser()
+    except RuntimeError as failure:
+        raise error(f"{text}: {failure}") from failure
+
+
+def is_there(path: Path, *, error: type[ActsError]) -> bool:
+    """Whether there is anything at a path; links are followed.
+
+    Raises
+    ------
+    error
+        It cannot be looked at: a name too long, a folder that may not be entered, links in a circle.
+    """
+    try:
+        path.stat()
+    except (FileNotFoundError, NotADirectoryError):
+        return False
+    except (OSError, ValueError) as failure:
+        raise error(f"{path}: cannot be read ({getattr(failure, 'strerror', None) or failure})") from failure
+    return True
+
+
 def require_regular(path: Path, *, error: type[ActsError], hint: str = "") -> int:
     """Refuse a device, which may have no end, a pipe, which may never begin, and a folder; without opening it.
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from acts_core.errors import SettingsError
-from acts_core.files import read_text
+from acts_core.files import is_there, path_of, read_text
 from acts_core.skin.force_file import read_force_points
 
 
@@ -39,3 +39,21 @@ def test_a_force_response_is_a_regular_file(tmp_path: Path) -> None:
     (tmp_path / "endless.csv").symlink_to("/dev/zero")
     with pytest.raises(SettingsError, match=r"endless.csv: not a regular file"):
         read_force_points(tmp_path / "endless.csv")
+
+
+def test_what_is_there_and_what_cannot_be_told(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    (tmp_path / "circle").symlink_to("circle")
+    assert is_there(tmp_path / "file", error=SettingsError)
+    for name in ("nothing", "file/below"):
+        assert not is_there(tmp_path / name, error=SettingsError)
+    for name, reason in (("a" * 300, "too long"), ("circle", "symbolic links"), ("a\0b", "null byte")):
+        with pytest.raises(SettingsError, match=f"cannot be read .*{reason}"):
+            is_there(tmp_path / name, error=SettingsError)
+
+
+def test_a_path_may_begin_at_home_but_at_nobodys(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("HOME", str(tmp_path))
+    assert path_of("~/a", error=SettingsError) == tmp_path / "a"
+    with pytest.raises(SettingsError, match="~nobody-of-this-name/a: "):
+        path_of("~nobody-of-this-name/a", error=SettingsError)

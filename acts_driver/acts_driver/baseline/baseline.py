@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import os
+from contextlib import suppress
 from dataclasses import dataclass
 from enum import IntEnum
 from pathlib import Path
@@ -91,7 +92,9 @@ class Baseline:
                 )
             temporary.replace(path)
         except OSError as error:
-            temporary.unlink(missing_ok=True)
+            # What could not be made cannot be looked for either: a name too long, a folder that is a file.
+            with suppress(OSError):
+                temporary.unlink()
             raise SettingsError(
                 f"{path}: the baseline cannot be saved ({error.strerror}); set calibration_file to a path that can be "
                 "written"

@@ -15,6 +15,7 @@ from rclpy.node import Node
 from std_srvs.srv import Trigger
 
 from acts_core.errors import ActsError, CalibrationError, SettingsError
+from acts_core.files import is_there, path_of
 from acts_core.frames import SampleFrame
 from acts_core.runtime import within_patience
 from acts_driver.baseline import Baseline, BaselineParameters, BaselineTracker
@@ -79,11 +80,11 @@ class BaselineServices:
 
     def _begin(self, parameters: BaselineParameters, rows: int, cols: int, wait_for: _WaitFor) -> None:
         file = parameters.calibration_file
-        path = None if file in ("", "none") else Path(file).expanduser()
+        path = None if file in ("", "none") else path_of(file, error=SettingsError)
         tracker = BaselineTracker(rows, cols, parameters.baseline_config())
 
         def load() -> Baseline | None:
-            return Baseline.load(path, rows, cols) if path is not None and path.exists() else None
+            return Baseline.load(path, rows, cols) if path is not None and is_there(path, error=SettingsError) else None
 
         baseline = None if path is None else wait_for(load, f"reading calibration_file = {path}")
         self._path, self._tracker, self._published, self._heard_s = path, tracker, None, None

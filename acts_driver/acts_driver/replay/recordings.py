@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import RecordingError
-from acts_core.files import UNPACKED_BYTES_MAX, FramesFile, load_frames, read_npz
+from acts_core.files import UNPACKED_BYTES_MAX, FramesFile, is_there, load_frames, read_npz
 from acts_core.frames import SampleFrame, Scheme
 from acts_core.sampling import REPEATING, SCHEME_NUMBERS, Sampler, SamplingConfig, SkinMap, measure_in
 
@@ -94,7 +94,7 @@ def open_recording(options: ReplayOptions) -> SeekableRecording:
         Its array cannot be sampled as asked.
     """
     path = options.path
-    if not path.exists():
+    if not is_there(path, error=RecordingError):
         raise RecordingError(f"there is no recording '{path}'; give a bag (folder or .mcap) or an .npz file")
     if path.suffix == ".npz":
         if _has_samples(path):

@@ -253,8 +253,10 @@ def test_files_that_are_no_baseline_are_refused(tmp_path: Path) -> None:
     np.savez(path, frames=np.zeros(3))
     with pytest.raises(SettingsError, match="no baseline, or a damaged one"):
         Baseline.load(path, ROWS, COLS)
-    with pytest.raises(SettingsError, match="cannot be saved"):
-        some_baseline().save(Path("/proc/skin.npz"))
+    # Below a file, and under names that are too long, with what is added to them until they are whole: or without.
+    for where in (Path("/proc/skin.npz"), path / "skin.npz", tmp_path / ("a" * 250), tmp_path / ("a" * 300)):
+        with pytest.raises(SettingsError, match="cannot be saved"):
+            some_baseline().save(where)
 
 
 @pytest.mark.parametrize("value", [np.nan, -1.0, 1024.0])

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import re
 import threading
 import time
 from collections.abc import Iterator
@@ -171,3 +172,34 @@ def test_a_file_of_another_skin_is_refused(rig: Rig, stream: Stream, tmp_path: P
     SavedBaseline(counts, counts / 10, counts > 0, BaselineSource.CALIBRATION, time_ns=0).save(path)
     with pytest.raises(SettingsError, match="6 x 8 taxels, the array has 8 x 6"):
         start(rig, stream, path)
+
+
+@pytest.mark.parametrize(
+    ("file", "words"),
+    [("a" * 300, "cannot be read .*too long"), ("~nobody-of-this-name/skin.npz", "~nobody-of-this-name")],
+    ids=["long", "nobodys"],
+)
+def test_a_file_that_cannot_even_be_looked_for_is_refused_and_the_node_goes_on(
+    rig: Rig, stream: Stream, tmp_path: Path, file: str, words: str
+) -> None:
+    start(rig, stream, tmp_path / "skin.npz")
+    stream.start()
+    rig.spin_until(lambda: ask(rig, "calibrate").success, "a calibration")
+    assert rig.driver is not None
+    rig.driver.trigger_deactivate()
+    rig.driver.trigger_cleanup()
+    done, reason = rig.set_parameters(calibration_file=file)
+    assert not done
+    assert re.search(words, reason)
+    rig.driver.trigger_configure()
+    rig.driver.trigger_activate()
+    rig.spin_until(lambda: ask(rig, "calibrate").success, "a calibration")
+
+
+def test_a_calibration_that_cannot_be_stored_is_told_and_the_node_goes_on(
+    rig: Rig, stream: Stream, tmp_path: Path
+) -> None:
+    (tmp_path / "file").write_text("")
+    start(rig, stream, tmp_path / "file" / "skin.npz")
+    stream.start()
+    rig.spin_until(lambda: "the baseline cannot be saved" in ask(rig, "calibrate").message, "what is wrong")

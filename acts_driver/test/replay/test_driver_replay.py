@@ -176,6 +176,9 @@ def test_files_that_are_no_recordings(tmp_path: Path) -> None:
             open_recording(ReplayOptions(path, topic))
 
     refused(tmp_path / "no.npz", "there is no recording .*no.npz")
+    refused(tmp_path / ("a" * 300), "cannot be read .*too long")
+    (tmp_path / "circle.npz").symlink_to("circle.npz")
+    refused(tmp_path / "circle.npz", "circle.npz: cannot be read .*symbolic links")
     (tmp_path / "text.npz").write_text("nothing")
     refused(tmp_path / "text.npz", "not an npz file")
     (tmp_path / "text.txt").write_text("nothing")

@@ -6,11 +6,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.errors import SettingsError
+from acts_core.files import path_of
 from acts_core.settings import default_of, setting, validate
 from acts_recon.methods.method import Method, SkinSetup
 from acts_recon.sparse import Dictionary, Reconstructor, ReconstructorConfig, load_dictionary, shipped_dictionary_path
@@ -64,7 +65,7 @@ class PerFrame(Method):
 
     def __init__(self, skin: SkinSetup, config: PerFrameConfig, dictionary: Dictionary | None = None) -> None:
         if dictionary is None:
-            given = Path(config.dictionary).expanduser() if config.dictionary else shipped_dictionary_path()
+            given = path_of(config.dictionary, error=SettingsError) if config.dictionary else shipped_dictionary_path()
             dictionary = load_dictionary(given)
         self._reconstructor = Reconstructor(
             skin.geometry,

@@ -16,7 +16,7 @@ from rosbags.rosbag2 import Reader
 from rosbags.rosbag2.storage_mcap import McapReader
 
 from acts_core.errors import RecordingError
-from acts_core.files import TEXT_BYTES_MAX, require_regular
+from acts_core.files import TEXT_BYTES_MAX, is_there, require_regular
 from acts_ros.bags.message_types import Definitions
 from acts_ros.bags.salvage import WholeRecords, largest_chunk
 
@@ -130,7 +130,7 @@ def open_bag(path: Path) -> Iterator[Bag]:
     RecordingError
         There is no bag, nothing in it can be read, or it holds more than is allowed.
     """
-    if not path.exists():
+    if not is_there(path, error=RecordingError):
         raise RecordingError(f"there is no bag '{path}'")
     _check_files(path)
     reader, note = _open_reader(path)

@@ -13,7 +13,7 @@ from typing import Any
 
 from acts_control.hand.description.description import ROLES, Finger, HandDescription, Joint, Link, Region
 from acts_core.errors import SettingsError
-from acts_core.files import Section, is_number, read_yaml, shown
+from acts_core.files import Section, is_number, is_there, read_yaml, shown
 from acts_core.transforms import Vector
 
 _SHIPPED = Path(__file__).parent / "hands"
@@ -33,7 +33,7 @@ def hand_description(name_or_path: str) -> HandDescription:
     if name_or_path.endswith((".yaml", ".yml")):
         return _read(Path(name_or_path))
     path = _SHIPPED / f"{name_or_path}.yaml"
-    if not path.is_file():
+    if not is_there(path, error=SettingsError):
         shipped = ", ".join(sorted(file.stem for file in _SHIPPED.glob("*.yaml")))
         raise SettingsError(f"hand {name_or_path!r}: allowed is one of {shipped}, or the path of a .yaml file")
     return _read(path)
