@@ -106,9 +106,26 @@ def _compiled(function: Callable[..., R], options: dict[str, Any]) -> Callable[.
     # Read while a function is decorated, and at no other time.
     numba.config.CACHE_DIR = str(cache_folder(function))
     try:
-        return cast(Callable[..., R], numba.njit(cache=True, nogil=True, **options)(function))
+        compiled = numba.njit(cache=True, nogil=True, **options)(function)
     finally:
         numba.config.CACHE_DIR = before
+    _compile_for_types_alone(compiled)
+    return cast(Callable[..., R], compiled)
+
+
+def _compile_for_types_alone(compiled: Any) -> None:
+    """Let a kernel that is called by others not be compiled once more for each constant that they pass.
+
+    Nor for the constant that a variable of theirs starts with: numba does so before it knows the variable's type, and
+    throws it away. What is passed is inlined all the same.
+    """
+    template_of = compiled.get_call_template
+    unliteral = numba.types.unliteral
+
+    def template_of_types(args: tuple[Any, ...], kws: dict[str, Any]) -> Any:
+        return template_of(tuple(map(unliteral, args)), {name: unliteral(kind) for name, kind in kws.items()})
+
+    compiled.get_call_template = template_of_types
 
 
 def cache_folder(function: Callable[..., Any]) -> Path:

@@ -3,10 +3,11 @@
 
 """The cache of compiled kernels: it serves a second process, and notices every change of what a kernel is made of."""
 
+import json
 import os
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -36,17 +37,55 @@ def twice(value):
     return stepped(stepped(value))
 """,
     "inner_other.py": "",
+    "counting.py": """
+from acts_core.kernels import kernel
+
+@kernel
+def more(value):
+    return value + 1
+
+@kernel
+def count(n):
+    i = 0
+    while i < n:
+        i = more(i)
+    return i + more(10)
+""",
     "elsewhere.py": "",
 }
 
-PROGRAM = """
+CALL = "from acts_kerneltest.outer import twice; result = twice(0)"
+
+# Runs code in processes that share nothing but files. They are forks of one that has imported numba and compiled
+# something: that takes a second.
+SERVER = """
+import json, os, sys, traceback
+import numba
+from acts_core import kernels
 from numba.core import event
-with event.install_recorder("numba:compile") as recorder:
-    from acts_kerneltest.outer import twice
-    print(twice(0), len(recorder.buffer) > 0)
+
+def run(code, folder, variables):
+    os.environ.update(variables)
+    sys.path.insert(0, folder)
+    names = {}
+    with event.install_recorder("numba:compile") as recorder:
+        exec(code, names)
+    return [names["result"], len(recorder.buffer) > 0]
+
+numba.njit(lambda: 1)()
+for line in sys.stdin:
+    child = os.fork()
+    if not child:
+        try:
+            told = run(*json.loads(line))
+        except BaseException:
+            told = traceback.format_exc()
+        print(json.dumps(told), flush=True)
+        os._exit(0)
+    os.waitpid(child, 0)
 """
 
-Run = Callable[[], tuple[int, bool]]
+Run = Callable[..., tuple[int, bool]]
 
 
 @pytest.fixture
@@ -58,19 +97,32 @@ def package(tmp_path: Path) -> Path:
     return folder
 
 
-@pytest.fixture
-def run(package: Path, monkeypatch: pytest.MonkeyPatch) -> Run:
-    """Call the kernel in a new process: its result, and whether anything was compiled."""
-    monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
-    monkeypatch.setenv("PYTHONPATH", f"{package.parent}:{os.environ.get('PYTHONPATH', '')}")
+@pytest.fixture(scope="module")
+def server() -> Iterator[subprocess.Popen[str]]:
+    places = {"NUMBA_CACHE_DIR", "XDG_CACHE_HOME"}
+    environment = {name: value for name, value in os.environ.items() if name not in places}
     # Files are changed within the same second, which Python's own cache does not notice.
-    monkeypatch.setenv("PYTHONDONTWRITEBYTECODE", "1")
+    environment["PYTHONDONTWRITEBYTECODE"] = "1"
+    with subprocess.Popen(
+        [sys.executable, "-c", SERVER], env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    ) as process:
+        yield process
+        assert process.stdin is not None
+        process.stdin.close()
 
-    def finished() -> tuple[int, bool]:
-        done = subprocess.run([sys.executable, "-c", PROGRAM], capture_output=True, text=True, timeout=120)
-        assert done.returncode == 0, done.stderr
-        result, has_compiled = done.stdout.split()
-        return int(result), has_compiled == "True"
+
+@pytest.fixture
+def run(server: subprocess.Popen[str], package: Path) -> Run:
+    """Run code in a new process with some environment variables: its `result`, and whether anything was compiled."""
+
+    def finished(code: str = CALL, **variables: str) -> tuple[int, bool]:
+        assert server.stdin is not None
+        assert server.stdout is not None
+        server.stdin.write(json.dumps([code, str(package.parent), variables]) + "\n")
+        server.stdin.flush()
+        told = json.loads(server.stdout.readline())
+        assert isinstance(told, list), told
+        return told[0], told[1]
 
     return finished
 
@@ -107,22 +159,24 @@ def test_a_change_elsewhere_compiles_nothing(run: Run, package: Path) -> None:
     assert run() == (2, False)
 
 
-def test_the_users_folder_is_used_where_it_is_asked_for(
-    run: Run, package: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "mine"))
-    assert run() == (2, True)
-    assert run() == (2, False)
+def test_the_users_folder_is_used_where_it_is_asked_for(run: Run, package: Path, tmp_path: Path) -> None:
+    mine = str(tmp_path / "mine")
+    assert run(NUMBA_CACHE_DIR=mine) == (2, True)
+    assert run(NUMBA_CACHE_DIR=mine) == (2, False)
     assert folders(package) == []
     assert folders(tmp_path / "mine")
 
 
-def test_a_package_that_cannot_be_written_is_cached_with_the_user(
-    run: Run, package: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_package_that_cannot_be_written_is_cached_with_the_user(run: Run, package: Path, tmp_path: Path) -> None:
     # A file in its place keeps even root from making the folder.
     (package / "__pycache__").write_text("")
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    assert run() == (2, True)
-    assert run() == (2, False)
+    cache = str(tmp_path / "cache")
+    assert run(XDG_CACHE_HOME=cache) == (2, True)
+    assert run(XDG_CACHE_HOME=cache) == (2, False)
     assert folders(tmp_path / "cache")
+
+
+def test_a_kernel_is_compiled_for_types_and_not_for_each_constant(run: Run, package: Path) -> None:
+    # The variable begins as a constant as well.
+    assert run("from acts_kerneltest.counting import count; result = count(3)") == (3 + 11, True)
+    assert len(list(package.rglob("counting.more-*.nbc"))) == 1
