@@ -5,6 +5,7 @@
 
 import math
 from collections.abc import Callable
+from functools import cache
 
 import numpy as np
 import pytest
@@ -26,7 +27,13 @@ pytestmark = pytest.mark.slow
 
 DURATION_S = 55 * 17.877e-6
 SMALL = ArrayGeometry(rows=9, cols=13)
-SMALL_ESTIMATOR = FusionEstimator(SMALL)
+
+
+@cache
+def small_estimator() -> FusionEstimator:
+    """Made at its first use: numba compiles then, where no cache is."""
+    return FusionEstimator(SMALL)
+
 
 Frame = tuple[NDArray[np.uint16], NDArray[np.uint16]]
 
@@ -104,7 +111,7 @@ def streams(draw: st.DrawFn) -> list[tuple[Frame, float, float]]:
 def test_whatever_comes_values_are_counts_and_measured_taxels_are_kept(
     frames: list[tuple[Frame, float, float]],
 ) -> None:
-    estimator = SMALL_ESTIMATOR
+    estimator = small_estimator()
     estimator.reset()
     for (indices, counts), end_s, duration_s in frames:
         image = estimator.step(indices, counts, end_s, duration_s)

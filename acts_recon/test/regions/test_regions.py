@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import math
+from functools import cache
 
 import numpy as np
 import pytest
@@ -22,7 +23,12 @@ pytestmark = pytest.mark.slow
 
 HAND = layout("leap_right")
 RESPONSE = ForceResponse()
-REGIONS = Regions(HAND, RESPONSE)
+
+
+@cache
+def hand_regions() -> Regions:
+    """Made at its first use: numba compiles then, where no cache is."""
+    return Regions(HAND, RESPONSE)
 
 
 def press(patch: SkinPatch, row: float, col: float, counts: float = 600.0, width: float = 1.3) -> NDArray[np.float32]:
@@ -90,7 +96,7 @@ def test_each_patch_is_what_numpy_makes_of_it(seed: int) -> None:
     image[image > 900] = 900
     for patch in rng.permutation(len(HAND.patches))[:6]:
         HAND.patches[patch].of(image)[:] = 0
-    assert_alike(REGIONS.step(1.0, image), by_numpy(image, HAND))
+    assert_alike(hand_regions().step(1.0, image), by_numpy(image, HAND))
 
 
 @pytest.mark.parametrize(
@@ -123,7 +129,7 @@ def test_of_a_single_taxel_the_place_is_that_of_the_layout_on_every_patch() -> N
     for index, patch in enumerate(HAND.patches):
         image = np.zeros((HAND.rows, HAND.cols), dtype=np.float32)
         patch.of(image)[2, 5] = 400
-        regions = REGIONS.step(0.0, image)
+        regions = hand_regions().step(0.0, image)
         assert [region.in_contact for region in regions] == [p == index for p in range(len(HAND.patches))]
         assert (regions[index].name, regions[index].link) == (patch.name, patch.link)
         assert regions[index].centre_m == pytest.approx(tuple(patch.points_m()[2, 5]))
@@ -201,4 +207,4 @@ def test_patches_too_small_for_motion_have_their_contact_all_the_same() -> None:
 def test_images_of_another_kind_are_refused() -> None:
     for wrong in (np.zeros((8, 8), np.float32), np.zeros((32, 32))):
         with pytest.raises(ArrayError, match=r"needed is \(32, 32\), float32"):
-            REGIONS.step(0.0, wrong)
+            hand_regions().step(0.0, wrong)

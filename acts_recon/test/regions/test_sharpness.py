@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import lru_cache
+from functools import cache
 
 import numpy as np
 import pytest
@@ -22,11 +22,16 @@ from acts_recon.regions.sharpness import Sharpness
 FINGER = replace(layout("leap_right").patches[2], first_row=0, end_row=8, first_col=0, end_col=8)
 RESPONSE = ForceResponse()
 NOISE_COUNTS = 1.5
-SHARPNESS = Sharpness((FINGER,), force_table(RESPONSE), 8.0, NOISE_COUNTS, SharpnessConfig())
 TOLD = 3.0  # as the reflex has it
 
 
-@lru_cache(1)
+@cache
+def sharpness() -> Sharpness:
+    """Made at its first use: numba compiles then, where no cache is."""
+    return Sharpness((FINGER,), force_table(RESPONSE), 8.0, NOISE_COUNTS, SharpnessConfig())
+
+
+@cache
 def spread() -> NDArray[np.float64]:
     """A matrix that spreads a column of points sideways by 1 mm."""
     at_m = np.arange(8 * FINE) * FINGER.pitch_m / FINE
@@ -59,9 +64,9 @@ def by_numpy(image: NDArray[np.float32]) -> float:
     relative = 2.0 * SharpnessConfig().sharpness_gain_error ** 2 + variance[2, 2] / force[2, 2] ** 2
     misfit = []
     for shape in range(2):
-        levels = SHARPNESS._level_force_n[0, shape]
+        levels = sharpness()._level_force_n[0, shape]
         level = max(int(np.searchsorted(levels, force[window > 8].sum(), side="right")) - 1, 0)
-        share = SHARPNESS._share[0, shape, level].astype(float)
+        share = sharpness()._share[0, shape, level].astype(float)
         expected = np.maximum(share * (force[2, 2] / share[:, :, 2:3, 2:3]), table[0])
         squares = (force - expected) ** 2 / (variance + relative * expected**2)
         squares[:, :, 2, 2] = 0.0
@@ -77,14 +82,14 @@ places = st.tuples(st.floats(-0.5, 0.5), st.floats(-0.5, 0.5))
 @settings(max_examples=60, deadline=None)
 @given(radius_m=st.floats(0.009, 0.05), depth_m=st.floats(0.0, 0.0025), at=places)
 def test_what_is_blunt_is_never_taken_for_a_tip(radius_m: float, depth_m: float, at: tuple[float, float]) -> None:
-    assert SHARPNESS.of(felt(radius_m, depth_m, at))[0] < TOLD
+    assert sharpness().of(felt(radius_m, depth_m, at))[0] < TOLD
 
 
 @settings(max_examples=40, deadline=None)
 @given(at=st.tuples(st.floats(-0.2, 0.2), st.floats(-0.2, 0.2)))
 def test_a_tip_is_told_before_it_is_two_millimetres_deep(at: tuple[float, float]) -> None:
     # Where four taxels meet it feels as something blunt does, and is told later.
-    assert any(SHARPNESS.of(felt(0.0015, depth_m, at))[0] > TOLD for depth_m in np.arange(0.0008, 0.002, 0.0002))
+    assert any(sharpness().of(felt(0.0015, depth_m, at))[0] > TOLD for depth_m in np.arange(0.0008, 0.002, 0.0002))
 
 
 @pytest.mark.parametrize("radius_m", [0.0015, 0.004, 0.009, 0.02])
@@ -94,27 +99,27 @@ def test_the_search_finds_what_trying_every_place_finds(radius_m: float) -> None
         exact = felt(radius_m, depth_m, tuple(rng.uniform(-0.5, 0.5, 2)))
         noisy = np.maximum(np.rint(exact + NOISE_COUNTS * rng.standard_normal(exact.shape)), 0.0).astype(np.float32)
         if (noisy > 8).sum() <= kernels.MOST_PRESSED:
-            assert SHARPNESS.of(noisy)[0] == pytest.approx(by_numpy(noisy), abs=0.3)
+            assert sharpness().of(noisy)[0] == pytest.approx(by_numpy(noisy), abs=0.3)
 
 
 def test_at_the_border_and_where_many_taxels_are_pressed_there_is_no_tip() -> None:
     tip = felt(0.0015, 0.0015, (0.0, 0.0))
-    assert SHARPNESS.of(tip)[0] > TOLD
-    assert SHARPNESS.of(np.roll(tip, 3, axis=0))[0] > TOLD
-    assert SHARPNESS.of(np.roll(tip, 4, axis=0))[0] == 0.0
-    assert SHARPNESS.of(tip + 60.0)[0] == 0.0
-    assert SHARPNESS.of(np.zeros_like(tip))[0] == 0.0
+    assert sharpness().of(tip)[0] > TOLD
+    assert sharpness().of(np.roll(tip, 3, axis=0))[0] > TOLD
+    assert sharpness().of(np.roll(tip, 4, axis=0))[0] == 0.0
+    assert sharpness().of(tip + 60.0)[0] == 0.0
+    assert sharpness().of(np.zeros_like(tip))[0] == 0.0
 
 
 def test_a_line_is_no_tip() -> None:
     edge = felt(0.0015, 0.0015, (0.0, 0.0))
     edge[:] = edge[:, 4:5].max(axis=0, keepdims=True)
     edge[:] = edge.max() * (np.arange(8) == 4)
-    assert SHARPNESS.of(edge)[0] == 0.0
+    assert sharpness().of(edge)[0] == 0.0
 
 
 def test_footprints_are_forces_and_their_parts() -> None:
-    forces_n, share = SHARPNESS._level_force_n[0], SHARPNESS._share[0]
+    forces_n, share = sharpness()._level_force_n[0], sharpness()._share[0]
     assert (np.diff(forces_n, axis=1) > 0.0).all()
     assert (share >= 0.0).all()
     total = share.sum(axis=(-2, -1))
