@@ -20,8 +20,10 @@ namespace {
 
 volatile std::sig_atomic_t stop_requested = 0;
 
-void request_stop(int /*signal*/) {
-  stop_requested = 1;
+void request_stop(int signal) {
+  if (stop_requested != SIGTERM) {
+    stop_requested = signal;
+  }
 }
 
 void install_signals() {
@@ -29,6 +31,11 @@ void install_signals() {
   action.sa_handler = request_stop;  // without SA_RESTART: ends the sleep
   sigaction(SIGTERM, &action, nullptr);
   sigaction(SIGINT, &action, nullptr);
+  struct sigaction hangup{};
+  sigaction(SIGHUP, nullptr, &hangup);
+  if (hangup.sa_handler != SIG_IGN) {  // nohup
+    sigaction(SIGHUP, &action, nullptr);
+  }
   action.sa_handler = SIG_IGN;
   sigaction(SIGPIPE, &action, nullptr);
 }

@@ -26,6 +26,10 @@ namespace {
 constexpr std::int64_t kCatchUpNs = 100'000'000;  // later than this, frames are skipped
 constexpr std::int64_t kNapNs = 50'000'000;       // the terminal is looked after at least this often
 
+// A terminal's Ctrl-C and `ros2 launch` signal all processes together. The host is to close its port before the board
+// is gone, and `ros2 launch` reports code 255 for a process that ends while it sends a signal itself.
+constexpr std::int64_t kGoOnNs = 300'000'000;
+
 std::string json_text(const std::string& text) {
   std::string quoted = "\"";
   for (const char c : text) {
@@ -149,16 +153,26 @@ void Process::recover_frame() {
     return;
   }
   const std::int64_t done_ns = time_.to_host_ns(last_start_ns_ + duration_ns_ + computing_ns_);
-  for (std::int64_t now = now_ns(CLOCK_MONOTONIC); now < done_ns && stop_requested_ == 0;
-       now = now_ns(CLOCK_MONOTONIC)) {
+  for (std::int64_t now = now_ns(CLOCK_MONOTONIC); now < done_ns && !ended(); now = now_ns(CLOCK_MONOTONIC)) {
     sleep_until(std::min(done_ns, now + kNapNs));
   }
   firmware_->recover_frame();
   send();
 }
 
+bool Process::ended() {
+  if (stop_requested_ == 0 || stop_requested_ == SIGTERM) {
+    return stop_requested_ != 0;
+  }
+  const std::int64_t now = now_ns(CLOCK_MONOTONIC);
+  if (!ends_at_ns_) {
+    ends_at_ns_ = now + kGoOnNs;
+  }
+  return now >= *ends_at_ns_;
+}
+
 bool Process::wait_for_frame() {
-  while (stop_requested_ == 0) {
+  while (!ended()) {
     const std::int64_t now = now_ns(CLOCK_MONOTONIC);
     take_faults(now);
     if (frozen_) {

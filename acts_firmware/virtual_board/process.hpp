@@ -37,6 +37,8 @@ class Process {
   // Takes the times of a frame from the settings in force.
   void set_pace();
 
+  // Whether the process is to end now.
+  bool ended();
   // Until the frame that begins at start_ns_ is over; false when the process is to end.
   bool wait_for_frame();
   // True where the host has changed the times of the next frame.
@@ -58,6 +60,7 @@ class Process {
 
   const Options options_;
   const volatile std::sig_atomic_t& stop_requested_;
+  std::optional<std::int64_t> ends_at_ns_;  // after a signal that others may have got as well
   const Epoch epoch_;
   BoardTime time_;
   std::unique_ptr<Field> field_;

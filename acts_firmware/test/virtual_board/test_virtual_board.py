@@ -189,9 +189,9 @@ def test_ros_arguments_are_left_alone(tmp_path: Path) -> None:
         assert board.start["m"] == 10
 
 
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGHUP])
 @pytest.mark.parametrize("rate_hz", [1000, 1])
-def test_ends_at_once_and_clears_its_link(tmp_path: Path, number: signal.Signals, rate_hz: int) -> None:
+def test_ends_in_order_and_clears_its_link(tmp_path: Path, number: signal.Signals, rate_hz: int) -> None:
     with BoardProcess(tmp_path, "--rate-hz", rate_hz) as board:
         assert board.link.is_symlink()
         assert str(board.link.readlink()) == board.start["port"]
@@ -199,6 +199,28 @@ def test_ends_at_once_and_clears_its_link(tmp_path: Path, number: signal.Signals
         assert board.terminate(number) == 0
         assert not board.link.is_symlink()
         assert list(board.link.parent.iterdir()) == []
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGHUP])
+def test_a_host_that_is_interrupted_as_well_closes_its_port_first(tmp_path: Path, number: signal.Signals) -> None:
+    with BoardProcess(tmp_path) as board:
+        board.open_port()
+        board.read_frames(3)
+        sent_us = board.read_frames(1)[-1].board_us
+        board.process.send_signal(number)
+        board.process.send_signal(number)
+        # It still measures, where a board that ends at once would have left an end of the stream.
+        while board.read_frames(1)[-1].board_us < sent_us + 100_000:
+            pass
+        assert board.process.poll() is None
+        assert board.process.wait(30.0) == 0
+        assert not board.link.is_symlink()
+
+
+def test_sigterm_ends_at_once_a_board_that_still_goes_on(tmp_path: Path) -> None:
+    with BoardProcess(tmp_path) as board:
+        board.process.send_signal(signal.SIGINT)
+        assert board.terminate(signal.SIGTERM) == 0
 
 
 def test_link_of_a_killed_board_is_replaced(tmp_path: Path) -> None:
