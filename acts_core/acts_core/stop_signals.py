@@ -46,6 +46,7 @@ class StopSignals:
         self._is_set = False
         # Seen by the handler already: the thread that calls back may be late on a busy machine.
         self._came = False
+        self._first: signal.Signals | None = None
         self._called = False
         self._interrupts = False
         self._interrupted = False
@@ -66,6 +67,11 @@ class StopSignals:
     def is_set(self) -> bool:
         """Whether a signal has come."""
         return self._is_set or self._came
+
+    @property
+    def first(self) -> signal.Signals | None:
+        """The first signal; None before it. A terminal sends SIGINT and SIGHUP to all its processes."""
+        return self._first
 
     def on_stop(self, callback: Callable[[], None]) -> None:
         """Call this once when a signal comes, from another thread; at once where one has come already."""
@@ -116,7 +122,8 @@ class StopSignals:
             signal.signal(number, signal.SIG_IGN)
         faulthandler.cancel_dump_traceback_later()
 
-    def _handle(self, _number: int, _frame: FrameType | None) -> None:
+    def _handle(self, number: int, _frame: FrameType | None) -> None:
+        self._first = self._first or signal.Signals(number)
         self._came = True
         if self._interrupts and not self._interrupted:
             self._interrupted = True
@@ -127,6 +134,7 @@ class StopSignals:
             number = os.read(read_end, 1)
             if number and number[0] in STOP_SIGNALS:
                 break
+        self._first = self._first or signal.Signals(number[0])
         # By a thread in C, which also works where the interpreter hangs.
         faulthandler.dump_traceback_later(self._last_resort_s, exit=True)
         with self._lock:

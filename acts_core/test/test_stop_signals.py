@@ -29,7 +29,7 @@ asked.wait()
 print("ending", flush=True)
 sys.stdin.readline()
 signals.ended()
-print("ended", flush=True)
+print("ended by", signals.first.name, flush=True)
 """
 
 STARTS = """
@@ -42,7 +42,7 @@ except KeyboardInterrupt:
     print("ending", flush=True)
 sys.stdin.readline()
 signals.on_stop(asked.set)
-print("ended" if asked.is_set() and signals.is_set else "forgotten", flush=True)
+print("ended by" if asked.is_set() and signals.is_set else "forgotten", signals.first.name, flush=True)
 signals.ended()
 """
 
@@ -101,7 +101,7 @@ def test_further_signals_do_not_disturb_the_way_out(code: str, first: signal.Sig
         for again in (signal.SIGINT, signal.SIGTERM, signal.SIGINT):
             process.send_signal(again)
         output, errors = process.communicate("go on\n", timeout=DEADLINE_S)
-    assert (output, errors) == ("ended\n", "")
+    assert (output, errors) == (f"ended by {first.name}\n", "")
     assert process.returncode == 0
 
 

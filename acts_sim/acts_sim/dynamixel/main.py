@@ -9,6 +9,7 @@ import argparse
 import contextlib
 import json
 import math
+import signal
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -72,7 +73,8 @@ def run(options: argparse.Namespace, signals: StopSignals) -> None:
         port = stack.enter_context(
             contextlib.closing(BusPort(bus, joints.step, _STEP_S, options.link, baud=options.baud))
         )
-        signals.on_stop(port.stop)
+        # A client that was interrupted together with the motors is to switch their torque off first.
+        signals.on_stop(lambda: port.stop(after_client=signals.first is not signal.SIGTERM))
         control = None
         if options.control is not None:
             control = ControlSocket(options.control, Faults(bus, joints, port).answer)

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import select
 import time
@@ -21,6 +22,12 @@ from acts_sim.dynamixel.packets import PacketReader
 
 # Timeout of an incomplete packet; at 1 Mb/s the longest packet takes 10 ms.
 _PACKET_TIMEOUT_S = 0.05
+
+# A client that has sent nothing for so long has let go of the motors [s].
+_QUIET_S = 0.3
+
+# It has at most so long for that [s].
+_LONGEST_STAY_S = 4.0
 
 # After a longer pause of the process the missed steps are skipped: the motors' time has stood still.
 _MAX_CATCH_UP_S = 0.1
@@ -59,7 +66,8 @@ class BusPort:
         self._heard_s = 0.0
         # Replies on the wire with their times of arrival, oldest first.
         self._answers: deque[tuple[float, bytes]] = deque()
-        self._stopping = False
+        self._stopped_s = math.inf
+        self._stay_s = 0.0
         self._master = self._slave = -1
         self.path = ""
         self.plug_in()
@@ -104,14 +112,21 @@ class BusPort:
         """Close the port and remove the link."""
         self.unplug()
 
-    def stop(self) -> None:
-        """Let `run` return, from any thread or signal handler."""
-        self._stopping = True
+    def stop(self, *, after_client: bool = False) -> None:
+        """Let `run` return, from any thread or signal handler.
+
+        Parameters
+        ----------
+        after_client : bool
+            When nothing has come from a client for 0.3 s, at most 4 s later; else after the present step.
+        """
+        self._stay_s = _LONGEST_STAY_S if after_client else 0.0
+        self._stopped_s = time.monotonic()
 
     def run(self, control: ControlSocket | None = None) -> None:
         """Serve the port, and the control socket if there is one, until `stop` is called."""
         due_s = time.monotonic()
-        while not self._stopping:
+        while not self._is_over():
             now_s = time.monotonic()
             if now_s >= due_s:
                 if now_s - due_s > _MAX_CATCH_UP_S:
@@ -130,6 +145,13 @@ class BusPort:
                     self._receive()
                 elif control is not None:
                     control.serve(descriptor)
+
+    def _is_over(self) -> bool:
+        if self._stopped_s == math.inf:
+            return False
+        now_s = time.monotonic()
+        is_quiet = now_s - max(self._heard_s, self._stopped_s) >= _QUIET_S
+        return is_quiet or now_s - self._stopped_s >= self._stay_s
 
     def _receive(self) -> None:
         arrival_s = time.monotonic()

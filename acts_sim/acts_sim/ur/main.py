@@ -8,6 +8,7 @@ from __future__ import annotations
 import argparse
 import contextlib
 import gc
+import signal
 import sys
 import time
 from collections.abc import Sequence
@@ -129,7 +130,8 @@ def run(options: argparse.Namespace, signals: StopSignals) -> None:
 
         server = stack.enter_context(contextlib.closing(Server(options.host, ports, cycle, log)))
 
-        signals.on_stop(server.stop)
+        # A client that was interrupted together with the robot is to bring it to rest first.
+        signals.on_stop(lambda: server.stop(after_clients=signals.first is not signal.SIGTERM))
         if options.joint_ring is not None:
             stack.enter_context(contextlib.closing(Claim(options.joint_ring)))
             ring = stack.enter_context(TimedRingWriter(options.joint_ring, JOINT_RING_WIDTH))

@@ -182,3 +182,16 @@ def test_a_cable_that_is_torn_off_comes_back_under_its_name(tmp_path: Path) -> N
         rig.close()
     assert not rig.link.is_symlink()
     assert not rig.control.exists()
+
+
+@pytest.mark.parametrize(("number", "stays"), [(signal.SIGINT, True), (signal.SIGTERM, False)])
+def test_ctrl_c_leaves_a_client_the_time_to_switch_the_torque_off(
+    tmp_path: Path, number: signal.Signals, stays: bool
+) -> None:
+    rig = Rig(tmp_path, "--motors", "2")
+    rig.process.send_signal(number)
+    if stays:
+        for _ in range(200):
+            assert rig.packets.ping(rig.port, 0)[1] == COMM_SUCCESS
+    assert rig.process.wait(20.0) == 0
+    assert not rig.link.is_symlink()

@@ -42,8 +42,8 @@ def simulator(ring_path: Path) -> Iterator[Simulator]:
         yield running
 
 
-def connect(port: int) -> socket.socket:
-    return socket.create_connection((HOST, port), timeout=10.0)
+def connect(port: int, host: str = HOST) -> socket.socket:
+    return socket.create_connection((host, port), timeout=10.0)
 
 
 def alive(simulator: Simulator) -> None:
@@ -237,6 +237,27 @@ def test_signals_end_it_and_the_ring_goes(number: signal.Signals, tmp_path: Path
     assert ring.exists()
     assert running.stop(number) == 0
     assert not ring.exists()
+
+
+def test_ctrl_c_leaves_a_client_the_time_to_end_its_motion() -> None:
+    running = Simulator("127.0.1.22")
+    with connect(DASHBOARD_PORT, running.host) as client, client.makefile("r") as answers:
+        assert answers.readline().startswith("Connected")
+        before_s = running.state()["time_s"]
+        running.process.send_signal(signal.SIGINT)
+        running.process.send_signal(signal.SIGINT)
+        wait_for(lambda: running.state()["time_s"] > before_s + 0.2, "the robot's time to go on")
+        client.sendall(b"stop\n")
+        assert answers.readline() == "Stopped\n"
+    assert running.stop(signal.SIGINT) == 0
+
+
+def test_sigterm_ends_it_whoever_is_connected() -> None:
+    running = Simulator("127.0.1.22")
+    with connect(DASHBOARD_PORT, running.host) as client:
+        assert client.recv(100).startswith(b"Connected")
+        assert running.stop(signal.SIGTERM) == 0
+        assert client.recv(100) == b""
 
 
 def test_help_names_every_setting() -> None:

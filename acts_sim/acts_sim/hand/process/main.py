@@ -8,6 +8,7 @@ from __future__ import annotations
 import argparse
 import contextlib
 import json
+import signal
 import sys
 from collections.abc import Sequence
 from dataclasses import asdict
@@ -91,7 +92,8 @@ def run(options: argparse.Namespace, config: HandWorldConfig, signals: StopSigna
         port = stack.enter_context(
             contextlib.closing(BusPort(world.bus, loop.step, STEP_S, options.link, baud=options.baud))
         )
-        signals.on_stop(port.stop)
+        # A client that was interrupted together with the motors is to switch their torque off first.
+        signals.on_stop(lambda: port.stop(after_client=signals.first is not signal.SIGTERM))
         control = ControlSocket(options.control, lambda line: answer(world, loop, port, line))
         stack.enter_context(contextlib.closing(control))
         enter_realtime(scheduling, "all of it", lambda _level, sentence: print(sentence, file=sys.stderr, flush=True))

@@ -9,6 +9,7 @@
 from __future__ import annotations
 
 import errno
+import math
 import select
 import socket
 import time
@@ -18,6 +19,9 @@ from typing import Protocol
 
 from acts_core.errors import PacketError, RobotError, SettingsError
 from acts_sim.ur import CYCLE_HZ
+
+LONGEST_STAY_S = 4.0
+"""Time that clients have at most to end their motion and disconnect, when the server is stopped after them [s]."""
 
 MAX_CONNECTIONS = 200
 """Largest number of connections per port; `select` cannot watch descriptors from 1024 on."""
@@ -135,7 +139,7 @@ class Server:
     def __init__(self, host: str, ports: list[Port], cycle: Callable[[int], None], log: Callable[[str], None]) -> None:
         self._cycle = cycle
         self._log = log
-        self._stopping = False
+        self._stops_at_s = math.inf
         self._connections: list[_Connection] = []
         self._listeners: dict[socket.socket, Port] = {}
         try:
@@ -145,9 +149,15 @@ class Server:
             self.close()
             raise
 
-    def stop(self) -> None:
-        """Let `run` return after the present cycle; from any thread."""
-        self._stopping = True
+    def stop(self, *, after_clients: bool = False) -> None:
+        """Let `run` return, from any thread.
+
+        Parameters
+        ----------
+        after_clients : bool
+            When no client is connected any more, at most `LONGEST_STAY_S` later; else after the present cycle.
+        """
+        self._stops_at_s = time.monotonic() + (LONGEST_STAY_S if after_clients else 0.0)
 
     def close(self) -> None:
         """Close every socket."""
@@ -159,7 +169,7 @@ class Server:
     def run(self) -> None:
         """Serve until `stop` is called."""
         due_ns = time.monotonic_ns()
-        while not self._stopping:
+        while not self._is_over():
             now_ns = time.monotonic_ns()
             if now_ns >= due_ns:
                 missed = (now_ns - due_ns) // _CYCLE_NS
@@ -177,6 +187,11 @@ class Server:
                     self._tick(connection)
                 continue
             self._wait((due_ns - now_ns) / 1e9)
+
+    def _is_over(self) -> bool:
+        if self._stops_at_s == math.inf:
+            return False
+        return not self._connections or time.monotonic() >= self._stops_at_s
 
     def _wait(self, timeout_s: float) -> None:
         """Serve the sockets until the next cycle is due or data have arrived."""
