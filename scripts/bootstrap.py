@@ -291,19 +291,28 @@ def build_workspace() -> None:
         "build.log",
         env=env,
     )
-    find_python_on_path()
+    write_first_lines()
     say(f"built in {time.monotonic() - started:.0f} s")
     stamp.write_text(wanted)
 
 
-def find_python_on_path() -> None:
-    """Let the nodes' scripts take Python from PATH: their first line cannot hold a path that is long or has a space."""
+def write_first_lines() -> None:
+    """Let the nodes' scripts take Python from PATH: their first line cannot hold a path that is long or has a space.
+
+    Where `env` can do that, they start with the stop signals blocked, and `acts_core.stop_signals` unblocks them. So an
+    early signal waits, and does not end Python with a traceback.
+    """
+    block = "--block-signal=INT,TERM,HUP"
+    is_able = subprocess.run(["/usr/bin/env", block, "true"], capture_output=True, check=False).returncode == 0
     for script in INSTALL.glob("lib/*/*"):
         if script.is_dir() or script.is_symlink():
             continue
         first, _, rest = script.read_bytes().partition(b"\n")
         if first.startswith(b"#!") and bytes(VENV) in first:
-            script.write_bytes(b"#!/usr/bin/env python3\n" + rest)
+            # `acts` takes signals as Python does.
+            blocks = is_able and script.name != "acts"
+            line = f"#!/usr/bin/env -S {block} python3" if blocks else "#!/usr/bin/env python3"
+            script.write_bytes(line.encode() + b"\n" + rest)
 
 
 def acquire(lock: IO[str]) -> None:

@@ -61,6 +61,8 @@ class StopSignals:
             signal.signal(number, self._handle)
             # Libraries whose system calls would fail with EINTR are not to notice.
             signal.siginterrupt(number, False)
+        # The first line of a program may have them blocked (scripts/bootstrap.py): those that came meanwhile come now.
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, STOP_SIGNALS)
         threading.Thread(target=self._watch, args=(read_end,), name="acts_signals", daemon=True).start()
 
     @property
@@ -102,7 +104,7 @@ class StopSignals:
 
         sys.unraisablehook = raise_again
         try:
-            if self._is_set:
+            if self.is_set:
                 raise KeyboardInterrupt
             yield
         except Exception:

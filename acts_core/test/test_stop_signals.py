@@ -69,11 +69,26 @@ except KeyboardInterrupt:
 signals.ended()
 """
 
+# No other thread may take the signal.
+BLOCKED_BEFORE = """
+import os, signal
+from acts_core.stop_signals import StopSignals
+signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+os.kill(os.getpid(), signal.SIGINT)
+signals = StopSignals()
+try:
+    with signals.interrupting():
+        print("not interrupted", flush=True)
+except KeyboardInterrupt:
+    print("ending", signal.pthread_sigmask(signal.SIG_BLOCK, []), flush=True)
+signals.ended()
+"""
+
 
 @contextmanager
-def program(code: str, last_resort_s: float) -> Iterator[subprocess.Popen[str]]:
+def program(code: str, last_resort_s: float, head: str = HEAD) -> Iterator[subprocess.Popen[str]]:
     with subprocess.Popen(
-        [sys.executable, "-c", HEAD + code, str(last_resort_s)],
+        [sys.executable, "-c", head + code, str(last_resort_s)],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
@@ -113,6 +128,13 @@ def test_an_interruption_that_is_lost_in_a_library_takes_effect_after_it(goes_on
         process.send_signal(signal.SIGINT)
         output, errors = process.communicate(timeout=DEADLINE_S)
     assert (output, errors) == ("ending\n", "")
+    assert process.returncode == 0
+
+
+def test_a_signal_that_was_blocked_before_is_not_lost() -> None:
+    with program(BLOCKED_BEFORE, DEADLINE_S, head="") as process:
+        output, errors = process.communicate(timeout=DEADLINE_S)
+    assert (output, errors) == ("ending set()\n", "")
     assert process.returncode == 0
 
 
