@@ -96,7 +96,7 @@ class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig, ImpactCo
     )
     image_rate_hz: float = setting(
         30.0,
-        "largest rate of the topics image, view/image_raw, view/confidence and view/age [Hz]",
+        "largest rate of the topics image, view/image_raw, view/confidence, view/age and view/contact_series [Hz]",
         minimum=0.1,
         maximum=1000.0,
         changeable=Changeable.RUNNING,

@@ -33,6 +33,7 @@ from acts_msgs.msg import (
     BallState,
     Contact,
     Contacts,
+    ContactSeries,
     HandStatus,
     Outline,
     RegionContacts,
@@ -213,6 +214,33 @@ def test_where_nothing_is_for_viewers_the_image_is_that_at_frame_rate_as_in_a_ba
     with bench.connect() as client:
         bench.until(lambda: "image" in bench.arrays, client, play)
     assert (bench.arrays["image"] == 300).all()
+
+
+def test_contacts_that_come_many_in_a_message_are_all_plotted(bench: Bench) -> None:
+    publisher = bench.skin.create_publisher(ContactSeries, "view/contact_series", qos.VIEW)
+    sent = 0
+
+    def play() -> None:
+        nonlocal sent
+        series = ContactSeries(age=[0.003, 0.0], force=[1.0, 2.0], delay=[0.001, 0.002], missing=[4, 0])
+        series.newest.header.stamp = bench.skin.get_clock().now().to_msg()
+        series.newest.in_contact, series.newest.force, series.newest.peak = True, 2.0, 300.0
+        publisher.publish(series)
+        series.age = [math.nan, 0.0]
+        publisher.publish(series)
+        series.age = [0.0]
+        publisher.publish(series)
+        sent += 1
+
+    with bench.connect() as client:
+        bench.until(lambda: sum(one[:, 1].sum() for one in bench.history) >= 6, client, play)
+        assert contact_subscribers(bench) == 0
+    history = np.concatenate(bench.history)
+    assert history[:, 1].sum() <= 2 * sent
+    assert history[:, 2].sum() == 2 * history[:, 1].sum()
+    assert (history[:, 3].min(), history[:, 4].max()) == (1.0, 2.0)
+    np.testing.assert_allclose([history[:, 5].min(), history[:, 6].max()], [1.0, 2.0], rtol=1e-6)
+    np.testing.assert_allclose(bench.headers["frame"]["touch"][2:4], [2.0, 300.0])
 
 
 def test_what_cannot_be_is_left_out_and_the_page_goes_on(bench: Bench, caplog: pytest.LogCaptureFixture) -> None:

@@ -37,6 +37,7 @@ from acts_recon.nodes.age_publisher import AgePublisher
 from acts_recon.nodes.contacts_publisher import ContactsPublisher
 from acts_recon.nodes.object_publisher import ObjectPublisher
 from acts_recon.nodes.region_publisher import RegionsPublisher
+from acts_recon.nodes.series_publisher import SeriesPublisher
 from acts_recon.settings import ReconstructionConfig, ReconstructionSettings
 from acts_ros import qos
 from acts_ros.clocks import steady_timer
@@ -67,7 +68,8 @@ class ReconstructionNode(Node):
     ``fusion``), ``image`` (rgb8, for viewers), ``contacts``, what `Abilities` offers, with a layout of several patches,
     or of one on a link, ``regions`` (acts_msgs/RegionContacts), and, with an object library, ``object``
     (acts_msgs/ObjectClass). For viewers that draw by themselves ``image_raw``, ``confidence`` and ``contacts`` are also
-    below ``view/``, at most `image_rate_hz` times a second, and beside them ``view/age`` (32FC1, see `AgePublisher`).
+    below ``view/``, at most `image_rate_hz` times a second, and beside them ``view/age`` (32FC1, see `AgePublisher`)
+    and ``view/contact_series`` (acts_msgs/ContactSeries).
 
     Parameters
     ----------
@@ -97,6 +99,7 @@ class ReconstructionNode(Node):
         self._raw = _empty_image(rows, cols, "mono16", 2)
         self._sureness = _empty_image(rows, cols, "mono8", 1)
         self._ages = AgePublisher(self, rows, cols)
+        self._series = SeriesPublisher(self)
         scale = self._settings.image_scale
         self._view = _empty_image(rows * scale, cols * scale, "rgb8", 3)
         self._raw_limit = RateLimit(self._settings.image_raw_rate_hz)
@@ -159,6 +162,7 @@ class ReconstructionNode(Node):
         self._send_view_raw = self._view_raw_publisher.get_subscription_count() > 0
         self._send_view_confidence = self._view_confidence_publisher.get_subscription_count() > 0
         self._ages.look_for_subscribers()
+        self._series.look_for_subscribers()
         self._contacts.look_for_subscribers()
         self._abilities.look_for_subscribers()
         if self._objects is not None:
@@ -238,6 +242,8 @@ class ReconstructionNode(Node):
         header.frame_id = frame_id
         header.stamp.sec, header.stamp.nanosec = divmod(stamp_ns, _NS_PER_S)
         self._publish_contact(stamp_ns, frame_id, frame.sequence, contact)
+        if self._series.is_wanted:
+            self._series.add(stamp_ns, frame.sequence, contact)
         if self._regions is not None:
             self._regions.publish(stamp_ns, frame_id, frame.sequence, self._recovery)
         self._publish_images(duration_s)
@@ -248,7 +254,13 @@ class ReconstructionNode(Node):
         self._durations_s.append(time.perf_counter() - began_s)
 
     def _publish_images(self, duration_s: float) -> None:
-        is_view_wanted = self._send_view or self._send_view_raw or self._send_view_confidence or self._ages.is_wanted
+        is_view_wanted = (
+            self._send_view
+            or self._send_view_raw
+            or self._send_view_confidence
+            or self._ages.is_wanted
+            or self._series.is_wanted
+        )
         is_view_due = is_view_wanted and self._view_limit.due(time.monotonic())
         if self._send_raw and self._raw_limit.due(time.monotonic()):
             self._publish_raw(self._raw_publisher)
@@ -260,6 +272,8 @@ class ReconstructionNode(Node):
             self._publish_confidence(self._view_confidence_publisher)
         if self._ages.is_wanted and is_view_due:
             self._ages.publish(self._header, self._recovery, duration_s)
+        if self._series.is_wanted and is_view_due:
+            self._series.publish(self._header)
         if self._send_view and is_view_due:
             self._publish_view()
 

@@ -22,7 +22,7 @@ from acts_core.array import ArrayGeometry
 from acts_core.errors import REFUSED_EXIT_CODE, ArrayError, DictionaryError, ObjectLibraryError, SettingsError
 from acts_core.frames import SampleFrame, Scheme
 from acts_core.skin import ForceResponse, layout
-from acts_msgs.msg import Contact
+from acts_msgs.msg import Contact, ContactSeries
 from acts_recon.contacts.contact import find_contact
 from acts_recon.fusion import FusionEstimator
 from acts_recon.settings import ReconstructionSettings
@@ -261,6 +261,32 @@ def test_the_viewer_image_keeps_its_rate_and_costs_nothing_unheard(make_bench: C
     age_s = np.frombuffer(bench.received["view/age"][0].data, np.float32)
     assert not age_s[indices].any()
     assert np.isinf(np.delete(age_s, indices)).all()
+
+
+def test_viewers_get_every_contact_in_a_few_messages(make_bench: Callable[..., Bench]) -> None:
+    bench = make_bench(43, image_rate_hz=20.0)
+    bench.listen(ContactSeries, "view/contact_series", qos.VIEW)
+    bench.until(lambda: bench.node._series.is_wanted)
+    series, pressed = bench.received["view/contact_series"], np.arange(320, 330)
+    sequence = 0
+    # 3 is missing.
+    while sum(len(one.age) for one in series) < 30:
+        sequence += 2 if sequence == 2 else 1
+        bench.send(sequence, pressed, np.full(10, 500))
+        bench.contact(sequence)
+    contacts = bench.received["contact"]
+    told = [force for one in series for force in one.force]
+    assert len(series) < len(told) / 2
+    assert told == [one.force for one in contacts[: len(told)]]
+    assert [number for one in series for number in one.missing] == [0, 0, 1, *[0] * (len(told) - 3)]
+    begin = 0
+    for one in series:
+        these = contacts[begin : begin + len(one.age)]
+        assert one.newest == these[-1]
+        # Numbers and stamps go together, a second for each.
+        assert list(one.age) == [one.newest.sequence - contact.sequence for contact in these]
+        assert len(one.delay) == len(these)
+        begin += len(these)
 
 
 @pytest.mark.parametrize(

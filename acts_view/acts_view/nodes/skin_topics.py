@@ -16,10 +16,11 @@ from sensor_msgs.msg import Image, JointState
 
 from acts_core.array import MAX_SIDE
 from acts_core.errors import PacketError
-from acts_msgs.msg import BalanceStatus, BallReference, BallState, Contact, Contacts, HandStatus, RegionContacts
+from acts_msgs.msg import BalanceStatus, BallReference, BallState, Contacts, HandStatus, RegionContacts
 from acts_ros import qos
-from acts_ros.messages import ContactFields, read_contact, read_regions
+from acts_ros.messages import read_regions
 from acts_ros.polled import PolledSubscription, PollingNode
+from acts_view.nodes.contact_topic import ContactTopic
 from acts_view.nodes.outline_topic import OutlineTopic
 from acts_view.nodes.robot_states import (
     SHOWN,
@@ -32,9 +33,6 @@ from acts_view.nodes.robot_states import (
 )
 from acts_view.skin.snapshot import CONTACT_COLUMNS, Frame, RegionState, Sample
 
-_SEQUENCE_MODULUS = 1 << 32
-# A stamp further from the clock than this is by another clock, as in a bag that is played.
-_SAME_CLOCK_S = 10.0
 _PIXELS = {"mono16": "u2", "mono8": "u1", "32FC1": "f4"}
 _ROBOT: dict[str, tuple[type, Callable[[Any], dict[str, Any]], str]] = {
     "hand/status": (HandStatus, hand_state, "hand"),
@@ -63,8 +61,7 @@ class SkinTopics:
         self._namespace = namespace
         self._polled: dict[str, PolledSubscription[Any]] = {}
         self._frame = Frame()
-        self._sequence: int | None = None
-        self._polled["contact"] = node.create_raw_polled_subscription(Contact, f"{namespace}/contact", qos.STREAM)
+        self._contact = ContactTopic(node, namespace)
         self._polled["regions"] = node.create_raw_polled_subscription(
             RegionContacts, f"{namespace}/regions", qos.STREAM, depth=1
         )
@@ -75,6 +72,7 @@ class SkinTopics:
 
     def look(self) -> None:
         """Choose anew, now and then, between the topics for viewers and, as in a bag, those at 1 kHz."""
+        self._contact.look()
         self._choose("image_raw", Image)
         self._choose("confidence", Image)
         self._choose("age", Image)
@@ -90,12 +88,13 @@ class SkinTopics:
         for subscription in self._polled.values():
             self._node.destroy_polled_subscription(subscription)
         self._polled.clear()
+        self._contact.close()
         if self._outlines is not None:
             self._outlines.close()
 
     def take(self) -> tuple[Frame, list[Sample]] | None:
         """The newest of everything and all of the 1 kHz stream since the last call; None where nothing came."""
-        samples, touch, stamp_ns = self._contact()
+        samples, touch, stamp_s = self._contact.take()
         images = {name: self._newest(name) for name in ("image_raw", "confidence", "age")}
         contacts, regions = (self._newest(name) for name in ("contacts", "regions"))
         robot = {topic: self._newest(topic) for topic in _ROBOT}
@@ -107,7 +106,7 @@ class SkinTopics:
         age_s = _pixels(images["age"], "32FC1")
         numbers, table = (old.contact_numbers, old.contacts) if contacts is None else _table(contacts)
         self._frame = Frame(
-            stamp_s=old.stamp_s if stamp_ns is None else stamp_ns * 1e-9,
+            stamp_s=old.stamp_s if stamp_s is None else stamp_s,
             image=old.image if image is None else image,
             confidence=old.confidence if confidence is None else confidence,
             age_s=old.age_s if age_s is None else age_s,
@@ -141,29 +140,6 @@ class SkinTopics:
     def _newest(self, what: str) -> Any:
         taken = self._polled[what].take_all()
         return taken[-1][0] if taken else None
-
-    def _contact(self) -> tuple[list[Sample], tuple[float, ...] | None, int | None]:
-        samples = []
-        newest: ContactFields | None = None
-        for data, received_ns in self._polled["contact"].take_all():
-            try:
-                newest = read_contact(data)
-            except PacketError as error:
-                self._node.get_logger().warning(f"{self._namespace}: {error}", throttle_duration_sec=5.0)
-                continue
-            age_s = (received_ns - newest.stamp_ns) * 1e-9
-            latency_ms = 1e3 * age_s if abs(age_s) < _SAME_CLOCK_S else math.nan
-            samples.append(Sample(newest.stamp_ns * 1e-9, newest.force_n, latency_ms, self._lost(newest.sequence)))
-        if newest is None:
-            return samples, None, None
-        touch = (newest.x_m, newest.y_m, newest.force_n, newest.peak_counts, newest.area_m2)
-        return samples, touch if newest.in_contact and all(map(math.isfinite, touch)) else None, newest.stamp_ns
-
-    def _lost(self, sequence: int) -> int:
-        before, self._sequence = self._sequence, sequence
-        missing = 0 if before is None else (sequence - before - 1) % _SEQUENCE_MODULUS
-        # Half the range back is a board that began anew.
-        return missing if missing < _SEQUENCE_MODULUS // 2 else 0
 
 
 def _pixels(message: Image | None, encoding: str) -> NDArray[Any] | None:

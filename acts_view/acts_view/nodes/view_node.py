@@ -54,11 +54,10 @@ _SHAPE_PARAMETERS = ("layout", "rows", "cols", "pitch_m", "row_pitch_m", "touch_
 class ViewNode(PollingNode):
     """Shows skins on a page, see `ViewServer`.
 
-    Subscribes of every skin ``contact``, ``regions``, ``hand/status``, ``joint_states``, ``ball/state``,
-    ``ball/reference``, ``ball/status``, and ``view/age``, ``view/image_raw``, ``view/confidence`` and
-    ``view/contacts``, or where they are not, those without ``view/``; with `outlines` also ``outlines``; and
-    ``/diagnostics``. Asks the node
-    ``reconstruction`` beside them for its parameters.
+    Subscribes of every skin ``regions``, ``hand/status``, ``joint_states``, ``ball/state``, ``ball/reference``,
+    ``ball/status``, and ``view/age``, ``view/image_raw``, ``view/confidence``, ``view/contacts`` and
+    ``view/contact_series``, or where they are not, those without ``view/`` and ``contact``; with `outlines` also
+    ``outlines``; and ``/diagnostics``. Asks the node ``reconstruction`` beside them for its parameters.
     """
 
     def __init__(self, **options: Any) -> None:
