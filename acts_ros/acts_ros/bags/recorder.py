@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -26,6 +27,12 @@ except ImportError:  # Humble
     from rclpy.qos_event import SubscriptionEventCallbacks, UnsupportedEventTypeError
 
 
+# A topic that came regularly has ended when nothing came for so many of its mean intervals, and for so long [s].
+_ENDED_INTERVALS = 20
+_ENDED_S = 1.0
+_REGULAR_MESSAGES = 10
+
+
 @dataclass
 class TopicRecord:
     """Counts of one recorded topic.
@@ -38,12 +45,24 @@ class TopicRecord:
         Messages written.
     lost : int or None
         Messages that the middleware reports as lost; None when it does not report.
+    first_s, last_s : float
+        Times of reception of the first and the last message, CLOCK_MONOTONIC [s].
     """
 
     topic: str
     message_type: str
     received: int = 0
     lost: int | None = 0
+    first_s: float = 0.0
+    last_s: float = 0.0
+
+    def silent_s(self, now_s: float) -> float | None:
+        """For how long nothing has come of a topic that came regularly [s]; None where it still comes, or never did."""
+        if self.received < _REGULAR_MESSAGES:
+            return None
+        interval_s = (self.last_s - self.first_s) / (self.received - 1)
+        silence_s = now_s - self.last_s
+        return silence_s if silence_s > max(_ENDED_S, _ENDED_INTERVALS * interval_s) else None
 
 
 class Recorder:
@@ -156,6 +175,8 @@ class Recorder:
 
     def _on_message(self, record: TopicRecord, handle: Any, data: bytes) -> None:
         self._bag.write(handle, data)
+        record.last_s = time.monotonic()
+        record.first_s = record.first_s or record.last_s
         record.received += 1
 
 

@@ -97,15 +97,16 @@ def record(path: Path, topics: list[str] | None, duration_s: float | None) -> in
                     recorder.discover()
                     spin_for(executor, _TURN_S)
                     bag.flush()
+                ended_s = time.monotonic()
         finally:
             executor.shutdown()
             node.destroy_node()
             rclpy.try_shutdown()
-    _summarise(recorder, bag, time.monotonic() - started_s)
+    _summarise(recorder, bag, started_s, ended_s)
     return 0 if recorder.is_complete else 1
 
 
-def _summarise(recorder: Recorder, bag: BagWriter, elapsed_s: float) -> None:
+def _summarise(recorder: Recorder, bag: BagWriter, started_s: float, ended_s: float) -> None:
     records = sorted(recorder.records.values(), key=lambda record: record.topic)
     width = max((len(record.topic) for record in records), default=0)
     for record in records:
@@ -115,10 +116,14 @@ def _summarise(recorder: Recorder, bag: BagWriter, elapsed_s: float) -> None:
         _say(f"never appeared: {topic}, no publisher was found")
     for topic in recorder.silent():
         _say(f"no message: {topic} had a publisher, but nothing came")
+    for record in records:
+        silence_s = record.silent_s(ended_s)
+        if silence_s is not None:
+            _say(f"ended before: {record.topic} came regularly, but not in the last {silence_s:.1f} s")
     total = sum(record.received for record in records)
     if not total:
         _say("nothing was recorded; the bag is empty")
-    _say(f"{total} messages in {elapsed_s:.1f} s, {bag.size_bytes() / 1e6:.1f} MB in {bag.path}")
+    _say(f"{total} messages in {ended_s - started_s:.1f} s, {bag.size_bytes() / 1e6:.1f} MB in {bag.path}")
 
 
 def _say(text: str) -> None:

@@ -103,6 +103,9 @@ def _heard(timeout_s: float) -> Statuses:
                 spin_for(executor, _TURN_S)
                 if is_first and not statuses.is_empty:
                     is_first, end_s = False, time.monotonic() + _ALL_S
+            if stop.is_set and statuses.is_empty:
+                # Not the answer that nobody reports: the time for it is not over.
+                raise KeyboardInterrupt
         finally:
             executor.shutdown()
             node.destroy_node()

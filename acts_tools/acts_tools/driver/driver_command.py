@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
 
 _FOUND_S = 10.0
 _ANSWER_S = 30.0
+_LOOK_S = 0.5
 _SERVICES = {"query": "query_board", "calibrate": "calibrate", "tare": "tare"}
 
 _EPILOG = """\
@@ -120,9 +122,17 @@ def _call(kind: Any, name: str, request: Any) -> Any:
                 f"no driver offers {name}: is it launched, in this namespace (--namespace) and with this ROS_DOMAIN_ID?"
             )
         future = client.call_async(request)
-        executor.spin_until_future_complete(future, timeout_sec=_ANSWER_S)
-        if not future.done():
-            raise BoardError(f"{name} has not answered within {_ANSWER_S:g} s")
+        deadline_s = time.monotonic() + _ANSWER_S
+        while not future.done():
+            executor.spin_until_future_complete(future, timeout_sec=_LOOK_S)
+            if future.done():
+                break
+            if not client.service_is_ready():
+                raise BoardError(f"{name} is gone and has not answered: the driver has ended, see its output")
+            if time.monotonic() > deadline_s:
+                raise BoardError(
+                    f"{name} has not answered within {_ANSWER_S:g} s: the driver was killed or hangs, see its output"
+                )
         return future.result()
     finally:
         executor.shutdown()

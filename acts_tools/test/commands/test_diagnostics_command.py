@@ -6,6 +6,8 @@
 from __future__ import annotations
 
 import json
+import os
+import signal
 import subprocess
 import sys
 import threading
@@ -109,3 +111,17 @@ def test_where_nobody_reports_it_says_so(capsys: pytest.CaptureFixture[str], mon
     assert main(["diagnostics", "--timeout", "0.2"]) == 3
     assert "no node has reported on /diagnostics or /diagnostics_agg within 0.2 s" in capsys.readouterr().err
     assert main(["diagnostics", "--timeout", "0"]) == 1
+
+
+def test_interrupted_before_anything_came_it_does_not_say_that_nobody_reports() -> None:
+    command = [sys.executable, "-m", "acts_tools", "diagnostics", "--timeout", "60"]
+    with (
+        Probe(189) as probe,
+        subprocess.Popen(
+            command, env={**os.environ, "ROS_DOMAIN_ID": "189"}, stderr=subprocess.PIPE, text=True
+        ) as process,
+    ):
+        probe.wait_for_node("/acts_diagnostics")
+        process.send_signal(signal.SIGINT)
+        assert process.communicate(timeout=60) == (None, "")
+    assert process.returncode == 130

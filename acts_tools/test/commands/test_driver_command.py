@@ -8,15 +8,19 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+import threading
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from rclpy.client import Client
+from std_srvs.srv import Trigger
 
 from acts_core.errors import SettingsError
 from acts_tools.bench.rigs.processes import virtual_board
 from acts_tools.cli import main
 from acts_tools.driver.driver_command import parameters_of
+from acts_tools.testing.probe import Probe
 
 pytestmark = pytest.mark.slow
 
@@ -82,3 +86,36 @@ def test_a_driver_that_is_not_there_is_named(
     assert "no driver offers /plate/driver/calibrate" in capsys.readouterr().err
     assert main(["driver", "tare", "m=5"]) == 1
     assert main(["driver", "set"]) == 1
+
+
+def test_a_driver_that_ends_before_it_answers_is_told_from_one_that_is_slow(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("ROS_DOMAIN_ID", "119")
+    with Probe(119) as probe:
+        name = "/plate/driver/query_board"
+        # Nobody calls back: it never answers.
+        service = probe.node.create_service(Trigger, name, lambda _request, response: response)
+
+        def end_when_asked() -> None:
+            asked.wait(DEADLINE_S)
+            probe.node.destroy_service(service)
+
+        asked = threading.Event()
+        ending = threading.Thread(target=end_when_asked)
+        ending.start()
+        call = Client.call_async
+
+        def call_and_end(client: Client, request: object) -> object:
+            future = call(client, request)
+            asked.set()
+            return future
+
+        monkeypatch.setattr(Client, "call_async", call_and_end)
+        assert main(["driver", "query"]) == 1
+        assert f"{name} is gone and has not answered" in capsys.readouterr().err
+        ending.join()
+        service = probe.node.create_service(Trigger, name, lambda _request, response: response)
+        monkeypatch.setattr("acts_tools.driver.driver_command._ANSWER_S", 0.0)
+        assert main(["driver", "query"]) == 1
+        assert f"{name} has not answered within 0 s" in capsys.readouterr().err
