@@ -48,7 +48,8 @@ from acts_core.array import COUNT_MAX, ArrayGeometry
 from acts_core.errors import ArrayError
 from acts_core.settings import setting, validate
 from acts_core.skin import Layout
-from acts_recon.fusion import fusion_kernels as kernels
+from acts_recon.fusion.fusion_image_kernels import confidence
+from acts_recon.fusion.fusion_kernels import fuse
 from acts_recon.fusion.fusion_state import LEAST_NOISE_COUNTS, Tuning, expect_noise, forget, new_memory, state_of
 from acts_recon.images import PlacedSamples, borders_of
 
@@ -210,7 +211,7 @@ class FusionEstimator:
                 self.reset()
                 period_s = duration_s
         self._end_s = end_s
-        kernels.fuse(self._memory, places, counts, period_s, duration_s, self.geometry.cols, self._tuning)
+        fuse(self._memory, places, counts, period_s, duration_s, self.geometry.cols, self._tuning)
         return self.image
 
     def confidence(self) -> NDArray[np.uint8]:
@@ -221,7 +222,7 @@ class FusionEstimator:
         np.ndarray [shape=(rows, cols), dtype=uint8]
             Overwritten by the next call.
         """
-        kernels.confidence(self._state.sigma, self.config.confidence_counts, self._confidence)
+        confidence(self._state.sigma, self.config.confidence_counts, self._confidence)
         return self._confidence.reshape(self.image.shape)
 
     def _warm_up(self) -> None:

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX
 from acts_core.kernels import kernel
+from acts_recon.fusion.fusion_image_kernels import show, trust, update_sigma
 from acts_recon.fusion.fusion_motion_kernels import FASTMATH, TINY, find_velocities, moved, observe_motion
 from acts_recon.fusion.fusion_state import (
     CHANGES,
@@ -31,7 +32,6 @@ from acts_recon.fusion.fusion_state import (
     SUMS,
     TILE,
     TRUST,
-    UNKNOWN_COUNTS,
     Memory,
     State,
     Tuning,
@@ -41,8 +41,6 @@ from acts_recon.fusion.fusion_state import (
 REACH = 2
 """Taxels so far from a sample, along rows and columns, are corrected by its innovation."""
 
-# Lower limit of the process noise: what an untouched taxel may drift [counts/s].
-IDLE_COUNTS_PER_S = 20.0
 # Gain of the exponential average of a taxel's squared prediction errors.
 PROCESS_NOISE_GAIN = 0.3
 # Added to the time between two measurements, so that errors over short times are not taken for fast changes [s].
@@ -62,10 +60,6 @@ SPREAD_PRIOR = 0.5
 # What was learnt of the noise fades with this time constant, and what was learnt of predictions with the next [s].
 NOISE_MEMORY_S = 1.0
 TRUST_MEMORY_S = 0.3
-# Predictions are trusted until sums of squares of this size say otherwise [counts^2].
-TRUST_PRIOR = 0.3
-# Smaller predicted changes are not shown: one step of the converter looks like a slope of nearly one count.
-LEAST_CHANGE_COUNTS = 0.85
 # Readings are noise where 0 predicts them at least so well, in squares of their changes,
 ZERO_MARGIN = 1.5
 # and where their changes are at most so large, in squares of those of fast measured taxels.
@@ -139,13 +133,6 @@ def _predict(state: State, period_s: float, cols: int, tuning: Tuning) -> None:
 
 
 @kernel(fastmath=FASTMATH)
-def _trust(product: np.float32, square: np.float32) -> np.float32:
-    """Share of what was predicted that came true, by least squares, 0 to 1."""
-    share = (product + _F(TRUST_PRIOR)) / (square + _F(TRUST_PRIOR))
-    return min(max(share, _F(0)), _F(1))
-
-
-@kernel(fastmath=FASTMATH)
 def _learn(
     state: State,
     indices: NDArray[np.uint16],
@@ -174,7 +161,7 @@ def _learn(
         predicted = state.estimate[i] - state.rate[i] * lag - value
         change = count - value
         if _F(0) < since < horizon:
-            innovation = change - _trust(product[i], square[i]) * predicted
+            innovation = change - trust(product[i], square[i]) * predicted
             fade = _F(math.exp(-since / _F(TRUST_MEMORY_S)))
             product[i] = product[i] * fade + predicted * change
             square[i] = square[i] * fade + predicted * predicted
@@ -204,7 +191,7 @@ def _learn(
             changes, expected = learnt[t, CHANGES], learnt[t, EXPECTED]
             if expected > TINY:
                 learnt[t, QUIET] = _F(QUIET_SIGMAS) * _F(math.sqrt(changes / (_F(CLIPPED_CHANGE) * expected)))
-            learnt[t, TRUST] = _trust(learnt[t, PRODUCT], learnt[t, SQUARE])
+            learnt[t, TRUST] = trust(learnt[t, PRODUCT], learnt[t, SQUARE])
             is_noise = learnt[t, READINGS] < _F(ZERO_MARGIN) * changes and changes < limit * expected
             learnt[t, IS_NOISE] = _F(1) if is_noise else _F(0)
 
@@ -308,103 +295,6 @@ def _spread(state: State, indices: NDArray[np.uint16], cols: int, tuning: Tuning
 
 
 @kernel(fastmath=FASTMATH)
-def _maximum_filter(state: State, values: NDArray[np.float32], cols: int) -> NDArray[np.float32]:
-    """Maximum filter of 3 x 3 taxels within each patch; overwritten by the next call."""
-    in_row, around = state.in_row, state.around
-    for p in range(state.patches.shape[0]):
-        top, bottom, left, right = state.patches[p, 0], state.patches[p, 1], state.patches[p, 2], state.patches[p, 3]
-        width = right - left
-        for row in range(top, bottom):
-            # Slices, so that the compiler sees that no index is negative, and vectorises.
-            here = values[row * cols + left : row * cols + right]
-            largest = in_row[row * cols + left : row * cols + right]
-            largest[0] = max(here[0], here[min(1, width - 1)])
-            left_of, right_of = here[:-2], here[2:]
-            for c in range(left_of.shape[0]):
-                largest[c + 1] = max(left_of[c], here[c + 1], right_of[c])
-            largest[width - 1] = max(here[width - 1], here[max(width - 2, 0)])
-        for row in range(top, bottom):
-            here = in_row[row * cols + left : row * cols + right]
-            before, behind = max(row - 1, top) * cols, min(row + 1, bottom - 1) * cols
-            above = in_row[before + left : before + right]
-            below = in_row[behind + left : behind + right]
-            largest = around[row * cols + left : row * cols + right]
-            for c in range(width):
-                largest[c] = max(here[c], above[c], below[c])
-    return around
-
-
-@kernel(fastmath=FASTMATH)
-def _show(state: State, cols: int, tuning: Tuning) -> None:
-    """Image of the estimates as far as they are trusted; 0 where readings are low, with none beside, and are noise."""
-    above, quiet, tile_of = state.total, state.weight, state.tile_of
-    image, value, age, low, fresh = state.image, state.value, state.age, state.low, state.fresh
-    rate, estimate, product, square = state.rate, state.estimate, state.product, state.square
-    learnt = state.learnt
-    for i in range(image.shape[0]):
-        t = tile_of[i]
-        usual = state.noise[i] * learnt[t, QUIET]
-        above[i] = value[i] - usual
-        quiet[i] = usual if learnt[t, IS_NOISE] > _F(0) else _F(-1)
-    around = _maximum_filter(state, above, cols)
-    least, quiet_s, horizon = _F(LEAST_CHANGE_COUNTS), _F(tuning.quiet_s), _F(tuning.horizon_s)
-    for i in range(image.shape[0]):
-        ahead = rate[i] * age[i] if around[i] > _F(0) else _F(0)
-        change = ahead if fresh[i] else estimate[i] - value[i]
-        above[i] = change if abs(change) >= least else _F(0)
-        image[i] = value[i]
-    for i in range(image.shape[0]):
-        if above[i] != _F(0):
-            change = above[i] * (_trust(product[i], square[i]) if age[i] < horizon else learnt[tile_of[i], TRUST])
-            if abs(change) >= least:
-                # Whole counts, as readings are: with a fraction more, a taxel that reads just the threshold would be
-                # pressed.
-                image[i] = _F(int(min(max(value[i] + change, _F(0)), _TOP) + _F(0.5)))
-    for i in range(image.shape[0]):
-        low[i] = around[i] <= _F(0)
-        is_settled = (image[i] <= quiet[i]) | ((age[i] < quiet_s) & (quiet[i] >= _F(0)))
-        image[i] = _F(0) if low[i] & is_settled & (not fresh[i]) else image[i]
-        above[i], quiet[i] = _F(0), _F(0)
-
-
-@kernel(fastmath=FASTMATH)
-def _update_sigma(state: State, cols: int, tuning: Tuning) -> None:
-    """Sigma of every taxel from measurement noise, drift, process noise over its age, and the scales.
-
-    What moves beside a taxel may have come to it since it was measured. So half of its process noise is the maximum of
-    the 3 x 3 taxels around it.
-    """
-    around = _maximum_filter(state, state.process_noise, cols)
-    for p in range(state.patches.shape[0]):
-        top, bottom, left, right = state.patches[p, 0], state.patches[p, 1], state.patches[p, 2], state.patches[p, 3]
-        scale = _F(math.exp(state.log_scale[p])) * state.frame_scale[p]
-        if right - left == cols:
-            _update_sigma_of(state, around, top * cols, bottom * cols, scale, tuning)
-            continue
-        for row in range(top, bottom):
-            _update_sigma_of(state, around, row * cols + left, row * cols + right, scale, tuning)
-
-
-@kernel(fastmath=FASTMATH)
-def _update_sigma_of(
-    state: State, around: NDArray[np.float32], first: int, end: int, scale: np.float32, tuning: Tuning
-) -> None:
-    """`_update_sigma` of consecutive taxels."""
-    idle, horizon = _F(IDLE_COUNTS_PER_S), _F(tuning.horizon_s)
-    noise = state.noise[first:end]
-    limit = _F(UNKNOWN_COUNTS)
-    process_noise, sigma = state.process_noise[first:end], state.sigma[first:end]
-    ages, around = state.age[first:end], around[first:end]
-    for i in range(sigma.shape[0]):
-        age = ages[i]
-        q = _F(0.5) * (process_noise[i] + around[i])
-        time = min(age, horizon)
-        idled = idle * min(age, _F(1e3))
-        variance = noise[i] * noise[i] + idled * idled + scale * q * time * time
-        sigma[i] = min(_F(math.sqrt(variance)), limit)
-
-
-@kernel(fastmath=FASTMATH)
 def fuse(
     memory: Memory,
     indices: NDArray[np.uint16],
@@ -437,13 +327,5 @@ def fuse(
     _learn(state, indices, counts, period_s, lag_step_s, tuning)
     _update(state, indices, counts, lag_step_s, tuning)
     _spread(state, indices, cols, tuning)
-    _show(state, cols, tuning)
-    _update_sigma(state, cols, tuning)
-
-
-@kernel(fastmath=FASTMATH)
-def confidence(sigma: NDArray[np.float32], half_counts: float, out: NDArray[np.uint8]) -> None:
-    """Write ``255 / (1 + (sigma / half_counts)^2)``, rounded."""
-    for i in range(sigma.shape[0]):
-        ratio = sigma[i] / _F(half_counts)
-        out[i] = np.uint8(_F(255) / (_F(1) + ratio * ratio) + _F(0.5))
+    show(state, cols, tuning)
+    update_sigma(state, cols, tuning)

@@ -10,9 +10,8 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from acts_core.array import COUNT_MAX
+from acts_recon.fusion.fusion_image_kernels import IDLE_COUNTS_PER_S, LEAST_CHANGE_COUNTS, TRUST_PRIOR
 from acts_recon.fusion.fusion_kernels import (
-    IDLE_COUNTS_PER_S,
-    LEAST_CHANGE_COUNTS,
     NEW_CONTACT_AGE_S,
     NIS_PRIOR_SAMPLES,
     NOISE_LIMIT,
@@ -30,7 +29,6 @@ from acts_recon.fusion.fusion_kernels import (
     SHORTEST_S,
     SPREAD_PRIOR,
     TRUST_MEMORY_S,
-    TRUST_PRIOR,
     ZERO_MARGIN,
 )
 from acts_recon.fusion.fusion_motion_kernels import AROUND, RIDGE
