@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 import threading
 import time
+import tracemalloc
 from array import array
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -15,7 +16,7 @@ from typing import Any
 import numpy as np
 import pytest
 import rclpy
-from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from numpy.typing import NDArray
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
@@ -41,6 +42,7 @@ from acts_msgs.msg import (
 )
 from acts_ros import qos
 from acts_ros.messages import ContactFields, write_contact, write_regions
+from acts_view.nodes import view_node
 from acts_view.nodes.view_node import ViewNode
 from acts_view.settings import ViewSettings
 from acts_view.skin.snapshot import SkinShape
@@ -284,6 +286,26 @@ def test_what_cannot_be_is_left_out_and_the_page_goes_on(bench: Bench, caplog: p
         assert max(len(one["message"]) for one in bench.headers["status"]["diagnostics"]) == 500
         bench.until(lambda: bench.headers["frame"]["touch"] is not None, client, lambda: bench.press(2.0))
     assert [record.message for record in caplog.records if record.name == "asyncio"] == []
+
+
+def test_of_long_diagnostics_only_what_can_be_shown_is_kept_and_that_not_for_ever(
+    bench: Bench, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    tracemalloc.start()
+    try:
+        for number in range(200):
+            values = [KeyValue(key="k", value="v" * 1_000_000)]
+            one = DiagnosticStatus(name=f"{number}/{'n' * 100_000}", message="m" * 100_000, values=values)
+            bench.view._on_diagnostics(DiagnosticArray(status=[one]))
+        assert tracemalloc.get_traced_memory()[0] < 5e6
+    finally:
+        tracemalloc.stop()
+    assert len(bench.view._heard) == 200
+    # Forgotten though no page is open.
+    monkeypatch.setattr(view_node, "_FORGET_NODE_S", 0.1)
+    deadline_s = time.monotonic() + DEADLINE_S
+    while any(name[0].isdigit() for name in bench.view._heard):
+        assert time.monotonic() < deadline_s
 
 
 @pytest.mark.parametrize(

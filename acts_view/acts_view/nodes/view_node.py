@@ -66,7 +66,7 @@ class ViewNode(PollingNode):
         self._skins: dict[str, SkinTopics] = {}
         self._asked: dict[str, tuple[Client, Future[Any] | None]] = {}
         self._names = list(settings.namespaces)
-        self._heard: dict[str, tuple[float, DiagnosticStatus]] = {}
+        self._heard: dict[str, tuple[float, dict[str, Any]]] = {}
         self._pages = 0
         self._recording = Recording(
             Path(settings.record_dir),
@@ -123,6 +123,7 @@ class ViewNode(PollingNode):
     def _look(self) -> None:
         """Now and then: which skins there are, what they are like, and what is said of all."""
         self._recording.step()
+        self._forget()
         if not self._pages:
             return
         if not self._settings.namespaces:
@@ -178,26 +179,32 @@ class ViewNode(PollingNode):
     def _on_diagnostics(self, array: DiagnosticArray) -> None:
         now_s = time.monotonic()
         for status in array.status:
-            if status.name in self._heard or len(self._heard) < _NODES_MAX:
-                self._heard[status.name] = (now_s, status)
+            name = status.name[:_TEXT]
+            if name in self._heard or len(self._heard) < _NODES_MAX:
+                self._heard[name] = (now_s, _shown(status))
 
     def _statuses(self) -> list[dict[str, Any]]:
         now_s = time.monotonic()
-        self._heard = {name: one for name, one in self._heard.items() if now_s - one[0] < _FORGET_NODE_S}
         return [
-            {
-                "name": name[:_TEXT],
-                "level": int.from_bytes(status.level, "little"),
-                "message": status.message[:_TEXT],
-                "age_s": now_s - heard_s,
-                "values": [[value.key[:_TEXT], value.value[:_TEXT]] for value in status.values[:_VALUES_MAX]],
-            }
-            for name, (heard_s, status) in sorted(self._heard.items())
+            {"name": name, "age_s": now_s - heard_s, **shown} for name, (heard_s, shown) in sorted(self._heard.items())
         ]
+
+    def _forget(self) -> None:
+        now_s = time.monotonic()
+        self._heard = {name: one for name, one in self._heard.items() if now_s - one[0] < _FORGET_NODE_S}
 
     def _report(self) -> Report:
         pages = "1 page" if self._pages == 1 else f"{self._pages} pages"
         return OK, f"{pages} open", {"pages": self._pages, "skins": ", ".join(self._skins)}
+
+
+def _shown(status: DiagnosticStatus) -> dict[str, Any]:
+    """What a page is told of a status; no more of it is kept, since anybody in the domain can send long ones."""
+    return {
+        "level": int.from_bytes(status.level, "little"),
+        "message": status.message[:_TEXT],
+        "values": [[value.key[:_TEXT], value.value[:_TEXT]] for value in status.values[:_VALUES_MAX]],
+    }
 
 
 def _value(value: ParameterValue) -> Any:
