@@ -8,7 +8,7 @@ In come paths; out come arrays, text, or sections of YAML with the line of each 
 
 from acts_core.files.frames_file import FramesFile, load_frames, without_contact
 from acts_core.files.model_file import ModelFile
-from acts_core.files.npz_file import UNPACKED_BYTES_MAX, half_of_memory_bytes, read_npz
+from acts_core.files.npz_file import UNPACKED_BYTES_MAX, half_of_memory_bytes, npz_names, read_npz
 from acts_core.files.regular_file import TEXT_BYTES_MAX, is_there, path_of, read_text, require_regular
 from acts_core.files.yaml_places import Section, is_number, read_yaml, shown
 
@@ -22,6 +22,7 @@ __all__ = [
     "is_number",
     "is_there",
     "load_frames",
+    "npz_names",
     "path_of",
     "read_npz",
     "read_text",

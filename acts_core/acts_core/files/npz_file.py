@@ -94,3 +94,12 @@ def read_npz(
         raise error(f"{path}: cannot be read ({failure.strerror or failure}){tail}") from failure
     except _DAMAGED as failure:
         raise error(f"{path}: a damaged npz file ({failure}){tail}") from failure
+
+
+def npz_names(path: Path) -> frozenset[str]:
+    """Names of the arrays of an npz file; none where it cannot be read, of which `read_npz` tells."""
+    try:
+        with zipfile.ZipFile(path) as archive:
+            return frozenset(name.removesuffix(".npy") for name in archive.namelist())
+    except (OSError, *_DAMAGED):
+        return frozenset()

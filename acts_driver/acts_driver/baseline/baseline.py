@@ -112,11 +112,16 @@ class Baseline:
         again = "calibrate again, or remove the file"
         content = read_npz(path, error=SettingsError, hint=again, limit_bytes=_BYTES_MAX)
         try:
+            # What does not fit into 32 bits is refused with the rest, not told on the screen.
+            with np.errstate(over="ignore", invalid="ignore"):
+                counts, noise = (
+                    content[name].astype(np.float32, casting="same_kind") for name in ("baseline", "noise")
+                )
             if str(content["format"]) != _FORMAT or int(content["version"]) != _VERSION:
                 raise SettingsError(f"{path}: no baseline of this release; {again}")
             baseline = cls(
-                counts=content["baseline"].astype(np.float32),
-                noise_counts=content["noise"].astype(np.float32),
+                counts=counts,
+                noise_counts=noise,
                 valid=content["valid"].astype(np.bool_),
                 source=BaselineSource.FILE,
                 time_ns=int(content["time_ns"]),

@@ -45,7 +45,10 @@ class BagRecording:
         with open_bag(path) as bag:
             self.note = bag.note
             self._topic = _choose(path, topic, bag.topics())
-            bag.check_definition(self._topic)
+            try:
+                bag.check_definition(self._topic)
+            except RecordingError as error:
+                raise RecordingError(f"the bag '{path}': {error}") from error
             self._begin_ns, self._end_ns = bag.span_ns(self._topic)
         if next(self.frames(), None) is None:
             raise RecordingError(f"the bag '{path}' has no messages on {self._topic}")

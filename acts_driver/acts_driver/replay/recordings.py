@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import math
-import zipfile
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,7 +16,7 @@ from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import RecordingError
-from acts_core.files import UNPACKED_BYTES_MAX, FramesFile, is_there, load_frames, read_npz
+from acts_core.files import UNPACKED_BYTES_MAX, FramesFile, is_there, load_frames, npz_names, read_npz
 from acts_core.frames import SampleFrame, Scheme
 from acts_core.sampling import REPEATING, SCHEME_NUMBERS, Sampler, SamplingConfig, SkinMap, measure_in
 
@@ -26,6 +25,10 @@ MEASUREMENT_US = 17.877
 
 BOARD_RATE_HZ = 1000.0
 """Frames per second at which recorded full frames are sampled unless something else is asked."""
+
+# Others are mistakes, and their times fit no clock.
+_RATE_MIN_HZ, _RATE_MAX_HZ = 1e-3, 1e6
+_RATES = f"allowed are {_RATE_MIN_HZ:g} to {_RATE_MAX_HZ:g}"
 
 
 class Recording(Protocol):
@@ -97,7 +100,7 @@ def open_recording(options: ReplayOptions) -> SeekableRecording:
     if not is_there(path, error=RecordingError):
         raise RecordingError(f"there is no recording '{path}'; give a bag (folder or .mcap) or an .npz file")
     if path.suffix == ".npz":
-        if _has_samples(path):
+        if "indices" in npz_names(path):
             return RecordedSamples.load(path)
         content = load_frames(path, limit_bytes=UNPACKED_BYTES_MAX)
         rows, cols = content.frames.shape[1:]
@@ -105,7 +108,7 @@ def open_recording(options: ReplayOptions) -> SeekableRecording:
             raise RecordingError(f"{path}: frames of {rows} x {cols} taxels; an array has up to {MAX_SIDE} each way")
         return SampledFrames(
             content,
-            options.frames_hz or _rate_of(content, path),
+            _rate_of(content, options.frames_hz, path),
             options.sampling(rows, cols),
             options.rate_cap_hz,
             options.skin_map(rows, cols),
@@ -276,19 +279,14 @@ class RecordedSamples:
             )
 
 
-def _has_samples(path: Path) -> bool:
-    try:
-        with zipfile.ZipFile(path) as archive:
-            return "indices.npy" in archive.namelist()
-    except (OSError, ValueError, zipfile.BadZipFile):
-        # Who reads it tells what is wrong with it.
-        return False
-
-
-def _rate_of(content: FramesFile, path: Path) -> float:
-    if content.rate_hz is None:
+def _rate_of(content: FramesFile, given_hz: float, path: Path) -> float:
+    """Frames per second of full frames: as given, or 0 for the file's own."""
+    rate_hz = given_hz or content.rate_hz
+    if rate_hz is None:
         raise RecordingError(f"{path}: rate_hz is missing; set the parameter replay_frames_hz to its frames per second")
-    return content.rate_hz
+    if not _RATE_MIN_HZ <= rate_hz <= _RATE_MAX_HZ:
+        raise RecordingError(f"{path}: {rate_hz:g} frames per second; {_RATES}")
+    return rate_hz
 
 
 def _times_us(path: Path, content: dict[str, NDArray[Any]], n: int) -> NDArray[np.int64]:
@@ -298,8 +296,8 @@ def _times_us(path: Path, content: dict[str, NDArray[Any]], n: int) -> NDArray[n
             raise RecordingError(f"{path}: stamp_ns {stamps.shape}: needed are {n} ascending whole numbers")
         return (stamps.astype(np.int64) - int(stamps[0])) // 1000
     rate_hz = content.get("rate_hz", np.array(0.0))
-    if rate_hz.size != 1 or rate_hz.dtype.kind not in "fiu" or not 0 < rate_hz.item() < np.inf:
-        raise RecordingError(f"{path}: needed is stamp_ns (n,) or rate_hz, a positive number of frames per second")
+    if rate_hz.size != 1 or rate_hz.dtype.kind not in "fiu" or not _RATE_MIN_HZ <= rate_hz.item() <= _RATE_MAX_HZ:
+        raise RecordingError(f"{path}: needed is stamp_ns (n,) or rate_hz, frames per second; {_RATES}")
     return np.rint(np.arange(n) * (1e6 / rate_hz.item())).astype(np.int64)
 
 

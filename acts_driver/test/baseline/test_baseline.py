@@ -250,6 +250,11 @@ def test_files_that_are_no_baseline_are_refused(tmp_path: Path) -> None:
         path.write_bytes(damaged)
         with pytest.raises(SettingsError, match="again"):
             Baseline.load(path, ROWS, COLS)
+    numbers = {"format": "acts_baseline", "version": 1, "valid": np.ones((ROWS, COLS), bool), "time_ns": 0}
+    for wrong in (np.full((ROWS, COLS), 1e300), np.full((ROWS, COLS), 1 + 2j)):
+        np.savez(path, baseline=wrong, noise=wrong, **numbers)
+        with pytest.raises(SettingsError, match="no baseline, or a damaged one"):
+            Baseline.load(path, ROWS, COLS)
     np.savez(path, frames=np.zeros(3))
     with pytest.raises(SettingsError, match="no baseline, or a damaged one"):
         Baseline.load(path, ROWS, COLS)

@@ -152,6 +152,7 @@ def test_the_rate_of_full_frames_and_of_sampling_can_be_given(tmp_path: Path) ->
         ({"stamp_ns": [5, 4]}, "ascending"),
         ({"stamp_ns": None}, "stamp_ns .* or rate_hz"),
         ({"stamp_ns": None, "rate_hz": -1.0}, "stamp_ns .* or rate_hz"),
+        ({"stamp_ns": None, "rate_hz": 5e-324}, r"allowed are 0\.001 to 1e\+06"),
         ({"indices": None}, "frames"),
     ],
 )
@@ -191,10 +192,22 @@ def test_files_that_are_no_recordings(tmp_path: Path) -> None:
     refused(two, "has no topic /middle", topic="/middle")
     assert len(list(open_recording(ReplayOptions(two, "/right/samples")).frames())) == 1
     other = DEFINITION.replace("uint16[] indices", "uint32[] indices")
-    refused(write_bag(tmp_path / "other", {"/plate/samples": one}, other), "recorded with another definition of")
+    refused(
+        write_bag(tmp_path / "other", {"/plate/samples": one}, other),
+        "the bag '.*other': .*recorded with another definition of",
+    )
     refused(write_bag(tmp_path / "silent", {"/plate/samples": []}), "no messages on /plate/samples")
     np.savez(tmp_path / "big.npz", frames=np.zeros((1, 65, 2), np.uint16), rate_hz=1.0)
     refused(tmp_path / "big.npz", "65 x 2")
+    np.savez(tmp_path / "slow.npz", frames=np.zeros((1, 8, 8), np.uint16), rate_hz=5e-324)
+    refused(tmp_path / "slow.npz", r"e-324 frames per second; allowed are 0\.001 to 1e\+06")
+    np.savez(tmp_path / "later.npz", frames=np.zeros((1, 8, 8), np.uint16), rate_hz=1.0)
+    # The version of the zip format, in the list of contents, is one that nobody has yet.
+    later = (tmp_path / "later.npz").read_bytes().replace(b"PK\1\2\x2d\3\x2d", b"PK\1\2\x2d\3\xff")
+    (tmp_path / "later.npz").write_bytes(later)
+    refused(tmp_path / "later.npz", "later.npz: a damaged npz file")
+    (tmp_path / "text.mcap").write_text("no bag")
+    refused(tmp_path / "text.mcap", "text.mcap: not an MCAP file")
     np.savez(tmp_path / "small.npz", frames=np.zeros((1, 2, 2), np.uint16), rate_hz=1.0)
     with pytest.raises(SettingsError, match="m = 55"):
         open_recording(ReplayOptions(tmp_path / "small.npz"))

@@ -147,8 +147,11 @@ def _check_files(path: Path) -> None:
         if file.name == "metadata.yaml" and size > TEXT_BYTES_MAX:
             raise RecordingError(f"{file}: {size / 1e6:.1f} MB; allowed are {TEXT_BYTES_MAX / 1e6:.1f} MB")
         if file.suffix == ".mcap":
-            with file.open("rb") as stream:
-                largest = largest_chunk(stream)
+            try:
+                with file.open("rb") as stream:
+                    largest = largest_chunk(stream)
+            except (OSError, RecordingError) as error:
+                raise RecordingError(f"{file}: {error}") from error
             if largest > _CHUNK_BYTES_MAX:
                 raise RecordingError(
                     f"{file}: a chunk of {largest / 1e6:.0f} MB unpacked; allowed are {_CHUNK_BYTES_MAX / 1e6:.0f} MB"
