@@ -9,7 +9,7 @@ import threading
 import time
 from collections.abc import Callable
 
-from acts_core.errors import ActsError, PortError
+from acts_core.errors import ActsError
 from acts_core.frames import SampleFrame
 from acts_core.runtime import RealtimeConfig, enter_realtime
 from acts_driver.port.source import READ_TIMEOUT_S, Source
@@ -126,12 +126,13 @@ class Reader:
                 return
             try:
                 self._read_until_stopped()
-            except PortError as error:
+            # Also what nobody expects: a thread that has ended reads no more, and nobody would be told.
+            except Exception as error:  # noqa: BLE001
                 self.connected = False
                 was_lost = True
-                self.problem = str(error)
+                self.problem = _told(error)
                 self._source.close()
-                self._log("warning", f"{error}; trying again at least every {self._reconnect_s:g} s")
+                self._log("warning", f"{self.problem}; trying again at least every {self._reconnect_s:g} s")
 
     def _open(self, was_lost: bool) -> bool:
         """Open the source, however long that takes; False when stopped meanwhile."""
@@ -140,8 +141,8 @@ class Reader:
         while not self._stop.is_set():
             try:
                 self._source.open()
-            except ActsError as error:
-                self.problem = str(error)
+            except Exception as error:  # noqa: BLE001 - as in `_run`
+                self.problem = _told(error)
                 self._stop.wait(wait_s)
                 wait_s = min(2 * wait_s, self._reconnect_s)
                 continue
@@ -186,3 +187,7 @@ class Reader:
             if message != self._consumer_error:
                 self._consumer_error = message
                 self._log("error", message)
+
+
+def _told(error: Exception) -> str:
+    return str(error) if isinstance(error, ActsError) else f"{type(error).__name__}: {error}"

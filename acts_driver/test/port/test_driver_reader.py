@@ -5,6 +5,7 @@
 
 import errno
 import os
+import threading
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -94,6 +95,33 @@ def test_bad_bytes_are_dropped_without_opening_the_port_again(board: PtyBoard, c
     assert collector.decoder.crc_errors + collector.decoder.malformed >= 5
     assert collector.reader.reconnects == 0
     assert collector.log == []
+
+
+@pytest.mark.parametrize("where", ["source.open", "decoder.feed"])
+def test_an_error_that_nobody_expected_is_told_and_does_not_end_the_reading(
+    board: PtyBoard, collector: Collector, monkeypatch: pytest.MonkeyPatch, where: str
+) -> None:
+    part, name = getattr(collector, where.split(".")[0]), where.split(".")[1]
+    works = getattr(part, name)
+    mended = threading.Event()
+
+    def fail_at_first(*arguments: object) -> object:
+        if not mended.is_set():
+            raise OverflowError("cannot convert float infinity to integer")
+        return works(*arguments)
+
+    def is_told() -> bool:
+        board.write_frames(frame(0)) if where == "decoder.feed" else None
+        told = [collector.reader.problem, *(message for _, message in collector.log)]
+        return any("OverflowError: cannot convert float infinity to integer" in one for one in told)
+
+    monkeypatch.setattr(part, name, fail_at_first)
+    collector.reader.start()
+    wait_for(is_told, "what is wrong")
+    mended.set()
+    wait_for(lambda: collector.reader.connected, "the port")
+    board.write_frames(frame(1), frame(2))
+    wait_for(lambda: 2 in collector.sequences(), "frames")
 
 
 def test_unplugged_in_the_middle_of_a_frame_and_plugged_in_again(board: PtyBoard, collector: Collector) -> None:
