@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
@@ -77,6 +77,25 @@ def ask(rig: Rig, name: str) -> Trigger.Response:
     return future.result()
 
 
+def ask_until(rig: Rig, name: str, condition: Callable[[Trigger.Response], bool], what: str) -> None:
+    """Ask some times a second until the answer is as it should be."""
+    due_s = 0.0
+
+    def answered() -> bool:
+        nonlocal due_s
+        if time.monotonic() < due_s:
+            return False
+        met = condition(ask(rig, name))
+        due_s = time.monotonic() + 0.1
+        return met
+
+    rig.spin_until(answered, what)
+
+
+def calibrate(rig: Rig) -> None:
+    ask_until(rig, "calibrate", lambda answer: bool(answer.success), "a calibration")
+
+
 def start(rig: Rig, stream: Stream, path: Path) -> list[Baseline]:
     """A driver on the stream; what it publishes on `baseline`."""
     rig.start_driver(port=stream.board.path, rows=ROWS, cols=COLS, frame_id="plate", calibration_file=path)
@@ -92,7 +111,7 @@ def test_calibrate_and_tare(rig: Rig, stream: Stream, tmp_path: Path) -> None:
     assert not answer.success
     assert "no frames: is the driver configured" in answer.message
     stream.start()
-    rig.spin_until(lambda: ask(rig, "calibrate").success, "a calibration")
+    calibrate(rig)
     rig.spin_until(lambda: bool(baselines), "the baseline")
     first = baselines[0]
     assert (first.rows, first.cols, first.source) == (ROWS, COLS, Baseline.SOURCE_CALIBRATION)
@@ -129,14 +148,14 @@ def test_without_frames_the_past_is_not_taken_for_the_present(
 ) -> None:
     start(rig, stream, tmp_path / "skin.npz")
     stream.start()
-    rig.spin_until(lambda: ask(rig, "calibrate").success, "a calibration")
+    calibrate(rig)
     stream.ended.set()
-
-    def refused() -> bool:
-        answer = ask(rig, service)
-        return not answer.success and "no frames for" in answer.message
-
-    rig.spin_until(refused, "a refusal")
+    ask_until(
+        rig,
+        service,
+        lambda answer: not answer.success and "no frames for" in answer.message,
+        "a refusal without frames",
+    )
 
 
 @pytest.mark.parametrize("service", ["calibrate", "tare"])
@@ -145,7 +164,7 @@ def test_as_soon_as_the_port_is_closed_the_past_is_not_taken_for_the_present(
 ) -> None:
     start(rig, stream, tmp_path / "skin.npz")
     stream.start()
-    rig.spin_until(lambda: ask(rig, "calibrate").success, "a calibration")
+    calibrate(rig)
     assert rig.driver is not None
     rig.driver.trigger_deactivate()
     rig.driver.trigger_cleanup()
@@ -184,7 +203,7 @@ def test_a_file_that_cannot_even_be_looked_for_is_refused_and_the_node_goes_on(
 ) -> None:
     start(rig, stream, tmp_path / "skin.npz")
     stream.start()
-    rig.spin_until(lambda: ask(rig, "calibrate").success, "a calibration")
+    calibrate(rig)
     assert rig.driver is not None
     rig.driver.trigger_deactivate()
     rig.driver.trigger_cleanup()
@@ -193,7 +212,7 @@ def test_a_file_that_cannot_even_be_looked_for_is_refused_and_the_node_goes_on(
     assert re.search(words, reason)
     rig.driver.trigger_configure()
     rig.driver.trigger_activate()
-    rig.spin_until(lambda: ask(rig, "calibrate").success, "a calibration")
+    calibrate(rig)
 
 
 def test_a_calibration_that_cannot_be_stored_is_told_and_the_node_goes_on(
@@ -202,4 +221,4 @@ def test_a_calibration_that_cannot_be_stored_is_told_and_the_node_goes_on(
     (tmp_path / "file").write_text("")
     start(rig, stream, tmp_path / "file" / "skin.npz")
     stream.start()
-    rig.spin_until(lambda: "the baseline cannot be saved" in ask(rig, "calibrate").message, "what is wrong")
+    ask_until(rig, "calibrate", lambda answer: "the baseline cannot be saved" in answer.message, "what is wrong")
