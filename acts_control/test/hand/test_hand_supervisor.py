@@ -221,7 +221,7 @@ any_region = st.builds(
 )
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=60, deadline=None)
 @given(
     touches=st.lists(st.tuples(st.lists(any_region, max_size=6), st.floats()), min_size=1, max_size=6),
     grasps=st.booleans(),
