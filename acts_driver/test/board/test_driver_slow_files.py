@@ -18,6 +18,7 @@ from virtual_board import VirtualBoard
 
 from acts_driver import settings as driver_settings
 from acts_driver.board import model_file
+from acts_driver.nodes import baseline_services
 
 pytestmark = pytest.mark.slow
 
@@ -36,10 +37,10 @@ class SlowFile:
     def before(self, owner: object, name: str) -> None:
         read: Callable[..., Any] = getattr(owner, name)
 
-        def slowly(*arguments: Any) -> Any:
+        def slowly(*arguments: Any, **named: Any) -> Any:
             self.begun.set()
             self.is_there.wait(AT_MOST_S)
-            return read(*arguments)
+            return read(*arguments, **named)
 
         self._monkeypatch.setattr(owner, name, slowly)
 
@@ -106,7 +107,7 @@ def test_a_recording_begins_when_it_has_been_read_at_last(rig: Rig, slow_file: S
 
 def test_a_baseline_that_takes_too_long_is_not_taken_over(rig: Rig, slow_file: SlowFile, tmp_path: Path) -> None:
     rig.start_driver(port=tmp_path / "nothing", autostart=False)
-    slow_file.before(Path, "exists")
+    slow_file.before(baseline_services, "is_there")
     succeeded, reason = rig.set_parameters(calibration_file=str(tmp_path / "skin.npz"))
     assert not slow_file.is_there.is_set()
     assert (succeeded, "takes longer than 0.5 s" in reason) == (False, True), reason
