@@ -4,7 +4,7 @@
 """For every test: a loaded machine is slow, which is no failure; signals do what they do in a terminal; recordings.
 
 `make test` runs files of tests side by side in one process more than there are cores (pytest-xdist). Tests that keep
-others from the cores are marked `alone`: while one of them runs, the other processes wait between two tests.
+others from the cores are marked `alone`: while they run, the other processes wait between two tests.
 A process whose test does not end is ended with a traceback of all its threads: a deadlock in a library must not hold
 the run for ever.
 """
@@ -17,6 +17,7 @@ import sys
 import tempfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import TextIO
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -31,6 +32,7 @@ signal.signal(signal.SIGHUP, signal.SIG_DFL)
 # A minute and a half is the longest that a test took on a machine that was far too busy.
 _HANGS_AFTER_S = 600.0
 _STDERR = pytest.StashKey[int]()
+_CORES = pytest.StashKey[TextIO | None]()
 
 RECORDINGS = Path(os.environ.get("ACTS_RECORDINGS") or Path(__file__).resolve().parents[1] / "shared" / "data")
 
@@ -54,17 +56,34 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 @pytest.hookimpl(wrapper=True)
-def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
+def pytest_runtest_protocol(item: pytest.Item, nextitem: pytest.Item | None) -> Iterator[None]:
     """Let a test marked `alone` run while no other does; end a process whose test does not end."""
     if "PYTEST_XDIST_WORKER" not in os.environ:
         return (yield)
+    kept = item.config.stash
+    cores = kept.get(_CORES, None) or _take_cores(item)
+    kept[_CORES] = None
+    faulthandler.dump_traceback_later(_HANGS_AFTER_S, exit=True, file=kept[_STDERR])
+    try:
+        return (yield)
+    finally:
+        faulthandler.cancel_dump_traceback_later()
+        # Such tests that follow one another wait once for all others to end theirs, and the others once for them.
+        if _is_alone(item) and nextitem is not None and _is_alone(nextitem):
+            kept[_CORES] = cores
+        else:
+            cores.close()
+
+
+def _is_alone(item: pytest.Item) -> bool:
+    return item.get_closest_marker("alone") is not None
+
+
+def _take_cores(item: pytest.Item) -> TextIO:
+    """Wait until a test may run; others may once the file is closed that is returned."""
     path = Path(tempfile.gettempdir()) / f"acts_test_{os.getuid()}"
-    with path.with_suffix(".turn").open("w") as turn, path.with_suffix(".cores").open("w") as cores:
+    cores = path.with_suffix(".cores").open("w")
+    with path.with_suffix(".turn").open("w") as turn:
         fcntl.flock(turn, fcntl.LOCK_EX)  # whoever waits for the cores keeps others from taking them again and again
-        fcntl.flock(cores, fcntl.LOCK_EX if item.get_closest_marker("alone") else fcntl.LOCK_SH)
-        fcntl.flock(turn, fcntl.LOCK_UN)
-        faulthandler.dump_traceback_later(_HANGS_AFTER_S, exit=True, file=item.config.stash[_STDERR])
-        try:
-            return (yield)
-        finally:
-            faulthandler.cancel_dump_traceback_later()
+        fcntl.flock(cores, fcntl.LOCK_EX if _is_alone(item) else fcntl.LOCK_SH)
+    return cores
