@@ -89,7 +89,8 @@ def test_a_board_is_shown_without_any_graph(tmp_path: Path) -> None:
 
 def test_a_board_without_a_graph_is_recorded_by_its_page(tmp_path: Path) -> None:
     words = ("--board", str(tmp_path / "board"), "--port", "0", "--control")
-    with virtual_board(tmp_path) as board, start(*words, folder=tmp_path) as process:
+    # A board at full rate drops frames where a loaded machine reads it too late; here none may be missing.
+    with virtual_board(tmp_path, "--rate-hz", "100") as board, start(*words, folder=tmp_path) as process:
         try:
             assert board.link == tmp_path / "board"
             assert process.stdout is not None
@@ -111,7 +112,7 @@ def test_a_board_without_a_graph_is_recorded_by_its_page(tmp_path: Path) -> None
 
                 page.send('{"id":1,"do":"record"}')
                 assert until(lambda header: header.get("id") == 1)["done"]
-                until(lambda header: header.get("recording", {}).get("messages", 0) > 200)
+                until(lambda header: header.get("recording", {}).get("messages", 0) > 150)
                 page.send('{"id":2,"do":"tare"}')
                 assert until(lambda header: header.get("id") == 2)["done"]
                 page.send('{"id":3,"do":"stop_recording"}')
@@ -131,7 +132,7 @@ def test_a_board_without_a_graph_is_recorded_by_its_page(tmp_path: Path) -> None
         assert kinds == {"/board/samples", "/board/baseline"}
     frames = list(open_recording(ReplayOptions(bag)).frames())
     assert [frame.sequence - frames[0].sequence for frame in frames] == list(range(len(frames)))
-    assert len(frames) > 200
+    assert len(frames) > 100
 
 
 @pytest.mark.parametrize(
