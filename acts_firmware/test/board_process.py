@@ -60,6 +60,7 @@ class BoardProcess:
         return json.loads(self.process.stdout.readline())
 
     def open_port(self) -> int:
+        self.close_port()
         self._port = os.open(self.link, os.O_RDWR | os.O_NOCTTY)
         tty.setraw(self._port)
         self.decoder.reset()

@@ -9,6 +9,7 @@ import ast
 import re
 from collections import defaultdict
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
@@ -22,10 +23,12 @@ HIGHEST = 232
 """Of the domains whose ports exist (RTPS 2.5, 9.6.2.3)."""
 
 
-def sources() -> list[Path]:
+@cache
+def sources() -> dict[Path, ast.Module]:
     """The modules of all tests."""
     found = [*ROOT.glob("acts_*/test/**/*.py"), *ROOT.glob("test/**/*.py")]
-    return sorted(path for path in found if "install" not in path.parts)
+    paths = sorted(path for path in found if "install" not in path.parts)
+    return {path: ast.parse(path.read_text(encoding="utf-8")) for path in paths}
 
 
 def named(docstring: str) -> set[int]:
@@ -70,8 +73,7 @@ def test_a_docstring_names_domains_one_by_one_and_by_ranges() -> None:
 
 def test_files_name_the_domains_that_they_use() -> None:
     silent = {}
-    for path in sources():
-        tree = ast.parse(path.read_text(encoding="utf-8"))
+    for path, tree in sources().items():
         domains = named(ast.get_docstring(tree) or "")
         assert max(domains, default=0) <= HIGHEST, path
         unnamed = set(used(tree)) - domains
@@ -82,7 +84,7 @@ def test_files_name_the_domains_that_they_use() -> None:
 
 def test_no_domain_is_named_by_two_files() -> None:
     owners = defaultdict(list)
-    for path in sources():
-        for domain in named(ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""):
+    for path, tree in sources().items():
+        for domain in named(ast.get_docstring(tree) or ""):
             owners[domain].append(str(path.relative_to(ROOT)))
     assert not {domain: files for domain, files in owners.items() if len(files) > 1}

@@ -85,6 +85,7 @@ def edges() -> list[Import]:
     return [edge for module in MODULES for edge in imports(module)]
 
 
+@cache
 def exported(room: str) -> set[str]:
     """What a room's `__init__` names in `__all__`."""
     for node in ast.parse(MODULES[room].read_text()).body:
