@@ -270,6 +270,9 @@ class Launcher:
         if code == 0:
             self._console.say("INFO", child.process.label, f"process has finished cleanly [pid {pid}]")
             return
+        if self._stopping and code in _STOPPED_CODES and not child.killed:
+            self._console.say("INFO", child.process.label, f"process has ended as told [pid {pid}, exit code {code}]")
+            return
         self._console.say(
             "ERROR",
             child.process.label,
@@ -278,7 +281,7 @@ class Launcher:
         if self._stopping:
             if child.killed:
                 child.failure = "had to be killed"
-            elif code not in _STOPPED_CODES:
+            else:
                 child.failure = f"died while it was being stopped: {_describe_code(code)}"
         elif not child.process.respawn:
             child.failure = f"died: {_describe_code(code)}"

@@ -114,6 +114,8 @@ def test_what_has_only_begun_to_start_ends_without_a_traceback(tmp_path: Path) -
         run.process.send_signal(signal.SIGINT)
         assert run.process.wait(DEADLINE_S) == 0
         assert "Traceback" not in run.output
+        assert "[ERROR]" not in run.output
+        assert "[it-1]: process has ended as told" in run.output
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])

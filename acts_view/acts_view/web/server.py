@@ -140,7 +140,8 @@ class ViewServer:
         except OSError as error:
             self._end_loop()
             raise SettingsError(
-                f"cannot listen on {host} port {port}: {error.strerror or error}; give another --port or --host"
+                f"cannot listen on {host} port {port}: {error.strerror or error}; give another --port or --host, or "
+                "view_port:=NUMBER to a launch"
             ) from error
         bound_port = next(iter(self._server.sockets)).getsockname()[1]
         self.address = Address(host, bound_port, self._token)
