@@ -5,10 +5,12 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 
 from acts_core.errors import BoardError
 from acts_core.frames import SampleFrame
+from acts_core.runtime import RateLimit
 from acts_core.wire import BoardMessage
 from acts_driver.board import BoardLink, BoardResult, BoardResults, BoardSession, BoardStatus
 from acts_driver.nodes.report import DriverReport
@@ -19,6 +21,8 @@ from acts_ros.diagnostics import Report
 
 VERDICT_S = 1.0
 """Longest time that the start waits for a board to identify itself, or to be known not to reply."""
+
+_WRONG_SIZES_TOLD_HZ = 0.2
 
 Consume = Callable[[list[tuple[SampleFrame, int]], list[tuple[BoardResult, int]]], None]
 """Takes frames, and results of the board, each with its stamp [ns]; on the reader's thread."""
@@ -85,6 +89,7 @@ class Intake:
         self._backlog = BacklogWatch()
         self._restarts_told = 0
         self._wrong_size_told = (0, 0)
+        self._wrong_sizes_due = RateLimit(_WRONG_SIZES_TOLD_HZ)
 
     def start(self) -> None:
         """Begin to read, and wait until it is known which board this is, `VERDICT_S` at most."""
@@ -147,6 +152,9 @@ class Intake:
             self.session.reconnected()
 
     def _tell_wrong_size(self) -> None:
+        # A stream of several sizes, as from two boards on one line, would fill the log.
+        if not self._wrong_sizes_due.due(time.monotonic()):
+            return
         self._wrong_size_told = self.stream.wrong_size_last
         rows, cols = self._wrong_size_told
         self._log(

@@ -84,6 +84,17 @@ def test_bad_frames_are_dropped_alone_and_reported(board: PtyBoard, rig: Rig) ->
     assert (status["lost"], status["crc_errors"], status["wrong_size"]) == ("3", "1", "1")
 
 
+def test_frames_of_many_sizes_do_not_fill_the_log(board: PtyBoard, rig: Rig, capfd: pytest.CaptureFixture[str]) -> None:
+    rig.start_driver(port=board.path)
+    rig.wait_until_active()
+    for k in range(0, 200, 2):
+        board.write_frames(frame(k), frame(k + 1, rows=1 + k % 30, cols=24))
+    rig.status_until(lambda status: status.get("wrong_size") == "100", "the counts")
+    told = capfd.readouterr().err.count("they are dropped: set the parameters rows and cols")
+    # At first at once, then now and then.
+    assert 1 <= told < 10
+
+
 def test_a_report_names_both_sizes_and_falls_back_to_fine(board: PtyBoard, rig: Rig) -> None:
     driver = rig.start_driver(port=board.path)
     rig.wait_until_active()
