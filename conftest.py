@@ -50,6 +50,17 @@ def recording_path() -> Callable[[str], Path]:
     return path_of
 
 
+@pytest.fixture(scope="module", autouse=True)
+def _environment() -> Iterator[None]:
+    """What a command sets for its nodes, as `acts diagnostics` how they are discovered, ends with the file of tests."""
+    before = dict(os.environ)
+    yield
+    before["PYTEST_CURRENT_TEST"] = os.environ["PYTEST_CURRENT_TEST"]  # pytest's own
+    for name in os.environ.keys() - before.keys():
+        del os.environ[name]
+    os.environ.update(before)
+
+
 def pytest_configure(config: pytest.Config) -> None:
     """Keep the standard error output: pytest redirects it while a test runs."""
     config.stash[_STDERR] = os.dup(sys.__stderr__.fileno())
