@@ -239,7 +239,8 @@ def test_contacts_that_come_many_in_a_message_are_all_plotted(bench: Bench) -> N
         assert contact_subscribers(bench) == 0
     history = np.concatenate(bench.history)
     assert history[:, 1].sum() <= 2 * sent
-    assert history[:, 2].sum() == 2 * history[:, 1].sum()
+    # The second contact of the last message may still be in a row that is not complete.
+    assert history[:, 2].sum() == 4 * math.ceil(history[:, 1].sum() / 2)
     assert (history[:, 3].min(), history[:, 4].max()) == (1.0, 2.0)
     np.testing.assert_allclose([history[:, 5].min(), history[:, 6].max()], [1.0, 2.0], rtol=1e-6)
     np.testing.assert_allclose(bench.headers["frame"]["touch"][2:4], [2.0, 300.0])
