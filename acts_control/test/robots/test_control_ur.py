@@ -23,6 +23,7 @@ from acts_control.robots.ur import UrConfig, UrRobot
 from acts_control.robots.ur.gate import JointGate
 from acts_control.robots.ur.state import UrState
 from acts_control.robots.ur.ur_probe import DASHBOARD_PORT, RTDE_PORT, SCRIPT_PORT, probe
+from acts_control.robots.ur.ur_process import _Connection
 from acts_core.errors import RobotError, SettingsError
 from acts_core.robots import ur5e
 
@@ -196,3 +197,40 @@ def test_a_reading_has_the_plates_tilt_and_how_far_the_arm_is_from_level() -> No
     assert reading.tilt_rad == pytest.approx((0.02, -0.03))
     assert reading.off_level == pytest.approx(0.4)
     assert (reading.connected, reading.time_s, reading.joints, reading.waiting_s) == (True, 2.5, tuple(q_rad), 0.1)
+
+
+class StopsMeanwhile:
+    """A controller whose emergency stop comes after so many of its values were read."""
+
+    def __init__(self, values: int) -> None:
+        self._left = values
+
+    def _is_stopped(self) -> bool:
+        self._left -= 1
+        return self._left < 0
+
+    def isConnected(self) -> bool:  # noqa: N802 - names of ur_rtde
+        return self._is_stopped() or True
+
+    def getTimestamp(self) -> float:  # noqa: N802
+        return 1.0 + self._is_stopped()
+
+    def getActualQ(self) -> list[float]:  # noqa: N802
+        self._is_stopped()
+        return [0.0] * 6
+
+    def getSafetyStatusBits(self) -> int:  # noqa: N802
+        return 1 << 7 if self._is_stopped() else 1
+
+    def getRuntimeState(self) -> int:  # noqa: N802
+        return 1 if self._is_stopped() else 2
+
+
+@pytest.mark.parametrize("values", range(6))
+def test_a_program_that_a_safety_function_stops_is_never_told_without_that(values: int) -> None:
+    here, there = socket.socketpair()
+    with closing(here), closing(there):
+        connection = _Connection(here, HOST, 125.0)
+        connection._receive = StopsMeanwhile(values)
+        state = UrState(*connection._read())  # type: ignore[arg-type]
+    assert state.is_playing or state.safety_stop == "emergency stop"

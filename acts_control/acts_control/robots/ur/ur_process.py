@@ -117,13 +117,11 @@ class _Connection:
 
     def _read(self) -> tuple[object, ...]:
         receive = self._receive
-        return (
-            receive.isConnected(),
-            receive.getTimestamp(),
-            receive.getActualQ(),
-            receive.getSafetyStatusBits(),
-            receive.getRuntimeState(),
-        )
+        # A packet may come between two of these calls: the safety bits last, so that they are not older than a program
+        # that they have stopped.
+        begin = receive.isConnected(), receive.getTimestamp(), receive.getActualQ()
+        runtime_state = receive.getRuntimeState()
+        return (*begin, receive.getSafetyStatusBits(), runtime_state)
 
     def _tell(self, *words: object) -> None:
         self._link.send(json.dumps(words).encode())
