@@ -161,3 +161,8 @@ def test_folders_of_tests_are_no_larger() -> None:
     found = Counter(path.parent for folder in ("acts_*/test", "test") for path in ROOT.glob(f"{folder}/**/*.py"))
     assert len(found) > 30
     assert {str(folder): n for folder, n in found.items() if n > MODULES_MAX} == {}
+
+
+def test_all_folders_of_tests_are_run(pytestconfig: pytest.Config) -> None:
+    folders = {str(path.relative_to(ROOT)) for path in [ROOT / "test", *ROOT.glob("acts_*/test")]}
+    assert sorted(pytestconfig.getini("testpaths")) == sorted(folders)
