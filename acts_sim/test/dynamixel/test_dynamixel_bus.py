@@ -191,7 +191,8 @@ def test_ctrl_c_leaves_a_client_the_time_to_switch_the_torque_off(
     rig = Rig(tmp_path, "--motors", "2")
     rig.process.send_signal(number)
     if stays:
-        for _ in range(200):
+        # Few enough that a busy machine does not keep the client quiet for 0.3 s meanwhile.
+        for _ in range(20):
             assert rig.packets.ping(rig.port, 0)[1] == COMM_SUCCESS
     assert rig.process.wait(20.0) == 0
     assert not rig.link.is_symlink()
