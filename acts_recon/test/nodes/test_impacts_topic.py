@@ -3,48 +3,33 @@
 
 """Topic impacts over real DDS; ROS_DOMAIN_ID 208."""
 
-import time
-from array import array
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from functools import partial
+from typing import Any
 
 import numpy as np
 import pytest
-import rclpy
+from builtin_interfaces.msg import Duration, Time
 from numpy.typing import NDArray
-from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
-from rclpy.node import Node
+from recon_bench import EVERYWHERE, Bench
 from recon_samples import bump
+from std_msgs.msg import Header
 
 from acts_core.array import ArrayGeometry
 from acts_msgs.msg import Impact, TactileSamples
-from acts_recon.nodes.reconstruction_node import ReconstructionNode
 from acts_ros import qos
 
-DEADLINE_S = 30.0
 GEOMETRY = ArrayGeometry()
-DURATION_US = 950
 
 
-@pytest.fixture
-def context() -> Iterator[Context]:
-    context = Context()
-    rclpy.init(context=context, domain_id=208)
-    yield context
-    rclpy.try_shutdown(context=context)
-
-
-def samples_of(image: NDArray, sequence: int) -> TactileSamples:
-    """All taxels of an image, one frame a millisecond."""
-    message = TactileSamples(sequence=sequence, rows=32, cols=32, scheme=TactileSamples.SCHEME_RASTER)
-    message.header.frame_id = "plate"
-    message.header.stamp.sec = 1_700_000_000
-    message.header.stamp.nanosec = 1_000_000 * sequence
-    message.duration.nanosec = 1000 * DURATION_US
-    message.indices = array("H", np.arange(1024, dtype=np.uint16).tobytes())
-    message.counts = array("H", image.astype(np.uint16).tobytes())
-    return message
+def fields_of(sequence: int) -> dict[str, Any]:
+    """Of a frame of all taxels, one a millisecond."""
+    stamp = Time(sec=1_700_000_000, nanosec=1_000_000 * sequence)
+    return {
+        "header": Header(frame_id="plate", stamp=stamp),
+        "duration": Duration(nanosec=950_000),
+        "scheme": TactileSamples.SCHEME_RASTER,
+    }
 
 
 def bounce() -> list[NDArray]:
@@ -56,32 +41,21 @@ def bounce() -> list[NDArray]:
     return images
 
 
-def test_the_node_tells_a_touch_when_it_begins_and_when_it_is_over(context: Context) -> None:
-    node = ReconstructionNode(context=context, namespace="/plate", cli_args=[])
-    listener = Node("listener", namespace="/plate", context=context)
-    executor = SingleThreadedExecutor(context=context)
-    executor.add_node(node)
-    executor.add_node(listener)
-
-    def until(condition: Callable[[], bool]) -> None:
-        deadline = time.monotonic() + DEADLINE_S
-        while not condition():
-            assert time.monotonic() < deadline, "timed out"
-            executor.spin_once(timeout_sec=0.05)
+def test_the_node_tells_a_touch_when_it_begins_and_when_it_is_over(make_bench: Callable[..., Bench]) -> None:
+    bench = make_bench(208)
+    impacts = bench.node._abilities.impacts
+    assert impacts is not None
+    bench.listen(Impact, "impacts", qos.STREAM)
+    bench.until(lambda: impacts._send)
 
     def has_taken(frames: int) -> bool:
-        return node._frames >= frames
+        return bench.node._frames >= frames
 
-    told: list[Impact] = []
-    publisher = listener.create_publisher(TactileSamples, "samples", qos.STREAM)
-    listener.create_subscription(Impact, "impacts", told.append, qos.STREAM)
-    impacts = node._abilities.impacts
-    assert impacts is not None
-    until(lambda: publisher.get_subscription_count() == 1 and impacts._send)
     for sequence, image in enumerate(bounce()):
-        publisher.publish(samples_of(image, sequence))
-        until(partial(has_taken, sequence + 1))
-    until(lambda: len(told) >= 2)
+        bench.send(sequence, EVERYWHERE, image, **fields_of(sequence))
+        bench.until(partial(has_taken, sequence + 1))
+    told = bench.received["impacts"]
+    bench.until(lambda: len(told) >= 2)
     begun, over = told
     assert (begun.number, begun.is_over, begun.kind) == (1, False, Impact.UNKNOWN)
     assert begun.header.stamp.nanosec in (10_000_000, 11_000_000)
@@ -100,12 +74,8 @@ def test_the_node_tells_a_touch_when_it_begins_and_when_it_is_over(context: Cont
     assert 0 < over.direction_sigma < 0.3
     assert len(over.time) == len(over.force) == len(over.path_x) == len(over.path_y) >= 5
     assert np.isfinite([*over.time, *over.force, *over.path_x, *over.path_y]).all()
-    executor.shutdown()
-    node.destroy_node()
-    listener.destroy_node()
 
 
-def test_without_the_parameter_there_is_no_topic(context: Context) -> None:
-    node = ReconstructionNode(context=context, namespace="/plate", cli_args=["--ros-args", "-p", "impacts:=false"])
-    assert "/plate/impacts" not in dict(node.get_topic_names_and_types())
-    node.destroy_node()
+def test_without_the_parameter_there_is_no_topic(make_bench: Callable[..., Bench]) -> None:
+    bench = make_bench(208, impacts=False)
+    assert "/plate/impacts" not in dict(bench.node.get_topic_names_and_types())
