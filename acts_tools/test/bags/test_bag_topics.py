@@ -32,7 +32,7 @@ from acts_ros.bags import recorder as recorder_module
 from acts_ros.bags import writing
 from acts_ros.bags.message_types import Definitions
 from acts_ros.bags.reading import open_bag
-from acts_ros.bags.recorder import Recorder, TopicRecord
+from acts_ros.bags.recorder import Recorder
 from acts_ros.bags.writing import BagWriter
 from acts_ros.qos import LATCHED, STREAM
 from acts_tools.bags.player import Player
@@ -190,15 +190,6 @@ def test_a_topic_that_ended_before_the_recording_is_named(tmp_path: Path) -> Non
     assert process.returncode == 0, output
     assert re.search(r"ended before: /plate/contact came regularly, but not in the last [0-9.]+ s", output), output
     assert "ended before: /palm/contact" not in output
-
-
-@pytest.mark.parametrize(
-    ("received", "last_s", "silent_s"),
-    [(100, 10.0, None), (100, 8.5, 1.5), (9, 5.0, None), (11, 9.0, None), (11, 3.0, 7.0), (0, 0.0, None)],
-)
-def test_a_silence_is_measured_by_the_rate_before_it(received: int, last_s: float, silent_s: float | None) -> None:
-    record = TopicRecord("/plate/contact", "acts_msgs/msg/Contact", received, first_s=last_s - 1.0, last_s=last_s)
-    assert record.silent_s(10.0) == silent_s
 
 
 def test_a_recording_of_all_topics_without_any_message_is_no_success(tmp_path: Path) -> None:
