@@ -6,8 +6,8 @@
 In come samples, each with its own time; out come the spectrum of the force of each contact, and its peaks.
 """
 
-from acts_recon.spectra.analyser import SampleFrame, SpectrumAnalyser
+from acts_recon.spectra.analyser import PlacedFrame, SpectrumAnalyser
 from acts_recon.spectra.config import SpectraConfig
 from acts_recon.spectra.spectrum import Peak, Spectrum
 
-__all__ = ["Peak", "SampleFrame", "SpectraConfig", "Spectrum", "SpectrumAnalyser"]
+__all__ = ["Peak", "PlacedFrame", "SpectraConfig", "Spectrum", "SpectrumAnalyser"]

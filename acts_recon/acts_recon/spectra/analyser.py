@@ -31,7 +31,7 @@ _MOST_TAXELS = 64
 _TOLD_EVERY = 2
 
 
-class SampleFrame(NamedTuple):
+class PlacedFrame(NamedTuple):
     """The samples of one frame: when it ended and how long it took [s], places in the picture, and counts there."""
 
     end_s: float
@@ -86,7 +86,7 @@ class SpectrumAnalyser:
         self._slope_n = slope_table(self._force_n)
         self._touch_counts = touch_counts
         self._noise_counts = max(noise_counts, _LEAST_NOISE_COUNTS)
-        self._frames: deque[SampleFrame] = deque()
+        self._frames: deque[PlacedFrame] = deque()
 
     def reset(self) -> None:
         """Forget all samples."""
@@ -109,22 +109,22 @@ class SpectrumAnalyser:
         placed, counts = self._samples.of(indices, counts, may_repeat=may_repeat)
         if self._frames and not 0.0 < end_s - self._frames[-1].end_s <= _LONGEST_PAUSE_S:
             self._frames.clear()
-        self._frames.append(SampleFrame(end_s, duration_s, placed.copy(), counts.astype(np.float32)))
+        self._frames.append(PlacedFrame(end_s, duration_s, placed.copy(), counts.astype(np.float32)))
         while self._frames[0].end_s < end_s - self.config.spectra_window_s:
             self._frames.popleft()
 
-    def window(self) -> tuple[SampleFrame, ...]:
+    def window(self) -> tuple[PlacedFrame, ...]:
         """The frames that are kept; none while they are of less than half of the time asked for."""
         frames = self._frames
         is_short = len(frames) < 3 or frames[-1].end_s - frames[0].end_s < _LEAST_SHARE * self.config.spectra_window_s
         return () if is_short else tuple(frames)
 
-    def spectra(self, frames: tuple[SampleFrame, ...] | None = None) -> tuple[Spectrum, ...]:
+    def spectra(self, frames: tuple[PlacedFrame, ...] | None = None) -> tuple[Spectrum, ...]:
         """The spectrum of each contact, the strongest first; takes some ten milliseconds.
 
         Parameters
         ----------
-        frames : tuple of SampleFrame, optional
+        frames : tuple of PlacedFrame, optional
             What `window` returned, so that one thread can work while another adds; by default what there is now.
         """
         frames = self.window() if frames is None else frames
@@ -197,7 +197,7 @@ class SpectrumAnalyser:
         )
 
 
-def _in_one(frames: tuple[SampleFrame, ...]) -> _Window:
+def _in_one(frames: tuple[PlacedFrame, ...]) -> _Window:
     ends_s, durations_s = (np.array([frame[k] for frame in frames]) for k in (0, 1))
     sizes = np.array([frame.places.size for frame in frames])
     # The last sample ends with its frame; they are evenly spaced.
