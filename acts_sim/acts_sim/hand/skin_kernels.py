@@ -49,15 +49,10 @@ def _gap(
     within : float
         Points that are certainly further away than this may get the distance 1 m [m].
     """
-    if kind == SPHERE:
-        square = x * x + y * y + z * z
-        if square > (size[s, 0] + within) ** 2:
-            return 1.0, 0.0, 0.0, 0.0
-        distance = math.sqrt(square)
-        scale = 1.0 / max(distance, 1e-12)
-        return distance - size[s, 0], x * scale, y * scale, z * scale
     if kind == CAPSULE:
+        # A sphere about the nearest point of its axis.
         z -= min(max(z, -size[s, 1]), size[s, 1])
+    if kind in (SPHERE, CAPSULE):
         square = x * x + y * y + z * z
         if square > (size[s, 0] + within) ** 2:
             return 1.0, 0.0, 0.0, 0.0
@@ -201,12 +196,8 @@ def press(
             middle[s, i] = body_pos[b, i]
             for j in range(3):
                 middle[s, i] += body_mat[b, 3 * i + j] * solid_pos[s, j]
-    stiffness, dense_depth, dense_factor, damping = (
-        foam[STIFFNESS],
-        foam[DENSE_DEPTH],
-        foam[DENSE_FACTOR],
-        foam[DAMPING],
-    )
+    stiffness, damping = foam[STIFFNESS], foam[DAMPING]
+    dense_depth, dense_factor = foam[DENSE_DEPTH], foam[DENSE_FACTOR]
     shear, shear_time, friction, cover = foam[SHEAR], foam[SHEAR_TIME], foam[FRICTION], foam[COVER]
     for p in range(len(patch_body)):
         link = patch_body[p]
@@ -219,10 +210,7 @@ def press(
                 body_pos, body_mat, body_velocity, root_centre, root_of, link, solid_body[s], middle, solid_mat, s,
                 solid_travel, at, turn, spin, drift, k,
             )  # fmt: skip
-            dx, dy, dz = patch_middle[p, 0] - at[k, 0], patch_middle[p, 1] - at[k, 1], patch_middle[p, 2] - at[k, 2]
-            x = turn[k, 0, 0] * dx + turn[k, 1, 0] * dy + turn[k, 2, 0] * dz
-            y = turn[k, 0, 1] * dx + turn[k, 1, 1] * dy + turn[k, 2, 1] * dz
-            z = turn[k, 0, 2] * dx + turn[k, 1, 2] * dy + turn[k, 2, 2] * dz
+            x, y, z = _in_solid(at, turn, k, patch_middle[p, 0], patch_middle[p, 1], patch_middle[p, 2])
             if _is_near(solid_kind[s], solid_size, s, x, y, z, patch_reach[p] + cover + solid_uneven[s]):
                 near[k] = s
                 for i in range(3):
@@ -234,14 +222,7 @@ def press(
             close = 0
             for k in range(count):
                 s = near[k]
-                dx, dy, dz = (
-                    block_middle[block, 0] - at[k, 0],
-                    block_middle[block, 1] - at[k, 1],
-                    block_middle[block, 2] - at[k, 2],
-                )
-                x = turn[k, 0, 0] * dx + turn[k, 1, 0] * dy + turn[k, 2, 0] * dz
-                y = turn[k, 0, 1] * dx + turn[k, 1, 1] * dy + turn[k, 2, 1] * dz
-                z = turn[k, 0, 2] * dx + turn[k, 1, 2] * dy + turn[k, 2, 2] * dz
+                x, y, z = _in_solid(at, turn, k, block_middle[block, 0], block_middle[block, 1], block_middle[block, 2])
                 if _is_near(solid_kind[s], solid_size, s, x, y, z, block_reach[block] + cover + solid_uneven[s]):
                     here[close] = k
                     close += 1
@@ -258,10 +239,7 @@ def press(
                 for one in range(close):
                     k = here[one]
                     s = near[k]
-                    dx, dy, dz = px - at[k, 0], py - at[k, 1], pz - at[k, 2]
-                    x = turn[k, 0, 0] * dx + turn[k, 1, 0] * dy + turn[k, 2, 0] * dz
-                    y = turn[k, 0, 1] * dx + turn[k, 1, 1] * dy + turn[k, 2, 1] * dz
-                    z = turn[k, 0, 2] * dx + turn[k, 1, 2] * dy + turn[k, 2, 2] * dz
+                    x, y, z = _in_solid(at, turn, k, px, py, pz)
                     uneven = solid_uneven[s]
                     gap, ax, ay, az = _gap(solid_kind[s], solid_size, s, x, y, z, cover + uneven)
                     if gap >= cover + uneven:
@@ -331,6 +309,19 @@ def press(
             for k in range(count):
                 _add(wrench, body_pos, body_mat, body_centre, link, link, push, twist, k, 1.0)
                 _add(wrench, body_pos, body_mat, body_centre, link, solid_body[near[k]], push, twist, k, -1.0)
+
+
+@kernel(error_model="numpy")
+def _in_solid(
+    at: NDArray[np.float64], turn: NDArray[np.float64], k: int, x: float, y: float, z: float
+) -> tuple[float, float, float]:
+    """A point of the link's frame in the frame of a solid, whose position and rotation are `at[k]` and `turn[k]`."""
+    dx, dy, dz = x - at[k, 0], y - at[k, 1], z - at[k, 2]
+    return (
+        turn[k, 0, 0] * dx + turn[k, 1, 0] * dy + turn[k, 2, 0] * dz,
+        turn[k, 0, 1] * dx + turn[k, 1, 1] * dy + turn[k, 2, 1] * dz,
+        turn[k, 0, 2] * dx + turn[k, 1, 2] * dy + turn[k, 2, 2] * dz,
+    )
 
 
 @kernel(error_model="numpy")
