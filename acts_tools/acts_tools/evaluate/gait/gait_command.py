@@ -17,7 +17,7 @@ from acts_recon.gait import FEET, GaitConfig
 from acts_tools.evaluate import report
 from acts_tools.evaluate.gait import force_curve, walks
 from acts_tools.evaluate.gait.insoles import FoundSteps, InsoleRecording, find_steps, read_insoles
-from acts_tools.evaluate.images.options import at_least_one
+from acts_tools.evaluate.images.options import add_seeds
 from acts_tools.progress import Progress
 
 _RATES_HZ = (8.0, 30.0, 100.0, 1000.0)
@@ -57,15 +57,7 @@ def add_parser(commands: Any) -> None:
     parser.add_argument(
         "--rate", type=float, nargs="+", default=list(_RATES_HZ), metavar="HZ", help="of simulated insoles"
     )
-    parser.add_argument(
-        "--seeds",
-        type=at_least_one,
-        default=20,
-        metavar="N",
-        help="simulated walks at each rate (default: %(default)s)",
-    )
-    parser.add_argument("--seed", type=int, default=1, metavar="X", help="of everything random (default: %(default)s)")
-    parser.add_argument("--json", type=Path, metavar="OUT", help="write the results here, too")
+    add_seeds(parser, 20, "simulated walks at each rate")
     parser.set_defaults(evaluate=_run)
 
 

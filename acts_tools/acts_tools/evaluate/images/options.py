@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 from pathlib import Path
 
 from acts_core.errors import SettingsError
@@ -72,6 +73,32 @@ def add_common_arguments(parser: argparse.ArgumentParser, **defaults: float) -> 
         )
     parser.add_argument("--seed", type=int, default=1, metavar="X", help="random seed (default: %(default)s)")
     parser.add_argument("--json", type=Path, metavar="OUT", help="also write the results to a JSON file")
+
+
+def add_scene_arguments(parser: argparse.ArgumentParser, seeds: int, what: str) -> None:
+    """Add options of evaluations on simulated scenes; `seeds` of them by default, of which `what` tells the kind."""
+    parser.add_argument(
+        "--noise-counts", type=float, default=3.0, metavar="X", help="noise of a reading (default: %(default)s)"
+    )
+    add_seeds(parser, seeds, what)
+
+
+def add_seeds(parser: argparse.ArgumentParser, seeds: int, what: str) -> None:
+    """Add what all have that repeat something random: how often, from which seed on, and a file of the results."""
+    parser.add_argument("--seeds", type=at_least_one, default=seeds, metavar="N", help=f"{what} (default: %(default)s)")
+    parser.add_argument("--seed", type=int, default=1, metavar="X", help="of everything random (default: %(default)s)")
+    parser.add_argument("--json", type=Path, metavar="OUT", help="write the results here, too")
+
+
+def add_m(parser: argparse.ArgumentParser, default: Sequence[int]) -> None:
+    """Add ``--m``, one or several."""
+    parser.add_argument(
+        "--m",
+        type=int,
+        nargs="+",
+        default=list(default),
+        help=f"taxels per frame (default: {' '.join(map(str, default))})",
+    )
 
 
 def _method_setting(word: str) -> tuple[str, SettingValue]:

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from acts_recon.impacts import Kind
 from acts_sim.impacts import Scene, ball_named, collide, dropped, scene, skin_of
 from acts_tools.evaluate import report
+from acts_tools.evaluate.images.options import add_m, add_scene_arguments
 from acts_tools.evaluate.images.recovery import SAMPLE_US
 from acts_tools.evaluate.images.scores import distribution
 from acts_tools.evaluate.impacts import plays
@@ -46,13 +47,11 @@ def add_parser(commands: Any) -> None:
         "taxels a frame, and take how many frames see it, whether and how soon it is told, and how well its time and "
         "force are known. docs/impacts.md tells what the numbers mean.",
     )
-    parser.add_argument(
-        "--m", type=int, nargs="+", default=list(_M), help=f"taxels per frame (default: {' '.join(map(str, _M))})"
-    )
+    add_m(parser, _M)
     parser.add_argument(
         "--touch-ms", type=float, default=TOUCH_MS, metavar="T", help="how long a ball touches (default: %(default)s)"
     )
-    plays.add_arguments(parser, 100, "drops")
+    add_scene_arguments(parser, 100, "drops")
     parser.set_defaults(evaluate=_run)
 
 

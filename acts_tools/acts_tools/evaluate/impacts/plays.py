@@ -5,16 +5,13 @@
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Iterator
-from pathlib import Path
 
 from acts_core.array import ArrayGeometry
 from acts_recon.contacts import BlobConfig
 from acts_recon.fusion import FusionConfig, FusionEstimator
 from acts_recon.impacts import Impact, ImpactDetector
 from acts_sim.impacts import SCENE_RATE_HZ, Scene
-from acts_tools.evaluate.images.options import at_least_one
 from acts_tools.evaluate.images.recovery import FOLLOW_COUNTS
 from acts_tools.evaluate.images.scene_frames import Frame, frames_of
 
@@ -23,16 +20,6 @@ PAPER_TOUCH_COUNTS = 50
 
 TOUCH_COUNTS = 25
 """Ours: eight times the noise of a reading."""
-
-
-def add_arguments(parser: argparse.ArgumentParser, seeds: int, what: str) -> None:
-    """Add the options of both evaluations; `seeds` and what they count."""
-    parser.add_argument("--seeds", type=at_least_one, default=seeds, metavar="N", help=f"{what} (default: %(default)s)")
-    parser.add_argument(
-        "--noise-counts", type=float, default=3.0, metavar="X", help="noise of a reading (default: %(default)s)"
-    )
-    parser.add_argument("--seed", type=int, default=1, metavar="X", help="of everything random (default: %(default)s)")
-    parser.add_argument("--json", type=Path, metavar="OUT", help="write the results here, too")
 
 
 def sampled(

@@ -23,6 +23,7 @@ from acts_recon.impacts import UNKNOWN_DIRECTION_SD_RAD
 from acts_recon.methods import PerFrame, PerFrameConfig, SkinSetup
 from acts_sim.impacts import Scene, ball_named, scene, skin_of, thrown
 from acts_tools.evaluate import report
+from acts_tools.evaluate.images.options import add_scene_arguments
 from acts_tools.evaluate.impacts import plays
 from acts_tools.evaluate.shares import wilson
 from acts_tools.progress import Progress
@@ -53,7 +54,7 @@ def add_parser(commands: Any) -> None:
     parser.add_argument(
         "--speeds", type=float, nargs="+", default=list(SPEEDS_M_S), metavar="V", help="[m/s] (default: 1 2 3)"
     )
-    plays.add_arguments(parser, 25, "throws of each angle and speed")
+    add_scene_arguments(parser, 25, "throws of each angle and speed")
     parser.set_defaults(evaluate=_run)
 
 

@@ -19,7 +19,7 @@ from acts_core.array import ArrayGeometry
 from acts_sim.deforming import BODIES, Meeting, body_named, meeting
 from acts_sim.impacts import skin_of
 from acts_tools.evaluate import report
-from acts_tools.evaluate.images.options import at_least_one
+from acts_tools.evaluate.images.options import add_m, add_scene_arguments
 from acts_tools.evaluate.images.recovery import SAMPLE_US
 from acts_tools.evaluate.images.scores import distribution
 from acts_tools.evaluate.outlines import tracing
@@ -44,18 +44,9 @@ def add_parser(commands: Any) -> None:
         description="Let a tennis ball, a silicone block and a balloon meet the simulated skin, and compare the "
         "outline of each frame with the true one. docs/outlines.md tells what the numbers mean.",
     )
-    parser.add_argument(
-        "--m", type=int, nargs="+", default=list(_M), help=f"taxels per frame (default: {' '.join(map(str, _M))})"
-    )
+    add_m(parser, _M)
     parser.add_argument("--body", nargs="+", choices=tuple(BODIES), default=list(BODIES), help="default: all")
-    parser.add_argument(
-        "--seeds", type=at_least_one, default=25, metavar="N", help="touches of each body (default: %(default)s)"
-    )
-    parser.add_argument(
-        "--noise-counts", type=float, default=3.0, metavar="X", help="noise of a reading (default: %(default)s)"
-    )
-    parser.add_argument("--seed", type=int, default=1, metavar="X", help="of everything random (default: %(default)s)")
-    parser.add_argument("--json", type=Path, metavar="OUT", help="write the results here, too")
+    add_scene_arguments(parser, 25, "touches of each body")
     parser.add_argument(
         "--surfaces", type=Path, metavar="FOLDER", help="write the first touch of each body here: PNG, and PLY for 3D"
     )

@@ -11,7 +11,6 @@ from __future__ import annotations
 import argparse
 from collections.abc import Sequence
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -19,7 +18,7 @@ import numpy as np
 from acts_recon.spectra import Peak
 from acts_sim.vibrations import Motor
 from acts_tools.evaluate import report
-from acts_tools.evaluate.images.options import at_least_one
+from acts_tools.evaluate.images.options import add_m, add_scene_arguments
 from acts_tools.evaluate.images.scores import distribution
 from acts_tools.evaluate.spectra import motors
 from acts_tools.progress import Progress
@@ -44,17 +43,8 @@ def add_parser(commands: Any) -> None:
         "the same with all samples of one taxel, and tones up to half of their rate. "
         "docs/spectra.md tells what the numbers mean.",
     )
-    parser.add_argument(
-        "--m", type=int, nargs="+", default=list(_M), help=f"taxels per frame (default: {' '.join(map(str, _M))})"
-    )
-    parser.add_argument(
-        "--seeds", type=at_least_one, default=25, metavar="N", help="motors for each M (default: %(default)s)"
-    )
-    parser.add_argument(
-        "--noise-counts", type=float, default=3.0, metavar="X", help="noise of a reading (default: %(default)s)"
-    )
-    parser.add_argument("--seed", type=int, default=1, metavar="X", help="of everything random (default: %(default)s)")
-    parser.add_argument("--json", type=Path, metavar="OUT", help="write the results here, too")
+    add_m(parser, _M)
+    add_scene_arguments(parser, 25, "motors for each M")
     parser.set_defaults(evaluate=_run)
 
 

@@ -18,7 +18,7 @@ import numpy as np
 from acts_core.errors import RecordingError
 from acts_sim.wearables import SCENES, WornScene, worn_scene
 from acts_tools.evaluate import report
-from acts_tools.evaluate.impacts import plays
+from acts_tools.evaluate.images.options import add_scene_arguments
 from acts_tools.evaluate.wearables.happened import Tally
 from acts_tools.evaluate.wearables.untouched import watch_untouched
 from acts_tools.evaluate.wearables.watching import SCHEME, Watcher
@@ -55,7 +55,7 @@ def add_parser(commands: Any) -> None:
         metavar="FOLDER",
         help="write the first of each scene here, SCENE.npy for `virtual_board --recording`",
     )
-    plays.add_arguments(parser, 25, "of each scene")
+    add_scene_arguments(parser, 25, "of each scene")
     parser.set_defaults(evaluate=_run)
 
 
