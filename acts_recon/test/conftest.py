@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from recon_bench import Bench
+from recon_bench import Bench, Peers
 
 from acts_recon.sparse import Dictionary, save_dictionary
 
@@ -48,6 +48,20 @@ def make_bench(dictionary_path: Path) -> Iterator[Callable[..., Bench]]:
     yield make
     for bench in benches:
         bench.close()
+
+
+@pytest.fixture
+def make_peers() -> Iterator[Callable[..., Peers]]:
+    """A function that starts a node that listens in the ROS domain of a number; other nodes can be added to it."""
+    made: list[Peers] = []
+
+    def make(domain_id: int, namespace: str = "/plate") -> Peers:
+        made.append(Peers(domain_id, namespace))
+        return made[-1]
+
+    yield make
+    for peers in made:
+        peers.close()
 
 
 @pytest.fixture(scope="session")

@@ -8,7 +8,7 @@ from array import array
 from collections.abc import Callable
 from contextlib import ExitStack
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 import rclpy
@@ -25,6 +25,8 @@ from acts_msgs.msg import Contact, TactileSamples
 from acts_recon.nodes.reconstruction_node import ReconstructionNode
 from acts_ros import qos
 
+Added = TypeVar("Added", bound=Node)
+
 DEADLINE_S = 30.0
 FIRST_NS = 1_700_000_000_000_000_000
 EVERYWHERE = np.arange(1024, dtype=np.uint16)
@@ -36,42 +38,68 @@ def timed(time_ms: int) -> dict[str, Any]:
     return {"header": header, "duration": Duration(nanosec=983_235)}
 
 
-class Bench:
-    """The node in namespace /plate, and a node beside it that publishes samples and keeps what comes back."""
+class Peers:
+    """Nodes in one ROS domain, and one beside them that listens.
 
-    def __init__(self, domain_id: int, dictionary_path: Path, parameters: dict[str, object]) -> None:
+    Parameters
+    ----------
+    domain_id : int
+    namespace : str
+        Of the node that listens.
+    """
+
+    def __init__(self, domain_id: int, namespace: str = "/plate") -> None:
         self.context = Context()
         rclpy.init(context=self.context, domain_id=domain_id)
-        own = {"dictionary": dictionary_path} if parameters.get("method") == "per_frame" else {}
-        words = [f"{name}:={value}" for name, value in {**own, **parameters}.items()]
-        arguments = ["--ros-args", *(part for word in words for part in ("-p", word))]
-        self.nodes: list[Node] = []
         self.executor = SingleThreadedExecutor(context=self.context)
-        with ExitStack() as on_failure:
-            on_failure.callback(self.close)
-            self.node = ReconstructionNode(cli_args=arguments, context=self.context, namespace="/plate")
-            self.nodes.append(self.node)
-            self.peer = Node("peer", namespace="/plate", context=self.context)
-            self.nodes.append(self.peer)
-            on_failure.pop_all()
-        for node in self.nodes:
-            self.executor.add_node(node)
-        self.publisher = self.peer.create_publisher(TactileSamples, "samples", qos.STREAM)
+        self.nodes: list[Node] = []
+        self.peer = Node("peer", namespace=namespace, context=self.context)
+        self.add(self.peer)
         self.received: dict[str, list[Any]] = {}
-        self.listen(Contact, "contact", qos.STREAM)
-        self.until(lambda: self.publisher.get_subscription_count() == 1)
-        self.until(lambda: self.node.count_subscribers("contact") == 1)
+
+    def add(self, node: Added) -> Added:
+        """Spin a node, and destroy it at the end."""
+        self.nodes.append(node)
+        self.executor.add_node(node)
+        return node
 
     def listen(self, kind: type, topic: str, profile: Any) -> None:
+        """Keep what comes on a topic; returns when somebody publishes it."""
         messages = self.received.setdefault(topic, [])
         subscription = self.peer.create_subscription(kind, topic, messages.append, profile)
         self.until(lambda: subscription.get_publisher_count() > 0)
 
     def until(self, condition: Callable[[], bool]) -> None:
+        """Spin all nodes until a condition holds."""
         deadline = time.monotonic() + DEADLINE_S
         while not condition():
             assert time.monotonic() < deadline, "timed out"
             self.executor.spin_once(timeout_sec=0.05)
+
+    def close(self) -> None:
+        """Destroy all nodes."""
+        self.executor.shutdown()
+        for node in self.nodes:
+            node.destroy_node()
+        rclpy.try_shutdown(context=self.context)
+
+
+class Bench(Peers):
+    """The node in namespace /plate, and a node beside it that publishes samples and keeps what comes back."""
+
+    def __init__(self, domain_id: int, dictionary_path: Path, parameters: dict[str, object]) -> None:
+        super().__init__(domain_id)
+        own = {"dictionary": dictionary_path} if parameters.get("method") == "per_frame" else {}
+        words = [f"{name}:={value}" for name, value in {**own, **parameters}.items()]
+        arguments = ["--ros-args", *(part for word in words for part in ("-p", word))]
+        with ExitStack() as on_failure:
+            on_failure.callback(self.close)
+            self.node = self.add(ReconstructionNode(cli_args=arguments, context=self.context, namespace="/plate"))
+            on_failure.pop_all()
+        self.publisher = self.peer.create_publisher(TactileSamples, "samples", qos.STREAM)
+        self.listen(Contact, "contact", qos.STREAM)
+        self.until(lambda: self.publisher.get_subscription_count() == 1)
+        self.until(lambda: self.node.count_subscribers("contact") == 1)
 
     def send(self, sequence: int, indices: NDArray, counts: NDArray, **fields: Any) -> None:
         message = TactileSamples(sequence=sequence, rows=32, cols=32, scheme=TactileSamples.SCHEME_ADAPTIVE)
@@ -106,9 +134,3 @@ class Bench:
             return any(condition(status, {value.key: value.value for value in status.values}) for status in mine)
 
         self.until(holds)
-
-    def close(self) -> None:
-        self.executor.shutdown()
-        for node in self.nodes:
-            node.destroy_node()
-        rclpy.try_shutdown(context=self.context)

@@ -3,18 +3,14 @@
 
 """Topics contacts, view/contacts and contacts_view over real DDS; ROS_DOMAIN_IDs 120 and 121."""
 
-import time
 from array import array
-from collections.abc import Callable, Iterator
-from typing import Any
+from collections.abc import Callable
 
 import numpy as np
 import pytest
-import rclpy
 from numpy.typing import NDArray
-from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
+from recon_bench import Peers
 from recon_samples import bump
 from visualization_msgs.msg import Marker, MarkerArray
 
@@ -26,55 +22,7 @@ from acts_recon.nodes.contacts_publisher import ContactsPublisher
 from acts_recon.nodes.reconstruction_node import ReconstructionNode
 from acts_ros import qos
 
-DEADLINE_S = 30.0
 GEOMETRY = ArrayGeometry()
-
-
-class Peers:
-    """Nodes in namespace /plate, one of them to listen, and what it heard."""
-
-    def __init__(self, domain_id: int) -> None:
-        self.context = Context()
-        rclpy.init(context=self.context, domain_id=domain_id)
-        self.executor = SingleThreadedExecutor(context=self.context)
-        self.nodes: list[Node] = []
-        self.listener = self.add(Node("listener", namespace="/plate", context=self.context))
-        self.received: dict[str, list[Any]] = {}
-
-    def add(self, node: Node) -> Node:
-        self.nodes.append(node)
-        self.executor.add_node(node)
-        return node
-
-    def listen(self, kind: type, topic: str, profile: Any) -> None:
-        messages = self.received.setdefault(topic, [])
-        subscription = self.listener.create_subscription(kind, topic, messages.append, profile)
-        self.until(lambda: subscription.get_publisher_count() > 0)
-
-    def until(self, condition: Callable[[], bool]) -> None:
-        deadline = time.monotonic() + DEADLINE_S
-        while not condition():
-            assert time.monotonic() < deadline, "timed out"
-            self.executor.spin_once(timeout_sec=0.05)
-
-    def close(self) -> None:
-        self.executor.shutdown()
-        for node in self.nodes:
-            node.destroy_node()
-        rclpy.try_shutdown(context=self.context)
-
-
-@pytest.fixture
-def make_peers() -> Iterator[Callable[[int], Peers]]:
-    made: list[Peers] = []
-
-    def make(domain_id: int) -> Peers:
-        made.append(Peers(domain_id))
-        return made[-1]
-
-    yield make
-    for peers in made:
-        peers.close()
 
 
 def samples_of(image: NDArray, sequence: int) -> TactileSamples:
@@ -88,11 +36,11 @@ def samples_of(image: NDArray, sequence: int) -> TactileSamples:
     return message
 
 
-def test_the_node_publishes_contacts_with_numbers_that_last(make_peers: Callable[[int], Peers]) -> None:
+def test_the_node_publishes_contacts_with_numbers_that_last(make_peers: Callable[..., Peers]) -> None:
     peers = make_peers(120)
     node = peers.add(ReconstructionNode(context=peers.context, namespace="/plate", cli_args=[]))
     assert node.get_parameter("contacts_bridge_s").value == pytest.approx(0.02)
-    publisher = peers.listener.create_publisher(TactileSamples, "samples", qos.STREAM)
+    publisher = peers.peer.create_publisher(TactileSamples, "samples", qos.STREAM)
     peers.until(lambda: publisher.get_subscription_count() == 1)
     peers.listen(Contacts, "contacts", qos.STREAM)
     peers.until(lambda: node._contacts._send)
@@ -125,7 +73,7 @@ def test_the_node_publishes_contacts_with_numbers_that_last(make_peers: Callable
     assert upper.area == pytest.approx(upper.active_taxels * GEOMETRY.taxel_area_m2)
 
 
-def test_standard_deviations_and_markers_are_those_of_the_contact(make_peers: Callable[[int], Peers]) -> None:
+def test_standard_deviations_and_markers_are_those_of_the_contact(make_peers: Callable[..., Peers]) -> None:
     peers = make_peers(121)
     node = peers.add(Node("maker", namespace="/plate", context=peers.context))
     response = ForceResponse()

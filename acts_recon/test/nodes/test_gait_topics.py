@@ -5,34 +5,21 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from functools import partial
 
 import numpy as np
 import pytest
-import rclpy
-from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
-from rclpy.node import Node
+from recon_bench import Peers
 
 from acts_core.errors import SettingsError
 from acts_msgs.msg import Contact, FootStep, Gait
 from acts_recon.nodes.gait_node import GaitNode, GaitSettings
 from acts_ros import qos
 
-DEADLINE_S = 30.0
 FIRST_NS = 1_700_000_000_000_000_000
 RATE_HZ = 50
 STRIDE_S = 1.0
-
-
-@pytest.fixture
-def context() -> Iterator[Context]:
-    context = Context()
-    rclpy.init(context=context, domain_id=22)
-    yield context
-    rclpy.try_shutdown(context=context)
 
 
 def contact_of(foot: int, number: int) -> Contact:
@@ -47,35 +34,28 @@ def contact_of(foot: int, number: int) -> Contact:
     return message
 
 
-def test_steps_and_gait_of_two_insoles(context: Context) -> None:
-    node, listener = GaitNode(context=context), Node("listener", context=context)
-    executor = SingleThreadedExecutor(context=context)
-    executor.add_node(node)
-    executor.add_node(listener)
-    steps: list[FootStep] = []
-    gaits: list[Gait] = []
-    listener.create_subscription(FootStep, "steps", steps.append, qos.STATE)
-    listener.create_subscription(Gait, "gait", gaits.append, qos.STATE)
-    publishers = [listener.create_publisher(Contact, f"{name}_sole/contact", qos.STREAM) for name in ("left", "right")]
-
-    def until(condition: Callable[[], bool]) -> None:
-        deadline = time.monotonic() + DEADLINE_S
-        while not condition():
-            assert time.monotonic() < deadline, "timed out"
-            executor.spin_once(timeout_sec=0.02)
+def test_steps_and_gait_of_two_insoles(make_peers: Callable[..., Peers]) -> None:
+    peers = make_peers(22, "")
+    node = peers.add(GaitNode(context=peers.context))
+    publishers = [
+        peers.peer.create_publisher(Contact, f"{name}_sole/contact", qos.STREAM) for name in ("left", "right")
+    ]
+    peers.listen(FootStep, "steps", qos.STATE)
+    peers.listen(Gait, "gait", qos.STATE)
+    steps, gaits = peers.received["steps"], peers.received["gait"]
 
     def has_received(count: int) -> bool:
         return min(node._received.values()) > count
 
-    until(lambda: all(publisher.get_subscription_count() for publisher in publishers))
+    peers.until(lambda: all(publisher.get_subscription_count() for publisher in publishers))
     heard = (node._steps_publisher, node._gait_publisher)
-    until(lambda: all(publisher.get_subscription_count() for publisher in heard))
+    peers.until(lambda: all(publisher.get_subscription_count() for publisher in heard))
     for number in range(8 * RATE_HZ):
         for foot, publisher in enumerate(publishers):
             publisher.publish(contact_of(foot, number))
         if number % 50 == 49:
-            until(partial(has_received, number - 5))
-    until(lambda: sum(step.foot == FootStep.LEFT for step in steps) >= 6 and len(gaits) == len(steps))
+            peers.until(partial(has_received, number - 5))
+    peers.until(lambda: sum(step.foot == FootStep.LEFT for step in steps) >= 6 and len(gaits) == len(steps))
     step = [step for step in steps if step.foot == FootStep.LEFT][4]
     assert step.header.frame_id == "left_sole"
     strike_s = step.strike.sec - FIRST_NS // 10**9 + 1e-9 * step.strike.nanosec
@@ -94,9 +74,6 @@ def test_steps_and_gait_of_two_insoles(context: Context) -> None:
     # The second report is of a time without contacts.
     node._report()
     assert "no contacts on /left_sole/contact, /right_sole/contact" in node._report()[1]
-    executor.shutdown()
-    node.destroy_node()
-    listener.destroy_node()
 
 
 @pytest.mark.parametrize("feet", [("", ""), ("sole", "sole")])
