@@ -134,6 +134,7 @@ class Intake:
         accepted = self.stream.accept(frames, arrival_ns)
         if self._backlog.lasts(arrival_ns, self.stream.clock.delay_ns):
             self.reader.discard()
+            self.stream.statistics.discarded_unread()
         results = self._results.stamped(accepted)
         if self.stream.wrong_size_last != self._wrong_size_told:
             self._tell_wrong_size()

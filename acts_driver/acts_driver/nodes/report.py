@@ -20,6 +20,7 @@ class Totals:
 
     frames: int = 0
     lost: int = 0
+    discarded: int = 0
     crc_errors: int = 0
     malformed: int = 0
     wrong_size: int = 0
@@ -30,7 +31,6 @@ class Totals:
     partial: int = 0
     bytes_discarded: int = 0
     consumer_errors: int = 0
-    backlogs: int = 0
     clock_resets: int = 0
 
     def since(self, before: Totals) -> Totals:
@@ -44,6 +44,7 @@ class Totals:
 
 _TROUBLES = {
     "lost": "{} frames lost",
+    "discarded": "{} of them thrown away unread because they were late",
     "crc_errors": "{} CRC errors",
     "malformed": "{} malformed packets",
     "overruns": "{} overruns of the board",
@@ -51,7 +52,6 @@ _TROUBLES = {
     "restarts": "{} restarts of the board",
     "reconnects": "{} reconnections",
     "consumer_errors": "{} failures to publish",
-    "backlogs": "{} backlogs thrown away",
     "clock_resets": "{} jumps of a clock",
 }
 # As late as this, a controller does without touch.
@@ -101,6 +101,7 @@ class DriverReport:
         return Totals(
             frames=statistics.frames,
             lost=statistics.lost,
+            discarded=statistics.discarded,
             crc_errors=decoder.crc_errors,
             malformed=decoder.malformed,
             wrong_size=self._stream.wrong_size,
@@ -111,7 +112,6 @@ class DriverReport:
             partial=decoder.partial,
             bytes_discarded=decoder.bytes_discarded,
             consumer_errors=self._reader.consumer_errors,
-            backlogs=self._reader.discards,
             clock_resets=self._stream.clock.state.resets,
         )
 

@@ -65,8 +65,6 @@ class Reader:
         How many times a lost source was opened again.
     consumer_errors : int
         How many times `on_frames` raised.
-    discards : int
-        How many times what waited to be read was thrown away.
     """
 
     def __init__(
@@ -99,7 +97,6 @@ class Reader:
         self.problem = ""
         self.reconnects = 0
         self.consumer_errors = 0
-        self.discards = 0
 
     def start(self, *, is_open: bool = False) -> None:
         """Begin to read; `is_open` tells that the source is open already."""
@@ -176,7 +173,6 @@ class Reader:
                     self._realtime = None
             if self._discards:
                 self._discards = False
-                self.discards += 1
                 self._source.discard()
                 # The packet whose end is gone is no error.
                 self._decoder.reset()

@@ -25,6 +25,8 @@ class StreamStatistics:
         New frames.
     lost : int
         Frames missing between two others, by their sequence numbers (which wrap at 2**32).
+    discarded : int
+        Those of `lost` that the host threw away unread; see `discarded_unread`.
     repeated : int
         Frames that came a second time, or after a later one.
     restarts : int
@@ -36,6 +38,7 @@ class StreamStatistics:
     def __init__(self) -> None:
         self.frames = 0
         self.lost = 0
+        self.discarded = 0
         self.repeated = 0
         self.restarts = 0
         self.overruns = 0
@@ -44,6 +47,7 @@ class StreamStatistics:
         self._measured_ns = 0
         self._recent: deque[tuple[int, int]] = deque(maxlen=_RECENT)
         self._reconnected = False
+        self._threw_away = False
         self._bin = 0
         self._bins: deque[tuple[int, int]] = deque(maxlen=_BINS + 1)
         self._in_bin = 0
@@ -74,7 +78,9 @@ class StreamStatistics:
                 self._recent.clear()
             else:
                 self.lost += missing
+                self.discarded += missing if self._threw_away else 0
         self._reconnected = False
+        self._threw_away = False
         self._sequence = sequence
         self._board_us = board_us
         self._measured_ns = arrival_ns
@@ -87,6 +93,10 @@ class StreamStatistics:
     def reconnected(self) -> None:
         """Tell that the port was lost and opened again: the next frame may be from a board that was restarted."""
         self._reconnected = True
+
+    def discarded_unread(self) -> None:
+        """Tell that what waited to be read is thrown away: what is missing before the next frame was discarded."""
+        self._threw_away = True
 
     def stamped(self, stamp_ns: int) -> None:
         """Tell when the last frame was measured [ns], on the clock of the arrivals.

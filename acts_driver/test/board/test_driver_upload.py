@@ -92,7 +92,8 @@ def test_nothing_is_lost_at_1_khz_during_an_upload(tmp_path: Path, rig: Rig) -> 
             rig.spin_until(lambda wanted=wanted: held(rig) == wanted, "the model")
         status = rig.status_until(lambda status: True, "a report")
         # A busy machine may make the board drop frames, and the driver throw old ones away; both say so.
-        assert int(status["lost"]) == int(status["overruns"]) or int(status["backlogs"])
+        lost, discarded, overruns = (int(status[name]) for name in ("lost", "discarded", "overruns"))
+        assert lost - discarded <= overruns <= lost
         assert (status["crc_errors"], status["malformed"], status["repeated"]) == ("0", "0", "0")
 
 
