@@ -99,16 +99,10 @@ def observe(statuses: Iterator[Status], asked_hz: float, seconds: float) -> Tria
     machine = BusyMeter()
     for status in statuses:
         elapsed_s = status.time_s - first.time_s
-        trial = Trial(
-            asked_hz,
-            (status.frames - first.frames) / max(elapsed_s, 1e-9),
-            status.frames - first.frames,
-            status.lost - first.lost,
-            status.overruns - first.overruns,
-            meter.percent(),
-            machine.percent(),
-        )
+        lost, overruns = status.lost - first.lost, status.overruns - first.overruns
         # Tolerance for a report that came slightly early.
-        if elapsed_s >= _EARLY_SHARE * seconds or trial.lost or trial.overruns:
-            return trial
+        if elapsed_s >= _EARLY_SHARE * seconds or lost or overruns:
+            frames = status.frames - first.frames
+            rate_hz = frames / max(elapsed_s, 1e-9)
+            return Trial(asked_hz, rate_hz, frames, lost, overruns, meter.percent(), machine.percent())
     raise AssertionError("a reader's reports do not end")
