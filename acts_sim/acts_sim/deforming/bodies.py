@@ -49,9 +49,9 @@ class Body(ABC):
 class RoundBody(Body):
     """What touches on a disc whose radius grows with the root of the depth."""
 
+    @abstractmethod
     def radius_m(self, depth_m: float) -> float:
         """Of the disc [m]."""
-        raise NotImplementedError
 
     def outline_m(self, depth_m: float) -> Array:
         """See `Body`."""
