@@ -37,26 +37,22 @@ def trust(product: np.float32, square: np.float32) -> np.float32:
 def _maximum_filter(state: State, values: NDArray[np.float32], cols: int) -> NDArray[np.float32]:
     """Maximum filter of 3 x 3 taxels within each patch; overwritten by the next call."""
     in_row, around = state.in_row, state.around
+    # Unsigned, so that the compiler sees that no index is negative, and vectorises.
+    one, width = np.uint64(1), np.uint64(cols)
     for p in range(state.patches.shape[0]):
-        top, bottom, left, right = state.patches[p, 0], state.patches[p, 1], state.patches[p, 2], state.patches[p, 3]
-        width = right - left
+        top, bottom = np.uint64(state.patches[p, 0]), np.uint64(state.patches[p, 1])
+        left, right = np.uint64(state.patches[p, 2]), np.uint64(state.patches[p, 3])
         for row in range(top, bottom):
-            # Slices, so that the compiler sees that no index is negative, and vectorises.
-            here = values[row * cols + left : row * cols + right]
-            largest = in_row[row * cols + left : row * cols + right]
-            largest[0] = max(here[0], here[min(1, width - 1)])
-            left_of, right_of = here[:-2], here[2:]
-            for c in range(left_of.shape[0]):
-                largest[c + 1] = max(left_of[c], here[c + 1], right_of[c])
-            largest[width - 1] = max(here[width - 1], here[max(width - 2, 0)])
+            first, last = row * width + left, row * width + right - one
+            in_row[first] = max(values[first], values[min(first + one, last)])
+            for i in range(first + one, last):
+                in_row[i] = max(values[i - one], values[i], values[i + one])
+            in_row[last] = max(values[last], values[max(last - one, first)])
         for row in range(top, bottom):
-            here = in_row[row * cols + left : row * cols + right]
-            before, behind = max(row - 1, top) * cols, min(row + 1, bottom - 1) * cols
-            above = in_row[before + left : before + right]
-            below = in_row[behind + left : behind + right]
-            largest = around[row * cols + left : row * cols + right]
-            for c in range(width):
-                largest[c] = max(here[c], above[c], below[c])
+            above = np.uint64(0) if row == top else width
+            below = np.uint64(0) if row + one == bottom else width
+            for i in range(row * width + left, row * width + right):
+                around[i] = max(in_row[i - above], in_row[i], in_row[i + below])
     return around
 
 

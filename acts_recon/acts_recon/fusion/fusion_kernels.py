@@ -77,13 +77,14 @@ _TOP = np.float32(COUNT_MAX)
 
 
 def _weights_around() -> NDArray[np.float32]:
-    """Weights of a sample's innovation for the taxels around it: ``1 / distance^4``."""
+    """Weights of a sample's innovation for the taxels around it, row by row: ``1 / distance^4``."""
     away = np.arange(-REACH, REACH + 1, dtype=np.float32)
     square = away[:, None] ** 2 + away[None, :] ** 2
     square[REACH, REACH] = np.inf
-    return np.asarray(1.0 / square**2, dtype=np.float32)
+    return np.asarray(1.0 / square**2, dtype=np.float32).ravel()
 
 
+_SIDE = 2 * REACH + 1
 _NEAR = _weights_around()
 
 _state_of = kernel(fastmath=FASTMATH)(state_of)
@@ -271,21 +272,27 @@ def _spread(state: State, indices: NDArray[np.uint16], cols: int, tuning: Tuning
         innovation = state.innovation[k]
         if abs(innovation) <= _F(QUIET_SIGMAS) * state.noise[i]:
             innovation = _F(0)
+        own_noise = process_noise[i]
         p = patch_of[i]
         top, bottom, left, right = patches[p, 0], patches[p, 1], patches[p, 2], patches[p, 3]
+        first, last = max(col - REACH, left), min(col + REACH + 1, right)
         for r in range(max(row - REACH, top), min(row + REACH + 1, bottom)):
-            for c in range(max(col - REACH, left), min(col + REACH + 1, right)):
-                j = r * cols + c
-                near = _F(0) if fresh[j] else _NEAR[r - row + REACH, c - col + REACH]
-                total[j] += near * innovation
-                process_noise_total[j] += near * process_noise[i]
-                weight[j] += near
+            # Unsigned: the compiler need not look whether an index is negative.
+            beside, place = np.uint64(r * cols + first), np.uint64((r - row + REACH) * _SIDE + first - col + REACH)
+            for _ in range(last - first):
+                near = _NEAR[place]
+                total[beside] += near * innovation
+                process_noise_total[beside] += near * own_noise
+                weight[beside] += near
+                beside += np.uint64(1)
+                place += np.uint64(1)
     gain = _F(tuning.spread_gain)
-    # All taxels without a branch, so that the compiler vectorises; where no weight arrived nothing changes.
+    # All taxels without a branch, so that the compiler vectorises; where no weight arrived,
+    # and of what was measured, nothing changes.
     for j in range(estimate.shape[0]):
-        shrunk = weight[j] + _F(SPREAD_PRIOR)
-        estimate[j] = min(max(estimate[j] + gain * total[j] / shrunk, _F(0)), _TOP)
-        learnt = (process_noise_total[j] - weight[j] * process_noise[j]) / shrunk
+        share = (_F(0) if fresh[j] else _F(1)) / (weight[j] + _F(SPREAD_PRIOR))
+        estimate[j] = min(max(estimate[j] + gain * total[j] * share, _F(0)), _TOP)
+        learnt = (process_noise_total[j] - weight[j] * process_noise[j]) * share
         updated = process_noise[j] + _F(PROCESS_NOISE_GAIN) * learnt
         process_noise[j] = updated if updated > TINY else _F(0)
         total[j], process_noise_total[j], weight[j] = _F(0), _F(0), _F(0)
