@@ -130,6 +130,11 @@ class BoardSession:
         return self._verdict.wait(timeout_s)
 
     @property
+    def has_verdict(self) -> bool:
+        """Whether the first board has answered or turned out not to. Cheap."""
+        return self._verdict.is_set()
+
+    @property
     def may_publish(self) -> bool:
         """Whether frames of this board may be used: it is compatible, or is known not to reply. Cheap."""
         return self._heard == self._opening and not self.status.is_wrong_version

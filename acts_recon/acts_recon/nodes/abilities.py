@@ -40,6 +40,7 @@ class Abilities:
         if settings.outlines:
             self.outlines = OutlinesPublisher(node, settings.outline_tracer(recovery), settings.outlines_rate_hz)
         self._all = [one for one in (self.impacts, self.spectra, self.outlines) if one is not None]
+        self.is_wanted = False
 
     def set_rates(self, settings: ReconstructionConfig) -> None:
         """Put changed rates in force."""
@@ -57,6 +58,7 @@ class Abilities:
         """To be called now and then: whether somebody listens."""
         for one in self._all:
             one.look_for_subscribers()
+        self.is_wanted = any(one.is_wanted for one in self._all)
 
     def publish(self, header: Header, frame: SampleFrame, every: SampleFrame, end_s: float) -> None:
         """Look at a frame that has been recovered.

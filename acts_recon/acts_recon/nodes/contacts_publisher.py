@@ -64,12 +64,14 @@ class ContactsPublisher:
         self._send = False
         self._send_view = False
         self._send_markers = False
+        self.is_wanted = False
 
     def look_for_subscribers(self) -> None:
         """To be called now and then: whether somebody listens."""
         self._send = self._publisher.get_subscription_count() > 0
         self._send_view = self._view_publisher.get_subscription_count() > 0
         self._send_markers = self._marker_publisher.get_subscription_count() > 0
+        self.is_wanted = self._send or self._send_view or self._send_markers
 
     def publish(
         self, header: Header, sequence: int, image: NDArray[np.float32], sigma: NDArray[np.float32] | None = None
@@ -87,7 +89,7 @@ class ContactsPublisher:
         sigma : np.ndarray [shape=(rows, cols), dtype=float32], optional
             Standard deviation of every taxel [counts], where it is known.
         """
-        if not (self._send or self._send_view or self._send_markers):
+        if not self.is_wanted:
             return
         stamp = header.stamp
         found = self._tracker.step(image, stamp.sec + 1e-9 * stamp.nanosec, sigma)

@@ -32,7 +32,7 @@ class ImpactsPublisher:
     def __init__(self, node: Node, detector: ImpactDetector) -> None:
         self._detector = detector
         self._publisher = node.create_publisher(ImpactMessage, "impacts", **qos.overridable(qos.STREAM))
-        self._send = False
+        self.is_wanted = False
 
     def reset(self) -> None:
         """Forget all images: the next one is not of the same board, or long after."""
@@ -41,9 +41,9 @@ class ImpactsPublisher:
     def look_for_subscribers(self) -> None:
         """To be called now and then: whether somebody listens."""
         send = self._publisher.get_subscription_count() > 0
-        if send and not self._send:
+        if send and not self.is_wanted:
             self._detector.reset()
-        self._send = send
+        self.is_wanted = send
 
     def publish(self, header: Header, sequence: int, end_s: float, duration_s: float, recovery: Recovery) -> None:
         """Look at the image of a frame, and publish what has begun and what is over.
@@ -59,7 +59,7 @@ class ImpactsPublisher:
         recovery : Recovery
             Holds the image.
         """
-        if not self._send:
+        if not self.is_wanted:
             return
         found = self._detector.step(
             end_s, duration_s, recovery.image, recovery.sigma, recovery.age_s, recovery.measured

@@ -35,7 +35,7 @@ class ObjectPublisher:
         self._limit = RateLimit(rate_hz)
         self._publisher = node.create_publisher(ObjectClass, "object", **qos.overridable(qos.STREAM))
         self._message = ObjectClass()
-        self._send = False
+        self.is_wanted = False
 
     def set_rate(self, rate_hz: float) -> None:
         """Change the largest rate; 0: every frame."""
@@ -43,7 +43,7 @@ class ObjectPublisher:
 
     def look_for_subscribers(self) -> None:
         """To be called now and then: whether somebody listens."""
-        self._send = self._publisher.get_subscription_count() > 0
+        self.is_wanted = self._publisher.get_subscription_count() > 0
 
     def reset(self) -> None:
         """The board began anew: what it showed before counts no more."""
@@ -59,7 +59,7 @@ class ObjectPublisher:
         duration_s: float,
     ) -> None:
         """Classify a frame that has been recovered, and publish what it shows."""
-        if not self._send:
+        if not self.is_wanted:
             return
         if not self._limit.due(time.monotonic()):
             self._recogniser.update(indices, counts, end_s, duration_s)

@@ -36,7 +36,7 @@ class OutlinesPublisher:
         self._tracer = tracer
         self._publisher = node.create_publisher(OutlineMessage, "outlines", **qos.overridable(qos.STREAM))
         self._limit = RateLimit(rate_hz)
-        self._send = False
+        self.is_wanted = False
         self._loaded: Future[None] | None = None
 
     def set_rate(self, rate_hz: float) -> None:
@@ -54,9 +54,9 @@ class OutlinesPublisher:
             # Importing takes longer than a frame.
             self._loaded = background.begin(load)
         send = send and self._loaded is not None and self._loaded.done()
-        if send and not self._send:
+        if send and not self.is_wanted:
             self._tracer.reset()
-        self._send = send
+        self.is_wanted = send
 
     def publish(
         self,
@@ -81,7 +81,7 @@ class OutlinesPublisher:
         recovery : Recovery
             Holds the image.
         """
-        if not (self._send and (self._tracer.is_fast or self._limit.due(time.monotonic()))):
+        if not (self.is_wanted and (self._tracer.is_fast or self._limit.due(time.monotonic()))):
             return
         for outline in self._tracer.step(indices, counts, end_s, duration_s, recovery.image):
             self._publisher.publish(_message(header, sequence, end_s, outline))

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import sys
 import time
-from array import array
 from collections import Counter, deque
 from collections.abc import Sequence
 from statistics import median
@@ -19,25 +18,22 @@ from statistics import median
 import numpy as np
 from geometry_msgs.msg import PointStamped
 from rclpy.node import Node
-from rclpy.publisher import Publisher
-from sensor_msgs.msg import Image
 from std_msgs.msg import Header
 
 from acts_core.errors import ArrayError, PacketError
 from acts_core.frames import SampleFrame
 from acts_core.kernels import skip_extras
-from acts_core.runtime import RateLimit, enter_realtime
+from acts_core.runtime import enter_realtime
 from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import Baseline, TactileSamples
 from acts_msgs.msg import Contact as ContactMessage
 from acts_recon.contacts import Contact
-from acts_recon.images import BaselineSubtraction, mono16, rgb8
+from acts_recon.images import BaselineSubtraction
 from acts_recon.nodes.abilities import Abilities
-from acts_recon.nodes.age_publisher import AgePublisher
 from acts_recon.nodes.contacts_publisher import ContactsPublisher
+from acts_recon.nodes.images_publisher import ImagesPublisher
 from acts_recon.nodes.object_publisher import ObjectPublisher
 from acts_recon.nodes.region_publisher import RegionsPublisher
-from acts_recon.nodes.series_publisher import SeriesPublisher
 from acts_recon.settings import ReconstructionConfig, ReconstructionSettings
 from acts_ros import qos
 from acts_ros.clocks import steady_timer
@@ -58,18 +54,17 @@ _VERY_LATE_NS = 60_000_000
 # Stalls so far apart are no lack of CPU: what they have held up is caught up with.
 _STALLS_APART_NS = 1_000_000_000
 
+_Part = ImagesPublisher | ContactsPublisher | Abilities | ObjectPublisher | RegionsPublisher
+
 
 class ReconstructionNode(Node):
     """Translates between topics and a `Recovery`.
 
     Subscribes ``samples`` (acts_msgs/TactileSamples), or takes frames by `take` from a driver in the same process.
     Publishes for every frame ``contact`` (acts_msgs/Contact), while in contact ``cop`` (geometry_msgs/PointStamped),
-    and where somebody listens ``image_raw`` (sensor_msgs/Image, mono16, counts), ``confidence`` (mono8, with the method
-    ``fusion``), ``image`` (rgb8, for viewers), ``contacts``, what `Abilities` offers, with a layout of several patches,
-    or of one on a link, ``regions`` (acts_msgs/RegionContacts), and, with an object library, ``object``
-    (acts_msgs/ObjectClass). For viewers that draw by themselves ``image_raw``, ``confidence`` and ``contacts`` are also
-    below ``view/``, at most `image_rate_hz` times a second, and beside them ``view/age`` (32FC1, see `AgePublisher`)
-    and ``view/contact_series`` (acts_msgs/ContactSeries).
+    and where somebody listens images (see `ImagesPublisher`), ``contacts`` and ``view/contacts`` (acts_msgs/Contacts),
+    what `Abilities` offers, with a layout of several patches, or of one on a link, ``regions``
+    (acts_msgs/RegionContacts), and, with an object library, ``object`` (acts_msgs/ObjectClass).
 
     Parameters
     ----------
@@ -87,23 +82,10 @@ class ReconstructionNode(Node):
         self._baseline = BaselineSubtraction(self._settings.rows * self._settings.cols)
         self._contact_publisher = self.create_publisher(ContactMessage, "contact", **qos.overridable(qos.STREAM))
         self._cop_publisher = self.create_publisher(PointStamped, "cop", **qos.overridable(qos.STREAM))
-        self._raw_publisher = self.create_publisher(Image, "image_raw", **qos.overridable(qos.STREAM))
-        self._confidence_publisher = self.create_publisher(Image, "confidence", **qos.overridable(qos.STREAM))
-        self._view_publisher = self.create_publisher(Image, "image", **qos.overridable(qos.VIEW))
-        self._view_raw_publisher = self.create_publisher(Image, "view/image_raw", **qos.overridable(qos.VIEW))
-        self._view_confidence_publisher = self.create_publisher(Image, "view/confidence", **qos.overridable(qos.VIEW))
         # Filled anew for every frame: making messages costs more than sending them.
         self._header = Header()
         self._cop = PointStamped()
-        rows, cols = self._recovery.image.shape
-        self._raw = _empty_image(rows, cols, "mono16", 2)
-        self._sureness = _empty_image(rows, cols, "mono8", 1)
-        self._ages = AgePublisher(self, rows, cols)
-        self._series = SeriesPublisher(self)
-        scale = self._settings.image_scale
-        self._view = _empty_image(rows * scale, cols * scale, "rgb8", 3)
-        self._raw_limit = RateLimit(self._settings.image_raw_rate_hz)
-        self._view_limit = RateLimit(self._settings.image_rate_hz)
+        self._images = ImagesPublisher(self, self._settings, self._recovery)
         recogniser = self._settings.recogniser(self._recovery)
         self._objects: ObjectPublisher | None = None
         if recogniser is not None:
@@ -134,6 +116,7 @@ class ReconstructionNode(Node):
             self.create_subscription(Baseline, "baseline", self._on_baseline, **qos.overridable(qos.LATCHED))
         if subscribes:
             self.create_subscription(TactileSamples, "samples", self._on_samples, **qos.overridable(qos.STREAM))
+        rows, cols = self._recovery.image.shape
         self.get_logger().info(
             f"ready: array of {self._settings.rows} x {self._settings.cols}, image of {rows} x {cols}"
         )
@@ -145,8 +128,7 @@ class ReconstructionNode(Node):
     def _change(self, settings: ReconstructionConfig) -> str:
         """Put changed parameters in force."""
         self._settings = settings
-        self._raw_limit.set_rate(settings.image_raw_rate_hz)
-        self._view_limit.set_rate(settings.image_rate_hz)
+        self._images.set_rates(settings)
         if self._objects is not None:
             self._objects.set_rate(settings.object_rate_hz)
         self._abilities.set_rates(settings)
@@ -156,19 +138,12 @@ class ReconstructionNode(Node):
 
     def _look_for_subscribers(self) -> None:
         self._send_cop = self._cop_publisher.get_subscription_count() > 0
-        self._send_raw = self._raw_publisher.get_subscription_count() > 0
-        self._send_confidence = self._confidence_publisher.get_subscription_count() > 0
-        self._send_view = self._view_publisher.get_subscription_count() > 0
-        self._send_view_raw = self._view_raw_publisher.get_subscription_count() > 0
-        self._send_view_confidence = self._view_confidence_publisher.get_subscription_count() > 0
-        self._ages.look_for_subscribers()
-        self._series.look_for_subscribers()
-        self._contacts.look_for_subscribers()
-        self._abilities.look_for_subscribers()
-        if self._objects is not None:
-            self._objects.look_for_subscribers()
-        if self._regions is not None:
-            self._regions.look_for_subscribers()
+        parts: list[_Part | None] = [self._images, self._contacts, self._abilities, self._objects, self._regions]
+        offered = [part for part in parts if part is not None]
+        for part in offered:
+            part.look_for_subscribers()
+        # Often nobody listens to any, and asking each of them for every frame takes long.
+        self._is_more_wanted = self._send_cop or any(part.is_wanted for part in offered)
 
     def _on_samples(self, samples: TactileSamples) -> None:
         try:
@@ -201,8 +176,8 @@ class ReconstructionNode(Node):
                 self._untold += late_ns > told_ns
                 if late_ns > _VERY_LATE_NS:
                     self._unused += 1
-                    self._begin_anew_with(frame.sequence)
-                    self._follow(frame.sequence)
+                    self._lost += self._missing_before(frame.sequence)
+                    self._last_sequence = frame.sequence
                 else:
                     self._step(frame, stamp_ns, frame_id, is_told=late_ns <= told_ns)
         self._step(*newest, frame_id, is_told=True)
@@ -225,8 +200,10 @@ class ReconstructionNode(Node):
                 f"{settings.rows} x {settings.cols}",
             )
             return
-        self._begin_anew_with(frame.sequence)
-        every = frame._replace(counts=self._baseline.apply(frame.indices, frame.counts))
+        missing = self._missing_before(frame.sequence)
+        every = frame
+        if self._baseline.is_set:
+            every = frame._replace(counts=self._baseline.apply(frame.indices, frame.counts))
         frame = every.once()
         end_s, duration_s = stamp_ns * 1e-9, frame.duration_us * 1e-6
         try:
@@ -235,47 +212,35 @@ class ReconstructionNode(Node):
             self._reject("bad_frame", str(error))
             return
         self._frames += 1
-        self._follow(frame.sequence)
+        self._lost += missing
+        self._last_sequence = frame.sequence
         if not is_told:
             return
+        fields = ContactFields(stamp_ns, frame_id, frame.sequence, *contact)
+        self._contact_publisher.publish(write_contact(fields))
+        if self._is_more_wanted:
+            self._publish_more(frame, every, stamp_ns, frame_id, contact)
+        self._durations_s.append(time.perf_counter() - began_s)
+
+    def _publish_more(
+        self, frame: SampleFrame, every: SampleFrame, stamp_ns: int, frame_id: str, contact: Contact
+    ) -> None:
+        """Publish what somebody listens to besides ``contact``; `every` has all samples, `frame` each taxel once."""
+        end_s, duration_s = stamp_ns * 1e-9, frame.duration_us * 1e-6
         header = self._header
         header.frame_id = frame_id
         header.stamp.sec, header.stamp.nanosec = divmod(stamp_ns, _NS_PER_S)
-        self._publish_contact(stamp_ns, frame_id, frame.sequence, contact)
-        if self._series.is_wanted:
-            self._series.add(stamp_ns, frame.sequence, contact)
+        if self._send_cop and contact.in_contact:
+            self._cop.header = header
+            self._cop.point.x, self._cop.point.y = contact.x_m, contact.y_m
+            self._cop_publisher.publish(self._cop)
         if self._regions is not None:
             self._regions.publish(stamp_ns, frame_id, frame.sequence, self._recovery)
-        self._publish_images(duration_s)
+        self._images.publish(header, frame.sequence, stamp_ns, duration_s, contact)
         self._contacts.publish(header, frame.sequence, self._recovery.image, self._recovery.sigma)
         self._abilities.publish(header, frame, every, end_s)
         if self._objects is not None:
             self._objects.publish(header, frame.sequence, frame.indices, frame.counts, end_s, duration_s)
-        self._durations_s.append(time.perf_counter() - began_s)
-
-    def _publish_images(self, duration_s: float) -> None:
-        is_view_wanted = (
-            self._send_view
-            or self._send_view_raw
-            or self._send_view_confidence
-            or self._ages.is_wanted
-            or self._series.is_wanted
-        )
-        is_view_due = is_view_wanted and self._view_limit.due(time.monotonic())
-        if self._send_raw and self._raw_limit.due(time.monotonic()):
-            self._publish_raw(self._raw_publisher)
-        if self._send_view_raw and is_view_due:
-            self._publish_raw(self._view_raw_publisher)
-        if self._send_confidence:
-            self._publish_confidence(self._confidence_publisher)
-        if self._send_view_confidence and is_view_due:
-            self._publish_confidence(self._view_confidence_publisher)
-        if self._ages.is_wanted and is_view_due:
-            self._ages.publish(self._header, self._recovery, duration_s)
-        if self._series.is_wanted and is_view_due:
-            self._series.publish(self._header)
-        if self._send_view and is_view_due:
-            self._publish_view()
 
     def _on_baseline(self, message: Baseline) -> None:
         settings = self._settings
@@ -292,57 +257,21 @@ class ReconstructionNode(Node):
             self._rejected["bad_baseline"] += 1
             self.get_logger().warning(f"baseline not used: {error}")
 
-    def _publish_contact(self, stamp_ns: int, frame_id: str, sequence: int, contact: Contact) -> None:
-        self._contact_publisher.publish(write_contact(ContactFields(stamp_ns, frame_id, sequence, *contact)))
-        if self._send_cop and contact.in_contact:
-            self._cop.header = self._header
-            self._cop.point.x, self._cop.point.y = contact.x_m, contact.y_m
-            self._cop_publisher.publish(self._cop)
-
-    def _publish_raw(self, publisher: Publisher) -> None:
-        self._raw.header = self._header
-        self._raw.data = array("B", mono16(self._recovery.image))
-        publisher.publish(self._raw)
-
-    def _publish_confidence(self, publisher: Publisher) -> None:
-        confidence = self._recovery.confidence()
-        if confidence is None:
-            return
-        self._sureness.header = self._header
-        self._sureness.data = array("B", confidence.tobytes())
-        publisher.publish(self._sureness)
-
-    def _publish_view(self) -> None:
-        self._view.header = self._header
-        pixels = rgb8(
-            self._recovery.image,
-            scale=self._settings.image_scale,
-            full_scale_counts=self._settings.image_full_scale_counts,
-        )
-        self._view.data = array("B", pixels)
-        self._view_publisher.publish(self._view)
-
-    def _begin_anew_with(self, sequence: int) -> None:
-        """Forget all frames where this one is of a board that counts from the start again."""
-        if self._began_anew(sequence):
-            self._recovery.reset()
-            self._abilities.reset()
-            if self._objects is not None:
-                self._objects.reset()
-            if self._regions is not None:
-                self._regions.reset()
-
-    def _began_anew(self, sequence: int) -> bool:
-        """Whether the board counts from the start again: half the range back is no gap."""
-        return self._last_sequence is not None and self._gap(sequence) >= _SEQUENCE_MODULUS // 2
-
-    def _follow(self, sequence: int) -> None:
-        if self._last_sequence is not None and not self._began_anew(sequence):
-            self._lost += self._gap(sequence)
-        self._last_sequence = sequence
-
-    def _gap(self, sequence: int) -> int:
-        return (sequence - (self._last_sequence or 0) - 1) % _SEQUENCE_MODULUS
+    def _missing_before(self, sequence: int) -> int:
+        """Frames missing before this one; all are forgotten where its board counts from the start again."""
+        if self._last_sequence is None:
+            return 0
+        missing = (sequence - self._last_sequence - 1) % _SEQUENCE_MODULUS
+        # Half the range back is no gap.
+        if missing < _SEQUENCE_MODULUS // 2:
+            return missing
+        self._recovery.reset()
+        self._abilities.reset()
+        if self._objects is not None:
+            self._objects.reset()
+        if self._regions is not None:
+            self._regions.reset()
+        return 0
 
     def _reject(self, kind: str, reason: str) -> None:
         self._rejected[kind] += 1
@@ -378,10 +307,6 @@ class ReconstructionNode(Node):
         if new_lost:
             return WARN, f"{new_lost} frames lost before they came here, {rate_hz:.0f} frames/s", values
         return OK, f"{rate_hz:.0f} frames/s", values
-
-
-def _empty_image(height: int, width: int, encoding: str, bytes_per_pixel: int) -> Image:
-    return Image(height=height, width=width, encoding=encoding, is_bigendian=0, step=width * bytes_per_pixel)
 
 
 SETTINGS: dict[str, type] = {"reconstruction": ReconstructionSettings}

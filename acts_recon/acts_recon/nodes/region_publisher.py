@@ -32,7 +32,7 @@ class RegionsPublisher:
         self._regions = regions
         self._publisher = node.create_publisher(RegionContacts, "regions", **qos.overridable(qos.STREAM))
         self._limit = RateLimit(rate_hz)
-        self._send = False
+        self.is_wanted = False
 
     def set_rate(self, rate_hz: float) -> None:
         """Change the largest rate [Hz]."""
@@ -45,9 +45,9 @@ class RegionsPublisher:
     def look_for_subscribers(self) -> None:
         """To be called now and then: whether somebody listens."""
         send = self._publisher.get_subscription_count() > 0
-        if send and not self._send:
+        if send and not self.is_wanted:
             self._regions.reset()
-        self._send = send
+        self.is_wanted = send
 
     def publish(self, stamp_ns: int, frame_id: str, sequence: int, recovery: Recovery) -> None:
         """Find what the patches feel in the image of a frame, and publish it.
@@ -63,7 +63,7 @@ class RegionsPublisher:
         recovery : Recovery
             Holds the image.
         """
-        if not (self._send and self._limit.due(time.monotonic())):
+        if not (self.is_wanted and self._limit.due(time.monotonic())):
             return
         found = self._regions.step(stamp_ns * 1e-9, recovery.image, recovery.measured, recovery.age_s)
         self._publisher.publish(write_regions(stamp_ns, frame_id, sequence, found))

@@ -37,7 +37,7 @@ class SpectraPublisher:
         self._analyser = analyser
         self._publisher = node.create_publisher(SpectrumMessage, "spectra", **qos.overridable(qos.STREAM))
         self._limit = RateLimit(rate_hz)
-        self._send = False
+        self.is_wanted = False
         self._work: Future[tuple[Spectrum, ...]] | None = None
         self._header, self._sequence = Header(), 0
 
@@ -53,9 +53,9 @@ class SpectraPublisher:
     def look_for_subscribers(self) -> None:
         """To be called now and then: whether somebody listens."""
         send = self._publisher.get_subscription_count() > 0
-        if send and not self._send:
+        if send and not self.is_wanted:
             self.reset()
-        self._send = send
+        self.is_wanted = send
 
     def publish(self, header: Header, frame: SampleFrame, end_s: float) -> None:
         """Take the samples of a frame; publish what is ready.
@@ -69,7 +69,7 @@ class SpectraPublisher:
         end_s : float
             Time of the last measurement [s].
         """
-        if not self._send:
+        if not self.is_wanted:
             return
         self._analyser.add(frame.indices, frame.counts, end_s, frame.duration_us * 1e-6, may_repeat=frame.repeats)
         if self._work is not None:

@@ -46,7 +46,7 @@ def test_the_node_tells_a_touch_when_it_begins_and_when_it_is_over(make_bench: C
     impacts = bench.node._abilities.impacts
     assert impacts is not None
     bench.listen(Impact, "impacts", qos.STREAM)
-    bench.until(lambda: impacts._send)
+    bench.until(lambda: impacts.is_wanted)
 
     def has_taken(frames: int) -> bool:
         return bench.node._frames >= frames

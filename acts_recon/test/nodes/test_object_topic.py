@@ -44,7 +44,7 @@ def library_of(frames: list[NDArray[np.uint16]]) -> ObjectLibrary:
 
 def listen(bench: Bench) -> None:
     bench.listen(ObjectClass, "object", qos.STREAM)
-    bench.until(lambda: bench.node._objects is not None and bench.node._objects._send)
+    bench.until(lambda: bench.node._objects is not None and bench.node._objects.is_wanted)
 
 
 def test_per_frame_the_object_is_the_one_of_the_samples(make_bench: Callable[..., Bench], library_path: Path) -> None:

@@ -29,7 +29,7 @@ def test_the_node_tells_outlines_while_somebody_listens(make_bench: Callable[...
     assert outlines is not None
     bench.take(0, counts_of(0))
     bench.listen(Outline, "outlines", qos.STREAM)
-    bench.until(lambda: outlines._send)
+    bench.until(lambda: outlines.is_wanted)
     for sequence in range(1, 21):
         bench.take(sequence, counts_of(sequence))
     told = bench.received["outlines"]

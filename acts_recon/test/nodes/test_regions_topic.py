@@ -36,11 +36,11 @@ def test_regions_are_those_of_the_image_while_somebody_listens(make_bench: Calla
     bench.contact(0)
     publisher = bench.node._regions
     assert publisher is not None
-    assert not publisher._send
+    assert not publisher.is_wanted
     raw: list[bytes] = []
     bench.peer.create_subscription(RegionContacts, "regions", raw.append, qos.STREAM, raw=True)
     bench.listen(RegionContacts, "regions", qos.STREAM)
-    bench.until(lambda: publisher._send)
+    bench.until(lambda: publisher.is_wanted)
 
     for k in range(1, 36):
         bench.send(k, everywhere, pressed(0.06 * max(k - 25, 0)), **timed(3 * k))

@@ -33,7 +33,7 @@ def test_the_node_tells_how_a_contact_vibrates_while_somebody_listens(make_bench
     bench.take(0, counts_of(0))
     assert not spectra._analyser._frames
     bench.listen(Spectrum, "spectra", qos.STREAM)
-    bench.until(lambda: spectra._send)
+    bench.until(lambda: spectra.is_wanted)
     for sequence in range(1, 200):
         bench.take(sequence, counts_of(sequence))
     told = bench.received["spectra"]

@@ -1,0 +1,144 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Topics of the reconstruction node with images, and those for viewers that draw by themselves."""
+
+from __future__ import annotations
+
+import time
+from array import array
+
+from rclpy.node import Node
+from rclpy.publisher import Publisher
+from sensor_msgs.msg import Image
+from std_msgs.msg import Header
+
+from acts_core.runtime import RateLimit
+from acts_recon.contacts import Contact
+from acts_recon.images import mono16, rgb8
+from acts_recon.methods import Recovery
+from acts_recon.nodes.age_publisher import AgePublisher
+from acts_recon.nodes.series_publisher import SeriesPublisher
+from acts_recon.settings import ReconstructionConfig
+from acts_ros import qos
+
+
+class ImagesPublisher:
+    """Publishes images where somebody listens.
+
+    ``image_raw`` (sensor_msgs/Image, mono16, counts), ``confidence`` (mono8, with the method ``fusion``), and, at most
+    `image_rate_hz` times a second, ``image`` (rgb8), ``view/image_raw``, ``view/confidence``, ``view/age`` (32FC1, see
+    `AgePublisher`) and ``view/contact_series`` (acts_msgs/ContactSeries).
+
+    Parameters
+    ----------
+    node : Node
+    settings : ReconstructionConfig
+    recovery : Recovery
+        Holds the image.
+    """
+
+    def __init__(self, node: Node, settings: ReconstructionConfig, recovery: Recovery) -> None:
+        self._settings = settings
+        self._recovery = recovery
+        self._raw_publisher = node.create_publisher(Image, "image_raw", **qos.overridable(qos.STREAM))
+        self._confidence_publisher = node.create_publisher(Image, "confidence", **qos.overridable(qos.STREAM))
+        self._view_publisher = node.create_publisher(Image, "image", **qos.overridable(qos.VIEW))
+        self._view_raw_publisher = node.create_publisher(Image, "view/image_raw", **qos.overridable(qos.VIEW))
+        self._view_confidence_publisher = node.create_publisher(Image, "view/confidence", **qos.overridable(qos.VIEW))
+        # Filled anew for every frame: making messages costs more than sending them.
+        rows, cols = recovery.image.shape
+        self._raw = _empty_image(rows, cols, "mono16", 2)
+        self._sureness = _empty_image(rows, cols, "mono8", 1)
+        self._ages = AgePublisher(node, rows, cols)
+        self._series = SeriesPublisher(node)
+        scale = settings.image_scale
+        self._view = _empty_image(rows * scale, cols * scale, "rgb8", 3)
+        self._raw_limit = RateLimit(settings.image_raw_rate_hz)
+        self._view_limit = RateLimit(settings.image_rate_hz)
+        self.look_for_subscribers()
+
+    def set_rates(self, settings: ReconstructionConfig) -> None:
+        """Put changed rates in force."""
+        self._settings = settings
+        self._raw_limit.set_rate(settings.image_raw_rate_hz)
+        self._view_limit.set_rate(settings.image_rate_hz)
+
+    def look_for_subscribers(self) -> None:
+        """To be called now and then: whether somebody listens."""
+        self._ages.look_for_subscribers()
+        self._series.look_for_subscribers()
+        self._send_raw = self._raw_publisher.get_subscription_count() > 0
+        self._send_confidence = self._confidence_publisher.get_subscription_count() > 0
+        self._send_view = self._view_publisher.get_subscription_count() > 0
+        self._send_view_raw = self._view_raw_publisher.get_subscription_count() > 0
+        self._send_view_confidence = self._view_confidence_publisher.get_subscription_count() > 0
+        self._is_view_wanted = (
+            self._send_view
+            or self._send_view_raw
+            or self._send_view_confidence
+            or self._ages.is_wanted
+            or self._series.is_wanted
+        )
+        self.is_wanted = self._send_raw or self._send_confidence or self._is_view_wanted
+
+    def publish(self, header: Header, sequence: int, stamp_ns: int, duration_s: float, contact: Contact) -> None:
+        """Publish what is wanted and due.
+
+        Parameters
+        ----------
+        header : Header
+            Of the frame.
+        sequence : int
+            The frame's number.
+        stamp_ns : int
+            The header's stamp [ns].
+        duration_s : float
+            How long the frame's measurements took [s].
+        contact : Contact
+            In the image.
+        """
+        if self._series.is_wanted:
+            self._series.add(stamp_ns, sequence, contact)
+        is_view_due = self._is_view_wanted and self._view_limit.due(time.monotonic())
+        if self._send_raw and self._raw_limit.due(time.monotonic()):
+            self._publish_raw(self._raw_publisher, header)
+        if self._send_view_raw and is_view_due:
+            self._publish_raw(self._view_raw_publisher, header)
+        if self._send_confidence:
+            self._publish_confidence(self._confidence_publisher, header)
+        if self._send_view_confidence and is_view_due:
+            self._publish_confidence(self._view_confidence_publisher, header)
+        if self._ages.is_wanted and is_view_due:
+            self._ages.publish(header, self._recovery, duration_s)
+        if self._series.is_wanted and is_view_due:
+            self._series.publish(header)
+        if self._send_view and is_view_due:
+            self._publish_view(header)
+
+    def _publish_raw(self, publisher: Publisher, header: Header) -> None:
+        self._raw.header = header
+        self._raw.data = array("B", mono16(self._recovery.image))
+        publisher.publish(self._raw)
+
+    def _publish_confidence(self, publisher: Publisher, header: Header) -> None:
+        confidence = self._recovery.confidence()
+        if confidence is None:
+            return
+        self._sureness.header = header
+        self._sureness.data = array("B", confidence.tobytes())
+        publisher.publish(self._sureness)
+
+    def _publish_view(self, header: Header) -> None:
+        self._view.header = header
+        pixels = rgb8(
+            self._recovery.image,
+            scale=self._settings.image_scale,
+            full_scale_counts=self._settings.image_full_scale_counts,
+        )
+        self._view.data = array("B", pixels)
+        self._view_publisher.publish(self._view)
+
+
+def _empty_image(height: int, width: int, encoding: str, bytes_per_pixel: int) -> Image:
+    return Image(height=height, width=width, encoding=encoding, is_bigendian=0, step=width * bytes_per_pixel)
