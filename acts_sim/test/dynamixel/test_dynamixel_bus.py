@@ -7,60 +7,23 @@ from __future__ import annotations
 
 import json
 import signal
-import subprocess
-import sys
 import termios
 import time
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from dynamixel_sdk import (
-    COMM_SUCCESS,
-    GroupBulkRead,
-    GroupSyncRead,
-    GroupSyncWrite,
-    PacketHandler,
-    PortHandler,
-    port_handler,
-)
+from dynamixel_sdk import COMM_SUCCESS, GroupBulkRead, GroupSyncRead, GroupSyncWrite
+from motor_bus import IDS, MotorBus
 
-from acts_sim.dynamixel import ask_once
-
-IDS = list(range(16))
 MODE, TORQUE, ERROR, GOAL, CURRENT, VELOCITY, POSITION = 11, 64, 70, 116, 126, 128, 132
 
 
-class Rig:
-    """The process, and the port as a user opens it."""
+class Rig(MotorBus):
+    """A bus without a hand, and single motors on it."""
 
     def __init__(self, folder: Path, *options: str) -> None:
-        self.link, self.control = folder / "hand", folder / "control"
-        self.process = subprocess.Popen(
-            [
-                *(sys.executable, "-m", "acts_ros.executables.program", "acts_sim.dynamixel.main"),
-                *("--link", str(self.link)),
-                *("--control", str(self.control), "--return-delay", "0", *options),
-            ],
-            stdout=subprocess.PIPE,
-            text=True,
-        )
-        assert self.process.stdout is not None
-        self.ready = json.loads(self.process.stdout.readline())
-        self.packets = PacketHandler(2.0)
-        self.port = self.open()
-
-    def open(self) -> PortHandler:
-        # The library waits for an answer for twice this and 2 ms [ms]; as it comes, or as another test has left it in
-        # this process, it is too short for a loaded machine.
-        port_handler.LATENCY_TIMER = 200
-        port = PortHandler(str(self.link))
-        assert port.openPort()
-        assert port.setBaudRate(4_000_000)
-        return port
-
-    def command(self, line: str) -> str:
-        return ask_once(self.control, line)
+        super().__init__(folder, "acts_sim.dynamixel.main", "--return-delay", "0", *options)
 
     def write(self, motor_id: int, address: int, size: int, value: int) -> tuple[int, int]:
         call = {1: self.packets.write1ByteTxRx, 2: self.packets.write2ByteTxRx, 4: self.packets.write4ByteTxRx}[size]
@@ -77,11 +40,6 @@ class Rig:
         for motor_id in IDS:
             assert group.addParam(motor_id)
         return group
-
-    def close(self) -> None:
-        self.port.closePort()
-        self.process.send_signal(signal.SIGINT)
-        assert self.process.wait(20.0) == 0
 
 
 @pytest.fixture(scope="module")

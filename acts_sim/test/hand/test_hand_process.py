@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import json
-import signal
 import subprocess
 import sys
 import time
@@ -16,49 +15,28 @@ from typing import Any
 
 import numpy as np
 import pytest
-from dynamixel_sdk import COMM_SUCCESS, GroupSyncRead, GroupSyncWrite, PacketHandler, PortHandler, port_handler
+from dynamixel_sdk import COMM_SUCCESS, GroupSyncRead, GroupSyncWrite
 from hand_motors import AROUND_SPHERE
+from motor_bus import IDS, MotorBus
 
 from acts_core.skin import layout
-from acts_sim.dynamixel import ask_once
 from acts_sim.hand import HandTruth, TruthFollower
 from acts_sim.shared import TimedRingReader
 
 pytestmark = pytest.mark.slow
 
-IDS = list(range(16))
 PATCHES = [patch.name for patch in layout("leap_right").patches]
 
 
-class Rig:
+class Rig(MotorBus):
     """The process, its port as a user opens it, its rings."""
 
     def __init__(self, folder: Path, *options: str) -> None:
-        self.control = folder / "control"
-        names = {"link": "hand", "field-ring": "field.ring", "truth-ring": "truth.ring", "control": "control"}
-        paths = [word for option, name in names.items() for word in (f"--{option}", str(folder / name))]
-        self.process = subprocess.Popen(
-            [
-                *(sys.executable, "-m", "acts_ros.executables.program", "acts_sim.hand.process.main", *paths),
-                *("--return-delay-time", "0", "--lead-ms", "4", *options),
-            ],
-            stdout=subprocess.PIPE,
-            text=True,
-        )
-        assert self.process.stdout is not None
-        self.ready = json.loads(self.process.stdout.readline())
-        # The library waits for an answer for twice this and 2 ms [ms]; as it comes, or as another test has left it in
-        # this process, it is too short for a loaded machine.
-        port_handler.LATENCY_TIMER = 200
-        self.packets = PacketHandler(2.0)
-        self.port = PortHandler(str(folder / "hand"))
-        assert self.port.openPort()
-        assert self.port.setBaudRate(4_000_000)
+        rings = ("--field-ring", str(folder / "field.ring"), "--truth-ring", str(folder / "truth.ring"))
+        times = ("--return-delay-time", "0", "--lead-ms", "4")
+        super().__init__(folder, "acts_sim.hand.process.main", *rings, *times, *options)
         self.field = TimedRingReader(folder / "field.ring", 1024)
         self.truth = TruthFollower(folder / "truth.ring")
-
-    def command(self, line: str) -> str:
-        return ask_once(self.control, line)
 
     def state(self) -> dict[str, Any]:
         return dict(json.loads(self.command("state")))
@@ -80,11 +58,6 @@ class Rig:
         newest = self.field.newest()
         assert newest is not None
         return newest[1]
-
-    def close(self) -> None:
-        self.port.closePort()
-        self.process.send_signal(signal.SIGINT)
-        assert self.process.wait(20.0) == 0
 
 
 @pytest.fixture(scope="module")
