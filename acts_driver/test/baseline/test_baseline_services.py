@@ -104,6 +104,19 @@ def start(rig: Rig, stream: Stream, path: Path) -> list[Baseline]:
     return baselines
 
 
+def start_calibrated(rig: Rig, stream: Stream, path: Path) -> None:
+    """A driver on the stream, which flows, and a calibration of it."""
+    start(rig, stream, path)
+    stream.start()
+    calibrate(rig)
+
+
+def close_port(rig: Rig) -> None:
+    assert rig.driver is not None
+    rig.driver.trigger_deactivate()
+    rig.driver.trigger_cleanup()
+
+
 def test_calibrate_and_tare(rig: Rig, stream: Stream, tmp_path: Path) -> None:
     path = tmp_path / "skin.npz"
     baselines = start(rig, stream, path)
@@ -146,9 +159,7 @@ def test_calibrate_and_tare(rig: Rig, stream: Stream, tmp_path: Path) -> None:
 def test_without_frames_the_past_is_not_taken_for_the_present(
     rig: Rig, stream: Stream, tmp_path: Path, service: str
 ) -> None:
-    start(rig, stream, tmp_path / "skin.npz")
-    stream.start()
-    calibrate(rig)
+    start_calibrated(rig, stream, tmp_path / "skin.npz")
     stream.ended.set()
     ask_until(
         rig,
@@ -162,12 +173,8 @@ def test_without_frames_the_past_is_not_taken_for_the_present(
 def test_as_soon_as_the_port_is_closed_the_past_is_not_taken_for_the_present(
     rig: Rig, stream: Stream, tmp_path: Path, service: str
 ) -> None:
-    start(rig, stream, tmp_path / "skin.npz")
-    stream.start()
-    calibrate(rig)
-    assert rig.driver is not None
-    rig.driver.trigger_deactivate()
-    rig.driver.trigger_cleanup()
+    start_calibrated(rig, stream, tmp_path / "skin.npz")
+    close_port(rig)
     answer = ask(rig, service)
     assert not answer.success
     assert "no frames: is the driver configured" in answer.message
@@ -201,15 +208,12 @@ def test_a_file_of_another_skin_is_refused(rig: Rig, stream: Stream, tmp_path: P
 def test_a_file_that_cannot_even_be_looked_for_is_refused_and_the_node_goes_on(
     rig: Rig, stream: Stream, tmp_path: Path, file: str, words: str
 ) -> None:
-    start(rig, stream, tmp_path / "skin.npz")
-    stream.start()
-    calibrate(rig)
-    assert rig.driver is not None
-    rig.driver.trigger_deactivate()
-    rig.driver.trigger_cleanup()
+    start_calibrated(rig, stream, tmp_path / "skin.npz")
+    close_port(rig)
     done, reason = rig.set_parameters(calibration_file=file)
     assert not done
     assert re.search(words, reason)
+    assert rig.driver is not None
     rig.driver.trigger_configure()
     rig.driver.trigger_activate()
     calibrate(rig)
