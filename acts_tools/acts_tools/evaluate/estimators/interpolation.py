@@ -5,6 +5,8 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import Delaunay, QhullError
@@ -17,19 +19,12 @@ _LENGTH_TAXELS = 2.0
 _NOISE = 0.05
 
 
-class Linear(Method):
-    """Linear interpolation over the Delaunay triangles of the measured taxels, linear extrapolation beyond them.
-
-    Outside of the convex hull of the measured taxels, the plane of the triangle at the nearest edge is extrapolated.
-    The result is clipped to 0 to 1023. Without any triangle, each taxel gets the value of the nearest measured one.
-    """
-
-    summary = "linear interpolation"
+class _Interpolation(Method):
+    """An image of the samples of each frame alone, clipped to 0 to 1023; measured taxels have what was measured."""
 
     def __init__(self, skin: SkinSetup, config: NoSettings | None = None) -> None:
         geometry = skin.geometry
-        row, col = np.divmod(np.arange(geometry.rows * geometry.cols), geometry.cols)
-        self._places = np.stack((row, col), axis=1).astype(np.float64)
+        self._row_col = np.divmod(np.arange(geometry.rows * geometry.cols), geometry.cols)
         self.image = np.zeros((geometry.rows, geometry.cols), dtype=np.float32)
         self._flat = self.image.ravel()
 
@@ -48,6 +43,24 @@ class Linear(Method):
             self._flat[:] = np.clip(self._interpolate(indices, counts.astype(np.float64)), 0, COUNT_MAX)
             self._flat[indices] = counts
         return self.image
+
+    @abstractmethod
+    def _interpolate(self, indices: NDArray[np.uint16], counts: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Counts of all taxels, shape (taxels,), from those of some."""
+
+
+class Linear(_Interpolation):
+    """Linear interpolation over the Delaunay triangles of the measured taxels, linear extrapolation beyond them.
+
+    Outside of the convex hull of the measured taxels, the plane of the triangle at the nearest edge is extrapolated.
+    The result is clipped to 0 to 1023. Without any triangle, each taxel gets the value of the nearest measured one.
+    """
+
+    summary = "linear interpolation"
+
+    def __init__(self, skin: SkinSetup, config: NoSettings | None = None) -> None:
+        super().__init__(skin)
+        self._places = np.stack(self._row_col, axis=1).astype(np.float64)
 
     def _interpolate(self, indices: NDArray[np.uint16], counts: NDArray[np.float64]) -> NDArray[np.float64]:
         known = self._places[indices]
@@ -116,7 +129,7 @@ def _nearest(places: NDArray[np.float64], known: NDArray[np.float64]) -> NDArray
     return np.asarray(np.argmin(((places[:, None] - known[None]) ** 2).sum(axis=2), axis=1))
 
 
-class GaussianProcess(Method):
+class GaussianProcess(_Interpolation):
     """Posterior mean of a Gaussian process given the measured taxels, each frame alone.
 
     The prior mean is 0, the kernel a Matern 3/2 with a length of 2 taxels, and the noise of a reading 5 % of the
@@ -127,25 +140,12 @@ class GaussianProcess(Method):
     summary = "a Gaussian process"
 
     def __init__(self, skin: SkinSetup, config: NoSettings | None = None) -> None:
-        geometry = skin.geometry
-        row, col = np.divmod(np.arange(geometry.rows * geometry.cols), geometry.cols)
+        super().__init__(skin)
+        row, col = self._row_col
         distance = np.sqrt(3) * np.hypot(row[:, None] - row, col[:, None] - col) / _LENGTH_TAXELS
         self._kernel = (1 + distance) * np.exp(-distance)
-        self.image = np.zeros((geometry.rows, geometry.cols), dtype=np.float32)
-        self._flat = self.image.ravel()
 
-    def reset(self) -> None:
-        """Nothing is kept."""
-
-    def step(
-        self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float
-    ) -> NDArray[np.float32]:
-        """See `Method.step`."""
-        if not counts.any():
-            self._flat.fill(0)
-            return self.image
+    def _interpolate(self, indices: NDArray[np.uint16], counts: NDArray[np.float64]) -> NDArray[np.float64]:
         known = self._kernel[indices]
         covariance = known[:, indices] + _NOISE**2 * np.eye(len(indices))
-        self._flat[:] = np.clip(np.linalg.solve(covariance, counts.astype(np.float64)) @ known, 0, COUNT_MAX)
-        self._flat[indices] = counts
-        return self.image
+        return np.asarray(np.linalg.solve(covariance, counts) @ known)
