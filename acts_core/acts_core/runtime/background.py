@@ -5,7 +5,9 @@
 
 from __future__ import annotations
 
+import atexit
 import threading
+import time
 from collections.abc import Callable
 from concurrent.futures import Future, wait
 from typing import TypeVar
@@ -17,11 +19,13 @@ T = TypeVar("T")
 PATIENCE_S = 0.5
 """How long a thread that answers others waits for such work [s]."""
 
+_running: set[threading.Thread] = set()
+
 
 def begin(work: Callable[[], T]) -> Future[T]:
     """Begin the work now; what it returns or raises is in the future.
 
-    A process does not wait for it at its end, as it would for the threads of `concurrent.futures`.
+    At its end a process waits for it up to `PATIENCE_S`, and not for ever as for the threads of `concurrent.futures`.
     """
     future: Future[T] = Future()
 
@@ -31,9 +35,21 @@ def begin(work: Callable[[], T]) -> Future[T]:
         # For whoever asks for the result.
         except BaseException as error:  # noqa: BLE001
             future.set_exception(error)
+        finally:
+            _running.discard(threading.current_thread())
 
-    threading.Thread(target=run, name="acts_background", daemon=True).start()
+    thread = threading.Thread(target=run, name="acts_background", daemon=True)
+    _running.add(thread)
+    thread.start()
     return future
+
+
+@atexit.register
+def _wait_for_running() -> None:
+    """Let work end: a thread that Python's end meets within compiled code of numpy's aborts the process."""
+    until_s = time.monotonic() + PATIENCE_S
+    for thread in list(_running):
+        thread.join(max(0.0, until_s - time.monotonic()))
 
 
 def is_done(future: Future[T], timeout_s: float = PATIENCE_S) -> bool:
