@@ -22,6 +22,10 @@ from typing import TextIO
 import pytest
 from hypothesis import HealthCheck, settings
 
+# As for nodes: the matrices are small, and on busy cores a second thread makes a product of them take fifty times as
+# long. Read where numpy is imported, which is later than here.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 settings.register_profile("acts", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("acts")
 
