@@ -68,7 +68,8 @@ def separate(tmp_path: Path) -> LaunchFile:
         "robot_ip": "127.0.6.3",
         "trajectory": "hold",
         "composed": "false",
-        "params_file": patient_parameters(tmp_path),
+        # The shipped time: only once the ball is balanced does late touch end motion, and then it is what is wanted.
+        "params_file": patient_parameters(tmp_path, touch_stop_after_s=3.0),
     }
     return LaunchFile(PACKAGE, "ball_balancing.launch.xml", 97, arguments)
 
