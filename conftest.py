@@ -3,7 +3,7 @@
 
 """For every test: a loaded machine is slow, which is no failure; signals do what they do in a terminal; recordings.
 
-`make test` runs files of tests side by side in one process more than there are cores (pytest-xdist). Tests that keep
+`make test` runs files of tests side by side in more processes than there are cores (pytest-xdist). Tests that keep
 others from the cores are marked `alone`: while they run, the other processes wait between two tests.
 A process whose test does not end is ended with a traceback of all its threads: a deadlock in a library must not hold
 the run for ever.
@@ -68,6 +68,14 @@ def _environment() -> Iterator[None]:
 def pytest_configure(config: pytest.Config) -> None:
     """Keep the standard error output: pytest redirects it while a test runs."""
     config.stash[_STDERR] = os.dup(sys.__stderr__.fileno())
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Side by side, files of tests that run alone are first: later, all processes would wait for the longest test."""
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        alone = {item.path for item in items if _is_alone(item)}
+        items.sort(key=lambda item: item.path not in alone)
 
 
 @pytest.hookimpl(wrapper=True)
