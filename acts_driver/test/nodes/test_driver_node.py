@@ -15,6 +15,7 @@ from lifecycle_msgs.msg import Transition
 from pty_board import PtyBoard, frame
 
 from acts_core.errors import REFUSED_EXIT_CODE
+from acts_core.frames import SampleFrame
 from acts_core.wire import encode_frame
 
 pytestmark = pytest.mark.slow
@@ -101,6 +102,10 @@ def test_a_report_names_both_sizes_and_falls_back_to_fine(board: PtyBoard, rig: 
     # Reports are made by hand here: their timer asks at a time of its own.
     driver._diagnostics.destroy()
 
+    def sent_now(sequence: int, rows: int = 32, cols: int = 32) -> SampleFrame:
+        # Counted by frames, the board's clock would stand still while a loaded machine makes a pause: read late.
+        return frame(sequence, rows=rows, cols=cols, board_us=time.monotonic_ns() // 1000)
+
     def report(*frames_sent: object) -> tuple[int, str]:
         wanted = driver.intake._report.totals().frames + len(frames_sent)
         board.write_frames(*frames_sent)
@@ -108,16 +113,16 @@ def test_a_report_names_both_sizes_and_falls_back_to_fine(board: PtyBoard, rig: 
         level, message, _ = driver._make_report()
         return level, message
 
-    assert report(frame(0), frame(1))[0] == 0
-    level, message = report(frame(2, rows=16, cols=24), frame(3))
+    assert report(sent_now(0), sent_now(1))[0] == 0
+    level, message = report(sent_now(2, rows=16, cols=24), sent_now(3))
     assert level == 1
     assert "1 frames of 16 x 24 taxels dropped, expected are 32 x 32" in message
-    level, message = report(frame(4, rows=16, cols=24))
+    level, message = report(sent_now(4, rows=16, cols=24))
     assert level == 2
     assert "16 x 24" in message
-    level, message = report(frame(9))
+    level, message = report(sent_now(9))
     assert (level, message) == (1, "4 frames lost")
-    assert report(frame(10))[0] == 0
+    assert report(sent_now(10))[0] == 0
     level, message = report()
     assert level == 2
     assert message.startswith("no frames from")
