@@ -7,9 +7,11 @@ Asked are 3 mm rms at the centre after 2 s and 5 mm rms along the letters. Seeds
 every run.
 """
 
+import functools
+
 import numpy as np
 import pytest
-from rolling_plant import Plant, PlantConfig, run
+from rolling_plant import Plant, PlantConfig, Run, run
 
 from acts_control.ball import ContactMeasurement, EstimatorConfig, Phase
 from acts_control.ball.controller import ControllerConfig
@@ -21,6 +23,12 @@ TRACE_MM = 5.0
 LETTERS = ("N", "B", "I")
 
 
+@functools.cache
+def traced_in(world: PlantConfig) -> Run:
+    """A run over all letters; one for all tests that look at the same world."""
+    return run(world, trajectory="hold,N,B,I")
+
+
 @pytest.mark.parametrize(("x_m", "y_m"), [(0.020, -0.015), (-0.025, 0.0), (0.0, 0.025), (0.017, 0.017)])
 def test_a_ball_off_the_centre_is_brought_there_and_held(x_m: float, y_m: float) -> None:
     result = run(PlantConfig(x_m=x_m, y_m=y_m), seconds=8.0)
@@ -30,7 +38,7 @@ def test_a_ball_off_the_centre_is_brought_there_and_held(x_m: float, y_m: float)
 
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_letters_are_traced(seed: int) -> None:
-    result = run(PlantConfig(seed=seed), trajectory="hold,N,B,I")
+    result = traced_in(PlantConfig(seed=seed))
     figures = {name: result.rms_of_mm(name) for name in ("hold", *LETTERS)}
     assert figures["hold"] < HOLD_MM / 1.8, figures
     assert max(figures[name] for name in LETTERS) < TRACE_MM / 2.5, figures
@@ -57,7 +65,7 @@ def test_letters_are_traced(seed: int) -> None:
     ids=lambda world: str({k: v for k, v in vars(world).items() if v != getattr(PlantConfig(), k)}),
 )
 def test_the_world_may_be_a_good_deal_different(world: PlantConfig) -> None:
-    result = run(world, trajectory="hold,N,B,I")
+    result = traced_in(world)
     assert result.rms_of_mm("hold") < HOLD_MM
     assert max(result.rms_of_mm(name) for name in LETTERS) < TRACE_MM
 
@@ -81,7 +89,7 @@ def test_without_the_lever_arm_in_the_law_the_ball_is_not_held() -> None:
 
 def test_partly_found_contacts_mislead_less_where_their_force_is_looked_at() -> None:
     world = PlantConfig(partial=0.7)
-    with_force = run(world, trajectory="hold,N,B,I")
+    with_force = traced_in(world)
     without = run(world, trajectory="hold,N,B,I", estimator_config=EstimatorConfig(partial_sigma_m=0.0))
     for name in ("N", "B"):
         assert with_force.rms_of_mm(name) < 0.7 * without.rms_of_mm(name)
