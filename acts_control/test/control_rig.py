@@ -20,9 +20,11 @@ from typing import Any
 
 import rclpy
 from geometry_msgs.msg import Vector3Stamped
+from rclpy.client import Client
 from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
+from rclpy.task import Future
 from std_srvs.srv import Trigger
 
 from acts_control.ball.plate import acceleration_of
@@ -134,6 +136,8 @@ class Bench:
             (StreamStatistics, "contact_statistics", self.statistics),
         ):
             self.node.create_subscription(kind, topic, into.append, STATE)
+        self._clients: dict[str, Client] = {}
+        self._ended: Future[None] = Future()
         self._thread = threading.Thread(target=self._spin, daemon=True)
 
     def add(self, node: Node) -> None:
@@ -146,7 +150,7 @@ class Bench:
 
     def _spin(self) -> None:
         try:
-            self._executor.spin()
+            self._executor.spin_until_future_complete(self._ended)
         except ExternalShutdownException:
             return
 
@@ -162,11 +166,13 @@ class Bench:
 
     def call(self, service: str) -> Trigger.Response:
         """Call a Trigger service of ball_control."""
-        client = self.node.create_client(Trigger, f"ball_control/{service}")
+        # Kept: the thread that spins may not meet one that is being destroyed.
+        if service not in self._clients:
+            self._clients[service] = self.node.create_client(Trigger, f"ball_control/{service}")
+        client = self._clients[service]
         assert client.wait_for_service(timeout_sec=START_TIMEOUT_S)
         future = client.call_async(Trigger.Request())
         wait_for(future.done, f"an answer of {service}")
-        self.node.destroy_client(client)
         return future.result()
 
     def publish_contact(self, sequence: int, stamp_ns: int, x_m: float, y_m: float, *, touched: bool = True) -> None:
@@ -187,10 +193,11 @@ class Bench:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self._executor.shutdown()
-        rclpy.try_shutdown(context=self.context)
+        self._ended.set_result(None)
         if self._thread.is_alive():
             self._thread.join(10.0)
+        self._executor.shutdown()
+        rclpy.try_shutdown(context=self.context)
         self.node.destroy_node()
 
 
