@@ -45,6 +45,7 @@ def read(source: SerialSource, decoder: RasterDecoder | StreamDecoder, seconds: 
         # At most 0.1 s, then empty. PortError, should the board be unplugged; open() may then be tried again.
         for frame in decoder.feed(source.read()):
             if recovery is None:
+                print(f"an array of {frame.rows} x {frame.cols}; compiling takes some ten seconds, once", flush=True)
                 skin = SkinSetup(ArrayGeometry(frame.rows, frame.cols), touch_counts=60)
                 recovery = Recovery(Fusion(skin), skin)
                 begin_s = told_s = time.monotonic()  # to compile it the first time has taken a while
