@@ -30,7 +30,7 @@ enum class FaultKind : std::uint8_t {
 
 struct Fault {
   FaultKind kind;
-  double value;         // seconds, bytes, bits, packets: as the kind has it
+  double value;         // seconds, bytes, bits, frames: as the kind has it
   std::int64_t due_ns;  // since the process started
   std::string text;     // as it was written, without the time
 

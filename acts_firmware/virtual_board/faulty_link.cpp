@@ -17,9 +17,15 @@ namespace {
 constexpr std::uint64_t kFaultStream = 3;
 constexpr std::uint8_t kLineEnd = '\n';
 constexpr std::size_t kVersionAt = 1;
+// The type of a packet is never zero, so COBS leaves it as it is, behind its own first byte.
+constexpr std::size_t kTypeOnWireAt = 1;
 
 bool cuts_the_stream(const Fault& fault) {
   return fault.kind == FaultKind::kUnplug || fault.kind == FaultKind::kReset;
+}
+
+bool counts_frames(const Fault& fault) {
+  return fault.kind == FaultKind::kDrop || fault.kind == FaultKind::kDouble || fault.kind == FaultKind::kTruncate;
 }
 
 }  // namespace
@@ -117,6 +123,11 @@ bool FaultyLink::fetch(TransmitQueue& output) {
   return !packet_.empty();
 }
 
+bool FaultyLink::is_frame() const {
+  return protocol_ != Protocol::kBinary ||
+         (packet_.size() > kTypeOnWireAt && packet_[kTypeOnWireAt] == static_cast<std::uint8_t>(PacketType::kSamples));
+}
+
 void FaultyLink::distort() {
   if (version_ != kPacketVersion && protocol_ == Protocol::kBinary) {
     set_version();
@@ -136,6 +147,9 @@ void FaultyLink::distort_once() {
     armed_.pop_front();
     interruption_ = fault;
     cut_at_ = 1 + random_.below(size - 1);
+    return;
+  }
+  if (counts_frames(fault) && !is_frame()) {
     return;
   }
   const bool begins = left_ == 0.0;

@@ -40,6 +40,7 @@ class FaultyLink {
 
  private:
   bool fetch(TransmitQueue& output);
+  bool is_frame() const;
   void distort();
   void distort_once();
   void flip_bits_at_rate();
@@ -50,7 +51,7 @@ class FaultyLink {
   Protocol protocol_;
   Report report_;
   std::deque<Fault> armed_;
-  double left_ = 0.0;                  // packets or bytes that the first armed fault still concerns; 0: not begun
+  double left_ = 0.0;                  // frames or bytes that the first armed fault still concerns; 0: not begun
   std::optional<Fault> interruption_;  // comes when `cut_at_` bytes of the packet are out
   std::size_t cut_at_ = 0;
   std::optional<Fault> stall_;

@@ -18,7 +18,7 @@ from board_process import DEADLINE_S, BoardProcess
 from core_library import installed
 
 from acts_core.frames import SampleFrame
-from acts_core.wire import BoardSettings, StreamDecoder, encode_configure
+from acts_core.wire import BoardMessage, BoardSettings, Reply, StreamDecoder, encode_configure, encode_query
 
 pytestmark = pytest.mark.slow
 
@@ -94,6 +94,36 @@ def test_doubled_packets_come_twice(board: BoardProcess) -> None:
     counts = Counter(frame.sequence for frame in play(board, "double:5"))
     assert Counter(counts.values())[2] == 5
     assert max(counts.values()) == 2
+
+
+@pytest.mark.parametrize("fault", ["drop:3", "double:3", "truncate:3"])
+def test_faults_that_count_frames_pass_over_replies(tmp_path: Path, fault: str) -> None:
+    with BoardProcess(tmp_path, "--control", tmp_path / "control", "--rate-hz", 50) as board:
+        replies: list[BoardMessage] = []
+        board.decoder = StreamDecoder(on_message=replies.append)
+        port = board.open_port()
+        frames = board.read_frames(1)
+        assert board.process.stdout is not None
+        os.set_blocking(board.process.stdout.fileno(), False)
+        inject(board, fault)
+        events: list[bytes] = []
+        asked = 0
+        deadline = time.monotonic() + DEADLINE_S
+        while len(events) < 2:
+            asked += 1
+            os.write(port, encode_query(asked))
+            while len(replies) < asked:
+                assert time.monotonic() < deadline, f"no reply to query {asked}"
+                frames += board.decoder.feed(board.read_bytes())
+            events += board.process.stdout.readlines()
+        frames += board.read_frames(2)
+        assert asked > 1
+        assert [reply.request for reply in replies if isinstance(reply, Reply)] == list(range(1, asked + 1))
+        if fault == "double:3":
+            counts = Counter(frame.sequence for frame in frames)
+            assert sorted(counts.values())[-4:] == [1, 2, 2, 2]
+        else:
+            assert missing(frames) == 3
 
 
 def test_a_rate_of_flips_ends_when_it_is_told_to(board: BoardProcess) -> None:
