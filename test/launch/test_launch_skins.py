@@ -40,17 +40,15 @@ def two_skins(tmp_path: Path) -> LaunchFile:
 
 def merged(launched: Launched, low: int, high: int) -> SkinContacts:
     """Wait for merged contacts with these states of the skins."""
-    messages: list[SkinContacts] = []
 
-    def reached() -> bool:
-        messages.append(launched.wait_for_message("/skin_contacts", SkinContacts, START_S))
-        states = {skin.name: skin.state for skin in messages[-1].skins}
-        skins = {contact.skin for contact in messages[-1].contacts}
+    def is_reached(message: SkinContacts) -> bool:
+        states = {skin.name: skin.state for skin in message.skins}
+        skins = {contact.skin for contact in message.contacts}
         felt = {name for name, state in (("low", low), ("high", high)) if state == SkinState.STATE_FRESH}
         return states == {"low": low, "high": high} and skins == felt
 
-    launched.wait_for(reached, START_S, f"skins in the states {low} and {high}")
-    return messages[-1]
+    message: SkinContacts = launched.wait_for_message("/skin_contacts", SkinContacts, START_S, is_reached)
+    return message
 
 
 @launch_test(two_skins)
@@ -83,11 +81,10 @@ def test_skins_are_merged_and_a_lost_one_leaves_the_other_alone(two_skins: Launc
     merged(two_skins, lost, fresh)
     merged(two_skins, fresh, fresh)
 
-    def all_well() -> bool:
-        whole = two_skins.wait_for_message("/diagnostics_toplevel_state", DiagnosticStatus, START_S)
+    def is_well(whole: DiagnosticStatus) -> bool:
         return bool(whole.level == DiagnosticStatus.OK and whole.message == "2 skins, all well")
 
-    two_skins.wait_for(all_well, START_S, "an aggregate that is well again")
+    two_skins.wait_for_message("/diagnostics_toplevel_state", DiagnosticStatus, START_S, is_well)
     assert two_skins.stop() == 0
     assert not [path for path in (tmp_path / "run").rglob("*") if not path.is_dir()]
 
@@ -104,10 +101,8 @@ def missing_skins(tmp_path: Path) -> LaunchFile:
 
 @launch_test(missing_skins)
 def test_skins_whose_boards_are_missing_are_named_in_the_aggregate(missing_skins: Launched) -> None:
-    def complaint() -> str:
-        return str(missing_skins.wait_for_message("/diagnostics_toplevel_state", DiagnosticStatus, START_S).message)
+    def names_both(whole: DiagnosticStatus) -> bool:
+        return "low: driver: " in whole.message and "high: driver: " in whole.message
 
-    missing_skins.wait_for(
-        lambda: "low: driver: " in complaint() and "high: driver: " in complaint(), START_S, "both skins in trouble"
-    )
+    missing_skins.wait_for_message("/diagnostics_toplevel_state", DiagnosticStatus, START_S, names_both)
     assert missing_skins.stop() == 0

@@ -111,9 +111,15 @@ class Launched(ABC):
         """Wait until a topic has a publisher."""
         self._show_on_failure(lambda: self.probe.wait_for_publisher(topic, timeout_s))
 
-    def wait_for_message(self, topic: str, message_type: type, timeout_s: float = 30.0) -> Any:
-        """The first message on a topic, with the quality of service of its publishers."""
-        return self._show_on_failure(lambda: self.probe.wait_for_message(topic, message_type, timeout_s))
+    def wait_for_message(
+        self,
+        topic: str,
+        message_type: type,
+        timeout_s: float = 30.0,
+        is_wanted: Callable[[Any], bool] = lambda _message: True,
+    ) -> Any:
+        """The first message on a topic that is wanted, with the quality of service of its publishers."""
+        return self._show_on_failure(lambda: self.probe.wait_for_message(topic, message_type, timeout_s, is_wanted))
 
     def wait_for_messages(self, topic: str, message_type: type, count: int, timeout_s: float = 30.0) -> list[Any]:
         """The first messages on a topic."""

@@ -79,18 +79,40 @@ class Probe:
         # A node is announced separately from its topics, often after the first messages.
         self.wait_for(lambda: wanted in self.node.get_node_names_and_namespaces(), timeout_s, f"the node {name}")
 
-    def wait_for_messages(self, topic: str, message_type: type, count: int, timeout_s: float = 30.0) -> list[Any]:
-        """Subscribe with the quality of service of the publishers, and wait for some messages."""
+    def wait_for_messages(
+        self,
+        topic: str,
+        message_type: type,
+        count: int,
+        timeout_s: float = 30.0,
+        is_wanted: Callable[[Any], bool] = lambda _message: True,
+    ) -> list[Any]:
+        """Subscribe with the quality of service of the publishers, and wait for some messages that are wanted.
+
+        Where several nodes publish on a topic, wait with `is_wanted`, not by calls one after the other: each call
+        subscribes anew, and may then always miss the same publisher.
+        """
         self.wait_for_publisher(topic, timeout_s)
         received: list[Any] = []
+
+        def take(message: Any) -> None:
+            if is_wanted(message):
+                received.append(message)
+
         offers = self.node.get_publishers_info_by_topic(topic)
-        subscription = self.node.create_subscription(message_type, topic, received.append, for_subscription(offers))
+        subscription = self.node.create_subscription(message_type, topic, take, for_subscription(offers))
         try:
             self.wait_for(lambda: len(received) >= count, timeout_s, f"{count} messages on {topic}")
         finally:
             self.node.destroy_subscription(subscription)
         return received[:count]
 
-    def wait_for_message(self, topic: str, message_type: type, timeout_s: float = 30.0) -> Any:
-        """The first message on a topic."""
-        return self.wait_for_messages(topic, message_type, 1, timeout_s)[0]
+    def wait_for_message(
+        self,
+        topic: str,
+        message_type: type,
+        timeout_s: float = 30.0,
+        is_wanted: Callable[[Any], bool] = lambda _message: True,
+    ) -> Any:
+        """The first message on a topic that is wanted."""
+        return self.wait_for_messages(topic, message_type, 1, timeout_s, is_wanted)[0]

@@ -15,6 +15,7 @@ from fake_prefix import Prefix
 from std_msgs.msg import String
 
 from acts_tools.testing.launch_runner import Launched, LaunchFile, launch_fixture, launch_test, launched
+from acts_tools.testing.probe import Probe
 
 pytestmark = pytest.mark.slow
 
@@ -105,6 +106,19 @@ def reborn(prefix: Prefix, tmp_path: Path) -> LaunchFile:
 def test_a_respawned_death_does_not(reborn: Launched) -> None:
     reborn.wait_for_output("alive")
     assert reborn.stop() == 0
+
+
+def test_a_message_that_is_wanted_is_waited_for_among_those_of_other_publishers() -> None:
+    with Probe(83) as probe:
+        publishers = {word: probe.node.create_publisher(String, "/word", 10) for word in ("one", "two")}
+
+        def talk() -> None:
+            for word, publisher in publishers.items():
+                publisher.publish(String(data=word))
+
+        probe.node.create_timer(0.02, talk)
+        wanted = probe.wait_for_messages("/word", String, 3, is_wanted=lambda message: message.data == "two")
+    assert [message.data for message in wanted] == ["two"] * 3
 
 
 def test_waiting_in_vain_fails_with_the_output(prefix: Prefix) -> None:
