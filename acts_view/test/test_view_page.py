@@ -114,6 +114,21 @@ def play() -> Iterator[Callable[..., Player]]:
         player.close()
 
 
+def saved(page: Page, what: str, folder: Path) -> Path:
+    """What a button of the page saves, put into a folder."""
+    with page.expect_download() as downloading:
+        page.click(f"[data-save={what}]")
+    path = folder / downloading.value.suggested_filename
+    downloading.value.save_as(path)
+    return path
+
+
+def saved_table(page: Page, what: str, folder: Path) -> list[dict[str, str]]:
+    """The rows of a table that a button of the page saves."""
+    with saved(page, what, folder).open() as lines:
+        return list(csv.DictReader(lines))
+
+
 def taxel_colours(page: Page) -> np.ndarray:
     """Red, green and blue in the middle of every taxel of a square skin, as they are on the page."""
     pixels = page.evaluate(
@@ -214,18 +229,10 @@ def test_what_is_shown_can_be_saved(
 ) -> None:
     page = open_page(play())
     expect(page.locator("[data-number=rate]")).to_have_text("1000")
-
-    def saved(what: str) -> Path:
-        with page.expect_download() as downloading:
-            page.click(f"[data-save={what}]")
-        path = tmp_path / downloading.value.suggested_filename
-        downloading.value.save_as(path)
-        return path
-
-    picture = saved("picture")
+    picture = saved(page, "picture", tmp_path)
     assert picture.name.startswith("plate_20")
     assert picture.read_bytes().startswith(b"\x89PNG")
-    tables = {what: list(csv.DictReader(saved(what).open())) for what in ("taxels", "contacts", "plots")}
+    tables = {what: saved_table(page, what, tmp_path) for what in ("taxels", "contacts", "plots")}
     assert len(tables["taxels"]) == 1024
     pressed_taxel = tables["taxels"][ROW * 32 + COL]
     assert pressed_taxel.pop("force_n") == "1.08123"
@@ -312,6 +319,26 @@ def test_a_pause_holds_and_a_part_of_a_plot_can_be_seen_alone(
     page.wait_for_selector(".skin .pill[data-state=live]")
 
 
+def test_keys_zoom_the_plots_and_move_the_part(
+    play: Callable[..., Player], open_page: Callable[..., Page], tmp_path: Path
+) -> None:
+    page = open_page(play())
+    expect(page.locator("[data-number=rate]")).to_have_text("1000")
+    page.select_option("#window", "10")
+    rows = []
+    for keys in ("+++++", "+", "<", ">", "-", "0"):  # ten seconds, five times halved
+        for key in keys:
+            page.keyboard.press(key)
+        rows.append([float(row["time_s"]) for row in saved_table(page, "plots", tmp_path)])
+    part, half, before, half_again, part_again, whole = rows
+    page.wait_for_selector(".skin .pill[data-state=held]")
+    assert 0.2 < part[-1] - part[0] < 0.32
+    assert set(half) < set(part) < set(whole)
+    assert before[0] < half[0] < before[-1] < half[-1]
+    assert half_again == pytest.approx(half, abs=0.009)
+    assert part_again == pytest.approx(part, abs=0.009)
+
+
 def test_keys_act_wherever_the_last_click_was(play: Callable[..., Player], open_page: Callable[..., Page]) -> None:
     page = open_page(play())
     # A click leaves the focus on the button.
@@ -386,6 +413,10 @@ def test_a_small_window_shows_all_without_scrolling_sideways(
     page = open_page(play(("/left", "/right")), width, 800, color_scheme="dark")
     expect(page.locator(".skin .pill[data-state=live]")).to_have_count(2)
     assert page.evaluate("document.documentElement.scrollWidth") == width
+    bar = page.locator("header.bar").bounding_box()
+    assert bar is not None
+    # Of a phone's title and buttons: the skin is what the page is for.
+    assert bar["height"] < (100 if width == 360 else 140)
     box = page.locator("canvas.taxels").first.bounding_box()
     assert box is not None
     assert box["width"] > 0.5 * min(width, 600)

@@ -14,7 +14,9 @@ import pytest
 from test_view_local import Shown, write_frames
 from view_browser import expect, needs_browser
 
+from acts_core.errors import ViewRequestError
 from acts_view.local.sources import open_recorded
+from acts_view.web.requests import Request
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -46,5 +48,30 @@ def test_a_recording_is_held_and_one_can_go_anywhere_in_it(tmp_path: Path, open_
         page.keyboard.press(" ")
         expect(button).to_have_text("Hold")
         page.wait_for_selector(".skin .pill[data-state=live]")
+    finally:
+        shown.close()
+
+
+def test_what_is_refused_is_said_until_something_is_done(
+    tmp_path: Path, open_page: Callable[..., Page], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    source, name = open_recorded(write_frames(tmp_path / "press.npz", 40), [], "square")
+
+    def refuse(_: Request) -> str:
+        raise ViewRequestError("the recording is read by somebody else")
+
+    shown = Shown(source, name)
+    try:
+        page = open_page(shown)
+        button, answer = page.locator("#replay button"), page.locator("#replay .answer")
+        expect(answer).to_be_hidden()
+        with monkeypatch.context() as patched:
+            patched.setattr(source, "do", refuse)
+            button.click()
+            expect(answer).to_have_text("the recording is read by somebody else")
+        expect(button).to_have_text("Hold")
+        button.click()
+        expect(button).to_have_text("Play")
+        expect(answer).to_be_hidden()
     finally:
         shown.close()

@@ -15,6 +15,7 @@ import { next, onChange, set, settings } from "./settings.js";
 const TICK_MS = 50;
 const STATES = { connecting: "connecting", live: "connected", gone: "server gone, trying again" };
 const KEYS = { s: "scale", n: "unit", m: "colours", i: "smooth", c: "contacts", o: "outlines", u: "unsure", t: "measured", d: "theme" };
+const ZOOMS = { "+": (plots) => plots.zoom(0.5), "=": (plots) => plots.zoom(0.5), "-": (plots) => plots.zoom(2), 0: (plots) => plots.reset(), "<": (plots) => plots.move(-0.5), ">": (plots) => plots.move(0.5) };
 
 const panels = new Map();
 const diagnostics = new Diagnostics(document.getElementById("diagnostics"));
@@ -82,6 +83,7 @@ byId("pause").onclick = () => hold(!isHeld);
 document.addEventListener("keydown", (event) => {
   if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest("select, input")) return;
   if (event.key in KEYS) next(KEYS[event.key]);
+  else if (event.key in ZOOMS) for (const one of panels.values()) ZOOMS[event.key](one.plots);
   // On a button it presses that.
   else if (event.key !== " " || event.target.closest("button, summary")) return;
   else if (replay.isShown) replay.toggle();

@@ -13,6 +13,7 @@ export class Replay {
     this.button = element.querySelector("button");
     this.slider = element.querySelector("input");
     this.time = element.querySelector("output");
+    this.answer = element.querySelector(".answer");
     this.moved_ms = -SETTLE_MS;
     this.isPlaying = false;
     this.button.onclick = () => this.toggle();
@@ -48,8 +49,8 @@ export class Replay {
   }
 
   /** Play or hold. */
-  toggle() {
-    ask(this.isPlaying ? "pause" : "play");
+  async toggle() {
+    this.#tellAnswer(await ask(this.isPlaying ? "pause" : "play"));
   }
 
   /** One seek at a time; the last one counts. */
@@ -61,9 +62,14 @@ export class Replay {
     this.isSeeking = true;
     do {
       this.isDue = false;
-      await ask("seek", { value: Number(this.slider.value) });
+      this.#tellAnswer(await ask("seek", { value: Number(this.slider.value) }));
     } while (this.isDue);
     this.isSeeking = false;
+  }
+
+  /** What was done can be seen; only what was not is said. */
+  #tellAnswer({ done, text }) {
+    this.answer.textContent = done ? "" : text;
   }
 
   #tell(position_s) {

@@ -8,6 +8,7 @@ import { settings } from "../settings.js";
 
 const HEIGHT = 112;
 const EVERY_MS = 100;
+const LEAST_S = 0.05; // of a zoom: some six intervals of the history
 
 const KINDS = [
   { name: "force", title: "Force", unit: "N", least: 1, read: (history, length, pixels) => history.extremes(FORCE, length, pixels) },
@@ -30,6 +31,7 @@ export class Plots {
     this.held = null;
     this.last_ms = 0;
     this.isZoomed = false;
+    this.onZoom = onZoom;
     this.plots = KINDS.map((kind) => {
       const figure = document.createElement("figure");
       figure.dataset.plot = kind.name;
@@ -37,11 +39,7 @@ export class Plots {
       caption.textContent = kind.unit ? `${kind.title} [${kind.unit}]` : kind.title;
       figure.append(caption);
       element.append(figure);
-      const plot = new uPlot(options(kind, (from, to) => {
-        this.isZoomed = true;
-        onZoom();
-        for (const other of this.plots) other.plot.setScale("x", { min: from, max: to });
-      }, () => this.reset()), kind.isBars || kind.name === "rate" ? [[], []] : [[], [], []], figure);
+      const plot = new uPlot(options(kind, (from_s, to_s) => this.#show(from_s, to_s), () => this.reset()), kind.isBars || kind.name === "rate" ? [[], []] : [[], [], []], figure);
       return { kind, plot, figure };
     });
     new ResizeObserver(() => this.#resize()).observe(element);
@@ -49,7 +47,8 @@ export class Plots {
 
   /** Hold what is shown, or go on. */
   hold(isHeld) {
-    this.held = isHeld ? this.history.held() : null;
+    // A zoom of what is held already is one of the same moment.
+    this.held = isHeld ? this.held ?? this.history.held() : null;
     if (!isHeld) this.reset();
   }
 
@@ -66,6 +65,18 @@ export class Plots {
     this.draw(true);
   }
 
+  /** Show a part `share` as long as the present one, with the same end. */
+  zoom(share) {
+    const { min, max } = this.plots[0].plot.scales.x;
+    this.#showPart(max, Math.max(share * (max - min), LEAST_S));
+  }
+
+  /** Show what is before or, above 0, after a zoom: `share` of its length further. */
+  move(share) {
+    const { min, max } = this.plots[0].plot.scales.x;
+    if (this.isZoomed) this.#showPart(max + share * (max - min), max - min);
+  }
+
   /** Draw, not more often than one can see. */
   draw(now = false) {
     const time_ms = performance.now();
@@ -79,6 +90,23 @@ export class Plots {
       if (!this.isZoomed) plot.setScale("x", { min: -length_s, max: 0 });
       else plot.redraw();
     }
+  }
+
+  /** As much of a part as is in the window; all of the window is no zoom. */
+  #showPart(end_s, length_s) {
+    const window_s = Number(settings.window);
+    if (length_s >= window_s) {
+      this.reset();
+      return;
+    }
+    const to_s = Math.min(Math.max(end_s, length_s - window_s), 0);
+    this.#show(to_s - length_s, to_s);
+  }
+
+  #show(from_s, to_s) {
+    this.isZoomed = true;
+    this.onZoom();
+    for (const { plot } of this.plots) plot.setScale("x", { min: from_s, max: to_s });
   }
 
   #resize() {
@@ -106,7 +134,7 @@ function options(kind, onZoom, onReset) {
       y: { range: (plot, low, high) => [0, Math.max(kind.least, 1.1 * (high ?? 0))] },
     },
     axes: [
-      { ...axis, size: 22, space: 60, values: (plot, times) => times.map((time) => (time === 0 ? "now" : `${time.toFixed(Number.isInteger(time) ? 0 : 1)} s`)) },
+      { ...axis, size: 22, space: 60, values: (plot, times) => times.map((time) => (time === 0 ? "now" : `${Number(time.toFixed(3))} s`)) },
       { ...axis, size: 44, space: 26 },
     ],
     series: [{}, ...values],
