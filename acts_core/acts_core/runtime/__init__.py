@@ -9,6 +9,7 @@ In come settings and stamps; out come decisions and warnings. Nothing here knows
 from acts_core.runtime import background
 from acts_core.runtime.addresses import is_loopback
 from acts_core.runtime.background import begin, is_done, within_patience
+from acts_core.runtime.late_frames import LateFrames, Use
 from acts_core.runtime.process_names import process_name
 from acts_core.runtime.rate_limit import RateLimit
 from acts_core.runtime.realtime import RealtimeConfig, enter_realtime, parse_cores
@@ -18,12 +19,14 @@ from acts_core.runtime.stream_statistics import StreamCounter
 from acts_core.runtime.terminals import holders, is_multiplexer, is_stale_link
 
 __all__ = [
+    "LateFrames",
     "LogCallback",
     "Order",
     "RateLimit",
     "RealtimeConfig",
     "StampOrder",
     "StreamCounter",
+    "Use",
     "background",
     "begin",
     "demote_process",

@@ -23,7 +23,7 @@ from std_msgs.msg import Header
 from acts_core.errors import ArrayError, PacketError
 from acts_core.frames import SampleFrame
 from acts_core.kernels import skip_extras
-from acts_core.runtime import enter_realtime
+from acts_core.runtime import LateFrames, Use, enter_realtime
 from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import Baseline, TactileSamples
 from acts_msgs.msg import Contact as ContactMessage
@@ -47,12 +47,6 @@ from acts_ros.parameters import declare, node_options
 _SUBSCRIBERS_PERIOD_S = 0.2
 _SEQUENCE_MODULUS = 2**32
 _NS_PER_S = 1_000_000_000
-# Of frames that come together, those older than this are not published one by one [ns].
-_LATE_NS = 20_000_000
-# And those older than this are not recovered.
-_VERY_LATE_NS = 60_000_000
-# Stalls so far apart are no lack of CPU: what they have held up is caught up with.
-_STALLS_APART_NS = 1_000_000_000
 
 _Part = ImagesPublisher | ContactsPublisher | Abilities | ObjectPublisher | RegionsPublisher
 
@@ -103,7 +97,7 @@ class ReconstructionNode(Node):
         self._lost = 0
         self._untold = 0
         self._unused = 0
-        self._stalled_ns = -_STALLS_APART_NS
+        self._late = LateFrames()
         self._rejected: Counter[str] = Counter()
         self._last_sequence: int | None = None
         self._durations_s: deque[float] = deque(maxlen=1000)
@@ -156,9 +150,8 @@ class ReconstructionNode(Node):
     def take(self, frames: Sequence[tuple[SampleFrame, int]], frame_id: str) -> None:
         """Recover frames that have come together, and publish what is in them; always from the same thread.
 
-        Where they are late already again and again, as with too little CPU, only what is in the newest is published,
-        though the image is made of all; and of very late ones only the newest is used at all. Touch may become rare,
-        but it does not become old. What a single stall has held up is published.
+        Of those that are late not all are published or even recovered (see `LateFrames`), but the newest always is.
+        With too little CPU touch becomes rare, but not old.
 
         Parameters
         ----------
@@ -167,28 +160,19 @@ class ReconstructionNode(Node):
         frame_id : str
             Frame of the skin.
         """
-        *older, newest = frames
-        if older:
-            now_ns = time.time_ns()
-            told_ns = self._told_ns(now_ns - older[0][1])
-            for frame, stamp_ns in older:
-                late_ns = now_ns - stamp_ns
-                self._untold += late_ns > told_ns
-                if late_ns > _VERY_LATE_NS:
-                    self._unused += 1
-                    self._lost += self._missing_before(frame.sequence)
-                    self._last_sequence = frame.sequence
-                else:
-                    self._step(frame, stamp_ns, frame_id, is_told=late_ns <= told_ns)
-        self._step(*newest, frame_id, is_told=True)
-
-    def _told_ns(self, late_ns: int) -> int:
-        """Age up to which frames that have come together are published, where the oldest is so late [ns]."""
-        if late_ns <= _LATE_NS:
-            return _LATE_NS
-        now_ns = time.monotonic_ns()
-        is_single, self._stalled_ns = now_ns - self._stalled_ns > _STALLS_APART_NS, now_ns
-        return _VERY_LATE_NS if is_single else _LATE_NS
+        *older, (newest, newest_ns) = frames
+        now_ns = time.time_ns()
+        for frame, stamp_ns in older:
+            use = self._late.use(now_ns - stamp_ns)
+            self._untold += use is not Use.PUBLISH
+            if use is Use.NOTHING:
+                self._unused += 1
+                self._lost += self._missing_before(frame.sequence)
+                self._last_sequence = frame.sequence
+            else:
+                self._step(frame, stamp_ns, frame_id, is_told=use is Use.PUBLISH)
+        self._late.use(now_ns - newest_ns)
+        self._step(newest, newest_ns, frame_id, is_told=True)
 
     def _step(self, frame: SampleFrame, stamp_ns: int, frame_id: str, *, is_told: bool) -> None:
         began_s = time.perf_counter()
