@@ -24,10 +24,10 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         description="Measure the performance of the sensing on this machine; all hardware is simulated.",
         epilog="measurements:\n"
         + "".join(
-            f"  {name:<12} {entry.summary}, {entry.seconds:g} s{' (only by name)' if entry.only_by_name else ''}\n"
+            f"  {name:<14} {entry.summary}, {entry.seconds:g} s{' (only by name)' if entry.only_by_name else ''}\n"
             for name, entry in MEASUREMENTS.items()
         )
-        + f"  {skins.NAME:<12} {skins.SUMMARY}, {skins.SECONDS:g} s (only by name)\n",
+        + f"  {skins.NAME:<14} {skins.SUMMARY}, {skins.SECONDS:g} s (only by name)\n",
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("names", nargs="*", metavar="NAME", help="measurements to make (default: the short ones)")

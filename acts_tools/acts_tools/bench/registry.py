@@ -64,5 +64,8 @@ MEASUREMENTS = {
     ),
     "link": Entry("acts_tools.bench.cases.link", "a skin across a cable between two machines", 3.0, only_by_name=True),
     "view": Entry("acts_tools.bench.cases.view", "the page with four clients", 40.0, only_by_name=True),
+    "view_realtime": Entry(
+        "acts_tools.bench.cases.view_realtime", "the same, the skin under SCHED_FIFO", 40.0, only_by_name=True
+    ),
     "soak": Entry("acts_tools.bench.cases.soak", "a long run at 1 kHz, M = 55", 600.0, only_by_name=True),
 }

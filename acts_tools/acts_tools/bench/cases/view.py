@@ -39,6 +39,7 @@ from acts_tools.bench.rigs.processes import (
 )
 from acts_tools.bench.rigs.skin import pressed
 from acts_tools.bench.rigs.view_clients import Watched
+from acts_tools.bench.skins import realtime
 from acts_tools.bench.workbench import Workbench
 from acts_tools.percentiles import percentiles
 from acts_tools.process_load import cpu_s
@@ -50,8 +51,15 @@ _MB = 1e6
 _WATCHERS_S = 60.0
 
 
-def measure(workbench: Workbench) -> Result:
-    """Count contacts without and with clients; watch the server meanwhile."""
+def measure(workbench: Workbench, *, is_realtime: bool = False) -> Result:
+    """Count contacts without and with clients; watch the server meanwhile.
+
+    Parameters
+    ----------
+    workbench : Workbench
+    is_realtime : bool
+        Whether board, skin and subscriber run under SCHED_FIFO, where that is allowed; the page's server never does.
+    """
     counter = StreamCounter()
 
     def count(message: Contact) -> None:
@@ -59,9 +67,12 @@ def measure(workbench: Workbench) -> Result:
 
     port = _free_port()
     with (
-        virtual_board(workbench.folder, "--rate-hz", "1000", *pressed(workbench.folder)) as board,
+        virtual_board(
+            workbench.folder,
+            *["--rate-hz", "1000", *pressed(workbench.folder), *realtime.board_options(is_realtime)],
+        ) as board,
         Graph(workbench) as graph,
-        tactile(workbench.folder, board.link, NAMESPACE) as skin,
+        tactile(workbench.folder, board.link, NAMESPACE, *realtime.tactile_options(is_realtime)) as skin,
         _server(workbench, port) as server,
     ):
 
@@ -72,17 +83,20 @@ def measure(workbench: Workbench) -> Result:
         graph.node.create_subscription(Contact, "contact", count, STREAM)
         graph.spin_until(lambda: counter.received, START_TIMEOUT_S, "the first contact", check)
         graph.spin_until(lambda: _listens(port), START_TIMEOUT_S, "the page", check)
-        graph.spin_for(_SETTLE_S)
         half_s = workbench.seconds / 2
-        alone = _Stretch(counter)
-        graph.spin_for(half_s)
-        alone.end()
-        with _watchers(workbench, port, half_s + _SETTLE_S) as watchers:
+        with realtime.subscriber(is_realtime):
             graph.spin_for(_SETTLE_S)
-            watched = _Stretch(counter)
-            memory, used_s, began_s = psutil.Process(server.pid).memory_info().rss, cpu_s(server.pid), time.monotonic()
+            alone = _Stretch(counter)
             graph.spin_for(half_s)
-            watched.end()
+            alone.end()
+        with _watchers(workbench, port, half_s + _SETTLE_S) as watchers:
+            with realtime.subscriber(is_realtime):
+                graph.spin_for(_SETTLE_S)
+                watched = _Stretch(counter)
+                memory, used_s = psutil.Process(server.pid).memory_info().rss, cpu_s(server.pid)
+                began_s = time.monotonic()
+                graph.spin_for(half_s)
+                watched.end()
             percent = 100 * (cpu_s(server.pid) - used_s) / (time.monotonic() - began_s)
             grown_mb = (psutil.Process(server.pid).memory_info().rss - memory) / _MB
             graph.spin_until(
