@@ -122,6 +122,17 @@ def test_an_outline_follows_what_grows_though_few_taxels_are_measured() -> None:
     assert np.mean(growth) > 0
 
 
+def test_an_image_that_predicts_too_much_at_the_frames_end_does_not_matter() -> None:
+    tracer = OutlineTracer(GEOMETRY, RESPONSE, 40.0, 2.0)
+    for number in range(4):
+        counts = disc(16, 16, 4.0, 0.05 + 0.05 * number)
+        image = np.where(counts > 0, 1023, 0).astype(np.float32)
+        (outline,) = tracer.step(ALL, counts.ravel(), 5e-3 * number, 5e-3, image)
+        corners = np.column_stack((outline.x_m, outline.y_m))
+        truth = circle(float(GEOMETRY.x_m(16)), float(GEOMETRY.y_m(16)), 4.0 * GEOMETRY.pitch_m)
+        assert mean_distance_m(corners, truth) < 0.4 * GEOMETRY.pitch_m
+
+
 def test_a_contact_keeps_its_number_and_two_have_two() -> None:
     tracer = OutlineTracer(GEOMETRY, RESPONSE, 40.0, 2.0)
     for number in range(8):

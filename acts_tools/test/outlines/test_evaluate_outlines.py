@@ -30,3 +30,12 @@ def test_outlines_are_nearer_to_the_truth_than_by_the_papers_method(tmp_path: Pa
         f"{body}_m64.{kind}" for body in ("balloon", "block", "tennis") for kind in ("ply", "png")
     ]
     assert (folder / "tennis_m64.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_outlines_are_as_good_where_a_touch_takes_few_frames(tmp_path: Path) -> None:
+    out = tmp_path / "outlines.json"
+    assert main(["evaluate", "outlines", "--body", "tennis", "--m", "128", "--seeds", "8", "--json", str(out)]) == 0
+    entry = json.loads(out.read_text())["results"][-1]
+    assert entry["scheme"] == "adaptive"
+    assert entry["error_taxels_from_third"]["mean"] < 0.3
+    assert entry["frames_with_outline"] > 0.95 * entry["frames_of_touch"]
