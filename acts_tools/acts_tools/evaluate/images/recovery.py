@@ -151,7 +151,7 @@ class _Notices:
 
 
 def method_of(task: Task, dictionary: Dictionary) -> Method:
-    """Make the recovery method of a task.
+    """Make the recovery method of a task. It is told the noise that is added, as by a calibration.
 
     Raises
     ------
@@ -160,6 +160,9 @@ def method_of(task: Task, dictionary: Dictionary) -> Method:
     """
     geometry = ArrayGeometry(rows=task.sampling.rows, cols=task.sampling.cols)
     skin = SkinSetup(geometry, touch_counts=task.touch_counts)
+    # Without noise of ours nothing is known of the noise in a recording: the method's own setting holds.
+    if task.noise_counts > 0:
+        skin = replace(skin, noise_counts=task.noise_counts)
     return method_named(task.method)(skin, dictionary, {"patch_step": task.patch_step, **dict(task.settings)})
 
 
