@@ -10,6 +10,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -26,7 +27,7 @@ from test_dynamixel_hand import DEADLINE_S, TIMEOUT_MS, Bus
 
 from acts_control.hand.control import HandLoop, HandLoopConfig, HandPhase
 from acts_control.hand.description import LEAP_RIGHT
-from acts_control.hand.motors import HandError
+from acts_control.hand.motors import HandError, HandReading
 
 pytestmark = pytest.mark.slow
 
@@ -46,13 +47,18 @@ def bus(tmp_path: Path) -> Iterator[Bus]:
 class Running:
     """A loop on the bus, and what it has logged."""
 
-    def __init__(self, bus: Bus, **settings: float) -> None:
+    def __init__(self, bus: Bus, motor_watchdog_s: float = 0.0, **settings: float) -> None:
         self.log: list[tuple[str, str]] = []
+        self.may_go_on = threading.Event()
+        self.may_go_on.set()
         # The motors' own watchdog is off: a loaded machine holds a loop up for longer.
-        hand = bus.hand(motor_watchdog_s=0.0)
+        hand = bus.hand(motor_watchdog_s=motor_watchdog_s)
         config = HandLoopConfig(silence_s=2.0, connect_retry_s=0.05, **settings)
-        self.loop = HandLoop(LEAP_RIGHT, hand, config, lambda *told: self.log.append(told))
+        self.loop = HandLoop(LEAP_RIGHT, hand, config, lambda *told: self.log.append(told), self._on_reading)
         self.loop.launch()
+
+    def _on_reading(self, _reading: HandReading) -> None:
+        assert self.may_go_on.wait(DEADLINE_S)
 
     def until(self, condition: Callable[[], bool]) -> None:
         end_s = time.monotonic() + DEADLINE_S
@@ -112,7 +118,7 @@ def test_without_commands_the_goals_stand_still_half_way(running: Running) -> No
 
 def test_names_and_numbers_that_cannot_be_are_refused_and_change_nothing(running: Running) -> None:
     running.until_phase(HandPhase.ENABLED)
-    with pytest.raises(HandError, match="no joint little_pip; its joints are index_mcp_side"):
+    with pytest.raises(HandError, match="no joint 'little_pip'; its joints are index_mcp_side"):
         running.loop.command({"little_pip": 0.1, "index_pip": 0.4})
     with pytest.raises(HandError, match="index_pip = nan"):
         running.loop.command({"ring_pip": 0.4, "index_pip": math.nan})
@@ -142,6 +148,27 @@ def test_an_overload_is_recovered_once_and_given_up_the_second_time(bus: Bus, ru
     assert running.loop.enable() == ""  # a person has looked after it
     running.until_phase(HandPhase.ENABLED)
     assert torques(bus) == {1}
+
+
+def test_a_loop_that_was_held_up_until_the_motors_stopped_moves_them_again(bus: Bus) -> None:
+    running = Running(bus, motor_watchdog_s=0.1)
+    try:
+        running.until_phase(HandPhase.ENABLED)
+        running.may_go_on.clear()
+        running.until(lambda: {motor["bus_watchdog"] for motor in bus.motors()} == {255})
+        running.may_go_on.set()
+
+        def arrived() -> bool:
+            running.loop.command({"index_pip": 0.5})
+            reading = running.loop.status.reading
+            return reading is not None and abs(reading.q_rad[2] - 0.5) < 0.02
+
+        running.until(arrived)
+        assert any("watchdog has stopped them" in sentence for _, sentence in running.log)
+    finally:
+        running.may_go_on.set()
+        running.loop.close()
+    assert torques(bus) == {0}
 
 
 def test_a_cable_torn_off_and_put_back_ends_with_an_enabled_hand(bus: Bus, running: Running) -> None:
@@ -223,7 +250,7 @@ def test_the_node_publishes_joint_states_follows_commands_and_ends_in_order(bus:
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=DEADLINE_S)
         assert process.returncode == 0
-        assert "a command was left out: the hand has no joint nobody" in errors
+        assert "a command was left out: the hand has no joint 'nobody'" in errors
 
 
 def test_the_leap_team_s_own_node_is_commanded_within_the_same_limits() -> None:

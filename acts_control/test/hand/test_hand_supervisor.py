@@ -10,8 +10,6 @@ import math
 import numpy as np
 import pytest
 from hand_rig import RigidHand, all_regions, region
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from acts_control.hand.description import LEAP_RIGHT
 from acts_control.hand.nodes.reflexes_node import HandReflexesSettings
@@ -141,9 +139,11 @@ def test_without_touch_nothing_is_grasped_but_the_hand_opens() -> None:
         region("index_distal", math.nan),
         region("index_distal", 0.5, centre_m=(0.0, math.inf, 0.0)),
         region("index_distal", 0.5, slip_m=math.nan, slipping=True),
+        region("index_distal", 0.5, centre_m=(0.0, 1e6, 0.0)),
+        region("index_distal", 0.5, normal=(0.0, 0.0, 2.0)),
     ],
 )
-def test_touch_with_numbers_that_are_not_finite_counts_as_not_come(broken: RegionContact) -> None:
+def test_touch_with_numbers_that_cannot_be_counts_as_not_come(broken: RegionContact) -> None:
     hand = a_holding_hand()
     held = hand.goal.copy()
     hand.step([broken], steps=40)
@@ -198,51 +198,3 @@ def test_touch_from_the_future_counts_as_not_come_and_keeps_none_that_follows_fr
     assert hand.supervisor.status.refused == 1
     assert hand.supervisor.status.touch_age_s < 0.01
     assert hand.step([TIP, *GRIPPED[1:]], steps=5) is HandState.AVOIDING
-
-
-any_number = st.floats(width=32) | st.sampled_from([0.0, -1.0, 1e-30, 1e5, -1e6, 1e30])
-any_vector = st.tuples(any_number, any_number, any_number)
-any_region = st.builds(
-    RegionContact,
-    name=st.sampled_from([*LEAP_RIGHT.regions, "", "/", "nobody"]),
-    link=st.sampled_from([*LEAP_RIGHT.links, "", "nobody"]),
-    active_taxels=st.integers(0, 65535),
-    force_n=any_number,
-    centre_m=any_vector,
-    normal=any_vector,
-    area_m2=any_number,
-    peak_n=any_number,
-    spread_m=any_number,
-    concentration=any_number,
-    sharpness=any_number,
-    motion_m_s=any_vector,
-    slip_m=any_number,
-    slipping=st.booleans(),
-)
-
-
-@settings(max_examples=60, deadline=None)
-@given(
-    touches=st.lists(st.tuples(st.lists(any_region, max_size=6), st.floats()), min_size=1, max_size=6),
-    grasps=st.booleans(),
-)
-def test_whatever_touch_says_the_goals_stay_within_limits_and_rate_and_the_hand_holds_again(
-    touches: list[tuple[list[RegionContact], float]], grasps: bool
-) -> None:
-    hand = a_hand_of_all_reflexes()
-    hand.step(GRIPPED, steps=3)
-    if grasps:
-        hand.supervisor.grasp()
-        hand.step(GRIPPED, steps=20)
-    lower = np.array([joint.lower_rad for joint in LEAP_RIGHT.joints])
-    upper = np.array([joint.upper_rad for joint in LEAP_RIGHT.joints])
-    for regions, ahead_s in touches:
-        before = hand.goal.copy()
-        hand.supervisor.touch(regions, hand.now_s + ahead_s, hand.now_s)
-        hand.step(None)
-        assert ((lower <= hand.goal) & (hand.goal <= upper)).all()
-        assert np.abs(hand.goal - before).max() <= 0.2
-    hand.step(GRIPPED, steps=30)
-    assert not hand.supervisor.status.is_stale
-    assert hand.supervisor.grasp() == ""
-    assert hand.step(GRIPPED, steps=40) is HandState.HOLDING

@@ -176,7 +176,7 @@ class HandLoop:
         """
         unknown = next((name for name in angles_rad if name not in self._index), None)
         if unknown is not None:
-            raise HandError(f"the hand has no joint {unknown:.64}; its joints are {', '.join(self._index)}")
+            raise HandError(f"the hand has no joint {unknown[:64]!r}; its joints are {', '.join(self._index)}")
         broken = [f"{name} = {angle}" for name, angle in angles_rad.items() if not isfinite(angle)]
         if broken:
             raise HandError(f"{', '.join(broken)}: angles have to be finite")
@@ -285,6 +285,9 @@ class HandLoop:
                 self._bus.release()
                 self._set(HandPhase.RELEASED, "released by request")
             return []
+        if reading.is_stopped and phase is HandPhase.ENABLED:
+            self._log("warning", "the motors' watchdog has stopped them: this process stood still; the hand goes on")
+            phase = HandPhase.RECOVERING
         if phase is not HandPhase.ENABLED:
             self._bus.enable()
             with self._lock:

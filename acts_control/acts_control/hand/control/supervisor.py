@@ -29,8 +29,9 @@ Array = NDArray[np.float64]
 # Touch that is stamped further ahead of the clock is by another clock: it would count as the newest until then.
 _FUTURE_S = 0.05
 
-# Beyond what any skin of a hand says; also the squares and products of such numbers are finite.
-_LARGEST = 1e6
+# Beyond what any skin of a hand says. With places farther off and longer normals, equations could not be solved.
+_LARGEST, _FARTHEST_M, _LONGEST_NORMAL = 1e6, 10.0, 1.01
+_LONGEST_NAME = 64
 
 
 @dataclass(frozen=True)
@@ -64,7 +65,9 @@ class SupervisorStatus:
     events : mapping of str to int
         How often each reflex has been set off.
     steps, refused : int
-        Steps so far; messages of touch and answers of reflexes left out, for numbers or stamps that cannot be.
+        Steps so far; messages of touch and answers of reflexes left out, for what cannot be.
+    refusal : str
+        Why the last of them was; empty before the first.
     """
 
     state: HandState = HandState.STOPPED
@@ -75,6 +78,7 @@ class SupervisorStatus:
     events: Mapping[str, int] = field(default_factory=dict)
     steps: int = 0
     refused: int = 0
+    refusal: str = ""
 
 
 class HandSupervisor:
@@ -111,6 +115,7 @@ class HandSupervisor:
         self._is_new = False
         self._was_stale = True
         self._refused = 0
+        self._refusal = ""
 
     # --- from any thread
 
@@ -144,7 +149,7 @@ class HandSupervisor:
         else:
             self._become(HandState.STOPPED, "goals stand where the joints are")
 
-    def touch(self, regions: Sequence[RegionContact], stamp_s: float, now_s: float) -> None:
+    def touch(self, regions: Sequence[RegionContact], stamp_s: float, now_s: float) -> bool:
         """Take what the skin feels.
 
         Parameters
@@ -152,19 +157,28 @@ class HandSupervisor:
         regions : sequence of RegionContact
         stamp_s, now_s : float
             When it was measured, and the present, by the clock of `step` [s].
-        """
-        if not stamp_s <= now_s + _FUTURE_S or not all(map(_can_be, regions)):
-            self.refuse()
-            return
-        if stamp_s <= self._touch_s:
-            return
-        self._regions = {one.name: one for one in regions if one.name in self._hand.regions}
-        self._touch_s = stamp_s
-        self._is_new = True
 
-    def refuse(self) -> None:
-        """Count touch that has come and cannot be used."""
+        Returns
+        -------
+        bool
+            False where it cannot be, and counts as not come.
+        """
+        if not stamp_s <= now_s + _FUTURE_S:
+            return self.refuse(f"touch is stamped {stamp_s - now_s:.3g} s ahead of the clock")
+        objection = next(filter(None, map(self._objection, regions)), "")
+        if objection:
+            return self.refuse(objection)
+        if stamp_s > self._touch_s:
+            self._regions = {one.name: one for one in regions if one.name in self._hand.regions}
+            self._touch_s = stamp_s
+            self._is_new = True
+        return True
+
+    def refuse(self, why: str) -> bool:
+        """Count touch that has come and cannot be used; False."""
         self._refused += 1
+        self._refusal = why
+        return False
 
     def step(self, reading: HandReading, goal_rad: Sequence[float], now_s: float, dt_s: float) -> Array:
         """The goals of all joints for now.
@@ -204,7 +218,10 @@ class HandSupervisor:
         )
         self._is_new = False
         asked, active = self._ask(sensed, is_stale)
+        refused_before = self._rule.refused
         goal = self._rule.goals(goal, q, sensed.current_ma, asked, dt_s)
+        if self._rule.refused > refused_before:
+            self._refusal = f"a reflex asks for steps that are not finite; asking are {', '.join(active)}"
         self.status = SupervisorStatus(
             self._state,
             self._reason,
@@ -214,6 +231,7 @@ class HandSupervisor:
             {name: reflex.events for name, reflex in self._reflexes.items()},
             self.status.steps + 1,
             self._refused + self._rule.refused,
+            self._refusal,
         )
         return goal
 
@@ -301,14 +319,26 @@ class HandSupervisor:
         for reflex in self._reflexes.values():
             reflex.reset()
 
+    def _objection(self, region: RegionContact) -> str:
+        """Why a region cannot be of this hand's skin, in words; empty where it can."""
+        name = region.name[:_LONGEST_NAME]
+        if region.name in self._hand.regions and not self._kinematics.has(region.link):
+            links = ", ".join(link.name for link in self._hand.links)
+            link = region.link[:_LONGEST_NAME]
+            return f"region {name!r} is said to be on link {link!r}; the hand has {self._hand.base}, {links}"
+        if not _can_be(region):
+            return f"region {name!r} has numbers that no skin says"
+        return ""
+
 
 def _can_be(region: RegionContact) -> bool:
     """Whether all numbers are such as a skin may say; NaN is not."""
     numbers = (
         *(region.force_n, region.area_m2, region.peak_n, region.spread_m, region.concentration),
-        *(region.sharpness, region.slip_m),
-        *region.centre_m,
-        *region.normal,
-        *region.motion_m_s,
+        *(region.sharpness, region.slip_m, *region.motion_m_s),
     )
-    return all(abs(number) <= _LARGEST for number in numbers)
+    return (
+        all(abs(number) <= _LARGEST for number in numbers)
+        and all(abs(place_m) <= _FARTHEST_M for place_m in region.centre_m)
+        and all(abs(part) <= _LONGEST_NORMAL for part in region.normal)
+    )

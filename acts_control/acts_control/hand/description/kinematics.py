@@ -37,6 +37,10 @@ class HandKinematics:
         self._chain = [self._chain_of(k) for k in range(len(self._link))]
         self._levels = self._by_depth()
 
+    def has(self, link: str) -> bool:
+        """Whether the hand has a link, its base included."""
+        return link in self._link
+
     def number(self, link: str) -> int:
         """A link's place in the arrays of `HandPose`.
 

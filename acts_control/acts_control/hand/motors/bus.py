@@ -31,6 +31,9 @@ class HandReading(NamedTuple):
     temperature_c : tuple of int
     faults : tuple of str
         In words; empty for a motor that is well.
+    is_stopped : bool
+        Whether a motor has heard nothing for so long that it takes no goals any more, until the torque is switched on
+        again.
     """
 
     q_rad: tuple[float, ...]
@@ -38,6 +41,7 @@ class HandReading(NamedTuple):
     current_ma: tuple[float, ...]
     temperature_c: tuple[int, ...]
     faults: tuple[str, ...]
+    is_stopped: bool = False
 
 
 class HandBus(Protocol):

@@ -34,12 +34,13 @@ _CURRENT, _POSITION, _TEMPERATURE, _INDIRECT_ADDRESS, _INDIRECT_DATA = 126, 132,
 _MODELS = {1240: "XC330-M288", 1200: "XL330-M288"}
 _CURRENT_BASED_POSITION = 5
 _WATCHDOG_UNIT_S = 0.02
+_WATCHDOG_EXPIRED = 255
 
 _TICKS_PER_RAD = 4096 / (2.0 * math.pi)
 _RAD_S_PER_UNIT = 0.229 * 2.0 * math.pi / 60.0
 
 # Current (2), speed (4) and position (4) follow one another in the control table.
-_GATHERED = (*range(_CURRENT, _CURRENT + 10), _HARDWARE_ERROR, _TEMPERATURE)
+_GATHERED = (*range(_CURRENT, _CURRENT + 10), _HARDWARE_ERROR, _TEMPERATURE, _WATCHDOG)
 
 # In a status packet's error number: look at the hardware error.
 _ALERT = 0x80
@@ -187,6 +188,7 @@ class DynamixelHand:
             tuple(float(one.direction * k) for one, k in zip(joints, currents, strict=True)),
             tuple(row[11] for _, row in rows),
             tuple(_fault(row[10]) for _, row in rows),
+            any(row[12] == _WATCHDOG_EXPIRED for _, row in rows),
         )
 
     def command(self, q_rad: Sequence[float]) -> None:

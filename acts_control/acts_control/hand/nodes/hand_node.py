@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import JointState
 
 from acts_control.hand.motors import HandError
@@ -22,6 +23,9 @@ from acts_ros.composition import parameters_from
 from acts_ros.executor import run
 from acts_ros.parameters import declare, node_options
 from acts_ros.qos import STATE
+
+# Far more than the names and angles of any hand; reading more would hold the hand's loop up.
+_COMMAND_BYTES_MAX = 65536
 
 
 @dataclass(frozen=True)
@@ -35,9 +39,18 @@ class HandNode(MotorNode):
     def __init__(self, **node_arguments: Any) -> None:
         super().__init__("hand", **node_options(), **node_arguments)
         self.start_with(declare(self, HandSettings), None, "release")
-        self.create_subscription(JointState, "~/command", self._on_command, STATE)
+        self.create_subscription(JointState, "~/command", self._on_command, STATE, raw=True)
 
-    def _on_command(self, message: JointState) -> None:
+    def _on_command(self, data: bytes) -> None:
+        if len(data) > _COMMAND_BYTES_MAX:
+            self._refuse(f"{len(data)} bytes; at most {_COMMAND_BYTES_MAX} are read")
+            return
+        try:
+            message = deserialize_message(data, JointState)
+        # rclpy has no exception of its own for bytes that are no such message.
+        except (RuntimeError, ValueError) as error:
+            self._refuse(f"it cannot be read: {error}")
+            return
         if len(message.name) != len(message.position):
             self._refuse(f"{len(message.name)} names with {len(message.position)} positions")
             return

@@ -38,8 +38,10 @@ from acts_ros.polled import PolledSubscription
 from acts_ros.qos import STATE, STREAM
 
 _LONG_AGO_S = 1e6
-# Touch that has come while the loop was held up: the newest counts, the others are dropped.
+# Touch that has come since the last cycle: the newest that can be used counts, the others are dropped.
 _TOUCH_DEPTH = 64
+# So many of the newest are tried: more would hold the loop up.
+_TOUCH_TRIES = 16
 # Of so many patches as a layout may have, each with names as long as they may be.
 _TOUCH_BYTES_MAX = 16384
 _TIMING_PERIOD_S = 1.0
@@ -106,23 +108,27 @@ class TouchedHand:
 
     def step(self, reading: HandReading, goal_rad: Sequence[float], now_s: float, dt_s: float) -> Sequence[float]:
         """See `acts_control.hand.control.loop.Behaviour`."""
-        taken = self._regions.take_all()
+        taken = self._regions.take_all()[-_TOUCH_TRIES:]
         self._touched_ns = None
-        if taken:
-            try:
-                touch = regions_in(taken[-1][0])
-            except PacketError:
-                self._supervisor.refuse()
-            else:
-                self._touched_ns = touch.stamp_ns
-                stamp_s = now_s - 1e-9 * (self._now_ns() - touch.stamp_ns)
-                self._supervisor.touch(touch.regions, stamp_s, now_s)
+        while taken and not self._feel(taken.pop()[0], now_s):
+            pass
         before = self._supervisor.status
         goals = [float(angle) for angle in self._supervisor.step(reading, goal_rad, now_s, dt_s)]
         status = self._supervisor.status
         if (status.state, status.events) != (before.state, before.events):
             self._on_change()
         return goals
+
+    def _feel(self, data: bytes, now_s: float) -> bool:
+        """Whether the supervisor can use a message."""
+        try:
+            touch = regions_in(data)
+        except PacketError as error:
+            return self._supervisor.refuse(str(error))
+        stamp_s = now_s - 1e-9 * (self._now_ns() - touch.stamp_ns)
+        can_be_used = self._supervisor.touch(touch.regions, stamp_s, now_s)
+        self._touched_ns = touch.stamp_ns if can_be_used else None
+        return can_be_used
 
     def sent(self, began_s: float, sent_s: float) -> None:
         """See `acts_control.hand.control.loop.Behaviour`."""
@@ -190,6 +196,8 @@ class HandReflexesNode(MotorNode):
         status, loop, message = self._supervisor.status, self.loop.status, self._status
         if (status.state, status.reason) != (self._told.state, self._told.reason):
             self.get_logger().info(f"{status.state.name.lower()}: {status.reason}")
+        if status.refused > self._told.refused:
+            self.get_logger().warning(f"left out: {status.refusal}", throttle_duration_sec=5.0)
         self._told = status
         set_stamp(message.header.stamp, self.get_clock().now().nanoseconds)
         message.state = int(status.state)
