@@ -1,23 +1,32 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Any touch, any command, any settings: the goals keep their limits, and with good input the hand holds again."""
+"""Any touch, any command, any settings: the goals keep their limits, and with good input the hand holds again.
+
+ROS_DOMAIN_ID 226.
+"""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Iterator, Sequence
+from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
+import rclpy
 from hand_rig import DT_S, LEAP, NAMES, RigidHand, all_regions, region
 from hypothesis import HealthCheck, given, reject, settings
 from hypothesis import strategies as st
+from rclpy.context import Context
+from rclpy.serialization import serialize_message
+from sensor_msgs.msg import JointState
 
 from acts_control.hand.control import HandLoop, HandLoopConfig, HandPhase, HandSupervisor
 from acts_control.hand.description import LEAP_RIGHT
 from acts_control.hand.motors import HandError, HandReading
+from acts_control.hand.nodes.hand_node import HandNode
 from acts_control.hand.nodes.reflexes_node import HandReflexesSettings, TouchedHand
 from acts_control.hand.reflexes import REFLEXES, HandState, make_reflexes
 from acts_core.errors import SettingsError
@@ -256,6 +265,60 @@ def test_whatever_is_commanded_the_goals_stay_within_limits_and_speed(
     assert commanded.loop.status.phase is HandPhase.ENABLED
     # A late cycle counts as at most four.
     assert commanded.bus.largest_step_rad <= 4.0 * CONFIG.max_speed_rad_s / CONFIG.rate_hz + EPSILON
+
+
+class ToldNode(HandNode):
+    """The node; its loop is not launched, and what it refuses is kept."""
+
+    def __init__(self, **node_arguments: Any) -> None:
+        self.refused: list[str] = []
+        super().__init__(**node_arguments)
+
+    def _refuse(self, why: str) -> None:
+        self.refused.append(why)
+        super()._refuse(why)
+
+
+@pytest.fixture(scope="module")
+def hand_node() -> Iterator[ToldNode]:
+    context = Context()
+    rclpy.init(context=context, domain_id=226)
+    node = ToldNode(context=context)
+    yield node
+    node.destroy_node()
+    rclpy.try_shutdown(context=context)
+
+
+@cache
+def command_of(**fields: Any) -> bytes:
+    return bytes(serialize_message(JointState(**{name: list(values) for name, values in fields.items()})))
+
+
+@settings(max_examples=100, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(st.binary(max_size=300), st.integers(0, 150), st.integers(0, 150))
+def test_no_bytes_of_a_command_end_the_node(hand_node: ToldNode, junk: bytes, begin: int, end: int) -> None:
+    good = command_of(name=("thumb_cmc", "index_pip"), position=(0.3, 0.4), velocity=(0.0,))
+    for data in (junk, good[:begin] + junk + good[end:]):
+        hand_node._on_command(data)
+
+
+@pytest.mark.parametrize(
+    ("names", "numbers", "kept_bytes", "why"),
+    [
+        (("thumb_cmc",), 10_000, None, "at most 65536 are read"),
+        (("thumb_cmc",), 1, 0, "cannot be read"),
+        (("thumb_cmc",), 1, 40, "cannot be read"),
+        (("thumb_cmc",), 2, None, "1 names with 2 positions"),
+        (("nobody\n" * 99,), 1, None, r"no joint 'nobody\nnobody"),
+    ],
+)
+def test_a_command_that_cannot_be_is_refused_in_words(
+    hand_node: ToldNode, names: tuple[str, ...], numbers: int, kept_bytes: int | None, why: str
+) -> None:
+    hand_node.refused.clear()
+    hand_node._on_command(command_of(name=names, position=(0.3,) * numbers)[:kept_bytes])
+    assert len(hand_node.refused) == 1
+    assert why in hand_node.refused[0]
 
 
 # --- settings
