@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""A real browser, and pages in it that must not complain."""
+"""A real browser, servers of the page, and pages that must not complain."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import pytest
 from view_browser import BROWSER, DEADLINE_MS, INSTALL
+from view_player import Player
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
@@ -31,6 +32,19 @@ def browser() -> Iterator[Browser]:
         launched = playwright.chromium.launch(executable_path=BROWSER)
         yield launched
         launched.close()
+
+
+@pytest.fixture
+def play() -> Iterator[Callable[..., Player]]:
+    players: list[Player] = []
+
+    def begin(*arguments: Any, **options: Any) -> Player:
+        players.append(Player(*arguments, **options))
+        return players[-1]
+
+    yield begin
+    for player in players:
+        player.close()
 
 
 @pytest.fixture

@@ -5,128 +5,22 @@
 
 from __future__ import annotations
 
-import csv
-import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
 from view_browser import expect, needs_browser
+from view_player import COL, ROW, Player, saved, saved_table
 
-from acts_view.skin.snapshot import Frame, RegionState, Sample, SkinShape
-from acts_view.web.server import ViewServer
+from acts_view.skin.snapshot import SkinShape
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
 
 pytestmark = [needs_browser, pytest.mark.slow]
-
-ROW, COL = 8, 20
-PERIOD_S = 1 / 30
-# A triangle in the lower half of the skin, far from the press.
-OUTLINE = [(-0.03, -0.05), (0.03, -0.05), (0.0, -0.02)]
-
-
-def pressed(name: str, time_s: float) -> tuple[str, Frame, list[Sample]]:
-    """A skin that is pressed at one place; 1 kHz for the time between two frames."""
-    image = np.zeros((32, 32), np.uint16)
-    image[ROW, COL] = 800
-    confidence = np.full((32, 32), 255, np.uint8)
-    age_s = np.full((32, 32), 0.0123, np.float32)
-    age_s[ROW, COL], age_s[0, 0] = 0.0, np.inf
-    x_m, y_m = (COL - 15.5) * 0.004375, (15.5 - ROW) * 0.004375
-    contacts = np.array([[x_m, y_m, 1.25, 800, 1.9e-5, 0.001, 0.125, 1.0]], np.float32)
-    frame = Frame(
-        stamp_s=time_s,
-        image=image,
-        confidence=confidence,
-        age_s=age_s,
-        contact_numbers=np.array([42], np.uint32),
-        contacts=contacts,
-        outlines=[np.array(OUTLINE, np.float32)],
-        touch=(x_m, y_m, 1.25, 800.0, 1.9e-5),
-        regions=[RegionState("palm", 2.5, 0.0, False), RegionState("index_distal", 0.75, 0.0032, True)],
-        hand={
-            "state": "holding",
-            "reason": "something is gripped",
-            "active": ["slip"],
-            "events": [["slip", 3], ["sharp", 0]],
-            "joints": [["index_mcp", 0.7854], ["thumb_tip", -0.1745]],
-        },
-        ball={
-            "ball": [x_m, y_m],
-            "reference": [x_m + 0.003, y_m + 0.004],
-            "segment": "B",
-            "state": "balancing",
-            "reason": "a ball and a reference",
-            "tilt_measured": [0.075, 0.0],
-            "tilt_commanded": [0.0, -0.15],
-        },
-    )
-    count = round(PERIOD_S * 1000)
-    return name, frame, [Sample(time_s + 0.001 * number, 1.25, 0.4, 0) for number in range(count)]
-
-
-class Player:
-    """A server that a thread feeds as the node does."""
-
-    def __init__(self, names: tuple[str, ...] = ("/plate",), shape: SkinShape | None = None, port: int = 0) -> None:
-        self.server = ViewServer("127.0.0.1", port, on_clients=lambda _: None, log=lambda *_: None)
-        self.url = self.server.address.url
-        for name in names:
-            self.server.show_shape(name, shape or SkinShape())
-        self._names = names
-        self._stopped = threading.Event()
-        self._thread = threading.Thread(target=self._play, daemon=True)
-        self._thread.start()
-
-    def _play(self) -> None:
-        number = 0
-        node = {"name": "plate/driver", "level": 1, "message": "no board", "age_s": 0.1, "values": [["port", "auto"]]}
-        begin_s = time.time()
-        while not self._stopped.wait(PERIOD_S):
-            for name in self._names:
-                self.server.show_frame(*pressed(name, begin_s + number * 0.033))
-            if number % 30 == 0:
-                self.server.show_status({"skins": list(self._names), "diagnostics": [node]})
-            number += 1
-
-    def close(self) -> None:
-        if not self._stopped.is_set():
-            self._stopped.set()
-            self._thread.join()
-            self.server.close()
-
-
-@pytest.fixture
-def play() -> Iterator[Callable[..., Player]]:
-    players: list[Player] = []
-
-    def begin(*arguments: Any, **options: Any) -> Player:
-        players.append(Player(*arguments, **options))
-        return players[-1]
-
-    yield begin
-    for player in players:
-        player.close()
-
-
-def saved(page: Page, what: str, folder: Path) -> Path:
-    """What a button of the page saves, put into a folder."""
-    with page.expect_download() as downloading:
-        page.click(f"[data-save={what}]")
-    path = folder / downloading.value.suggested_filename
-    downloading.value.save_as(path)
-    return path
-
-
-def saved_table(page: Page, what: str, folder: Path) -> list[dict[str, str]]:
-    """The rows of a table that a button of the page saves."""
-    with saved(page, what, folder).open() as lines:
-        return list(csv.DictReader(lines))
 
 
 def taxel_colours(page: Page) -> np.ndarray:
@@ -298,45 +192,6 @@ def test_choices_act_and_survive_a_reload(play: Callable[..., Player], open_page
     assert page.get_attribute("#smooth", "aria-pressed") == "true"
     assert page.get_attribute("html", "data-theme") == "light"
     assert tuple(taxel_colours(page)[31, 0]) == (0x00, 0x22, 0x4E)
-
-
-def test_a_pause_holds_and_a_part_of_a_plot_can_be_seen_alone(
-    play: Callable[..., Player], open_page: Callable[..., Page]
-) -> None:
-    page = open_page(play())
-    expect(page.locator("[data-number=rate]")).to_have_text("1000")
-    plot = page.locator("[data-plot=force] .u-over")
-    plot.scroll_into_view_if_needed()
-    box = plot.bounding_box()
-    assert box is not None
-    page.mouse.move(box["x"] + 0.8 * box["width"], box["y"] + 20)
-    page.mouse.down()
-    page.mouse.move(box["x"] + 0.9 * box["width"], box["y"] + 20, steps=4)
-    page.mouse.up()
-    page.wait_for_selector(".skin .pill[data-state=held]")
-    assert page.inner_text("#pause") == "Go on"
-    page.click("#pause")
-    page.wait_for_selector(".skin .pill[data-state=live]")
-
-
-def test_keys_zoom_the_plots_and_move_the_part(
-    play: Callable[..., Player], open_page: Callable[..., Page], tmp_path: Path
-) -> None:
-    page = open_page(play())
-    expect(page.locator("[data-number=rate]")).to_have_text("1000")
-    page.select_option("#window", "10")
-    rows = []
-    for keys in ("+++++", "+", "<", ">", "-", "0"):  # ten seconds, five times halved
-        for key in keys:
-            page.keyboard.press(key)
-        rows.append([float(row["time_s"]) for row in saved_table(page, "plots", tmp_path)])
-    part, half, before, half_again, part_again, whole = rows
-    page.wait_for_selector(".skin .pill[data-state=held]")
-    assert 0.2 < part[-1] - part[0] < 0.32
-    assert set(half) < set(part) < set(whole)
-    assert before[0] < half[0] < before[-1] < half[-1]
-    assert half_again == pytest.approx(half, abs=0.009)
-    assert part_again == pytest.approx(part, abs=0.009)
 
 
 def test_keys_act_wherever_the_last_click_was(play: Callable[..., Player], open_page: Callable[..., Page]) -> None:

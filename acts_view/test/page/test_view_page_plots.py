@@ -1,0 +1,58 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Plots of the page in a real browser: a part of them is chosen by mouse and by keys."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+from view_browser import expect, needs_browser
+from view_player import Player, saved_table
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+pytestmark = [needs_browser, pytest.mark.slow]
+
+
+def test_a_pause_holds_and_a_part_of_a_plot_can_be_seen_alone(
+    play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    page = open_page(play())
+    expect(page.locator("[data-number=rate]")).to_have_text("1000")
+    plot = page.locator("[data-plot=force] .u-over")
+    plot.scroll_into_view_if_needed()
+    box = plot.bounding_box()
+    assert box is not None
+    page.mouse.move(box["x"] + 0.8 * box["width"], box["y"] + 20)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 0.9 * box["width"], box["y"] + 20, steps=4)
+    page.mouse.up()
+    page.wait_for_selector(".skin .pill[data-state=held]")
+    assert page.inner_text("#pause") == "Go on"
+    page.click("#pause")
+    page.wait_for_selector(".skin .pill[data-state=live]")
+
+
+def test_keys_zoom_the_plots_and_move_the_part(
+    play: Callable[..., Player], open_page: Callable[..., Page], tmp_path: Path
+) -> None:
+    page = open_page(play())
+    expect(page.locator("[data-number=rate]")).to_have_text("1000")
+    page.select_option("#window", "10")
+    rows = []
+    for keys in ("+++++", "+", "<", ">", "-", "0"):  # ten seconds, five times halved
+        for key in keys:
+            page.keyboard.press(key)
+        rows.append([float(row["time_s"]) for row in saved_table(page, "plots", tmp_path)])
+    part, half, before, half_again, part_again, whole = rows
+    page.wait_for_selector(".skin .pill[data-state=held]")
+    assert 0.2 < part[-1] - part[0] < 0.32
+    assert set(half) < set(part) < set(whole)
+    assert before[0] < half[0] < before[-1] < half[-1]
+    assert half_again == pytest.approx(half, abs=0.009)
+    assert part_again == pytest.approx(part, abs=0.009)
