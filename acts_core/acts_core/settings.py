@@ -22,7 +22,6 @@ import difflib
 import math
 from collections.abc import Mapping, Sequence
 from enum import Enum
-from pathlib import Path
 from typing import Any, TypeVar, cast
 
 import yaml
@@ -245,22 +244,3 @@ def from_mapping(settings_class: type[T], values: Mapping[str, Any], where: str 
 def part_of(settings_class: type[T], settings: object) -> T:
     """A settings dataclass out of an object that has all its settings among others, as the parameters of a node."""
     return settings_class(**{name: getattr(settings, name) for name in describe(settings_class)})
-
-
-def load_yaml(path: Path) -> dict[str, Any]:
-    """Read a YAML file whose top level is a mapping.
-
-    Raises
-    ------
-    SettingsError
-        When the file cannot be read or is not a mapping.
-    """
-    try:
-        content = yaml.safe_load(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise SettingsError(f"{path}: cannot be read ({error.strerror}); give an existing YAML file") from error
-    except (yaml.YAMLError, UnicodeDecodeError) as error:
-        raise SettingsError(f"{path}: not valid YAML: {error}") from error
-    if not isinstance(content, dict):
-        raise SettingsError(f"{path}: the top level must be a mapping of names to values")
-    return content

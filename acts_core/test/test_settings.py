@@ -3,7 +3,6 @@
 
 from contextlib import suppress
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -11,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from acts_core.errors import SettingsError
-from acts_core.settings import describe, from_mapping, load_yaml, setting, validate
+from acts_core.settings import describe, from_mapping, setting, validate
 
 
 @dataclass(frozen=True)
@@ -91,16 +90,3 @@ def test_any_mapping_gives_settings_or_a_settings_error(values: dict[str, Any]) 
     values = {KEYS[len(key) % len(KEYS)] if len(key) < 5 else key: value for key, value in values.items()}
     with suppress(SettingsError):
         validate(from_mapping(Example, values))
-
-
-@pytest.mark.parametrize("text", ["- 1\n- 2\n", "a: [1\n", "plain words"])
-def test_a_file_that_is_no_mapping_is_refused_by_name(tmp_path: Path, text: str) -> None:
-    path = tmp_path / "settings.yaml"
-    path.write_text(text)
-    with pytest.raises(SettingsError, match=r"settings\.yaml"):
-        load_yaml(path)
-
-
-def test_a_missing_file_is_refused_by_name(tmp_path: Path) -> None:
-    with pytest.raises(SettingsError, match=r"nowhere\.yaml"):
-        load_yaml(tmp_path / "nowhere.yaml")

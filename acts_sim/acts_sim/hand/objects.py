@@ -70,14 +70,8 @@ class HeldObject:
         return np.array([PALM_MIDDLE_M[0] + dx_m, PALM_MIDDLE_M[1] + dy_m, PALM_SURFACE_Z_M - self.height_m])
 
 
-# Smallest and largest size of each, and the defaults: radius or half the width [m], and mass [kg].
-_SIZES_M = {
-    "sphere": (0.015, 0.030, 0.045),
-    "small_sphere": (0.005, 0.011, 0.020),
-    "box": (0.010, 0.022, 0.040),
-    "cylinder": (0.010, 0.025, 0.040),
-    "other_hand": (0.0075, 0.0085, 0.011),
-}
+# The defaults: radius or half the width [m], and mass [kg].
+_SIZES_M = {"sphere": 0.030, "small_sphere": 0.011, "box": 0.022, "cylinder": 0.025, "other_hand": 0.0085}
 _MASSES_KG = {"sphere": 0.10, "small_sphere": 0.02, "box": 0.12, "cylinder": 0.15, "other_hand": 0.40}
 
 OBJECTS = tuple(_SIZES_M)
@@ -86,11 +80,6 @@ OBJECTS = tuple(_SIZES_M)
 _CYLINDER_HALF_LENGTH_M = 0.06
 _FINGER_HALF_LENGTH_M = 0.065
 _FINGERS = 4
-
-
-def size_range_m(name: str) -> tuple[float, float, float]:
-    """Smallest, default and largest size of an object [m]."""
-    return _SIZES_M[name]
 
 
 def held_object(name: str, size_m: float = 0.0, mass_kg: float = 0.0) -> HeldObject:
@@ -104,7 +93,7 @@ def held_object(name: str, size_m: float = 0.0, mass_kg: float = 0.0) -> HeldObj
         Radius of spheres, of the cylinder and of the other hand's fingers; half the width of the box [m].
     mass_kg : float
     """
-    size_m = size_m or _SIZES_M[name][1]
+    size_m = size_m or _SIZES_M[name]
     mass_kg = mass_kg or _MASSES_KG[name]
     if name == "box":
         return HeldObject(name, (Piece(BOX, (size_m, 1.5 * size_m, size_m, _EDGE_M)),), mass_kg, size_m)

@@ -75,10 +75,6 @@ class Player:
         if not self._publishers:
             raise RecordingError("the bag has no topic that can be played")
 
-    def subscribed(self) -> bool:
-        """Whether every topic has a subscriber."""
-        return all(publisher.get_subscription_count() > 0 for publisher in self._publishers.values())
-
     def play(self, rate: float, sleep_until: Callable[[float], bool]) -> bool:
         """Publish all messages once.
 

@@ -60,11 +60,6 @@ class LiveHand:
         self._control = control
         self._watcher = watcher
 
-    @property
-    def state(self) -> int:
-        """State of the hand, as in acts_msgs/HandStatus."""
-        return self._collector.status.state if self._collector.status else HandStatus.STATE_STOPPED
-
     def do(self, line: str, mark: str = "") -> float:
         """Send a command for the hand or its object; return the time [s]."""
         now_s = self._mark(mark)
@@ -93,10 +88,6 @@ class LiveHand:
     def until(self, condition: Callable[[], bool], timeout_s: float) -> bool:
         """Wait until a condition is true; return whether it was in time."""
         return self._watcher.until(condition, timeout_s)
-
-    def until_state(self, *states: int, timeout_s: float = 15.0) -> bool:
-        """Wait until the hand is in one of some states; return whether it was in time."""
-        return self.until(lambda: self.state in states, timeout_s)
 
     def run(self, duration_s: float) -> None:
         """Wait for a time [s]."""
