@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What the hand is about, and what ends or interrupts it."""
+"""States of the hand, and what ends or interrupts it."""
 
 from __future__ import annotations
 

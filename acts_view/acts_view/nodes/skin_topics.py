@@ -41,7 +41,7 @@ _ROBOT: dict[str, tuple[type, Callable[[Any], dict[str, Any]], str]] = {
     "ball/reference": (BallReference, ball_reference, "ball"),
     "ball/status": (BalanceStatus, balance_state, "ball"),
 }
-"""Of each topic that says what a robot is about: its type, what is taken of a message, and where in `Frame` it goes."""
+"""Of each topic that says what a robot does: its type, what is taken of a message, and where in `Frame` it goes."""
 
 
 class SkinTopics:

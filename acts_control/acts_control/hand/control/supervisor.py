@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What the hand is about: it opens, closes, holds, avoids or stands still, and asks the reflexes that belong to that.
+"""What the hand does: it opens, closes, holds, avoids or stands still, and asks the reflexes of that state.
 
 Plain logic of one step, for the loop's own thread; `grasp`, `release` and `stop` may be called from any other.
 """

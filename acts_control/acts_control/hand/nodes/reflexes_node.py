@@ -165,10 +165,10 @@ class HandReflexesNode(MotorNode):
         )
 
     def report(self) -> Report:
-        """What the diagnostics say: of the motors, and of what the hand is about."""
+        """What the diagnostics say: of the motors, and of what the hand does."""
         level, words, values = super().report()
         status = self._supervisor.status
-        about = {
+        hand = {
             "hand": status.state.name,
             "hand_reason": status.reason,
             "touch_age_ms": 1e3 * min(status.touch_age_s, _LONG_AGO_S),
@@ -177,7 +177,7 @@ class HandReflexesNode(MotorNode):
         }
         if level == OK and status.is_stale:
             level, words = WARN, f"no touch for {min(status.touch_age_s, _LONG_AGO_S):.2g} s; {words}"
-        return level, words, {**values, **about}
+        return level, words, {**values, **hand}
 
     def _answer(self, name: str) -> Callable[[Trigger.Request, Trigger.Response], Trigger.Response]:
         def on_request(_request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:

@@ -22,7 +22,7 @@ Array = NDArray[np.float64]
 
 
 class HandState(IntEnum):
-    """What the hand is about; the numbers are those of the message HandStatus."""
+    """What the hand does; the numbers are those of the message HandStatus."""
 
     STOPPED = 0
     OPEN = 1

@@ -1,7 +1,7 @@
 // Copyright 2026 ACTS contributors
 // SPDX-License-Identifier: Apache-2.0
 
-// Of a hand: what each region feels, what the hand is about, and the angles of its joints.
+// Of a hand: what each region feels, what the hand does, and the angles of its joints.
 
 const FULL_N = 5;
 
