@@ -4,15 +4,19 @@
 """When a slow touch began: some milliseconds before a taxel was pressed enough to be told from an untouched one.
 
 A hand that comes at 0.1 m/s has touched for 3 to 8 ms until a taxel reads 25 counts. So the readings of the taxel that
-is pressed most are followed back to 0. What touches is taken to be round where it first touches, to come at a speed
-that fades, and to press with a pressure that goes with depth, as foam does. With R the radius of curvature, d(t) the
-depth, and a taxel that takes the mean over a Gaussian of standard deviation s (its own square and the spread of the
-foam), the force is
+is pressed most are followed back to 0. What touches is taken to be round where it first touches, and to press with a
+pressure that goes with depth, as foam does. With R the radius of curvature, d(t) the depth, and a taxel that takes the
+mean over a Gaussian of standard deviation s (its own square and the spread of the foam), the force is
 
-    force(t) = c (u - 1 + exp(-u))        u = R d(t) / s^2        d(t) = v T (1 - exp(-(t - t0) / T))
+    force(t) = c (u - 1 + exp(-u))        u = R d(t) / s^2
 
 It begins with the square of the depth, while the contact is smaller than what a taxel sees, and goes on in proportion.
-How large R d is tells the area of the contact; t0 and T are looked for on a grid.
+How large R d is tells the area of the contact. The speed fades in one of two ways: of a hand that comes to rest from
+the first moment on, of one that springs back, as in a tap, late::
+
+    d(t) = v T (1 - exp(-(t - t0) / T))        d(t) = v T sin(min((t - t0) / T, pi / 2))
+
+Both are tried; t0 and T are looked for on a grid, and the mean over all that is likely is told.
 """
 
 from __future__ import annotations
@@ -72,12 +76,9 @@ def follow_back(rise: Rise) -> tuple[float, float] | None:
     onset_s = np.arange(first_s - _EARLIEST_S, first_s, _STEP_S)[:, None]
 
     def shape(at_s: Array) -> Array:
-        """Of the force, by onset, slowing and time."""
-        since_s = np.maximum(at_s - onset_s[..., None], 0.0)
-        slowing_s = _SLOWING_S[:, None]
-        depth = slowing_s * -np.expm1(-since_s / slowing_s)
-        whole = _SLOWING_S * -np.expm1(-(last_s - onset_s) / _SLOWING_S)
-        u = (curved_m2 / rise.blur_m2) * depth / whole[..., None]
+        """Of the force, by onset, way of slowing and time."""
+        depth, whole = _depths(at_s - onset_s[..., None]), _depths(last_s - onset_s[..., None])
+        u = (curved_m2 / rise.blur_m2) * depth / whole
         return u + np.expm1(-u)
 
     weight = 1.0 / np.hypot(rise.noise_n, _MISFIT * force_n)
@@ -91,3 +92,21 @@ def follow_back(rise: Rise) -> tuple[float, float] | None:
     mean_s = float((likely * onset_s).sum())
     sd_s = math.sqrt(float((likely * (onset_s - mean_s) ** 2).sum()))
     return mean_s, math.hypot(sd_s, _SHARE_SD * (first_s - mean_s), _STEP_S)
+
+
+def _depths(since_s: Array) -> Array:
+    """Depths at a speed of 1, in all ways of slowing.
+
+    Parameters
+    ----------
+    since_s : np.ndarray [shape=(..., 1, n), dtype=float64]
+        Since the first touch [s]; 0 before.
+
+    Returns
+    -------
+    np.ndarray [shape=(..., 2 * slowing times, n), dtype=float64]
+    """
+    slowing_s = _SLOWING_S[:, None]
+    share = np.maximum(since_s, 0.0) / slowing_s
+    resting, springing = -np.expm1(-share), np.sin(np.minimum(share, math.pi / 2))
+    return np.concatenate((slowing_s * resting, slowing_s * springing), axis=-2)
