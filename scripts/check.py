@@ -40,12 +40,17 @@ def python_packages() -> list[str]:
     return sorted(f"{path.parent.name}/{path.parent.name}" for path in ROOT.glob("*/setup.py"))
 
 
-def run(title: str, command: list[str], env: dict[str, str] | None = None) -> bool:
+def run(title: str, command: list[str], env: dict[str, str] | None = None) -> list[str]:
+    """Run a command; its title and exit code where it has failed."""
     print(f"[check] {title}", flush=True)
-    return subprocess.run(command, cwd=ROOT, env=env).returncode == 0
+    return failed(title, subprocess.run(command, cwd=ROOT, env=env).returncode)
 
 
-def run_side_by_side(commands: dict[str, list[str]]) -> bool:
+def failed(title: str, returncode: int) -> list[str]:
+    return [] if returncode == 0 else [f"{title} (exit code {returncode})"]
+
+
+def run_side_by_side(commands: dict[str, list[str]]) -> list[str]:
     """Run commands at the same time; what each says is printed in one piece, in their order."""
     with ThreadPoolExecutor() as pool:
         done = {
@@ -57,10 +62,10 @@ def run_side_by_side(commands: dict[str, list[str]]) -> bool:
         for title, future in done.items():
             print(f"[check] {title}", flush=True)
             print(future.result().stdout, end="", flush=True)
-    return all(future.result().returncode == 0 for future in done.values())
+    return [one for title, future in done.items() for one in failed(title, future.result().returncode)]
 
 
-def lint() -> bool:
+def lint() -> list[str]:
     """Every linter, also after one has failed, so that one run shows all there is."""
     firmware = [
         f"-I{ROOT}/acts_firmware/{folder}"
@@ -79,16 +84,15 @@ def lint() -> bool:
     )
 
 
-def reformat() -> bool:
-    passed = [
-        run("ruff: rules", ["ruff", "check", "--fix", "--quiet", "."]),
-        run("ruff: format", ["ruff", "format", "--quiet", "."]),
-        run("clang-format", ["clang-format", "-i", *tracked(*CXX_PATTERNS)]),
+def reformat() -> list[str]:
+    return [
+        *run("ruff: rules", ["ruff", "check", "--fix", "--quiet", "."]),
+        *run("ruff: format", ["ruff", "format", "--quiet", "."]),
+        *run("clang-format", ["clang-format", "-i", *tracked(*CXX_PATTERNS)]),
     ]
-    return all(passed)
 
 
-def test(arguments: list[str]) -> bool:
+def test(arguments: list[str]) -> list[str]:
     # Without these checks a wrong message field is serialised as garbage instead of raising.
     env = {**os.environ, "ROS_PYTHON_CHECK_FIELDS": "1"}
     # Two suites at once, of this or of another checkout, would meet in the tests' ROS domains and loopback ports.
@@ -114,6 +118,13 @@ def side_by_side() -> list[str]:
     return [*options, "--no-loadscope-reorder", "--max-worker-restart", "0"]
 
 
+def ended(failures: list[str]) -> int:
+    """The exit code; what has failed is named last, for it may stand far above."""
+    if failures:
+        print(f"[check] failed: {', '.join(failures)}", flush=True)
+    return 1 if failures else 0
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--lint", action="store_true", help="linters only")
@@ -122,21 +133,19 @@ def main() -> int:
     parser.add_argument("pytest", nargs="*", help="arguments for pytest, after --")
     arguments = parser.parse_args()
     if arguments.format:
-        return 0 if reformat() else 1
+        return ended(reformat())
     if arguments.quick:
-        passed = run("ruff: rules", ["ruff", "check", "."])
-        return 0 if test(["-m", "not slow", *arguments.pytest]) and passed else 1
+        return ended(run("ruff: rules", ["ruff", "check", "."]) + test(["-m", "not slow", *arguments.pytest]))
     missing = [tool for tool in ("ruff", "mypy", "clang-format") if shutil.which(tool) is None]
     if missing:
         # A sourced ROS installation need not have them; the bare machine's set-up always does.
         print(f"[check] linters left out, not installed: {', '.join(missing)} (pip install {' '.join(missing)})")
-        passed = not arguments.lint
+        failures = ["linters: not installed"] if arguments.lint else []
     else:
-        passed = lint()
-    if arguments.lint:
-        return 0 if passed else 1
-    # The suite runs also when a linter complained, and its summary comes last.
-    return 0 if test(arguments.pytest) and passed else 1
+        failures = lint()
+    if not arguments.lint:
+        failures += test(arguments.pytest)  # also when a linter complained, so that one run shows all there is
+    return ended(failures)
 
 
 if __name__ == "__main__":

@@ -21,8 +21,8 @@ Array = NDArray[np.float64]
 _MARGIN_TAXELS = 2.0
 # What lies nearer than this to where it first touches is soon touched, too.
 _AROUND_TAXELS = 2.5
-# A sample of more than this many standard deviations of the noise is no noise. With 3, noise began 2 of 200 touches, 15 ms
-# early.
+# A sample of more than this many standard deviations of the noise is no noise. With 3, noise began 2 of 200 touches,
+# 15 ms early.
 _NOISES = 4.0
 # Share of its largest force in the first sample of a taxel that was measured early.
 _EARLY = 0.4
