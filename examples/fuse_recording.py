@@ -11,10 +11,12 @@ sampled as a board would: docs/driver.md, "Replaying a recording". The size of t
 
 from __future__ import annotations
 
+import argparse
 import sys
 from pathlib import Path
 
 from acts_core.array import ArrayGeometry
+from acts_core.errors import ActsError
 from acts_core.sampling import SamplingConfig
 from acts_driver.replay import ReplayOptions, open_recording
 from acts_recon.methods import Fusion, Recovery, SkinSetup
@@ -26,8 +28,12 @@ def sampling(rows: int, cols: int) -> SamplingConfig:
 
 
 def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("file", type=Path, help="an .npz file; a bag (folder or .mcap), where ROS is installed")
+    recording = open_recording(ReplayOptions(parser.parse_args().file, sampling=sampling))
+
     recovery: Recovery | None = None
-    for frame in open_recording(ReplayOptions(Path(sys.argv[1]), sampling=sampling)).frames():
+    for frame in recording.frames():
         if recovery is None:
             skin = SkinSetup(ArrayGeometry(frame.rows, frame.cols), touch_counts=60)
             recovery = Recovery(Fusion(skin), skin)
@@ -41,4 +47,7 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except ActsError as error:
+        sys.exit(f"error: {error}")

@@ -10,11 +10,13 @@ FILE.npz holds `frames` (n, rows, cols), 0 to 1023 counts. `acts train` does the
 
 from __future__ import annotations
 
+import argparse
 import sys
 from pathlib import Path
 
 import numpy as np
 
+from acts_core.errors import ActsError
 from acts_core.files import load_frames
 from acts_recon.learning import KsvdConfig, learn_dictionary, prune_coherent, random_patches
 from acts_recon.sparse import Dictionary, save_dictionary
@@ -23,11 +25,17 @@ PATCH_SIZE = 8
 
 
 def main() -> None:
-    recorded, output = Path(sys.argv[1]), Path(sys.argv[2])
-    config = KsvdConfig(atoms=int(sys.argv[3]) if len(sys.argv) > 3 else 1000)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("file", type=Path, help="an .npz file with full frames")
+    parser.add_argument("dictionary", type=Path, help="the .npz file to write")
+    parser.add_argument("atoms", type=int, nargs="?", default=1000, help="atoms of the dictionary (%(default)s)")
+    arguments = parser.parse_args()
+    if not arguments.dictionary.parent.is_dir():
+        parser.error(f"{arguments.dictionary}: there is no folder {arguments.dictionary.parent}; make it first")
+    config = KsvdConfig(atoms=arguments.atoms)
     rng = np.random.default_rng(0)
 
-    frames = load_frames(recorded).frames
+    frames = load_frames(arguments.file).frames
     # 8 x 8 taxels from anywhere, with at least 4 of them pressed, and no two alike.
     patches = random_patches(frames, 40 * config.atoms, size=PATCH_SIZE, min_active=4, rng=rng)
     patches = patches[prune_coherent(patches, 0.99)]
@@ -39,9 +47,14 @@ def main() -> None:
         rng=rng,
         progress=lambda state: print(f"iteration {state.iteration}: {100 * state.relative_error:.1f} % unexplained"),
     )
-    save_dictionary(Dictionary(atoms, PATCH_SIZE, provenance=f"learnt from {recorded.name}"), output)
-    print(f"{output}: {config.atoms} atoms, for Reconstructor, and for the node's parameter `dictionary`")
+    save_dictionary(
+        Dictionary(atoms, PATCH_SIZE, provenance=f"learnt from {arguments.file.name}"), arguments.dictionary
+    )
+    print(f"{arguments.dictionary}: {config.atoms} atoms, for Reconstructor, and for the node's parameter `dictionary`")
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except (ActsError, OSError) as error:
+        sys.exit(f"error: {error}")

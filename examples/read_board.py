@@ -10,9 +10,11 @@ python3 examples/read_board.py /dev/ttyUSB0 --ascii 16 16          # lines of te
 from __future__ import annotations
 
 import argparse
+import sys
 import time
 
 from acts_core.array import ArrayGeometry
+from acts_core.errors import ActsError
 from acts_core.wire import RasterDecoder, StreamDecoder
 from acts_driver.port import SerialSource
 from acts_recon.methods import Fusion, Recovery, SkinSetup
@@ -64,4 +66,7 @@ def read(source: SerialSource, decoder: RasterDecoder | StreamDecoder, seconds: 
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except ActsError as error:
+        sys.exit(f"error: {error}")

@@ -17,7 +17,6 @@ import pytest
 from ament_index_python.packages import get_package_prefix
 
 from acts_core.array import ArrayGeometry
-from acts_core.errors import ActsError
 from acts_recon.sparse import Reconstructor, load_dictionary
 
 pytestmark = pytest.mark.slow
@@ -96,6 +95,46 @@ def test_a_board_is_read_over_serial(run: Run, tmp_path: Path, protocol: str) ->
     assert (x_mm, y_mm) == pytest.approx((1000 * float(geometry.x_m(11)), 1000 * float(geometry.y_m(4))), abs=0.5)
 
 
-def test_a_missing_board_is_said_in_words(run: Run, tmp_path: Path) -> None:
-    with pytest.raises(ActsError, match="board"):
-        run("read_board.py", str(tmp_path / "board"))
+@pytest.mark.parametrize(
+    ("example", "words", "said"),
+    [
+        ("read_board.py", ["{here}/board"], "error: port {here}/board is not there; plug the board in or name another"),
+        ("fuse_recording.py", ["{here}/no.npz"], "error: there is no recording '{here}/no.npz'; give a bag"),
+        ("fuse_recording.py", ["{here}/words.npz"], "error: {here}/words.npz: not an npz file, or a part of one; need"),
+        ("fuse_recording.py", ["{here}/words.txt"], "error: '{here}/words.txt' is no recording that can be replayed: "),
+        ("fuse_recording.py", ["{here}"], "error: '{here}' holds no bag that can be read: no metadata.yaml, no MCAP"),
+        (
+            "learn_dictionary.py",
+            ["{here}/no.npz", "{here}/d.npz"],
+            "error: {here}/no.npz: cannot be read (No such file",
+        ),
+        ("learn_dictionary.py", ["{here}/words.npz", "{here}/d.npz"], "error: {here}/words.npz: not an npz file"),
+        ("learn_dictionary.py", ["{here}/words.npz", "{here}/d.npz", "1"], "error: atoms"),
+    ],
+)
+def test_what_cannot_be_read_is_said_in_words(
+    run: Run, tmp_path: Path, example: str, words: list[str], said: str
+) -> None:
+    for name in ("words.npz", "words.txt"):
+        (tmp_path / name).write_text("no recording")
+    # An exit with words: Python writes them to stderr, and ends with code 1.
+    with pytest.raises(SystemExit, match="^" + re.escape(said.format(here=tmp_path))):
+        run(example, *[word.format(here=tmp_path) for word in words])
+
+
+@pytest.mark.parametrize(
+    ("example", "words", "said"),
+    [
+        ("fuse_recording.py", [], "required: file"),
+        ("learn_dictionary.py", ["FILE.npz"], "required: dictionary"),
+        ("learn_dictionary.py", ["FILE.npz", "{here}/no/d.npz"], "there is no folder {here}/no; make it first"),
+        ("learn_dictionary.py", ["FILE.npz", "{here}/d.npz", "many"], "invalid int value: 'many'"),
+    ],
+)
+def test_a_wrong_command_line_is_refused(
+    run: Run, capsys: pytest.CaptureFixture[str], tmp_path: Path, example: str, words: list[str], said: str
+) -> None:
+    with pytest.raises(SystemExit) as end:
+        run(example, *[word.format(here=tmp_path) for word in words])
+    assert end.value.code == 2
+    assert said.format(here=tmp_path) in capsys.readouterr().err

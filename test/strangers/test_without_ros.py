@@ -78,13 +78,13 @@ def normal(name: str) -> str:
     return re.sub(r"[-_.]+", "-", name).lower()
 
 
-def run(site: Path, *words: str) -> str:
-    """Run Python with nothing but its own library and `site`; what it printed."""
+def run(site: Path, *words: str, ends_with: int = 0) -> str:
+    """Run Python with nothing but its own library and `site`; what it printed, or the error where it is to end so."""
     environment = {"PATH": os.environ["PATH"], "PYTHONPATH": str(site), "PYTHONDONTWRITEBYTECODE": "1"}
     command = [sys.executable, "-S", "-s", *words]
     done = subprocess.run(command, env=environment, cwd=site.parent, capture_output=True, text=True, timeout=120)
-    assert done.returncode == 0, done.stderr
-    return done.stdout
+    assert done.returncode == ends_with, done.stderr
+    return done.stderr if ends_with else done.stdout
 
 
 def test_what_knows_no_ros_needs_only_what_setup_py_declares(site: Path) -> None:
@@ -96,6 +96,13 @@ def test_what_knows_no_ros_needs_only_what_setup_py_declares(site: Path) -> None
         assert set(re.findall(r"^from (acts_[\w.]+) import", example.read_text(), re.MULTILINE)) <= imported
     assert not any(module.startswith("acts_core") for module in lacking)
     assert "acts_recon.nodes.reconstruction_node" in lacking, "ROS can be imported: the test is of no use"
+
+
+def test_a_bag_is_refused_in_words(site: Path, tmp_path: Path) -> None:
+    (tmp_path / "touch.mcap").touch()
+    example = str(ROOT / "examples" / "fuse_recording.py")
+    said = run(site, example, str(tmp_path / "touch.mcap"), ends_with=1)
+    assert said.startswith(f"error: '{tmp_path}/touch.mcap' is a bag, which needs ROS's packages to be read (")
 
 
 def test_the_shipped_dictionary_is_installed_with_its_package(site: Path) -> None:

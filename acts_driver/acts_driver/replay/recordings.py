@@ -115,7 +115,13 @@ def open_recording(options: ReplayOptions) -> SeekableRecording:
         )
     if path.is_dir() or path.suffix == ".mcap":
         # Late: rosbags is needed for bags alone.
-        from acts_driver.replay.bag_recording import BagRecording
+        try:
+            from acts_driver.replay.bag_recording import BagRecording
+        except ModuleNotFoundError as error:
+            raise RecordingError(
+                f"'{path}' is a bag, which needs ROS's packages to be read ({error.name} is missing here); "
+                "give an .npz file, or start this in the environment of ACTS (./acts run ...)"
+            ) from error
 
         return BagRecording(path, options.topic)
     raise RecordingError(

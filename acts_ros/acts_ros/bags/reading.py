@@ -22,6 +22,7 @@ from acts_ros.bags.salvage import WholeRecords, largest_chunk
 
 # Recorders close a chunk after some megabytes. It is unpacked as a whole, so a larger one could fill the memory.
 _CHUNK_BYTES_MAX = 1 << 28
+_NEEDED = "give the folder that `acts record` or `ros2 bag record` made, or its .mcap file"
 
 
 @dataclass
@@ -131,7 +132,7 @@ def open_bag(path: Path) -> Iterator[Bag]:
         There is no bag, nothing in it can be read, or it holds more than is allowed.
     """
     if not is_there(path, error=RecordingError):
-        raise RecordingError(f"there is no bag '{path}'")
+        raise RecordingError(f"there is no bag '{path}'; {_NEEDED}")
     _check_files(path)
     reader, note = _open_reader(path)
     try:
@@ -182,11 +183,11 @@ def _salvage(path: Path, reason: str) -> McapReader:
     """Read the complete records of an MCAP file that has no index."""
     files = sorted(path.glob("*.mcap")) if path.is_dir() else [path]
     if not files:
-        raise RecordingError(f"'{path}' holds no bag that can be read: {reason}, no MCAP file")
+        raise RecordingError(f"'{path}' holds no bag that can be read: {reason}, no MCAP file; {_NEEDED}")
     try:
         # Of a path, rosbags uses only `open`.
         reader = McapReader(cast(Any, WholeRecords(files[0])))
         reader.open()
     except Exception as damage:
-        raise RecordingError(f"nothing in the bag '{path}' can be read: {damage}") from damage
+        raise RecordingError(f"nothing in the bag '{path}' can be read: {damage}; {_NEEDED}") from damage
     return reader
