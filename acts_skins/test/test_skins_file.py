@@ -149,6 +149,7 @@ def test_a_wrong_parameter_is_told_with_its_place(tmp_path: Path, lines: list[st
     [
         ("pose: {position_m: [0, 0, 0]}", ["skins.yaml:4: skin left: pose:", "parent = None"]),
         ("pose: {parent: 'a b'}", ["parent = 'a b'"]),
+        ("pose: {parent: /torso}", ["skins.yaml:4: skin left: pose:", "parent = '/torso'"]),
         ("pose: {parent: torso, position_m: [0, 0]}", ["position_m = [0, 0]: allowed are 3 finite numbers"]),
         ("pose: {parent: torso, position_m: [0, 0, .nan]}", ["position_m", "finite"]),
         ("pose: {parent: torso, position_m: [0, 0, 1e-3]}", ["write 1.0e-3"]),

@@ -14,6 +14,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from acts_control.hand.description import LEAP_RIGHT, HandKinematics, hand_description
+from acts_control.hand.nodes.hand_node import HandSettings
+from acts_control.hand.nodes.reflexes_node import HandReflexesSettings
 from acts_core.errors import SettingsError
 
 LEAP = HandKinematics(LEAP_RIGHT)
@@ -160,3 +162,11 @@ def test_a_hand_that_is_not_shipped_is_refused_with_those_that_are() -> None:
         hand_description("leap_wrong")
     with pytest.raises(SettingsError, match=r"cannot be read .*too long"):
         hand_description("leap" * 100)
+
+
+@pytest.mark.parametrize("settings", [HandSettings, HandReflexesSettings])
+@pytest.mark.parametrize("frame_id", ["", "/palm", "the palm"])
+def test_a_frame_that_tf2_does_not_take_is_refused(settings: type, frame_id: str) -> None:
+    assert settings(frame_id="arm/palm").frame_id == "arm/palm"
+    with pytest.raises(SettingsError, match=f"frame_id='{frame_id}': .* has no blanks and does not begin with /"):
+        settings(frame_id=frame_id)

@@ -9,13 +9,14 @@ In come frames, contacts and regions; out come messages or their bytes, and back
 from acts_ros.messages.cdr import ContactFields, header_of, read_contact, write_contact
 from acts_ros.messages.regions_cdr import RegionsFields, read_regions, write_regions
 from acts_ros.messages.sample_messages import SamplesMessage, frame_of, stamp_ns_of
-from acts_ros.messages.skin_frame import skin_frame
+from acts_ros.messages.skin_frame import check_frame_id, skin_frame
 from acts_ros.messages.stamps import seconds_of
 
 __all__ = [
     "ContactFields",
     "RegionsFields",
     "SamplesMessage",
+    "check_frame_id",
     "frame_of",
     "header_of",
     "read_contact",

@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The tf2 frame of a skin, which has the same name in all messages."""
+"""Names of tf2 frames, and that of a skin, which is the same in all messages."""
 
 from __future__ import annotations
 
@@ -11,7 +11,29 @@ from rclpy.node import Node
 
 from acts_core.errors import SettingsError
 
-_LEGAL = re.compile(r"[^\s/][^\s]*")
+_LEGAL = re.compile(r"[^\s\0/][^\s\0]*")
+
+
+def check_frame_id(frame_id: str, further: str = "") -> None:
+    """Refuse what tf2 does not take as the name of a frame.
+
+    Parameters
+    ----------
+    frame_id : str
+        The parameter.
+    further : str
+        What else is allowed, for the message.
+
+    Raises
+    ------
+    SettingsError
+        When it is empty, begins with / or has a blank.
+    """
+    if not _LEGAL.fullmatch(frame_id):
+        raise SettingsError(
+            f"frame_id={frame_id!r}: the name of a tf2 frame is not empty, has no blanks and does not begin with /"
+            + (further and f"; {further}")
+        )
 
 
 def skin_frame(node: Node, frame_id: str) -> str:
@@ -31,9 +53,5 @@ def skin_frame(node: Node, frame_id: str) -> str:
     """
     if frame_id in ("", "none"):
         return node.get_namespace().strip("/").replace("/", "_") or "skin"
-    if not _LEGAL.fullmatch(frame_id):
-        raise SettingsError(
-            f"frame_id={frame_id!r}: a frame of tf2 has no blanks and does not begin with /; "
-            "empty or none names it as the namespace"
-        )
+    check_frame_id(frame_id, "empty or none names it as the namespace")
     return frame_id

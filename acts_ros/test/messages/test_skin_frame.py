@@ -38,7 +38,7 @@ def test_a_frame_is_named_as_set_or_as_its_namespace(context: Context, namespace
     node.destroy_node()
 
 
-@pytest.mark.parametrize("given", ["/plate", "a plate", "plate\n"])
+@pytest.mark.parametrize("given", ["/plate", "/a b", "a plate", " ", "plate\n", "plate\0"])
 def test_a_name_that_tf2_does_not_take_is_refused(context: Context, given: str) -> None:
     node = Node("namer", context=context)
     with pytest.raises(SettingsError, match="does not begin with /"):

@@ -21,6 +21,7 @@ from acts_core.settings import setting
 from acts_ros.clocks import keep_system_clock
 from acts_ros.diagnostics import ERROR, OK, WARN, DiagnosticsReporter, Report
 from acts_ros.log import log_of
+from acts_ros.messages import check_frame_id
 from acts_ros.polled import PollingNode
 from acts_ros.qos import STATE
 
@@ -42,6 +43,7 @@ class MotorSettings(RealtimeConfig, HandLoopConfig, DynamixelConfig):
     def __post_init__(self) -> None:
         DynamixelConfig.__post_init__(self)
         RealtimeConfig.__post_init__(self)
+        check_frame_id(self.frame_id)
 
 
 def make_bus(node: Node, hand: HandDescription, settings: MotorSettings) -> HandBus:
