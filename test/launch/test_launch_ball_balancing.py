@@ -39,25 +39,20 @@ def test_with_a_simulated_skin_no_robot_of_another_address_is_moved(elsewhere: L
 
 def wait_for_state(launched: Launched, state: int, timeout_s: float) -> BalanceStatus:
     """Wait until the controller reports a state."""
-    statuses: list[BalanceStatus] = []
-
-    def reached() -> bool:
-        statuses.append(launched.wait_for_message("/plate/ball/status", BalanceStatus, START_S))
-        return statuses[-1].state == state
-
-    launched.wait_for(reached, timeout_s, f"state {state} of the controller")
-    return statuses[-1]
+    status: BalanceStatus = launched.wait_for_message(
+        "/plate/ball/status", BalanceStatus, timeout_s, lambda status: status.state == state
+    )
+    return status
 
 
 @launch_test(balancing)
 def test_the_ball_is_brought_to_the_centre_and_the_end_is_orderly(balancing: Launched) -> None:
     wait_for_state(balancing, BalanceStatus.STATE_BALANCING, START_S)
 
-    def centred() -> bool:
-        truth = balancing.wait_for_message("/plate/ball/truth", PointStamped).point
-        return float(np.hypot(truth.x, truth.y)) < 0.005
+    def centred(truth: PointStamped) -> bool:
+        return float(np.hypot(truth.point.x, truth.point.y)) < 0.005
 
-    balancing.wait_for(centred, LONG_S, "the ball within 5 mm of the centre")
+    balancing.wait_for_message("/plate/ball/truth", PointStamped, LONG_S, centred)
     assert balancing.stop() == 0
 
 
@@ -79,12 +74,11 @@ def test_in_separate_processes_a_lost_board_ends_motion_level(separate: Launched
     wait_for_state(separate, BalanceStatus.STATE_BALANCING, START_S)
     os.kill(pid_of(separate, "virtual_board"), signal.SIGKILL)
 
-    def level() -> bool:
-        status = separate.wait_for_message("/plate/ball/status", BalanceStatus)
+    def level(status: BalanceStatus) -> bool:
         tilted = max(abs(status.tilt_measured.x), abs(status.tilt_measured.y))
         return status.state != BalanceStatus.STATE_BALANCING and tilted < 0.002
 
-    separate.wait_for(level, LONG_S, "a level plate")
+    separate.wait_for_message("/plate/ball/status", BalanceStatus, LONG_S, level)
     assert separate.stop() == 1  # the board died
 
 

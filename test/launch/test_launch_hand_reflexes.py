@@ -42,11 +42,10 @@ def hand(tmp_path: Path) -> LaunchFile:
 def wait_for_state(launched: Launched, state: int, words: str = "") -> None:
     """Wait until the hand says that it is in a state, for a reason with these words."""
 
-    def reached() -> bool:
-        status = launched.probe.wait_for_message(STATUS, HandStatus, START_S)
+    def reached(status: HandStatus) -> bool:
         return bool(status.state == state and words in status.reason)
 
-    launched.wait_for(reached, START_S, f"state {state} of the hand, {words}")
+    launched.wait_for_message(STATUS, HandStatus, START_S, reached)
 
 
 def ask(launched: Launched, name: str) -> Trigger.Response:
@@ -61,9 +60,7 @@ def ask(launched: Launched, name: str) -> Trigger.Response:
 
 @launch_test(hand)
 def test_the_hand_grasps_keeps_its_grip_without_touch_and_opens(hand: Launched) -> None:
-    hand.probe.wait_for(
-        lambda: hand.probe.wait_for_message(STATUS, HandStatus, START_S).touch_age < 1.0, START_S, "touch"
-    )
+    hand.wait_for_message(STATUS, HandStatus, START_S, lambda status: status.touch_age < 1.0)
     assert ask(hand, "grasp").success
     wait_for_state(hand, HandStatus.STATE_HOLDING, "gripped by")
     tactile = pid_of(hand, "tactile")

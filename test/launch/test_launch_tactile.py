@@ -109,10 +109,7 @@ def rolling(tmp_path: Path) -> LaunchFile:
 
 @launch_test(rolling)
 def test_without_arguments_a_ball_is_felt(rolling: Launched) -> None:
-    def felt() -> bool:
-        return bool(rolling.wait_for_message("/plate/contact", Contact, START_S).in_contact)
-
-    rolling.wait_for(felt, START_S, "contact with the ball")
+    rolling.wait_for_message("/plate/contact", Contact, START_S, lambda contact: contact.in_contact)
     assert rolling.stop() == 0
 
 
