@@ -16,7 +16,7 @@ from ament_index_python.packages import get_package_share_directory
 
 from acts_sim.hand import HandWorldConfig
 from acts_tools.cli import main
-from acts_tools.evaluate.hand import scenarios, slip
+from acts_tools.evaluate.hand import scenarios, slip, sphere
 from acts_tools.evaluate.hand.rig import HandRig, RigOptions
 from acts_tools.evaluate.hand.scenario import Outcome, Run
 
@@ -113,3 +113,12 @@ def test_the_command_runs_seeds_and_writes_shares_with_intervals(
 def test_a_rate_that_the_hand_does_not_have_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["evaluate", "hand", "--scenario", "slip", "--rate-hz", "5"]) != 0
     assert "allowed is 10 to 500" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("seed", [20, 17], ids=["large, far from the thumb", "small"])
+def test_a_sphere_is_rolled_to_the_centre_and_gripped_there(seed: int) -> None:
+    outcome = sphere.run(Run(seed))
+    assert outcome.kept
+    assert outcome.offset_mm is not None
+    assert outcome.offset_mm < 5.0
+    assert len(outcome.details["tips"]) >= 2

@@ -252,7 +252,9 @@ class HandSupervisor:
             active.append(name)
             if wish.avoids:
                 avoids = avoids or wish.why
-        own = self._own(sensed, is_stale)
+        # Who claims all joints has the hand: closing waits meanwhile.
+        has_hand = any(wish.claimed is not None and wish.claimed.all() for wish in wishes)
+        own = None if has_hand and sensed.state is HandState.CLOSING else self._own(sensed, is_stale)
         if own is not None:
             wishes.append(own)
         if avoids and sensed.state in (HandState.CLOSING, HandState.HOLDING):
@@ -260,6 +262,10 @@ class HandSupervisor:
             self._become(HandState.AVOIDING, avoids)
         elif not avoids and sensed.state is HandState.AVOIDING:
             self._become(self._resumed, "nothing sharp any more")
+        elif sensed.state is HandState.CLOSING:
+            for wish in wishes:
+                if wish.holds:
+                    self._become(HandState.HOLDING, wish.why)
         return wishes, active
 
     # --- what the supervisor itself does

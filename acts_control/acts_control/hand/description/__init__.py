@@ -6,8 +6,8 @@
 In comes a YAML file; out come `HandDescription` and `HandKinematics`. Another hand is another file.
 """
 
-from acts_control.hand.description.description import HandDescription, Joint, Role
+from acts_control.hand.description.description import HandDescription, Joint, Region, Role
 from acts_control.hand.description.description_file import LEAP_RIGHT, hand_description
 from acts_control.hand.description.kinematics import HandKinematics, HandPose
 
-__all__ = ["LEAP_RIGHT", "HandDescription", "HandKinematics", "HandPose", "Joint", "Role", "hand_description"]
+__all__ = ["LEAP_RIGHT", "HandDescription", "HandKinematics", "HandPose", "Joint", "Region", "Role", "hand_description"]

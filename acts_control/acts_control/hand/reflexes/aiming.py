@@ -28,6 +28,9 @@ _LARGE_M, _SMALLEST_M = 0.035, 0.008
 SMALL_M = 0.018
 """Radius of a sphere that only one finger gets hold of: tips side by side are in each other's way [m]."""
 
+PAIR_M = 0.0245
+"""Radius of a sphere that only the finger over it and the one against it get hold of [m]."""
+
 # Until it is known that a sphere is not small, the others wait at this distance from its middle.
 _WAITS_M = {"over": 0.0, "beside": 0.040, "against": 0.028}
 
@@ -107,11 +110,11 @@ def approaches(sensed: Sensed, at_m: Array, up: Array) -> dict[str, Approach]:
             continue
         root = flat.point(first.link, first.centre_m) - at_m
         roots[finger] = root - (root @ up) * up
-        sides[finger] = _unit(roots[finger])
+        sides[finger] = unit(roots[finger])
     most = [finger for finger in sides if not sensed.hand.fingers[finger].opposes]
     if not most:
         return {}
-    middle = _unit(np.sum([sides[finger] for finger in most], axis=0))
+    middle = unit(np.sum([sides[finger] for finger in most], axis=0))
     over = max(most, key=lambda finger: float(sides[finger] @ middle))
     found = {}
     for finger, side in sides.items():
@@ -121,8 +124,32 @@ def approaches(sensed: Sensed, at_m: Array, up: Array) -> dict[str, Approach]:
         elif finger not in most:
             found[finger] = Approach(-middle, "against")
         else:
-            found[finger] = Approach(_unit(_unit(across) + _AHEAD * sides[over]), "beside")
+            found[finger] = Approach(unit(unit(across) + _AHEAD * sides[over]), "beside")
     return found
+
+
+def turned(direction: Array, to: Array, most_rad: float) -> Array:
+    """A unit vector, turned towards another by no more than an angle.
+
+    Parameters
+    ----------
+    direction, to : np.ndarray [shape=(3,)]
+        Unit vectors.
+    most_rad : float
+        [rad]
+    """
+    angle_rad = float(np.arccos(np.clip(direction @ to, -1.0, 1.0)))
+    if angle_rad <= most_rad:
+        return to
+    across = unit(to - (to @ direction) * direction)
+    result: Array = np.cos(most_rad) * direction + np.sin(most_rad) * across
+    return result
+
+
+def pad_m(sensed: Sensed, finger: str) -> Array:
+    """Where the pad of a fingertip is, shape (3,) [m]."""
+    tip = [one for one in sensed.hand.regions.values() if one.finger == finger][-1]
+    return sensed.pose.point(tip.link, tip.centre_m)
 
 
 def reach(sensed: Sensed, finger: str, to_m: Array, facing: Array, speed_m_s: float) -> Array:
@@ -162,6 +189,7 @@ def _rates(sensed: Sensed, jacobian: Array, wanted: Array, damping_m: float) -> 
     return rates
 
 
-def _unit(vector: Array) -> Array:
+def unit(vector: Array) -> Array:
+    """A vector's direction."""
     result: Array = vector / max(float(np.linalg.norm(vector)), 1e-9)
     return result

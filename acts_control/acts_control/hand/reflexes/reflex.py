@@ -126,6 +126,8 @@ class Wish(NamedTuple):
         Whether the steps are made without the rate shaping.
     avoids : bool
         Whether the hand is to count as avoiding something.
+    holds : bool
+        Whether a hand that closes is to count as holding.
     """
 
     steps: Array
@@ -133,6 +135,7 @@ class Wish(NamedTuple):
     claimed: NDArray[np.bool_] | None = None
     at_once: bool = False
     avoids: bool = False
+    holds: bool = False
 
 
 class Reflex(ABC):
