@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import itertools
+import textwrap
 from pathlib import Path
 from typing import Any
 
@@ -27,6 +28,8 @@ mpl.use("Agg")
 from matplotlib import pyplot as plt
 
 _COLUMN_IN, _HEIGHT_IN = 5.0, 14.0
+_TITLE = "A simulated LEAP hand acts by touch: what its running processes felt and did"
+_LETTERS_A_COLUMN = 40
 _COLOURS = {"": "0.45", "index": "#1f77b4", "middle": "#2ca02c", "ring": "#d62728", "thumb": "#9467bd"}
 _AXIS_COLOURS = {"x": "#8c564b", "y": "#e377c2", "z": "#17becf"}
 _VIEWS = {"palm_up": "above", "thumb_up": "front"}
@@ -49,7 +52,7 @@ def draw(acts: list[Act], path: Path) -> None:
         Its folder is made.
     """
     figure = plt.figure(figsize=(_COLUMN_IN * len(acts), _HEIGHT_IN), layout="constrained")
-    figure.suptitle("A simulated LEAP hand acts by touch: what its running processes felt and did", fontsize=15)
+    figure.suptitle(textwrap.fill(_TITLE, _LETTERS_A_COLUMN * len(acts)), fontsize=15)
     grid = figure.add_gridspec(5, len(acts), height_ratios=[1.6, 1.6, 1.0, 1.0, 1.0])
     for k, act in enumerate(acts):
         begin_s, end_s = _span(act)
@@ -68,25 +71,17 @@ def draw(acts: list[Act], path: Path) -> None:
         _name_marks(axes[0], act, begin_s, end_s)
         axes[2].set_xlabel("time since the grasp began [s]")
         if k == 0:
-            _legends(figure, axes)
+            _legend(figure, axes, 3 * len(acts))
     path.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path, dpi=100)
     plt.close(figure)
 
 
-def _legends(figure: Any, axes: list[Any]) -> None:
-    fingers, fingers_named = axes[0].get_legend_handles_labels()
-    ways, ways_named = axes[1].get_legend_handles_labels()
-    avoiding = mpl.patches.Patch(color=_AVOIDING, alpha=0.2, label="the hand avoids a tip")
-    figure.legend(fingers, fingers_named, loc="outside lower left", ncols=5, fontsize=10, title="force, slip")
-    figure.legend(
-        [*ways, avoiding],
-        [*ways_named, avoiding.get_label()],
-        loc="outside lower right",
-        ncols=4,
-        fontsize=10,
-        title="way",
-    )
+def _legend(figure: Any, axes: list[Any], columns: int) -> None:
+    """Name the fingers of force and slip, and the axes of the motion."""
+    handles = [handle for one in axes[:2] for handle in one.get_legend_handles_labels()[0]]
+    handles.append(mpl.patches.Patch(color=_AVOIDING, alpha=0.2, label="the hand avoids a tip"))
+    figure.legend(handles=handles, loc="outside lower center", ncols=columns, fontsize=10)
 
 
 def _span(act: Act) -> tuple[float, float]:
@@ -158,7 +153,7 @@ def _draw_motion(axes: Any, act: Act, begin_s: float, end_s: float) -> None:
     moved_mm = 1e3 * (column(rows, "object_position_m") - column(rows, "object_position_m")[0])
     for k, (axis, colour) in enumerate(_AXIS_COLOURS.items()):
         axes.plot(times_s - act.begin_s, moved_mm[:, k], color=colour, lw=1.3, label=f"{axis} of the palm")
-    axes.set(ylabel="displacement of the object [mm]")
+    axes.set(ylabel="motion of the object [mm]")
 
 
 def _draw_slip(axes: Any, act: Act, begin_s: float, end_s: float) -> None:
