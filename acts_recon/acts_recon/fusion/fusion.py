@@ -16,13 +16,17 @@ instead of a covariance matrix. One frame takes five steps:
    with ``b = t^2 / (t^2 + slope_memory_s^2)``, where t is the time between two measurements.
 3. **Update.** The innovation of a sample is its count less the prediction for its time. The taxel takes the count. The
    taxels around it are corrected by inverse-distance interpolation: the mean of the innovations within two taxels,
-   weighted by ``1 / distance^4``, times `spread_gain`.
+   weighted by ``1 / distance^4``, times `spread_gain`. A taxel measured t ago is corrected by the share that arose
+   since then: t over the time between the sample's measurements.
 4. **Image.** A taxel shows its last count and, as far as predictions are trusted, how it has changed since: those of
    this frame, too, since an image is of the end of its frame. A count that can be noise has no slope. The trust is
    the least squares solution of ``measured change = trust * predicted change``, of each taxel for predictions over
    less than `horizon_s`, of each tile for longer ones. Where nothing predicted comes true, the image is that of the
-   last values. Readings of untouched skin are shown as 0, since the noise of a thousand taxels would pull the centre
-   of pressure to the middle. What untouched skin reads is learnt, see below.
+   last values. A slope counts for this as one more prediction, which comes true over times well below `UNPROVEN_S`
+   and fails over longer ones, so that one that nothing has confirmed is not followed past the end of an impact. At
+   `horizon_s` the slope is forgotten, and what it added stays as far as it was trusted. Readings of untouched skin are
+   shown as 0, since the noise of a thousand taxels would pull the centre of pressure to the middle. What untouched skin
+   reads is learnt, see below.
 5. **Uncertainty.** ``sigma^2 = noise^2 + s q t^2 + ...``, where t is the taxel's age and q its process noise: the
    exponential average of ``(innovation^2 - 2 noise^2) / t^2``. The factor s is innovation-based adaptive noise. It
    follows the normalised innovation squared, slowly over frames and at once within a frame.

@@ -19,6 +19,10 @@ from acts_recon.fusion.fusion_state import IS_NOISE, QUIET, TRUST, UNKNOWN_COUNT
 IDLE_COUNTS_PER_S = 20.0
 # Predictions are trusted until sums of squares of this size say otherwise [counts^2].
 TRUST_PRIOR = 0.3
+# A slope that no measurement has confirmed is followed in full over times well below this [s], and hardly over longer
+# ones: an impact is over within a few milliseconds. It weighs as much as so many confirmed predictions of its size.
+UNPROVEN_S = 1e-3
+UNPROVEN_WEIGHT = 0.3
 # Smaller predicted changes are not shown: one step of the converter looks like a slope of nearly one count.
 LEAST_CHANGE_COUNTS = 0.85
 
@@ -31,6 +35,14 @@ def trust(product: np.float32, square: np.float32) -> np.float32:
     """Share of what was predicted that came true, by least squares, 0 to 1."""
     share = (product + _F(TRUST_PRIOR)) / (square + _F(TRUST_PRIOR))
     return min(max(share, _F(0)), _F(1))
+
+
+@kernel(fastmath=FASTMATH)
+def _trust_slope(product: np.float32, square: np.float32, change: np.float32, time: np.float32) -> np.float32:
+    """`trust`, as if one more prediction, of this change over this time [s], had come true by the share to expect."""
+    weight = _F(UNPROVEN_WEIGHT) * change * change
+    expected = _F(1) / (_F(1) + time * time / _F(UNPROVEN_S * UNPROVEN_S))
+    return trust(product + weight * expected, square + weight)
 
 
 @kernel(fastmath=FASTMATH)
@@ -70,6 +82,14 @@ def show(state: State, cols: int, tuning: Tuning) -> None:
         quiet[i] = usual if learnt[t, IS_NOISE] > _F(0) else _F(-1)
     around = _maximum_filter(state, above, cols)
     least, quiet_s, horizon = _F(LEAST_CHANGE_COUNTS), _F(tuning.quiet_s), _F(tuning.horizon_s)
+    slope, fade, velocity = state.slope, state.fade, state.velocity
+    for i in range(image.shape[0]):
+        # Too old to be followed: of what the slope has added, only as much stays as is trusted.
+        if slope[i] != _F(0) and not age[i] < horizon:
+            if not velocity[tile_of[i], 2] > _F(0):
+                share = _trust_slope(product[i], square[i], slope[i] * fade[i] * horizon, horizon)
+                estimate[i] = value[i] + share * (estimate[i] - value[i])
+            slope[i] = _F(0)
     for i in range(image.shape[0]):
         ahead = rate[i] * age[i] if around[i] > _F(0) else _F(0)
         change = ahead if fresh[i] else estimate[i] - value[i]
@@ -77,7 +97,12 @@ def show(state: State, cols: int, tuning: Tuning) -> None:
         image[i] = value[i]
     for i in range(image.shape[0]):
         if above[i] != _F(0):
-            change = above[i] * (trust(product[i], square[i]) if age[i] < horizon else learnt[tile_of[i], TRUST])
+            if age[i] < horizon:
+                by_slope = (_F(1) - velocity[tile_of[i], 2]) * slope[i] * fade[i] * age[i]
+                share = _trust_slope(product[i], square[i], by_slope, age[i])
+            else:
+                share = learnt[tile_of[i], TRUST]
+            change = share * above[i]
             if abs(change) >= least:
                 # Whole counts, as readings are: with a fraction more, a taxel that reads just the threshold would be
                 # pressed.

@@ -54,6 +54,9 @@ SCALE_LIMIT = 3.0
 NIS_PRIOR_SAMPLES = 4.0
 # Normalised innovations squared are limited to this: a new contact says little about known ones.
 OUTLIER = 25.0
+# Limits of ages that are divided; the longer one stands for never [s].
+SHORTEST_AGE_S = 1e-6
+LONGEST_AGE_S = 1e3
 # The correction of a taxel is halved where the weights of the samples around it sum up to this.
 SPREAD_PRIOR = 0.5
 
@@ -179,7 +182,7 @@ def _learn(
             learnt[tile, READINGS] += count * count
             learnt[tile, CHANGES] += change * change
             learnt[tile, EXPECTED] += noise * noise
-        state.innovation[k] = innovation
+        state.innovation[k], state.since[k] = innovation, since
     for p in range(noise_excess.shape[0]):
         step = min(max(_F(NOISE_STEP) * noise_excess[p], -_F(NOISE_STEP_LIMIT)), _F(NOISE_STEP_LIMIT))
         state.log_noise[p] = min(max(state.log_noise[p] + step, -_F(NOISE_LIMIT)), _F(NOISE_LIMIT))
@@ -264,7 +267,7 @@ def _spread(state: State, indices: NDArray[np.uint16], cols: int, tuning: Tuning
     m = indices.shape[0]
     total, process_noise_total, weight = state.total, state.process_noise_total, state.weight
     estimate, process_noise, fresh = state.estimate, state.process_noise, state.fresh
-    patches, patch_of = state.patches, state.patch_of
+    patches, patch_of, age = state.patches, state.patch_of, state.age
     for k in range(m):
         i = int(np.int64(indices[k]))
         row = i // cols
@@ -273,6 +276,8 @@ def _spread(state: State, indices: NDArray[np.uint16], cols: int, tuning: Tuning
         if abs(innovation) <= _F(QUIET_SIGMAS) * state.noise[i]:
             innovation = _F(0)
         own_noise = process_noise[i]
+        # A taxel that was measured since then has seen part of the change: only the rest is missing there.
+        per_s = _F(1) / min(max(state.since[k], _F(SHORTEST_AGE_S)), _F(LONGEST_AGE_S))
         p = patch_of[i]
         top, bottom, left, right = patches[p, 0], patches[p, 1], patches[p, 2], patches[p, 3]
         first, last = max(col - REACH, left), min(col + REACH + 1, right)
@@ -281,7 +286,7 @@ def _spread(state: State, indices: NDArray[np.uint16], cols: int, tuning: Tuning
             beside, place = np.uint64(r * cols + first), np.uint64((r - row + REACH) * _SIDE + first - col + REACH)
             for _ in range(last - first):
                 near = _NEAR[place]
-                total[beside] += near * innovation
+                total[beside] += near * innovation * min(min(age[beside], _F(LONGEST_AGE_S)) * per_s, _F(1))
                 process_noise_total[beside] += near * own_noise
                 weight[beside] += near
                 beside += np.uint64(1)

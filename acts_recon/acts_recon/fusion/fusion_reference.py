@@ -10,8 +10,15 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from acts_core.array import COUNT_MAX
-from acts_recon.fusion.fusion_image_kernels import IDLE_COUNTS_PER_S, LEAST_CHANGE_COUNTS, TRUST_PRIOR
+from acts_recon.fusion.fusion_image_kernels import (
+    IDLE_COUNTS_PER_S,
+    LEAST_CHANGE_COUNTS,
+    TRUST_PRIOR,
+    UNPROVEN_S,
+    UNPROVEN_WEIGHT,
+)
 from acts_recon.fusion.fusion_kernels import (
+    LONGEST_AGE_S,
     NEW_CONTACT_AGE_S,
     NIS_PRIOR_SAMPLES,
     NOISE_LIMIT,
@@ -26,6 +33,7 @@ from acts_recon.fusion.fusion_kernels import (
     REACH,
     SCALE_LIMIT,
     SCALE_STEP,
+    SHORTEST_AGE_S,
     SHORTEST_S,
     SPREAD_PRIOR,
     TRUST_MEMORY_S,
@@ -105,10 +113,11 @@ class FusionReference:
 
         self._observe_motion(at, y, self.age[at] + period_s - lag, period_s)
         rate, unexplained = self._predict(period_s)
+        since = self.age[at] - lag
         innovation = self._learn(at, y, lag, rate, period_s)
         self._update(at, y, lag, rate, innovation, unexplained)
-        self._spread(at, innovation)
-        self._show(rate)
+        self._spread(at, innovation, since)
+        self._show(rate, unexplained)
         self._update_sigma()
 
     def _by_tile(self, values: Floats) -> Floats:
@@ -208,10 +217,12 @@ class FusionReference:
     def _trust(self) -> tuple[Floats, Floats]:
         """Shares of what was predicted that came true: of every taxel lately, and of every tile."""
 
-        def share(product: Floats, square: Floats) -> Floats:
-            return np.clip((product + TRUST_PRIOR) / (square + TRUST_PRIOR), 0, 1)
+        return _share(self.product, self.square), _share(self.tile_product, self.tile_square)
 
-        return share(self.product, self.square), share(self.tile_product, self.tile_square)
+    def _trust_slope(self, change: Floats, time: Floats) -> Floats:
+        """Trust of every taxel, as if one more prediction, of this change, had come true by the share to expect."""
+        weight = UNPROVEN_WEIGHT * change**2
+        return _share(self.product + weight / (1 + (time / UNPROVEN_S) ** 2), self.square + weight)
 
     def _update(
         self,
@@ -252,7 +263,7 @@ class FusionReference:
         self.value[at], self.age[at], self.fresh[at] = y, lag, True
         rate[at] += unexplained[at] * (self.slope[at] * np.exp(-lag / tuning.damping_s) - slope_before)
 
-    def _spread(self, at: tuple[NDArray[np.intp], ...], innovation: Floats) -> None:
+    def _spread(self, at: tuple[NDArray[np.intp], ...], innovation: Floats, since: Floats) -> None:
         tuning = self._tuning
         step_rows, step_cols = np.indices((2 * REACH + 1,) * 2) - REACH
         square = (step_rows**2 + step_cols**2).astype(np.float64)
@@ -264,7 +275,14 @@ class FusionReference:
             return ndimage.convolve(field, near, mode="constant")
 
         weight = reached(1.0)
-        total = reached(np.where(np.abs(innovation) > QUIET_SIGMAS * self.noise[at], innovation, 0))
+        total = np.zeros(self.image.shape)
+        age = np.clip(self.age, 0, LONGEST_AGE_S)
+        for row, col, change, over in zip(*at, innovation, np.clip(since, SHORTEST_AGE_S, LONGEST_AGE_S), strict=True):
+            if abs(change) > QUIET_SIGMAS * self.noise[row, col]:
+                around = (slice(max(row - REACH, 0), row + REACH + 1), slice(max(col - REACH, 0), col + REACH + 1))
+                weights = near[around[0].start - row + REACH :, around[1].start - col + REACH :]
+                missed = np.minimum(age[around] / over, 1)
+                total[around] += weights[: missed.shape[0], : missed.shape[1]] * change * missed
         process_noise_total = reached(self.process_noise[at])
         to = ~self.fresh & (weight > 1e-9)
         shrunk = weight[to] + SPREAD_PRIOR
@@ -274,13 +292,19 @@ class FusionReference:
         )
         self.estimate[at] = self.value[at]
 
-    def _show(self, rate: Floats) -> None:
+    def _show(self, rate: Floats, unexplained: Floats) -> None:
         tuning = self._tuning
         quiet = self.noise * self.quiet_sigmas[self._tile_of]
         above = np.where(self.value <= quiet, 0.0, 1.0)
         self.low = ndimage.maximum_filter(above, size=3, mode="nearest") == 0
-        taxel_trust, tile_trust = self._trust()
-        trust = np.where(self.age < tuning.horizon_s, taxel_trust, tile_trust[self._tile_of])
+        time = np.minimum(self.age, tuning.horizon_s)
+        by_slope = unexplained * self.slope * np.exp(-self.age / tuning.damping_s) * time
+        taxel_trust = self._trust_slope(by_slope, time)
+        stale = (self.slope != 0) & (self.age >= tuning.horizon_s)
+        self.slope[stale] = 0
+        stale &= unexplained == 1
+        self.estimate[stale] = (self.value + taxel_trust * (self.estimate - self.value))[stale]
+        trust = np.where(self.age < tuning.horizon_s, taxel_trust, self._trust()[1][self._tile_of])
         of_fresh = np.where(self.low, 0, rate * np.where(self.fresh, self.age, 0))
         ahead = np.where(self.fresh, of_fresh, self.estimate - self.value)
         is_change = (np.abs(ahead) >= LEAST_CHANGE_COUNTS) & (np.abs(trust * ahead) >= LEAST_CHANGE_COUNTS)
@@ -337,6 +361,10 @@ class PatchesReference:
         for part, (r0, r1, c0, c1) in zip(self.parts, self._rectangles, strict=True):
             whole[r0:r1, c0:c1] = getattr(part, name)
         return whole
+
+
+def _share(product: Floats, square: Floats) -> Floats:
+    return np.clip((product + TRUST_PRIOR) / (square + TRUST_PRIOR), 0, 1)
 
 
 def lags(m: int, duration_s: float) -> Floats:

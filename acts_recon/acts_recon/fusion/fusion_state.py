@@ -100,7 +100,8 @@ class State(NamedTuple):
         Sum of the normalised innovations squared of a frame, less their number.
     rate : np.ndarray [shape=(taxels,), dtype=float32]
         How fast the estimate changes [counts/s].
-    noise_scale, noise_excess, scale, compared, before, elapsed, innovation, total, process_noise_total, weight, in_row
+    noise_scale, noise_excess, scale, compared, before, elapsed, innovation, since, total, process_noise_total, weight,
+    in_row
         Scratch.
     """
 
@@ -136,6 +137,7 @@ class State(NamedTuple):
     elapsed: NDArray[np.float32]
     rate: NDArray[np.float32]
     innovation: NDArray[np.float32]
+    since: NDArray[np.float32]
     total: NDArray[np.float32]
     process_noise_total: NDArray[np.float32]
     weight: NDArray[np.float32]
@@ -148,7 +150,7 @@ class Memory(NamedTuple):
 
     Attributes
     ----------
-    taxels : np.ndarray [shape=(20, taxels), dtype=float32]
+    taxels : np.ndarray [shape=(21, taxels), dtype=float32]
     flags : np.ndarray [shape=(2, taxels), dtype=bool]
     tiles : np.ndarray [shape=(2, tiles + 1, 6), dtype=float32]
     velocity : np.ndarray [shape=(tiles + 1, 3), dtype=float32]
@@ -174,7 +176,7 @@ def new_memory(rows: int, cols: int, borders: Borders, noise_counts: float) -> M
     patches = _with_tiles(borders.rectangles)
     tiles = int((patches[:, 5] * patches[:, 6]).sum())
     memory = Memory(
-        taxels=np.zeros((20, rows * cols), dtype=np.float32),
+        taxels=np.zeros((21, rows * cols), dtype=np.float32),
         flags=np.zeros((2, rows * cols), dtype=np.bool_),
         tiles=np.zeros((2, tiles + 1, 6), dtype=np.float32),
         velocity=np.zeros((tiles + 1, 3), dtype=np.float32),
@@ -256,6 +258,7 @@ def state_of(memory: Memory) -> State:
         elapsed=taxels[8],
         rate=taxels[9],
         innovation=taxels[10],
+        since=taxels[20],
         total=taxels[11],
         process_noise_total=taxels[12],
         weight=taxels[13],

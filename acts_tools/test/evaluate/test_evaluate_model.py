@@ -46,3 +46,16 @@ def test_objects_give_curves_and_a_picture(tmp_path: Path, capsys: pytest.Captur
     assert capsys.readouterr().out.splitlines()[-1] == "| acts, tracking | - |"
     assert main(["evaluate", "objects", "--objects", "no such thing"]) == 1
     assert main(["evaluate", "objects", *words, "--picture", str(tmp_path / "no" / "a.png")]) == 1
+
+
+# Before slopes had to be confirmed it was 1.47 times the error of last values, with `adaptive` and M = 256.
+@pytest.mark.parametrize(
+    ("scheme", "m"), [("tracking", 55), ("tracking", 512), ("adaptive", 128), ("adaptive", 256), ("uniform", 256)]
+)
+def test_bounces_are_at_most_slightly_worse_than_last_values(tmp_path: Path, scheme: str, m: int) -> None:
+    out = tmp_path / "events.json"
+    words = ["--event", "bounce", "--scheme", scheme, "--m", str(m), "--method", "acts", "last", "--json", str(out)]
+    assert main(["evaluate", "events", *words]) == 0
+    ours, last = (result["onset"] for result in json.loads(out.read_text())["results"])
+    assert ours["relative_error"] < 1.05 * last["relative_error"]
+    assert ours["cop_error_taxels"]["mean"] < 1.05 * last["cop_error_taxels"]["mean"]
