@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from acts_core.array import ArrayGeometry
 from acts_core.sampling import SamplingConfig
 from acts_recon.classifiers import CLASSIFIERS, FusedImageRecogniser, ObjectRecogniser, SrcRecogniser
-from acts_recon.fusion import FusionEstimator
+from acts_recon.fusion import FusionConfig, FusionEstimator
 from acts_recon.methods import Fusion, SkinSetup
 from acts_recon.objects import (
     Classification,
@@ -51,6 +51,9 @@ M_OVER_TIME = 64
 MS = (42, 48, 56, 64, 88, 128, 256, 512)
 _BEFORE_S = 0.100
 """Time without touch before a press, in which tracking scans the skin [s]."""
+
+UNKNOWN_NOISE = FusionConfig().noise_counts
+"""What methods assume of a recording whose noise is not known [counts]."""
 
 _LISTEN_S = 0.025
 """Time for which our method classifies before the first scored answer [s]; its memory is shorter."""
@@ -103,10 +106,16 @@ class PerFrameSrc:
 
 
 class FusedImage:
-    """Our method: tracking sampling, classification of the fused image."""
+    """Our method: tracking sampling, classification of the fused image; told the noise, as by a calibration."""
 
     def __init__(
-        self, library: ObjectLibrary, m: int, config: ImageClassifierConfig | None = None, *, period_s: float
+        self,
+        library: ObjectLibrary,
+        m: int,
+        config: ImageClassifierConfig | None = None,
+        *,
+        period_s: float,
+        noise_counts: float = UNKNOWN_NOISE,
     ) -> None:
         self._classifier = ImageClassifier(library, config)
         self.sampling = SamplingConfig(
@@ -117,7 +126,8 @@ class FusedImage:
             threshold_counts=self._classifier.config.touch_counts,
         )
         self._period_s = period_s
-        self._estimator = FusionEstimator(ArrayGeometry(rows=library.rows, cols=library.cols))
+        geometry = ArrayGeometry(rows=library.rows, cols=library.cols)
+        self._estimator = FusionEstimator(geometry, FusionConfig(noise_counts=noise_counts))
         self.spent_us: list[float] = []
 
     def reset(self) -> None:
@@ -142,12 +152,15 @@ class FusedImage:
 class Registered:
     """Any other classifier of the node (docs/extending.md), with tracking sampling and fusion like `FusedImage`."""
 
-    def __init__(self, kind: type[ObjectRecogniser], library: ObjectLibrary, m: int) -> None:
+    def __init__(
+        self, kind: type[ObjectRecogniser], library: ObjectLibrary, m: int, *, noise_counts: float = UNKNOWN_NOISE
+    ) -> None:
         config = ImageClassifierConfig()
         self.sampling = SamplingConfig(
             scheme="tracking", rows=library.rows, cols=library.cols, m=m, threshold_counts=config.touch_counts
         )
-        skin = SkinSetup(ArrayGeometry(rows=library.rows, cols=library.cols), touch_counts=config.touch_counts)
+        geometry = ArrayGeometry(rows=library.rows, cols=library.cols)
+        skin = SkinSetup(geometry, touch_counts=config.touch_counts, noise_counts=noise_counts)
         self._method = Fusion(skin)
         self._recogniser = kind(library, kind.Config(), skin, self._method)
         self.spent_us: list[float] = []
@@ -171,7 +184,9 @@ class Registered:
         return _answer(self._recogniser.step(indices, counts, end_s, duration_s), began_s, self.spent_us)
 
 
-def contenders(coarse: ObjectLibrary, fine: ObjectLibrary, m: int) -> dict[str, Contender]:
+def contenders(
+    coarse: ObjectLibrary, fine: ObjectLibrary, m: int, *, noise_counts: float = UNKNOWN_NOISE
+) -> dict[str, Contender]:
     """All classifiers by name: the paper's, ours, and further ones of the node.
 
     Parameters
@@ -180,12 +195,14 @@ def contenders(coarse: ObjectLibrary, fine: ObjectLibrary, m: int) -> dict[str, 
         Libraries of the same presses: without counts below the paper's touch threshold, and with them.
     m : int
         Taxels per frame.
+    noise_counts : float
+        Standard deviation of a reading [counts].
     """
     own = {name: kind for name, kind in CLASSIFIERS.items() if kind not in (SrcRecogniser, FusedImageRecogniser)}
     return {
         PAPER: PerFrameSrc(coarse, m),
-        ACTS: FusedImage(fine, m, period_s=frame_period_s(m)),
-        **{name: Registered(kind, fine, m) for name, kind in own.items()},
+        ACTS: FusedImage(fine, m, period_s=frame_period_s(m), noise_counts=noise_counts),
+        **{name: Registered(kind, fine, m, noise_counts=noise_counts) for name, kind in own.items()},
     }
 
 
@@ -331,8 +348,9 @@ def run_trials(
     after_s = 1e-3 * max(MIDDLE_MS, *times_ms) + 0.015
     for number in range(trials.arms):
         arm, coarse, fine = arm_of(trials, number)
-        judged = {m: contenders(coarse, fine, m) for m in ms}
-        timed = contenders(coarse, fine, M_OVER_TIME)
+        noise_counts = trials.foam.noise_counts
+        judged = {m: contenders(coarse, fine, m, noise_counts=noise_counts) for m in ms}
+        timed = contenders(coarse, fine, M_OVER_TIME, noise_counts=noise_counts)
         for item in range(len(arm.objects)):
             show((number + item / len(arm.objects)) / trials.arms)
             wanted = coarse.names.index(arm.objects[item].name)

@@ -78,7 +78,7 @@ def _measure_all(run: Run) -> dict[str, Any]:
             arm, coarse, fine = arm_of(trials, number)
             names = list(coarse.names)
             judged = {
-                f"{scheme} {m}": FusedImage(fine, m, period_s=frame_period_s(m))
+                f"{scheme} {m}": FusedImage(fine, m, period_s=frame_period_s(m), noise_counts=trials.foam.noise_counts)
                 if scheme == _OURS
                 else PerFrameSrc(coarse, m, scheme="raster" if m == _ALL else scheme)
                 for scheme, m, _ in asked
