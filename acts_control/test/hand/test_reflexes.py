@@ -142,7 +142,7 @@ def tip_in(name: str) -> RegionContact:
 
 
 def test_only_what_is_surely_a_tip_is_avoided() -> None:
-    reflex = SharpAvoidance(SharpAvoidanceConfig(sharp_min_sharpness=3.0, sharp_touches=2))
+    reflex = SharpAvoidance(SharpAvoidanceConfig())
     for sharpness in (2.9, 3.1, 2.9, 3.1):
         assert reflex.step(sensed(region("index_distal", 0.5, 1, sharpness=sharpness))) is None
     assert reflex.step(sensed(region("index_distal", 0.5, 1, sharpness=3.1))) is not None
@@ -150,7 +150,9 @@ def test_only_what_is_surely_a_tip_is_avoided() -> None:
 
 def test_the_finger_at_a_tip_opens_at_once_and_the_others_keep_what_they_have() -> None:
     reflex = SharpAvoidance(SharpAvoidanceConfig())
-    wish = reflex.step(sensed(tip_in("index_distal"), region("middle_distal", 0.8)))
+    felt = sensed(tip_in("index_distal"), region("middle_distal", 0.8))
+    assert reflex.step(felt) is None  # one image may deceive
+    wish = reflex.step(felt)
     assert wish is not None
     assert wish.at_once
     assert wish.avoids
@@ -166,7 +168,7 @@ def test_the_finger_at_a_tip_opens_at_once_and_the_others_keep_what_they_have() 
 
 
 def test_a_finger_opens_so_far_and_no_farther() -> None:
-    reflex = SharpAvoidance(SharpAvoidanceConfig(sharp_open_rad=0.2))
+    reflex = SharpAvoidance(SharpAvoidanceConfig(sharp_open_rad=0.2, sharp_touches=1))
     reflex.step(sensed(tip_in("index_distal")))
     wish = reflex.step(sensed(tip_in("index_distal"), goal_rad=np.full(16, 0.05), time_s=0.1))
     assert wish is not None
@@ -174,7 +176,7 @@ def test_a_finger_opens_so_far_and_no_farther() -> None:
 
 
 def test_a_tip_in_the_palm_opens_all_fingers() -> None:
-    reflex = SharpAvoidance(SharpAvoidanceConfig())
+    reflex = SharpAvoidance(SharpAvoidanceConfig(sharp_touches=1))
     wish = reflex.step(sensed(tip_in("palm")))
     assert wish is not None
     for finger in LEAP_RIGHT.fingers:

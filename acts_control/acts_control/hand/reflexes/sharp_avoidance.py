@@ -27,7 +27,13 @@ class SharpAvoidanceConfig:
         minimum=0.0,
         maximum=100.0,
     )
-    sharp_touches: int = setting(1, "so many times in succession", minimum=1, maximum=100)
+    sharp_touches: int = setting(
+        2,
+        "so many times in succession: one image of something that moves fast, its taxels measured one after the other, "
+        "can look like a tip",
+        minimum=1,
+        maximum=100,
+    )
     sharp_open_steps: float = setting(20.0, "steps by which the finger opens", minimum=0.1, maximum=100.0)
     sharp_open_rad: float = setting(
         0.5, "how far each joint that closes the finger is opened at most [rad]", minimum=0.01, maximum=3.0
