@@ -19,16 +19,20 @@ NAMED = re.compile(r"ROS_DOMAIN_IDs?:?((?:\s|,|and|to|\d+)+)")
 CALLS = {"Bench", "Launch", "LaunchFile", "Probe", "Rig", "bench", "launched"}
 """What takes a domain as its first number."""
 
+WORTH_READING = re.compile(r"domain|__init__\(|\b(" + "|".join(sorted(CALLS)) + r")\(", re.IGNORECASE)
+"""What stands in every module that names or uses a domain: the others need not be parsed."""
+
 HIGHEST = 232
 """Of the domains whose ports exist (RTPS 2.5, 9.6.2.3)."""
 
 
 @cache
 def sources() -> dict[Path, ast.Module]:
-    """The modules of all tests."""
+    """The modules of all tests that may name or use a domain."""
     found = [*ROOT.glob("acts_*/test/**/*.py"), *ROOT.glob("test/**/*.py")]
     paths = sorted(path for path in found if "install" not in path.parts)
-    return {path: ast.parse(path.read_text(encoding="utf-8")) for path in paths}
+    texts = {path: path.read_text(encoding="utf-8") for path in paths}
+    return {path: ast.parse(text) for path, text in texts.items() if WORTH_READING.search(text)}
 
 
 def named(docstring: str) -> set[int]:
