@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import json
-import threading
 import time
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
@@ -15,9 +14,9 @@ import pytest
 import rclpy
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
+from spinning import Spinning
 from std_srvs.srv import Trigger
 from test_view_codec import decode
 from view_browser import expect, needs_browser
@@ -68,19 +67,14 @@ class Bench:
             self.view._control._patience_s = PATIENCE_S
         self.url = self.view.address.url
         self._nodes = [*nodes, self.view]
-        self._executor = SingleThreadedExecutor(context=self._context)
-        for node in self._nodes:
-            self._executor.add_node(node)
-        self._thread = threading.Thread(target=self._executor.spin, daemon=True)
-        self._thread.start()
+        self._spinning = Spinning(self._context, *self._nodes)
 
     def connect(self) -> ClientConnection:
         port = self.view.address.port
         return connect(f"ws://127.0.0.1:{port}/stream", origin=f"http://127.0.0.1:{port}", compression=None)  # type: ignore[arg-type]
 
     def close(self) -> None:
-        self._executor.shutdown()
-        self._thread.join()
+        self._spinning.end()
         self.view.close()
         for node in (*self._nodes, self._stuck):
             node.destroy_node()

@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import math
-import threading
 import time
 import tracemalloc
 from array import array
@@ -19,11 +18,11 @@ import rclpy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from numpy.typing import NDArray
 from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.publisher import Publisher
 from sensor_msgs.msg import Image, JointState
+from spinning import Spinning
 from test_view_codec import decode
 from websockets.sync.client import ClientConnection, connect
 
@@ -70,12 +69,7 @@ class Bench:
         self.contact = self.skin.create_publisher(Contact, "contact", qos.STREAM)
         options = [Parameter("port", value=0), Parameter("outlines", value=True)]
         self.view = ViewNode(context=self._context, parameter_overrides=options)
-        self._executor = SingleThreadedExecutor(context=self._context)
-        for node in (self.skin, self._reconstruction, self.view):
-            self._executor.add_node(node)
-        # Not in slices: where they are shorter than what is due, Jazzy's executor begins anew with the first of it.
-        self._thread = threading.Thread(target=self._executor.spin, daemon=True)
-        self._thread.start()
+        self._spinning = Spinning(self._context, self.skin, self._reconstruction, self.view)
         self.headers: dict[str, dict[str, Any]] = {}
         self.arrays: dict[str, NDArray[Any]] = {}
         self.history: list[NDArray[np.float32]] = []
@@ -95,7 +89,7 @@ class Bench:
 
     def destroy(self, publishers: list[Publisher]) -> None:
         # By the thread that spins: the executor may not meet one that is being destroyed.
-        task = self._executor.create_task(lambda: [self.skin.destroy_publisher(one) for one in publishers])
+        task = self._spinning.executor.create_task(lambda: [self.skin.destroy_publisher(one) for one in publishers])
         deadline_s = time.monotonic() + DEADLINE_S
         while not task.done():
             assert time.monotonic() < deadline_s
@@ -129,8 +123,7 @@ class Bench:
             time.sleep(0.002)
 
     def close(self) -> None:
-        self._executor.shutdown()
-        self._thread.join()
+        self._spinning.end()
         self.view.close()
         for node in (self.view, self._reconstruction, self.skin):
             node.destroy_node()

@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import json
-import threading
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -15,10 +14,10 @@ from typing import TYPE_CHECKING, Any
 import pytest
 import rclpy
 from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.serialization import deserialize_message
+from spinning import Spinning
 from test_view_codec import decode
 from view_browser import expect, needs_browser
 from websockets.exceptions import InvalidStatus
@@ -55,11 +54,7 @@ class Bench:
         options = [Parameter(name, value=value) for name, value in values.items()]
         self.view = ViewNode(context=self._context, parameter_overrides=options)
         self.url = self.view.address.url
-        self._executor = SingleThreadedExecutor(context=self._context)
-        for node in (self._skin, self.view):
-            self._executor.add_node(node)
-        self._thread = threading.Thread(target=self._executor.spin, daemon=True)
-        self._thread.start()
+        self._spinning = Spinning(self._context, self._skin, self.view)
 
     def connect(self, path: str = "/stream", origin: str | None = None) -> ClientConnection:
         own = self.url.rstrip("/")
@@ -68,8 +63,7 @@ class Bench:
     def close(self) -> None:
         if not self._context.ok():
             return
-        self._executor.shutdown()
-        self._thread.join()
+        self._spinning.end()
         self.view.close()
         for node in (self._skin, self.view):
             node.destroy_node()
