@@ -15,6 +15,8 @@ from acts_recon.gait.config import GaitConfig
 
 _LEAST_S = 2.0
 _LEAST_COUNT = 12
+# A foot is not taken to lift where fewer samples say so; docs/gait.md, Limits.
+_SWING_COUNT = 3
 _EVERY_S = 0.5
 # Of the forces of the time that is learnt from.
 _LOWEST, _HIGHEST = 1.0, 99.0
@@ -91,7 +93,9 @@ class LoadLearner:
 
 def _loads_of(forces: NDArray[np.float64], least_change: float) -> Loads | None:
     lifted, loaded = np.percentile(forces, (_LOWEST, _HIGHEST)).tolist()
-    if loaded - lifted <= least_change * max(abs(lifted), abs(loaded)):
+    # Fewer samples as low as that are noise of a foot that stands.
+    low = max(lifted, float(np.partition(forces, _SWING_COUNT - 1)[_SWING_COUNT - 1]))
+    if loaded - low <= least_change * max(abs(low), abs(loaded)):
         return None
     roughness = np.square(np.diff(forces)).mean() / (2 * forces.var())
     is_two_sided = loaded - lifted < _TWO_SIDED * forces.std() and forces.size >= _TWO_SIDED_COUNT

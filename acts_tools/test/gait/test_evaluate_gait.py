@@ -35,6 +35,7 @@ pytestmark = pytest.mark.slow
     rate_hz=st.sampled_from([8.0, 13.0, 30.0, 100.0]),
     seed=st.integers(0, 1000),
 )
+@example(cadence=58.0, stance=0.75, weight=1.0, noise=0.02734375, offset=-0.1875, rate_hz=8.0, seed=367)
 @example(cadence=100.0, stance=0.62, weight=700.0, noise=0.01, offset=0.0, rate_hz=1000.0, seed=1)
 def test_any_walk_has_its_steps(
     cadence: float, stance: float, weight: float, noise: float, offset: float, rate_hz: float, seed: int
