@@ -122,3 +122,12 @@ def test_a_sphere_is_rolled_to_the_centre_and_gripped_there(seed: int) -> None:
     assert outcome.offset_mm is not None
     assert outcome.offset_mm < 5.0
     assert len(outcome.details["tips"]) >= 2
+
+
+def test_a_sphere_that_lies_in_the_open_hand_is_gripped() -> None:
+    world = HandWorldConfig(seed=1, pose="palm_up", object="sphere", object_size_m=0.034)
+    rig = HandRig(world, RigOptions(reflexes=("sharp", "slip", "sphere")))
+    assert rig.grasp()
+    rig.run(1.0)
+    assert not rig.world.truth.object_lost
+    assert sum(one.in_contact for one in rig.regions) >= 3

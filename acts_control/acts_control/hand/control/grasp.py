@@ -74,6 +74,8 @@ class Grasp:
         How closing has ended, in words; empty as long as it goes on.
     has_gripped : bool
         Whether something is held now.
+    is_shaped : bool
+        Whether the hand has come into the shape from which it closes.
     """
 
     def __init__(self, config: GraspConfig) -> None:
@@ -84,7 +86,7 @@ class Grasp:
         """Begin anew."""
         self.ended = ""
         self.has_gripped = False
-        self._is_shaped = False
+        self.is_shaped = False
         self._shaping_s = 0.0
         self._closing_s = 0.0
         self._gripped_s = 0.0
@@ -94,7 +96,7 @@ class Grasp:
     def step(self, sensed: Sensed) -> Wish | None:
         """Steps that close the hand."""
         config = self._config
-        if not self._is_shaped and self._shapes(sensed):
+        if not self.is_shaped and self._shapes(sensed):
             return towards(sensed, config.grasp_posture, config.open_speed_rad_s)
         self._closing_s += sensed.dt_s
         forces = {finger: sum(one.force_n for one in sensed.of_finger(finger)) for finger in sensed.hand.fingers}
@@ -141,8 +143,8 @@ class Grasp:
         left = np.abs(np.array(sensed.hand.postures[self._config.grasp_posture]) - sensed.q_rad).max()
         self._shaping_s += sensed.dt_s
         # Something may be in the way that the skin does not feel.
-        self._is_shaped = touched or bool(left < _ARRIVED_RAD) or self._shaping_s > _SHAPED_AFTER_S
-        return not self._is_shaped
+        self.is_shaped = touched or bool(left < _ARRIVED_RAD) or self._shaping_s > _SHAPED_AFTER_S
+        return not self.is_shaped
 
 
 class Aim:

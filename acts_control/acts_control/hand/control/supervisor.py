@@ -215,6 +215,7 @@ class HandSupervisor:
             self._rule.step_rad_s,
             {} if is_stale else self._regions,
             self._is_new and not is_stale,
+            self._grasp.is_shaped,
         )
         self._is_new = False
         asked, active = self._ask(sensed, is_stale)

@@ -15,6 +15,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_control.hand.description import Region
 from acts_control.hand.reflexes.reflex import Sensed
 from acts_core.skin import RegionContact
 
@@ -148,14 +149,17 @@ def turned(direction: Array, to: Array, most_rad: float) -> Array:
 
 def pad_m(sensed: Sensed, finger: str) -> Array:
     """Where the pad of a fingertip is, shape (3,) [m]."""
-    tip = [one for one in sensed.hand.regions.values() if one.finger == finger][-1]
+    tip = _tip(sensed, finger)
     return sensed.pose.point(tip.link, tip.centre_m)
+
+
+def _tip(sensed: Sensed, finger: str) -> Region:
+    return [one for one in sensed.hand.regions.values() if one.finger == finger][-1]
 
 
 def reach(sensed: Sensed, finger: str, to_m: Array, facing: Array, speed_m_s: float) -> Array:
     """Joint speeds that bring the pad of a fingertip to a point, facing a direction [rad/s]."""
-    name = [name for name, one in sensed.hand.regions.items() if one.finger == finger][-1]
-    region, pose = sensed.hand.regions[name], sensed.pose
+    region, pose = _tip(sensed, finger), sensed.pose
     at, normal = pose.point(region.link, region.centre_m), pose.direction(region.link, region.normal)
     moves = pose.jacobian(region.link, at)
     turns = pose.jacobian(region.link, at + normal) - moves

@@ -53,6 +53,8 @@ class Sensed:
         The newest of each patch; those that the hand's description does not have are left out.
     is_new : bool
         Whether they have come since the step before.
+    is_shaped : bool
+        Whether a hand that closes has come into the shape from which it does.
     """
 
     time_s: float
@@ -65,6 +67,7 @@ class Sensed:
     step_rad_s: Array
     regions: Mapping[str, RegionContact]
     is_new: bool = True
+    is_shaped: bool = True
 
     @property
     def hand(self) -> HandDescription:

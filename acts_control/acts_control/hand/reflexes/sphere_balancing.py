@@ -187,7 +187,8 @@ class SphereBalancing(Reflex):
         spread_m = max((one.spread_m for one in sensed.of_finger("") if one.in_contact), default=0.0)
         is_round = config.sphere_min_spread_m < spread_m < config.sphere_max_spread_m
         is_alone = not any(one.in_contact for name, one in sensed.regions.items() if sensed.finger(name))
-        state.round_s = state.round_s + sensed.dt_s if is_round and is_alone else 0.0
+        # Before the hand is in shape its thumb may come from the side, and push the sphere away.
+        state.round_s = state.round_s + sensed.dt_s if sensed.is_shaped and is_round and is_alone else 0.0
         return Rolling(thumb) if thumb is not None and state.round_s > _ROUND_S else None
 
     def _hold(self, sensed: Sensed, ball: Ball) -> Wish | None:
