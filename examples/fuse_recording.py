@@ -33,17 +33,22 @@ def main() -> None:
     recording = open_recording(ReplayOptions(parser.parse_args().file, sampling=sampling))
 
     recovery: Recovery | None = None
+    pressed = 0
     for frame in recording.frames():
+        frame = frame.once()  # where a board measured some taxels again and again, the last of each
         if recovery is None:
             skin = SkinSetup(ArrayGeometry(frame.rows, frame.cols), touch_counts=60)
             recovery = Recovery(Fusion(skin), skin)
         end_s, duration_s = frame.board_us * 1e-6, frame.duration_us * 1e-6
         contact = recovery.step(frame.indices, frame.counts, end_s, duration_s)
         # recovery.image and recovery.sigma are (rows, cols) float32 [counts]; overwritten by the next step.
+        pressed += contact.in_contact
         if contact.in_contact and frame.sequence % 50 == 0:
             x_mm, y_mm = 1000 * contact.x_m, 1000 * contact.y_m
             print(f"{end_s:7.3f} s: x {x_mm:6.2f} mm, y {y_mm:6.2f} mm, {contact.force_n:5.2f} N, ", end="")
             print(f"x uncertain by {1000 * contact.x_sd_m:.2f} mm")
+    if not pressed:
+        print("no contact: none of the taxels measured is above 60 counts, of 1023")
 
 
 if __name__ == "__main__":

@@ -32,6 +32,8 @@ def main() -> None:
     arguments = parser.parse_args()
     if not arguments.dictionary.parent.is_dir():
         parser.error(f"{arguments.dictionary}: there is no folder {arguments.dictionary.parent}; make it first")
+    if arguments.dictionary.is_dir():
+        parser.error(f"{arguments.dictionary} is a folder; name the file to write")
     config = KsvdConfig(atoms=arguments.atoms)
     rng = np.random.default_rng(0)
 

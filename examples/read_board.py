@@ -57,12 +57,17 @@ def read(source: SerialSource, decoder: RasterDecoder | StreamDecoder, seconds: 
             contact = recovery.step(frame.indices, frame.counts, end_s, frame.duration_us * 1e-6)
         if now_s >= told_s + 1.0:
             told_s = now_s
-            print(f"{frames} frames, {decoder.crc_errors + decoder.malformed} packets damaged", end="")
+            damaged = decoder.crc_errors + decoder.malformed
+            print(f"{frames} frames, {damaged} packets damaged", end="")
+            if frames + damaged == 0:
+                print(" (does the board's sketch run, and print?)", end="")
             if decoder.last_error:
                 print(f" (the last: {decoder.last_error})", end="")
             if recovery is not None and contact.in_contact:
                 print(f"; touched at x {1000 * contact.x_m:.1f} mm, y {1000 * contact.y_m:.1f} mm", end="")
             print(flush=True)
+    if frames == 0:
+        sys.exit(f"error: no frame from {source.name} in {seconds:g} s")
 
 
 if __name__ == "__main__":

@@ -3,6 +3,9 @@
 
 """The executables of this package, see setup.py. Nothing else is imported here: signals come first."""
 
-from acts_ros.executables.program import Program
+try:
+    from acts_ros.executables.program import Program
+except ModuleNotFoundError:
+    from acts_core.without_ros import Program  # type: ignore[assignment]
 
 driver = Program("acts_driver.nodes.driver_node")

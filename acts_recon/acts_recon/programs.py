@@ -3,7 +3,10 @@
 
 """The executables of this package, see setup.py. Nothing else is imported here: signals come first."""
 
-from acts_ros.executables.program import Program
+try:
+    from acts_ros.executables.program import Program
+except ModuleNotFoundError:
+    from acts_core.without_ros import Program  # type: ignore[assignment]
 
 gait = Program("acts_recon.nodes.gait_node")
 reconstruction = Program("acts_recon.nodes.reconstruction_node")

@@ -5,10 +5,12 @@
 
 from __future__ import annotations
 
+import os
 import re
 import runpy
 import subprocess
 import sys
+import tty
 from collections.abc import Callable
 from pathlib import Path
 
@@ -65,6 +67,19 @@ def test_a_recording_is_fused(run: Run, presses: Path) -> None:
     assert y_mm == pytest.approx(1000 * float(geometry.y_m(5)), abs=0.3)
 
 
+def test_a_recording_in_which_taxels_come_twice_is_fused(run: Run, tmp_path: Path) -> None:
+    indices = np.tile([5, 6, 5, 6], (60, 1))
+    np.savez(
+        tmp_path / "fixed.npz", indices=indices, counts=indices * 100, rate_hz=1000.0, rows=4, cols=4, scheme="fixed"
+    )
+    assert re.match(r" +0\.050 s: x ", run("fuse_recording.py", str(tmp_path / "fixed.npz")).splitlines()[1])
+
+
+def test_a_recording_of_volts_is_told_to_hold_no_contact(run: Run, tmp_path: Path) -> None:
+    np.savez(tmp_path / "volts.npz", frames=np.full((3, 8, 8), 3.3), rate_hz=100.0)
+    assert run("fuse_recording.py", str(tmp_path / "volts.npz")).startswith("no contact: none of the taxels measured")
+
+
 def test_a_dictionary_is_learnt_that_the_reconstruction_takes(run: Run, presses: Path, tmp_path: Path) -> None:
     assert "iteration 10" in run("learn_dictionary.py", str(presses), str(tmp_path / "mine.npz"), "30")
     dictionary = load_dictionary(tmp_path / "mine.npz")
@@ -95,9 +110,22 @@ def test_a_board_is_read_over_serial(run: Run, tmp_path: Path, protocol: str) ->
     assert (x_mm, y_mm) == pytest.approx((1000 * float(geometry.x_m(11)), 1000 * float(geometry.y_m(4))), abs=0.5)
 
 
+def test_a_port_that_sends_nothing_is_told(run: Run) -> None:
+    master, slave = os.openpty()
+    tty.setraw(slave)
+    try:
+        with pytest.raises(SystemExit, match=f"^error: no frame from {os.ttyname(slave)} in 0.1 s"):
+            run("read_board.py", os.ttyname(slave), "--seconds", "0.1")
+    finally:
+        os.close(master)
+        os.close(slave)
+
+
 @pytest.mark.parametrize(
     ("example", "words", "said"),
     [
+        ("read_board.py", ["serial:"], "error: port = 'serial:': allowed are a path such as /dev/ttyACM0, auto, or"),
+        ("read_board.py", ["{here}"], "error: {here} is no serial port. "),
         ("read_board.py", ["{here}/board"], "error: port {here}/board is not there; plug the board in or name another"),
         ("fuse_recording.py", ["{here}/no.npz"], "error: there is no recording '{here}/no.npz'; give a bag"),
         ("fuse_recording.py", ["{here}/words.npz"], "error: {here}/words.npz: not an npz file, or a part of one; need"),
@@ -128,6 +156,7 @@ def test_what_cannot_be_read_is_said_in_words(
         ("fuse_recording.py", [], "required: file"),
         ("learn_dictionary.py", ["FILE.npz"], "required: dictionary"),
         ("learn_dictionary.py", ["FILE.npz", "{here}/no/d.npz"], "there is no folder {here}/no; make it first"),
+        ("learn_dictionary.py", ["FILE.npz", "{here}"], "{here} is a folder; name the file to write"),
         ("learn_dictionary.py", ["FILE.npz", "{here}/d.npz", "many"], "invalid int value: 'many'"),
     ],
 )

@@ -98,6 +98,12 @@ def test_what_knows_no_ros_needs_only_what_setup_py_declares(site: Path) -> None
     assert "acts_recon.nodes.reconstruction_node" in lacking, "ROS can be imported: the test is of no use"
 
 
+@pytest.mark.parametrize("command", ["driver", "reconstruction", "gait"])
+def test_the_command_of_a_node_says_that_ros_is_missing(site: Path, command: str) -> None:
+    said = run(site, str(site / "bin" / command), ends_with=1)
+    assert re.fullmatch(r"error: acts_\w+\.nodes\.\w+_node is a node, and ROS 2 .* is not installed here; .*\n", said)
+
+
 def test_a_bag_is_refused_in_words(site: Path, tmp_path: Path) -> None:
     (tmp_path / "touch.mcap").touch()
     example = str(ROOT / "examples" / "fuse_recording.py")

@@ -138,4 +138,5 @@ class DelimitedDecoder(ABC):
             self._skipping = True
 
     def _too_long(self) -> str:
+        """Why a packet is refused that has no end; for a protocol to say in its own words."""
         return f"no delimiter within {self._packet_size_max} bytes, the longest packet there is"

@@ -52,9 +52,19 @@ class RasterDecoder(DelimitedDecoder):
 
     def _decode(self, packet: bytes) -> SampleFrame:
         line = packet.removesuffix(b"\r")
-        if line.translate(None, _NUMBER_CHARACTERS):
-            raise PacketError(f"line with something else than numbers and commas: {_shown(line)}")
+        strange = line.translate(None, _NUMBER_CHARACTERS)
+        if strange:
+            place = line.index(strange[:1])
+            raise PacketError(
+                f"line with something else than numbers and commas, {_shown(strange[:1])} as character {place + 1}: "
+                f"{_shown(line, place)}"
+            )
         words = line.split(b",")
+        if not words[-1] and len(words) > 1:
+            raise PacketError(
+                f"line of {len(words) - 1} numbers that ends with a comma; after the {self._size} counts of an array "
+                f"of {self._rows} x {self._cols} and their commas there is the duration, without one"
+            )
         if len(words) != self._size + 1:
             raise PacketError(
                 f"line of {len(words)} numbers; an array of {self._rows} x {self._cols} has {self._size} counts and a "
@@ -84,6 +94,15 @@ class RasterDecoder(DelimitedDecoder):
             counts=np.array(counts, dtype=np.uint16),
         )
 
+    def _too_long(self) -> str:
+        return (
+            f"line longer than {self._packet_size_max} bytes, the most that an array of {self._rows} x {self._cols} "
+            "takes; is that its size, and does each frame end with \\n?"
+        )
 
-def _shown(line: bytes, size: int = 40) -> str:
-    return repr(line[:size])[1:] + ("..." if len(line) > size else "")
+
+def _shown(line: bytes, place: int = 0, size: int = 40) -> str:
+    """A piece of a line around a place in it, for a person."""
+    begin = max(0, min(place - size // 2, len(line) - size))
+    piece = repr(line[begin : begin + size])[1:]
+    return ("..." if begin else "") + piece + ("..." if len(line) > begin + size else "")

@@ -150,6 +150,12 @@ class StreamDecoder(DelimitedDecoder):
         decode_into(b"", nothing)
         first_fault(nothing.view(_U2), nothing.view(_U2), 1, self._seen, self._mark, False)
 
+    def _too_long(self) -> str:
+        return (
+            f"no zero byte within {self._packet_size_max} bytes, the longest packet there is; a board that prints "
+            "lines of text speaks another protocol (docs/own_array.md)"
+        )
+
     def _decode(self, packet: bytes) -> SampleFrame | None:
         buffer = np.empty(len(packet), dtype=np.uint8)
         view = buffer.data

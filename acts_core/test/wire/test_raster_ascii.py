@@ -57,17 +57,18 @@ def test_the_first_line_is_never_used_since_it_may_be_cut_within_a_number() -> N
         (line([1, 2, 3, 4, 5, 6, 7]), "8 numbers"),
         (line([1, 2, 3, 4, 5, 1024]), "count 1024 of taxel 5"),
         (b"1,2,3,4,5,-6,100\r\n", "something else"),
-        (b"1,2,3,4,5,6.0,100\r\n", "something else"),
+        (b"1,2,3,4,5,6.0,100\r\n", "something else than numbers and commas, '.' as character 12: "),
         (b"1,2,3,4,5,x,100\r\n", "something else"),
         (b"1,2,3,4,5, 6,100\r\n", "something else"),
         (b"1,2,3,4,5,\xff\x00,100\r\n", "something else"),
         (b"1,2,3,4,,6,100\r\n", "empty value, number 5"),
-        (b"1,2,3,4,5,6,\r\n", "empty value, number 7"),
+        (b"1,2,3,4,5,6,\r\n", "line of 6 numbers that ends with a comma; after the 6 counts of an array of 2 x 3"),
+        (b"1,2,3,4,5,6,100,\r\n", "line of 7 numbers that ends with a comma"),
         (b"1,2,3,4,5,6,4294967296\r\n", "4294967296 us"),
         (b"1,2,3,4,5,6,00000000100\r\n", "of 11 digits"),
         (b"\r\n", "1 numbers"),
         (b"bin dur: 12\r\n", "something else"),
-        (b"1" * 200 + b"\r\n", "no delimiter within"),
+        (b"1" * 200 + b"\r\n", "line longer than 41 bytes, the most that an array of 2 x 3 takes; is that its size"),
     ],
 )
 def test_a_bad_line_is_counted_and_leaves_a_gap(bad: bytes, words: str) -> None:
@@ -77,6 +78,13 @@ def test_a_bad_line_is_counted_and_leaves_a_gap(bad: bytes, words: str) -> None:
     assert [frame.sequence for frame in received] == [0, 2]
     assert (decoder.frames, decoder.malformed, decoder.crc_errors) == (2, 1, 0)
     assert words in decoder.last_error
+
+
+def test_what_is_wrong_in_a_long_line_is_shown() -> None:
+    decoder = RasterDecoder(16, 16)
+    good = line([7] * 256)
+    decoder.feed(good + b"7," * 250 + b"1.5," + b"7," * 5 + b"100\r\n")
+    assert decoder.last_error.endswith(", '.' as character 502: ...',7,7,7,7,7,7,7,7,7,7,7,1.5,7,7,7,7,7,100'")
 
 
 def test_a_number_of_thousands_of_digits_is_malformed() -> None:

@@ -206,6 +206,14 @@ def test_reordered_frames_come_as_they_are_sent(order: list[int]) -> None:
     assert all_same(StreamDecoder().feed(b"".join(map(encode_frame, sent))), sent)
 
 
+def test_a_board_that_prints_text_is_told_from_one_of_ours() -> None:
+    decoder = StreamDecoder()
+    decoder.feed(b"0,0,3,118,402,29312\r\n" * 1000)
+    assert decoder.last_error.endswith(
+        "; a board that prints lines of text speaks another protocol (docs/own_array.md)"
+    )
+
+
 def test_endless_garbage_keeps_memory_bounded_and_counts_every_byte() -> None:
     decoder = StreamDecoder()
     chunk = b"\x55" * 4096

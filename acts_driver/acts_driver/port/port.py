@@ -76,7 +76,7 @@ def explain(path: str, number: int | None, reason: str, lister: Lister = list_po
         return f"port {_shown(path)} is held {who}; stop that program first"
     if number in (errno.EACCES, errno.EPERM):
         return f"port {_shown(path)}: permission denied; {_how_to_be_permitted(path)}"
-    if number == errno.ENOTTY:
+    if number in (errno.ENOTTY, errno.EISDIR):
         return f"{_shown(path)} is no serial port. {ports_present(lister)}"
     return f"port {_shown(path)} cannot be opened: {reason}. {ports_present(lister)}"
 

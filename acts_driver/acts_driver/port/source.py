@@ -17,7 +17,7 @@ from serial.tools import list_ports
 
 from acts_core.errors import PortError
 from acts_driver.port.port import open_port
-from acts_driver.port.port_choice import Lister, resolve
+from acts_driver.port.port_choice import Lister, check_port, resolve
 
 READ_TIMEOUT_S = 0.1
 """Longest time that `Source.read` blocks, so that a reader can be stopped."""
@@ -81,9 +81,15 @@ class SerialSource:
         Bits per second; of no effect on USB boards.
     lister : callable
         Lists the ports of this machine.
+
+    Raises
+    ------
+    SettingsError
+        For words that can be no port.
     """
 
     def __init__(self, port: str, baud: int = 115200, lister: Lister = list_ports.comports) -> None:
+        check_port(port)
         self._wanted = port
         self._path = port
         self._baud = baud

@@ -289,7 +289,9 @@ def _rate_of(content: FramesFile, given_hz: float, path: Path) -> float:
     """Frames per second of full frames: as given, or 0 for the file's own."""
     rate_hz = given_hz or content.rate_hz
     if rate_hz is None:
-        raise RecordingError(f"{path}: rate_hz is missing; set the parameter replay_frames_hz to its frames per second")
+        raise RecordingError(
+            f"{path}: rate_hz is missing; add it to the file, or set the parameter replay_frames_hz: frames per second"
+        )
     if not _RATE_MIN_HZ <= rate_hz <= _RATE_MAX_HZ:
         raise RecordingError(f"{path}: {rate_hz:g} frames per second; {_RATES}")
     return rate_hz
@@ -298,9 +300,13 @@ def _rate_of(content: FramesFile, given_hz: float, path: Path) -> float:
 def _times_us(path: Path, content: dict[str, NDArray[Any]], n: int) -> NDArray[np.int64]:
     if "stamp_ns" in content:
         stamps = content["stamp_ns"]
-        if stamps.shape != (n,) or stamps.dtype.kind not in "iu" or (np.diff(stamps.astype(np.int64)) <= 0).any():
-            raise RecordingError(f"{path}: stamp_ns {stamps.shape}: needed are {n} ascending whole numbers")
-        return (stamps.astype(np.int64) - int(stamps[0])) // 1000
+        if stamps.shape != (n,) or stamps.dtype.kind not in "iu" or (stamps[1:] <= stamps[:-1]).any():
+            raise RecordingError(
+                f"{path}: stamp_ns {stamps.shape}, {stamps.dtype}: needed are {n} ascending whole numbers"
+            )
+        # Differences of uint64 are right for every type, also where the stamps themselves fit no int64.
+        since_first_ns = stamps.astype(np.uint64) - stamps[0].astype(np.uint64)
+        return (since_first_ns // 1000).astype(np.int64)
     rate_hz = content.get("rate_hz", np.array(0.0))
     if rate_hz.size != 1 or rate_hz.dtype.kind not in "fiu" or not _RATE_MIN_HZ <= rate_hz.item() <= _RATE_MAX_HZ:
         raise RecordingError(f"{path}: needed is stamp_ns (n,) or rate_hz, frames per second; {_RATES}")

@@ -125,7 +125,7 @@ def test_full_frames_are_sampled_on_the_skin_that_they_are_of(tmp_path: Path) ->
 
 def test_the_rate_of_full_frames_and_of_sampling_can_be_given(tmp_path: Path) -> None:
     np.savez(tmp_path / "frames.npz", frames=np.zeros((4, 8, 6), np.uint16))
-    with pytest.raises(RecordingError, match="rate_hz is missing; set the parameter replay_frames_hz"):
+    with pytest.raises(RecordingError, match="rate_hz is missing; add it to the file, or set the parameter"):
         open_recording(ReplayOptions(tmp_path / "frames.npz"))
     slow = DriverSettings(scheme="raster").sampling
     found = list(open_recording(ReplayOptions(tmp_path / "frames.npz", "", 40.0, slow, 200.0)).frames())
@@ -161,6 +161,13 @@ def test_samples_that_do_not_fit_together(changes: dict[str, object], words: str
     with pytest.raises(RecordingError, match=words) as caught:
         open_recording(ReplayOptions(path))
     assert "samples.npz" in str(caught.value)
+
+
+@pytest.mark.parametrize("first", [np.uint64(2**63), np.int64(-(2**63)), np.uint64(2**64 - 5_001), np.int16(-30000)])
+def test_stamps_of_any_whole_type_are_taken(first: np.integer, tmp_path: Path) -> None:
+    stamps = np.array([first, first + first.dtype.type(5_000)])
+    path = write_samples(tmp_path / "samples.npz", [frame(0), frame(1)], stamp_ns=stamps)
+    assert [one.board_us for one in open_recording(ReplayOptions(path)).frames()] == [0, 5]
 
 
 def test_samples_of_one_taxel_are_replayed(tmp_path: Path) -> None:
