@@ -5,20 +5,24 @@
 
 from __future__ import annotations
 
+import errno
 import http.client
 import socket
 import time
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from itertools import count
+from pathlib import Path
 
 import numpy as np
 import pytest
 from test_view_codec import decode
-from websockets.exceptions import InvalidStatus
+from websockets.exceptions import ConnectionClosed, InvalidMessage, InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 
 from acts_core.errors import SettingsError
 from acts_view.skin.snapshot import Frame, Sample, SkinShape
+from acts_view.web import connections
 from acts_view.web.server import ViewServer
 
 DEADLINE_S = 30.0
@@ -143,3 +147,53 @@ def test_another_host_gets_a_token() -> None:
             pass
     finally:
         server.close()
+
+
+def test_connections_that_fail_are_told_in_one_line_and_without_a_traceback(capfd: pytest.CaptureFixture[str]) -> None:
+    def find_file(name: str) -> Path | None:
+        raise OSError(errno.EMFILE, "Too many open files")
+
+    log: list[str] = []
+    server = ViewServer(
+        "127.0.0.1", 0, on_clients=print, log=lambda _level, sentence: log.append(sentence), find_file=find_file
+    )
+    url = f"ws://127.0.0.1:{server.address.port}/recordings/x.mcap"
+    try:
+        for _ in range(3):
+            with pytest.raises(InvalidStatus), connect(url, origin=server.address.url.rstrip("/")):  # type: ignore[arg-type]
+                pass
+        # What asyncio finds where no connection can be accepted.
+        server._loop.call_exception_handler({"message": "socket.accept() out of system resource"})
+    finally:
+        server.close()
+    assert log == ["a connection to the page failed: process_request failed: OSError [Errno 24] Too many open files"]
+    assert capfd.readouterr().err == ""
+
+
+def test_what_was_not_told_of_failed_connections_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
+    log: list[str] = []
+    failures = connections.FailureLog(lambda _level, sentence: log.append(sentence))
+    for _ in range(4):
+        failures.tell("no handshake", ValueError("x" * 10_000))
+    monkeypatch.setattr(connections, "_TOLD_EVERY_S", 0.0)
+    failures.tell("no handshake", None)
+    assert len(log[0]) < 300
+    assert log[1:] == ["a connection to the page failed: no handshake; 3 more were not told"]
+
+
+def test_connections_that_ask_for_nothing_are_bounded(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(connections, "MAX_CONNECTIONS", 3)
+    address = ("127.0.0.1", bench.server.address.port)
+    silent = [socket.create_connection(address, DEADLINE_S) for _ in range(3)]
+    bench.until(lambda: len(bench.server._present) == 3)
+    with pytest.raises((ConnectionError, InvalidMessage, ConnectionClosed)):
+        bench.connect()
+    for own in silent:
+        own.close()
+
+    def is_served() -> bool:
+        with suppress(ConnectionError, InvalidMessage, ConnectionClosed), bench.connect():
+            return True
+        return False
+
+    bench.until(is_served)

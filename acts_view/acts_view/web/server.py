@@ -11,6 +11,7 @@ import threading
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from http import HTTPStatus
 from pathlib import Path
 from typing import Any
@@ -25,6 +26,7 @@ from acts_core.runtime import LogCallback
 from acts_view.skin.snapshot import Frame, Sample, SkinShape
 from acts_view.web.access import is_local_host, new_token, refusal
 from acts_view.web.codec import encode
+from acts_view.web.connections import FailureLog, LimitedConnection
 from acts_view.web.display import Display, Reader
 from acts_view.web.page_files import read_page
 from acts_view.web.requests import RequestHandler, read_request
@@ -39,6 +41,8 @@ _PIECE_BYTES = 1 << 16
 # Enough for two pictures of 64 x 64: what waits in the system's buffers is old when it arrives.
 _SEND_BUFFER_BYTES = 65536
 _LARGEST_REQUEST_BYTES = 1024
+# A browser on a slow network sends its request within this.
+_HANDSHAKE_S = 5.0
 _HEADERS = {
     "Cache-Control": "no-cache",
     "X-Content-Type-Options": "nosniff",
@@ -132,7 +136,10 @@ class ViewServer:
         self._files = read_page()
         self._clients: set[_Client] = set()
         self._token = "" if is_local_host(host) else new_token()
+        self._failures = FailureLog(log)
+        self._present: set[LimitedConnection] = set()
         self._loop = asyncio.new_event_loop()
+        self._loop.set_exception_handler(self._failures.on_loop_failure)
         self._thread = threading.Thread(target=self._loop.run_forever, name="acts_view_server", daemon=True)
         self._thread.start()
         try:
@@ -177,6 +184,9 @@ class ViewServer:
             compression=None,
             max_size=_LARGEST_REQUEST_BYTES,
             server_header=None,
+            open_timeout=_HANDSHAKE_S,
+            logger=self._failures.logger(),
+            create_connection=partial(LimitedConnection, present=self._present),  # type: ignore[arg-type]
         )
 
     async def _end(self) -> None:
