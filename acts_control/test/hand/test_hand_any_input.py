@@ -32,6 +32,7 @@ from acts_control.hand.reflexes import REFLEXES, HandState, make_reflexes
 from acts_core.errors import SettingsError
 from acts_core.settings import default_of, describe
 from acts_core.skin import RegionContact
+from acts_ros.diagnostics import WARN
 from acts_ros.messages import write_regions
 
 pytestmark = pytest.mark.slow
@@ -316,9 +317,15 @@ def test_a_command_that_cannot_be_is_refused_in_words(
     hand_node: ToldNode, names: tuple[str, ...], numbers: int, kept_bytes: int | None, why: str
 ) -> None:
     hand_node.refused.clear()
+    hand_node.report()
     hand_node._on_command(command_of(name=names, position=(0.3,) * numbers)[:kept_bytes])
     assert len(hand_node.refused) == 1
     assert why in hand_node.refused[0]
+    level, words, values = hand_node.report()
+    assert level == WARN
+    assert words.startswith(f"1 commands left out: {hand_node.refused[0]}; ")
+    assert hand_node.report()[2] == values
+    assert "left out" not in hand_node.report()[1]
 
 
 # --- settings

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from diagnostic_msgs.msg import DiagnosticArray
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from hand_rig import all_regions, region
 from rclpy.node import Node
 from std_srvs.srv import Trigger
@@ -104,6 +104,16 @@ def test_the_hand_grasps_avoids_and_opens_by_touch_and_ends_in_order(bus: Bus) -
         told = next(timing for timing in timings if timing.latencies)
         assert all(duration > 0.0 for duration in told.durations)
         assert 0 < len(told.latencies) <= len(told.durations) <= told.cycles
+
+        def is_said() -> bool:
+            feel(region("index_distal", float("nan")))
+            return any(
+                status.level == DiagnosticStatus.WARN and " left out: " in status.message
+                for report in reports
+                for status in report.status
+            )
+
+        until(is_said)
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=DEADLINE_S)
         assert process.returncode == 0

@@ -20,6 +20,7 @@ from acts_control.hand.motors import HandError
 from acts_control.hand.nodes.motor_node import MotorNode, MotorSettings
 from acts_core.stop_signals import StopSignals
 from acts_ros.composition import parameters_from
+from acts_ros.diagnostics import WARN, Report
 from acts_ros.executor import run
 from acts_ros.parameters import declare, node_options
 from acts_ros.qos import STATE
@@ -38,8 +39,18 @@ class HandNode(MotorNode):
 
     def __init__(self, **node_arguments: Any) -> None:
         super().__init__("hand", **node_options(), **node_arguments)
+        self._refused = self._reported_refused = 0
+        self._refusal = ""
         self.start_with(declare(self, HandSettings), None, "release")
         self.create_subscription(JointState, "~/command", self._on_command, STATE, raw=True)
+
+    def report(self) -> Report:
+        """What the diagnostics say: of the motors, and of commands that were left out."""
+        level, words, values = super().report()
+        refused, self._reported_refused = self._refused - self._reported_refused, self._refused
+        if refused:
+            level, words = max(level, WARN), f"{refused} commands left out: {self._refusal}; {words}"
+        return level, words, {**values, "refused": self._refused}
 
     def _on_command(self, data: bytes) -> None:
         if len(data) > _COMMAND_BYTES_MAX:
@@ -60,6 +71,8 @@ class HandNode(MotorNode):
             self._refuse(str(error))
 
     def _refuse(self, why: str) -> None:
+        self._refused += 1
+        self._refusal = why
         self.get_logger().error(f"a command was left out: {why}", throttle_duration_sec=1.0)
 
 

@@ -156,6 +156,7 @@ class HandReflexesNode(MotorNode):
         touched = TouchedHand(self._supervisor, regions, lambda: clock.now().nanoseconds, self._publish_status)
         self._times, self._timed_s = touched.times, time.monotonic()
         self._told = SupervisorStatus()
+        self._reported_refused = 0
         self.start_with(settings, touched, "disable")
         for name in ("grasp", "release", "stop"):
             self.create_service(Trigger, f"~/{name}", self._answer(name))
@@ -175,8 +176,11 @@ class HandReflexesNode(MotorNode):
             "refused": status.refused,
             **{f"{name}_events": count for name, count in status.events.items()},
         }
+        refused, self._reported_refused = status.refused - self._reported_refused, status.refused
         if level == OK and status.is_stale:
             level, words = WARN, f"no touch for {min(status.touch_age_s, _LONG_AGO_S):.2g} s; {words}"
+        if refused:
+            level, words = max(level, WARN), f"{refused} left out: {status.refusal}; {words}"
         return level, words, {**values, **hand}
 
     def _answer(self, name: str) -> Callable[[Trigger.Request, Trigger.Response], Trigger.Response]:
