@@ -44,7 +44,9 @@ class ContactFinder:
         borders: Borders | None = None,
     ) -> None:
         self._bounds = (borders or borders_of(geometry.rows, geometry.cols)).bounds()
-        self._geometry = geometry
+        self._cols = geometry.cols
+        self._pitches_m = geometry.pitch_m, geometry.pitch_y_m
+        self._taxel_area_m2 = geometry.taxel_area_m2
         self._thresholds = touch_counts, noise_counts, err_together
         force_n = force_table(response)
         self._tables = force_n, slope_table(force_n)
@@ -61,16 +63,15 @@ class ContactFinder:
         sigma : np.ndarray [shape=(rows * cols,), dtype=float32], optional
             Standard deviations of the taxels [counts]; without them those of the contact are 0.
         """
-        geometry, results = self._geometry, self._results
+        results, taxel_area_m2 = self._results, self._taxel_area_m2
         contact_kernels.find_contact(
             image,
             _UNKNOWN if sigma is None else sigma,
             self._bounds,
-            geometry.cols,
+            self._cols,
             *self._thresholds,
             *self._tables,
-            geometry.pitch_m,
-            geometry.pitch_y_m,
+            *self._pitches_m,
             results,
         )
         x_m, y_m, force_n, peak, pressed, spread_square, *variances = results.tolist()
@@ -83,12 +84,12 @@ class ContactFinder:
             y_m=y_m,
             force_n=force_n,
             peak_counts=peak,
-            area_m2=pressed * geometry.taxel_area_m2,
+            area_m2=pressed * taxel_area_m2,
             active_taxels=int(pressed),
             spread_m=spread_square**0.5,
             x_sd_m=x_var**0.5,
             y_sd_m=y_var**0.5,
             force_sd_n=force_var**0.5,
-            area_sd_m2=taxels_var**0.5 * geometry.taxel_area_m2,
+            area_sd_m2=taxels_var**0.5 * taxel_area_m2,
             spread_sd_m=root_deviation(spread_square, spread_square_var),
         )

@@ -117,7 +117,7 @@ def find_contact(
     results[10] /= total * total
 
 
-@kernel
+@kernel(inline="always")
 def _beside(
     image: NDArray[np.float32], bounds: NDArray[np.int32], cols: int, row: int, col: int, touch_counts: float
 ) -> bool:

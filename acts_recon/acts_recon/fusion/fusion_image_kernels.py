@@ -30,14 +30,14 @@ _F = np.float32
 _TOP = np.float32(COUNT_MAX)
 
 
-@kernel(fastmath=FASTMATH)
+@kernel(fastmath=FASTMATH, inline="always")
 def trust(product: np.float32, square: np.float32) -> np.float32:
     """Share of what was predicted that came true, by least squares, 0 to 1."""
     share = (product + _F(TRUST_PRIOR)) / (square + _F(TRUST_PRIOR))
     return min(max(share, _F(0)), _F(1))
 
 
-@kernel(fastmath=FASTMATH)
+@kernel(fastmath=FASTMATH, inline="always")
 def _trust_slope(product: np.float32, square: np.float32, change: np.float32, time: np.float32) -> np.float32:
     """`trust`, as if one more prediction, of this change over this time [s], had come true by the share to expect."""
     weight = _F(UNPROVEN_WEIGHT) * change * change
@@ -45,7 +45,7 @@ def _trust_slope(product: np.float32, square: np.float32, change: np.float32, ti
     return trust(product + weight * expected, square + weight)
 
 
-@kernel(fastmath=FASTMATH)
+@kernel(fastmath=FASTMATH, inline="always")
 def _maximum_filter(state: State, values: NDArray[np.float32], cols: int) -> NDArray[np.float32]:
     """Maximum filter of 3 x 3 taxels within each patch; overwritten by the next call."""
     in_row, around = state.in_row, state.around
@@ -68,7 +68,7 @@ def _maximum_filter(state: State, values: NDArray[np.float32], cols: int) -> NDA
     return around
 
 
-@kernel(fastmath=FASTMATH)
+@kernel(fastmath=FASTMATH, inline="always")
 def show(state: State, cols: int, tuning: Tuning) -> None:
     """Image of the estimates as far as they are trusted; 0 where readings are low, with none beside, and are noise."""
     above, quiet, tile_of = state.total, state.weight, state.tile_of
@@ -114,7 +114,7 @@ def show(state: State, cols: int, tuning: Tuning) -> None:
         above[i], quiet[i] = _F(0), _F(0)
 
 
-@kernel(fastmath=FASTMATH)
+@kernel(fastmath=FASTMATH, inline="always")
 def update_sigma(state: State, cols: int, tuning: Tuning) -> None:
     """Sigma of every taxel from measurement noise, drift, process noise over its age, and the scales.
 
@@ -132,7 +132,7 @@ def update_sigma(state: State, cols: int, tuning: Tuning) -> None:
             _update_sigma_of(state, around, row * cols + left, row * cols + right, scale, tuning)
 
 
-@kernel(fastmath=FASTMATH)
+@kernel(fastmath=FASTMATH, inline="always")
 def _update_sigma_of(
     state: State, around: NDArray[np.float32], first: int, end: int, scale: np.float32, tuning: Tuning
 ) -> None:

@@ -26,7 +26,7 @@ TINY = np.float32(1e-20)
 _F = np.float32
 
 
-@kernel(fastmath=FASTMATH)
+@kernel(fastmath=FASTMATH, inline="always")
 def observe_motion(
     state: State,
     indices: NDArray[np.uint16],
@@ -39,7 +39,7 @@ def observe_motion(
     """Add the samples to the sums of the normal equations of their tiles: products of gradients and changes."""
     m = indices.shape[0]
     fade = _F(math.exp(-period_s / tuning.motion_memory_s))
-    image, normal_sums = state.estimate, state.normal_sums
+    image, normal_sums, tile_of = state.estimate, state.normal_sums, state.tile_of
     for a in range(normal_sums.shape[0]):
         for q in range(6):
             faded = normal_sums[a, q] * fade
@@ -58,16 +58,16 @@ def observe_motion(
         top, bottom, left, right = patches[p, 0], patches[p, 1] - 1, patches[p, 2], patches[p, 3] - 1
         along_cols = (image[row * cols + min(col + 1, right)] - image[row * cols + max(col - 1, left)]) * _F(0.5)
         along_rows = (image[min(row + 1, bottom) * cols + col] - image[max(row - 1, top) * cols + col]) * _F(0.5)
-        tile = normal_sums[state.tile_of[i]]
-        tile[0] += along_cols * along_cols
-        tile[1] += along_cols * along_rows
-        tile[2] += along_rows * along_rows
-        tile[3] -= along_cols * change
-        tile[4] -= along_rows * change
-        tile[5] += change * change
+        tile = tile_of[i]
+        normal_sums[tile, 0] += along_cols * along_cols
+        normal_sums[tile, 1] += along_cols * along_rows
+        normal_sums[tile, 2] += along_rows * along_rows
+        normal_sums[tile, 3] -= along_cols * change
+        normal_sums[tile, 4] -= along_rows * change
+        normal_sums[tile, 5] += change * change
 
 
-@kernel(fastmath=FASTMATH)
+@kernel(fastmath=FASTMATH, inline="always")
 def find_velocities(state: State, tuning: Tuning) -> None:
     """Solve the normal equations of every tile; keep the velocity where it explains enough of the changes."""
     for p in range(state.patches.shape[0]):
@@ -81,7 +81,7 @@ def find_velocities(state: State, tuning: Tuning) -> None:
         )
 
 
-@kernel(fastmath=FASTMATH)
+@kernel(fastmath=FASTMATH, inline="always")
 def _find_velocities_of(
     normal_sums: NDArray[np.float32], row_sums: NDArray[np.float32], velocities: NDArray[np.float32], tuning: Tuning
 ) -> None:
@@ -98,15 +98,14 @@ def _find_velocities_of(
         for b in range(tile_cols):
             cc, cr, rr, ct, rt, tt = _F(0), _F(0), _F(0), _F(0), _F(0), _F(0)
             for beside in range(max(a - AROUND, 0), min(a + AROUND + 1, tile_rows)):
-                sums = row_sums[beside, b]
-                cc += sums[0]
-                cr += sums[1]
-                rr += sums[2]
-                ct += sums[3]
-                rt += sums[4]
-                tt += sums[5]
-            velocity = velocities[a, b]
-            velocity[0], velocity[1], velocity[2] = _F(0), _F(0), _F(0)
+                cc += row_sums[beside, b, 0]
+                cr += row_sums[beside, b, 1]
+                rr += row_sums[beside, b, 2]
+                ct += row_sums[beside, b, 3]
+                rt += row_sums[beside, b, 4]
+                tt += row_sums[beside, b, 5]
+            for q in range(3):
+                velocities[a, b, q] = _F(0)
             if not tt > _F(0):
                 continue
             cc += _F(RIDGE)
@@ -118,10 +117,10 @@ def _find_velocities_of(
             by_rows = (cc * rt - cr * ct) / determinant
             share = (by_cols * ct + by_rows * rt) / tt
             if share > _F(tuning.motion_share):
-                velocity[0], velocity[1], velocity[2] = by_cols, by_rows, min(share, _F(1))
+                velocities[a, b, 0], velocities[a, b, 1], velocities[a, b, 2] = by_cols, by_rows, min(share, _F(1))
 
 
-@kernel(fastmath=FASTMATH)
+@kernel(fastmath=FASTMATH, inline="always")
 def moved(
     before: NDArray[np.float32],
     row: int,

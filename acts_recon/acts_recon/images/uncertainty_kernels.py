@@ -15,7 +15,7 @@ from acts_core.kernels import kernel
 from acts_recon.images.uncertainty import FAR
 
 
-@kernel
+@kernel(inline="always")
 def force_of(value: float, force_n: NDArray[np.float64]) -> float:
     """Force of a taxel of so many counts [N]; between two entries of the table it is interpolated."""
     value = min(value, float(COUNT_MAX))
@@ -23,7 +23,7 @@ def force_of(value: float, force_n: NDArray[np.float64]) -> float:
     return force_n[whole] + (value - whole) * (force_n[whole + 1] - force_n[whole])
 
 
-@kernel
+@kernel(inline="always")
 def taxel_variances(
     value: float,
     deviation: float,
@@ -51,15 +51,15 @@ def taxel_variances(
     """
     deviation = min(deviation, float(COUNT_MAX))
     value = min(value, float(COUNT_MAX))
+    # Before all branches: what an array is read for after one costs a count of its references each time.
+    weight, slope = force_of(value if pressed else least, force_n), slope_n[int(value)]
     square = wrong = 0.0
     if abs(value - least) <= FAR * deviation:
         wrong = 0.5 * math.erfc(abs(value - least) / (math.sqrt(2.0) * deviation))
-        weight = force_of(value if pressed else least, force_n)
         square = weight * weight * wrong
     elif not pressed:
         return 0.0, 0.0
     if pressed:
-        slope = slope_n[int(value)]
         square += slope * slope * deviation * deviation
     if deviation > noise_counts:
         factor = together - (together - 1.0) * (noise_counts / deviation) ** 2
