@@ -23,9 +23,9 @@ class Program:
     def __call__(self) -> int:
         """Say it and return the exit code."""
         print(
-            f"error: {self._module} is a node, and ROS 2 (with the package acts_ros) is not installed here; start it in "
-            "the environment of a checkout of ACTS (./acts run ...) or in a ROS 2 workspace. docs/without_ros.md says "
-            "what works without",
+            f"error: {self._module} is a node, and ROS 2 (with the package acts_ros) is not installed here; start it "
+            "in the environment of a checkout of ACTS (./acts run ...) or in a ROS 2 workspace. docs/without_ros.md "
+            "says what works without",
             file=sys.stderr,
         )
         return 1

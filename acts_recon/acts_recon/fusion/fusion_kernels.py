@@ -6,7 +6,7 @@
 `fuse` takes one frame through the steps that `fusion` explains: find the velocities, predict the image to the end of
 the frame, update it by the samples, interpolate the innovations between them, and compute every taxel's sigma.
 Each patch of a layout is treated by itself. Indices are made signed before a subtraction: numba keeps them unsigned.
-The steps are inlined: a call would count the references of all arrays of the state, which took a fifth of a frame's time.
+The steps are inlined: a call counts the references of all arrays of the state, which took a fifth of a frame's time.
 """
 
 from __future__ import annotations
