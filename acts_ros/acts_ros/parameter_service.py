@@ -14,6 +14,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.parameter_service import ParameterService
 
+_LONGEST_NAME = 64
 _TYPES = {kind.value for kind in Parameter.Type}
 _NAMES = {
     Parameter.Type.NOT_SET.value: "no value",
@@ -32,7 +33,8 @@ _NAMES = {
 class CheckedParameterService(ParameterService):
     """Those of rclpy, which raise out of the executor, and so end the process, on a value of no known type.
 
-    A value of the wrong type is refused in words; rclpy gives the numbers of the types.
+    A value of the wrong type is refused in words; rclpy gives the numbers of the types. So is a parameter that the node
+    does not have.
     """
 
     def __init__(self, node: Node) -> None:
@@ -63,12 +65,15 @@ class CheckedParameterService(ParameterService):
         return response
 
     def _malformed(self, parameter: ParameterMessage) -> str:
-        """What is wrong with the type of a value, or an empty string."""
+        """What is wrong with a name or the type of a value, or an empty string."""
         given, node = parameter.value.type, self._checked_node()
         if given not in _TYPES:
             return f"{parameter.name}: type = {given}: allowed is {min(_TYPES)} to {max(_TYPES)}"
-        if node is None or not node.has_parameter(parameter.name):
+        if node is None:
             return ""
+        if not node.has_parameter(parameter.name):
+            # rclpy takes one whose name is empty, and keeps whatever it is given; of others it leaves out the name.
+            return f"{parameter.name[:_LONGEST_NAME]!r} is no parameter of {node.get_fully_qualified_name()}"
         descriptor = node.describe_parameter(parameter.name)
         if descriptor.dynamic_typing or descriptor.read_only or given == descriptor.type:
             return ""

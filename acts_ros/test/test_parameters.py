@@ -151,7 +151,7 @@ def test_a_change_is_refused_whatever_error_says_why(context: Context) -> None:
 
 @pytest.mark.parametrize("kind", [Node, LifecycleNode])
 @pytest.mark.parametrize("service", [SetParameters, SetParametersAtomically])
-def test_a_value_of_no_known_type_is_refused_and_the_node_goes_on(
+def test_a_value_of_no_known_type_or_for_no_parameter_is_refused_and_the_node_goes_on(
     context: Context, kind: type[Node], service: type[SetParameters] | type[SetParametersAtomically]
 ) -> None:
     node = make_node(context, [], kind)
@@ -161,8 +161,8 @@ def test_a_value_of_no_known_type_is_refused_and_the_node_goes_on(
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(node)
 
-    def ask(value: ParameterValue) -> SetParametersResult:
-        answer = client.call_async(service.Request(parameters=[ParameterMessage(name="rate_hz", value=value)]))
+    def ask(value: ParameterValue, name: str = "rate_hz") -> SetParametersResult:
+        answer = client.call_async(service.Request(parameters=[ParameterMessage(name=name, value=value)]))
         executor.spin_until_future_complete(answer, timeout_sec=30.0)
         response = answer.result()
         return response.results[0] if service is SetParameters else response.result
@@ -176,3 +176,8 @@ def test_a_value_of_no_known_type_is_refused_and_the_node_goes_on(
     assert "given was no value" in ask(ParameterValue(type=ParameterType.PARAMETER_NOT_SET)).reason
     assert ask(ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=20.0)).successful
     assert node.get_parameter("rate_hz").value == 20.0
+    for unknown in ("", "rate", "x" * 1000):
+        result = ask(ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=20.0), unknown)
+        assert not result.successful
+        assert result.reason == f"{unknown[:64]!r} is no parameter of /plate/example"
+    assert not node.has_parameter("")
