@@ -107,6 +107,10 @@ def test_skins_are_merged_and_a_lost_one_leaves_the_other_alone(two_skins: Launc
     os.kill(pid_of(two_skins, "low/tactile"), signal.SIGKILL)
     merged.wait_for(lost, fresh)
     merged.wait_for(fresh, fresh)
+    # What runs them all does.
+    os.kill(pid_of(two_skins, "skins-1"), signal.SIGKILL)
+    merged.wait_for(lost, lost)
+    merged.wait_for(fresh, fresh)
 
     def is_well(whole: DiagnosticStatus) -> bool:
         return bool(whole.level == DiagnosticStatus.OK and whole.message == "2 skins, all well")
