@@ -114,6 +114,13 @@ def test_the_hand_grasps_avoids_and_opens_by_touch_and_ends_in_order(bus: Bus) -
             )
 
         until(is_said)
+        # A hand without torque is about nothing.
+        assert statuses[-1].state == HandStatus.STATE_OPEN
+        assert called("disable").success
+        assert until_state(HandStatus.STATE_STOPPED).reason == "the hand is released: released by request"
+        until(lambda: any(dict_of(report).get("hand") == "STOPPED" for report in reports[-1:]))
+        assert called("enable").success
+        until(lambda: statuses[-1].reason == "goals stand where the joints are")
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=DEADLINE_S)
         assert process.returncode == 0

@@ -64,7 +64,7 @@ class FailureLog(logging.Handler):
 
     def logger(self) -> logging.Logger:
         """A logger that hands everything to this."""
-        logger = logging.Logger("acts_view.server", logging.WARNING)
+        logger = logging.Logger("page", logging.WARNING)
         logger.addHandler(self)
         return logger
 

@@ -9,7 +9,7 @@ Plain logic of one step, for the loop's own thread; `grasp`, `release` and `stop
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import isfinite
 
 import numpy as np
@@ -148,6 +148,7 @@ class HandSupervisor:
             self._wanted = self._wanted or "grasp"
         else:
             self._become(HandState.STOPPED, "goals stand where the joints are")
+        self.status = replace(self.status, state=self._state, reason=self._reason)
 
     def touch(self, regions: Sequence[RegionContact], stamp_s: float, now_s: float) -> bool:
         """Take what the skin feels.

@@ -13,7 +13,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import make_dataclass
+from dataclasses import make_dataclass, replace
 from typing import Any
 
 from std_srvs.srv import Trigger
@@ -22,7 +22,7 @@ from acts_control.hand.control import CycleTimes, HandPhase, HandSupervisor, Sup
 from acts_control.hand.description import HandKinematics, hand_description
 from acts_control.hand.motors import HandReading
 from acts_control.hand.nodes.motor_node import MotorNode, MotorSettings, answered
-from acts_control.hand.reflexes import REFLEXES, make_reflexes
+from acts_control.hand.reflexes import REFLEXES, HandState, make_reflexes
 from acts_control.names import set_stamp
 from acts_core.errors import PacketError
 from acts_core.settings import setting
@@ -168,7 +168,7 @@ class HandReflexesNode(MotorNode):
     def report(self) -> Report:
         """What the diagnostics say: of the motors, and of what the hand does."""
         level, words, values = super().report()
-        status = self._supervisor.status
+        status = self._present()
         hand = {
             "hand": status.state.name,
             "hand_reason": status.reason,
@@ -191,13 +191,21 @@ class HandReflexesNode(MotorNode):
 
         return on_request
 
+    def _present(self) -> SupervisorStatus:
+        """What the hand is about: without torque nothing, whatever it was about when it had some."""
+        status, loop = self._supervisor.status, self.loop.status
+        if loop.phase is HandPhase.ENABLED:
+            return status
+        reason = f"the hand is {loop.phase.name.lower()}: {loop.reason}"
+        return replace(status, state=HandState.STOPPED, reason=reason, active=())
+
     def _publish_status(self) -> None:
         # By the timer, and at once by the hand's loop where a reflex has been set off or the state has changed.
         with self._status_lock:
             self._send_status()
 
     def _send_status(self) -> None:
-        status, loop, message = self._supervisor.status, self.loop.status, self._status
+        status, loop, message = self._present(), self.loop.status, self._status
         if (status.state, status.reason) != (self._told.state, self._told.reason):
             self.get_logger().info(f"{status.state.name.lower()}: {status.reason}")
         if status.refused > self._told.refused:
