@@ -96,7 +96,7 @@ class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig, ImpactCo
     )
     image_rate_hz: float = setting(
         30.0,
-        "largest rate of the topics image, view/image_raw, view/confidence, view/age and view/contact_series [Hz]",
+        "largest rate of the topics image and contacts_view, and of those that begin with view/ [Hz]",
         minimum=0.1,
         maximum=1000.0,
         changeable=Changeable.RUNNING,

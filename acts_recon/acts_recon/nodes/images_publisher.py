@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import time
 from array import array
+from collections.abc import Collection
 
 from rclpy.node import Node
 from rclpy.publisher import Publisher
@@ -26,9 +27,9 @@ from acts_ros import qos
 class ImagesPublisher:
     """Publishes images where somebody listens.
 
-    ``image_raw`` (sensor_msgs/Image, mono16, counts), ``confidence`` (mono8, with the method ``fusion``), and, at most
-    `image_rate_hz` times a second, ``image`` (rgb8), ``view/image_raw``, ``view/confidence``, ``view/age`` (32FC1, see
-    `AgePublisher`) and ``view/contact_series`` (acts_msgs/ContactSeries).
+    ``image_raw`` (sensor_msgs/Image, mono16, counts), ``confidence`` (mono8, with the method ``fusion``), and, when
+    they are due, ``image`` (rgb8), ``view/image_raw``, ``view/confidence``, ``view/age`` (32FC1, see `AgePublisher`)
+    and ``view/contact_series`` (acts_msgs/ContactSeries).
 
     Parameters
     ----------
@@ -55,14 +56,14 @@ class ImagesPublisher:
         scale = settings.image_scale
         self._view = _empty_image(rows * scale, cols * scale, "rgb8", 3)
         self._raw_limit = RateLimit(settings.image_raw_rate_hz)
-        self._view_limit = RateLimit(settings.image_rate_hz)
+        self.viewed: list[str] = []
+        """Topics for viewers that somebody listens to."""
         self.look_for_subscribers()
 
     def set_rates(self, settings: ReconstructionConfig) -> None:
         """Put changed rates in force."""
         self._settings = settings
         self._raw_limit.set_rate(settings.image_raw_rate_hz)
-        self._view_limit.set_rate(settings.image_rate_hz)
 
     def look_for_subscribers(self) -> None:
         """To be called now and then: whether somebody listens."""
@@ -70,19 +71,19 @@ class ImagesPublisher:
         self._series.look_for_subscribers()
         self._send_raw = self._raw_publisher.get_subscription_count() > 0
         self._send_confidence = self._confidence_publisher.get_subscription_count() > 0
-        self._send_view = self._view_publisher.get_subscription_count() > 0
-        self._send_view_raw = self._view_raw_publisher.get_subscription_count() > 0
-        self._send_view_confidence = self._view_confidence_publisher.get_subscription_count() > 0
-        self._is_view_wanted = (
-            self._send_view
-            or self._send_view_raw
-            or self._send_view_confidence
-            or self._ages.is_wanted
-            or self._series.is_wanted
-        )
-        self.is_wanted = self._send_raw or self._send_confidence or self._is_view_wanted
+        wanted = {
+            "view/image_raw": self._view_raw_publisher.get_subscription_count() > 0,
+            "view/confidence": self._view_confidence_publisher.get_subscription_count() > 0,
+            "view/age": self._ages.is_wanted,
+            "view/contact_series": self._series.is_wanted,
+            "image": self._view_publisher.get_subscription_count() > 0,
+        }
+        self.viewed = [topic for topic, is_wanted in wanted.items() if is_wanted]
+        self.is_wanted = self._send_raw or self._send_confidence or bool(self.viewed)
 
-    def publish(self, header: Header, sequence: int, stamp_ns: int, duration_s: float, contact: Contact) -> None:
+    def publish(
+        self, header: Header, sequence: int, stamp_ns: int, duration_s: float, contact: Contact, due: Collection[str]
+    ) -> None:
         """Publish what is wanted and due.
 
         Parameters
@@ -97,23 +98,24 @@ class ImagesPublisher:
             How long the frame's measurements took [s].
         contact : Contact
             In the image.
+        due : collection of str
+            The topics for viewers to publish now.
         """
         if self._series.is_wanted:
             self._series.add(stamp_ns, sequence, contact)
-        is_view_due = self._is_view_wanted and self._view_limit.due(time.monotonic())
         if self._send_raw and self._raw_limit.due(time.monotonic()):
             self._publish_raw(self._raw_publisher, header)
-        if self._send_view_raw and is_view_due:
-            self._publish_raw(self._view_raw_publisher, header)
         if self._send_confidence:
             self._publish_confidence(self._confidence_publisher, header)
-        if self._send_view_confidence and is_view_due:
+        if "view/image_raw" in due:
+            self._publish_raw(self._view_raw_publisher, header)
+        if "view/confidence" in due:
             self._publish_confidence(self._view_confidence_publisher, header)
-        if self._ages.is_wanted and is_view_due:
+        if "view/age" in due:
             self._ages.publish(header, self._recovery, duration_s)
-        if self._series.is_wanted and is_view_due:
+        if "view/contact_series" in due:
             self._series.publish(header)
-        if self._send_view and is_view_due:
+        if "image" in due:
             self._publish_view(header)
 
     def _publish_raw(self, publisher: Publisher, header: Header) -> None:

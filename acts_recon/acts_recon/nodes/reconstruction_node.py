@@ -23,7 +23,7 @@ from std_msgs.msg import Header
 from acts_core.errors import ArrayError, PacketError
 from acts_core.frames import SampleFrame
 from acts_core.kernels import skip_extras
-from acts_core.runtime import LateFrames, Use, enter_realtime
+from acts_core.runtime import LateFrames, Turns, Use, enter_realtime
 from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import Baseline, TactileSamples
 from acts_msgs.msg import Contact as ContactMessage
@@ -80,6 +80,8 @@ class ReconstructionNode(Node):
         self._header = Header()
         self._cop = PointStamped()
         self._images = ImagesPublisher(self, self._settings, self._recovery)
+        self._turns = Turns(self._settings.image_rate_hz)
+        self._viewed: list[str] = []
         recogniser = self._settings.recogniser(self._recovery)
         self._objects: ObjectPublisher | None = None
         if recogniser is not None:
@@ -123,6 +125,7 @@ class ReconstructionNode(Node):
         """Put changed parameters in force."""
         self._settings = settings
         self._images.set_rates(settings)
+        self._turns.set_rate(settings.image_rate_hz)
         if self._objects is not None:
             self._objects.set_rate(settings.object_rate_hz)
         self._abilities.set_rates(settings)
@@ -136,6 +139,7 @@ class ReconstructionNode(Node):
         offered = [part for part in parts if part is not None]
         for part in offered:
             part.look_for_subscribers()
+        self._viewed = [*self._images.viewed, *self._contacts.viewed]
         # Often nobody listens to any, and asking each of them for every frame takes long.
         self._is_more_wanted = self._send_cop or any(part.is_wanted for part in offered)
 
@@ -220,8 +224,9 @@ class ReconstructionNode(Node):
             self._cop_publisher.publish(self._cop)
         if self._regions is not None:
             self._regions.publish(stamp_ns, frame_id, frame.sequence, self._recovery)
-        self._images.publish(header, frame.sequence, stamp_ns, duration_s, contact)
-        self._contacts.publish(header, frame.sequence, self._recovery.image, self._recovery.sigma)
+        due = self._turns.due(time.monotonic(), self._viewed) if self._viewed else ()
+        self._images.publish(header, frame.sequence, stamp_ns, duration_s, contact, due)
+        self._contacts.publish(header, frame.sequence, self._recovery.image, self._recovery.sigma, due)
         self._abilities.publish(header, frame, every, end_s)
         if self._objects is not None:
             self._objects.publish(header, frame.sequence, frame.indices, frame.counts, end_s, duration_s)

@@ -85,12 +85,11 @@ def test_standard_deviations_and_markers_are_those_of_the_contact(make_peers: Ca
     peers.listen(Contacts, "contacts", qos.STREAM)
     peers.listen(Contacts, "view/contacts", qos.VIEW)
     peers.listen(MarkerArray, "contacts_view", qos.VIEW)
-    peers.until(
-        lambda: contacts.look_for_subscribers() or (contacts._send and contacts._send_view and contacts._send_markers)
-    )
+    viewed = ["view/contacts", "contacts_view"]
+    peers.until(lambda: contacts.look_for_subscribers() or (contacts._send and contacts.viewed == viewed))
 
     (expected,) = BlobTracker(GEOMETRY, response).step(image, 0.0, sigma)
-    contacts.publish(samples_of(image, 1).header, 1, image, sigma)
+    contacts.publish(samples_of(image, 1).header, 1, image, sigma, due=viewed)
     peers.until(lambda: all(peers.received.values()))
     ((contact,),) = (message.contacts for message in peers.received["contacts"])
     assert contact.number == 1
