@@ -26,7 +26,7 @@ from acts_core.settings import (
     unknown_key_message,
 )
 from acts_ros.parameter_service import CheckedParameterService
-from acts_ros.params_files import shared_keys
+from acts_ros.params_files import misnamed_sections, shared_keys
 
 T = TypeVar("T")
 
@@ -54,7 +54,8 @@ def declare(
     """Declare every setting of a dataclass as a parameter of `node`, and return the settings with the given values.
 
     Call it once per node. Values come from the command line, the params file or the defaults. Unknown parameters in a
-    section of a params file for several nodes (``/**``) are ignored and logged.
+    section of a params file for several nodes (``/**``) are ignored and logged, and so are sections whose name is
+    nearly that of the node.
 
     Parameters
     ----------
@@ -88,7 +89,10 @@ def declare(
         else:
             unknown.append(name)
         node.undeclare_parameter(name)
-    _judge_unknown(node, unknown, list(infos), sys.argv if words is None else words)
+    words = sys.argv if words is None else words
+    for sentence in misnamed_sections(where, words):
+        node.get_logger().warning(sentence)
+    _judge_unknown(node, unknown, list(infos), words)
     try:
         settings = from_mapping(settings_class, given, where)
     except SettingsError as error:

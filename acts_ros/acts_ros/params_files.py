@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import difflib
 import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -12,6 +13,7 @@ from pathlib import Path
 import yaml
 
 _PARAMETERS = "ros__parameters"
+_NEAR = 0.85
 
 
 def shared_keys(node: str, words: Sequence[str]) -> dict[str, str]:
@@ -46,6 +48,35 @@ def shared_keys(node: str, words: Sequence[str]) -> dict[str, str]:
             else:
                 own.add(key)
     return {key: place for key, place in shared.items() if key not in own}
+
+
+def misnamed_sections(node: str, words: Sequence[str]) -> list[str]:
+    """Sections of params files that look meant for a node but give it nothing, which ROS passes over silently.
+
+    They have the node's name without its namespace, or nearly its name.
+
+    Parameters
+    ----------
+    node, words
+        As of `shared_keys`.
+
+    Returns
+    -------
+    list of str
+        A sentence about each, with the name that is right.
+    """
+    name = node.rpartition("/")[2]
+    said = []
+    given_files = [Path(value) for option, value in _ros_options(words) if option == "--params-file"]
+    for file, section in dict.fromkeys((path, section) for path in given_files for section, _ in _keys_of_file(path)):
+        place, _, given = section.rpartition("/")
+        if re.fullmatch(_pattern(section), node):
+            continue
+        lacks_namespace = section == f"/{name}"
+        is_misspelt = given != name and difflib.get_close_matches(given, [name], cutoff=_NEAR)
+        if lacks_namespace or (is_misspelt and re.fullmatch(_pattern(f"{place}/{name}"), node)):
+            said.append(f"{file}: section {section} is not for {node}, and ignored; did you mean /**/{name}?")
+    return said
 
 
 def _ros_options(words: Sequence[str]) -> Iterator[tuple[str, str]]:

@@ -19,7 +19,7 @@ from rclpy.node import Node
 from acts_core.errors import SettingsError
 from acts_core.settings import setting
 from acts_ros.parameters import declare, node_options
-from acts_ros.params_files import shared_keys
+from acts_ros.params_files import misnamed_sections, shared_keys
 
 
 @dataclass(frozen=True)
@@ -79,6 +79,22 @@ def test_a_nested_section_is_its_own_and_another_nodes_is_nobodys(context: Conte
         "/**: {ros__parameters: {x: 1}}\n/plate/other: {ros__parameters: {x: 1}}\n/example: {ros__parameters: {x: 1}}"
     )
     assert declared(context, *params_file(tmp_path, text)) == Settings()
+
+
+@pytest.mark.parametrize("section", ["example", "/example", "/plate/exmple", "/**/exampel", "plate: {examples"])
+def test_a_section_that_nearly_names_the_node_is_said(
+    context: Context, tmp_path: Path, capfd: pytest.CaptureFixture[str], section: str
+) -> None:
+    text = f"{section}: {{ros__parameters: {{rate_hz: 10.0, more: 1}}}}" + "}" * section.count("{")
+    assert declared(context, *params_file(tmp_path, text)) == Settings()
+    said = capfd.readouterr().err
+    assert said.count("is not for /plate/example, and ignored; did you mean /**/example?") == 1
+
+
+@pytest.mark.parametrize("section", ["/plate/other", "/left/example", "/left/exmple", "/**", "/*/example", "/ball"])
+def test_a_section_of_another_node_or_of_this_one_is_not_said(tmp_path: Path, section: str) -> None:
+    file = params_file(tmp_path, f"'{section}': {{ros__parameters: {{rate_hz: 10.0}}}}")
+    assert misnamed_sections("/plate/example", ["x", "--ros-args", *file]) == []
 
 
 def test_a_key_on_the_command_line_is_refused_even_if_a_file_has_it(context: Context, tmp_path: Path) -> None:

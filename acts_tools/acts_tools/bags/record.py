@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 from acts_core.errors import RecordingError
 from acts_ros.bags import require_rosbags
 from acts_tools import __version__
+from acts_tools.graph_names import full_name
 
 if TYPE_CHECKING:
     from acts_ros.bags.recorder import Recorder
@@ -43,7 +44,7 @@ def run(arguments: argparse.Namespace) -> int:
         raise RecordingError("say which topics to record: either their names, or -a for all")
     if arguments.duration is not None and not 0 < arguments.duration < float("inf"):
         raise RecordingError(f"--duration {arguments.duration:g} is not a positive time in seconds")
-    topics = None if arguments.all else [f"/{name.lstrip('/')}" for name in arguments.topics]
+    topics = None if arguments.all else [full_name(name) for name in arguments.topics]
     path = arguments.output or Path(f"rosbag2_{datetime.now():%Y_%m_%d-%H_%M_%S}")
     return record(path, topics, arguments.duration)
 

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from acts_core.errors import BoardError, SettingsError
 from acts_core.settings import default_of
+from acts_tools.graph_names import full_name
 
 if TYPE_CHECKING:
     from rclpy.client import Client
@@ -54,12 +55,13 @@ def run(arguments: argparse.Namespace) -> int:
     if bool(arguments.values) != is_set:
         raise SettingsError("`acts driver set` takes parameters, such as m=128; the others take none")
     values = parameters_of(arguments.values)
+    namespace = arguments.namespace.strip("/")
+    node = f"{full_name(namespace, 'namespace')}/driver" if namespace else "/driver"
     # Imported here: rclpy takes a second, and an invalid parameter is reported without it.
     from rcl_interfaces.srv import SetParametersAtomically
     from rclpy.parameter import Parameter
     from std_srvs.srv import Trigger
 
-    node = f"/{arguments.namespace.strip('/')}/driver".replace("//", "/")
     if is_set:
         request = SetParametersAtomically.Request()
         request.parameters = [Parameter(name, value=value).to_parameter_msg() for name, value in values.items()]

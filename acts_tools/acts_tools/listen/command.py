@@ -12,6 +12,7 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING
 
 from acts_core.errors import SettingsError
+from acts_tools.graph_names import full_name
 
 if TYPE_CHECKING:
     from acts_tools.listen.arrivals import Interval
@@ -51,6 +52,7 @@ def run(arguments: argparse.Namespace) -> int:
         raise SettingsError(f"--every {arguments.every:g}: at least {_EVERY_MIN_S:g} s are needed")
     if arguments.duration is not None and not 0 < arguments.duration < float("inf"):
         raise SettingsError(f"--duration {arguments.duration:g} is not a positive time in seconds")
+    topics = list(dict.fromkeys(map(full_name, arguments.topics)))
     # Imported here, because they are slow to import and other commands do not need them.
     import rclpy
     from rclpy.signals import SignalHandlerOptions
@@ -60,7 +62,6 @@ def run(arguments: argparse.Namespace) -> int:
     from acts_tools.bags.stopping import StopFlag
     from acts_tools.listen.listener import Listener
 
-    topics = list(dict.fromkeys(f"/{name.lstrip('/')}" for name in arguments.topics))
     end_s = None if arguments.duration is None else time.monotonic() + arguments.duration
     with StopFlag() as stop:
         middleware.init(args=[], signal_handler_options=SignalHandlerOptions.NO)

@@ -77,6 +77,11 @@ def test_parameters_have_the_types_they_are_declared_with() -> None:
             parameters_of([word])
 
 
+def test_words_that_are_no_namespace_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["driver", "-n", "left hand", "query"]) == 1
+    assert capsys.readouterr().err.startswith("error: 'left hand' is no namespace: allowed are letters, digits")
+
+
 def test_a_driver_that_is_not_there_is_named(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -10,6 +10,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
@@ -104,6 +105,17 @@ def test_who_hears_nothing_is_told(talker: Node) -> None:
     finished = subprocess.run(command, capture_output=True, text=True, timeout=DEADLINE_S)
     assert finished.returncode == 1
     assert "/nobody  no publisher found yet" in finished.stdout
+
+
+@pytest.mark.parametrize("name", ["bad topic", "", "/", "/a//b", "/1a", "/a-b", "/touché"])
+@pytest.mark.parametrize("command", [["listen", "-d", "1"], ["record", "-d", "1"]])
+def test_words_that_are_no_topic_are_refused(
+    command: list[str], name: str, capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main([*command, name]) == 1
+    assert capsys.readouterr().err.startswith(f"error: {name!r} is no topic: allowed are letters, digits (not first)")
+    assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.parametrize("words", [["--every", "0"], ["--every", "nan"], ["-d", "0"], ["-d", "inf"]])
