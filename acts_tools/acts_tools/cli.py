@@ -11,6 +11,7 @@ import os
 import sys
 from collections.abc import Sequence
 from types import ModuleType
+from typing import Any
 
 from acts_core.errors import ActsError
 from acts_core.shared_memory import check_shared_memory
@@ -85,8 +86,15 @@ def main(argv: Sequence[str] | None = None) -> int:
         return 1
 
 
+class _Parser(argparse.ArgumentParser):
+    """Options are given by their whole names, in subcommands too: ``--seed`` must not mean ``--seeds``."""
+
+    def __init__(self, **options: Any) -> None:
+        super().__init__(**{"allow_abbrev": False, **options})
+
+
 def _build_parser(selected: str | None) -> tuple[argparse.ArgumentParser, ModuleType | None]:
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog="acts",
         description="ACTS: robot touch at 1 kHz, from the board's bytes to the robot's joints.",
         epilog=_EPILOG,

@@ -10,10 +10,12 @@ import hashlib
 from pathlib import Path
 from typing import Any
 
+from acts_core.array import COUNT_MAX
 from acts_core.errors import RecordingError
 from acts_core.files import load_frames, without_contact
 from acts_recon.objects import ImageClassifierConfig, build_object_library, save_object_library
 from acts_sim.pressing import OBJECTS, PressingArm, object_named
+from acts_tools.argument_types import at_least_one, random_seed, whole
 from acts_tools.output_file import require_writable
 
 
@@ -34,12 +36,14 @@ def add_parser(subparsers: Any) -> None:
         "--objects", nargs="+", action="extend", metavar="NAME", help="only these objects or labels (default: all)"
     )
     parser.add_argument(
-        "--presses", type=_at_least_one, default=5, metavar="N", help="per simulated object (default: %(default)s)"
+        "--presses", type=at_least_one, default=5, metavar="N", help="per simulated object (default: %(default)s)"
     )
-    parser.add_argument("--seed", type=int, default=0, metavar="X", help="seed of the presses (default: %(default)s)")
+    parser.add_argument(
+        "--seed", type=random_seed, default=0, metavar="X", help="seed of the presses (default: %(default)s)"
+    )
     parser.add_argument(
         "--touch-counts",
-        type=int,
+        type=whole(0, COUNT_MAX - 1),
         default=ImageClassifierConfig().touch_counts,
         metavar="X",
         help="lower or equal counts are set to 0 (default: %(default)s)",
@@ -88,10 +92,3 @@ def run(arguments: argparse.Namespace) -> int:
     save_object_library(library, arguments.output)
     print(f"{arguments.output}: {library.n_classes} objects, {library.n_columns} frames, sha256 {library.sha256}")
     return 0
-
-
-def _at_least_one(word: str) -> int:
-    number = int(word)
-    if number < 1:
-        raise argparse.ArgumentTypeError(f"{word}: allowed is 1 or more")
-    return number

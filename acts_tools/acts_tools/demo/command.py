@@ -8,6 +8,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from acts_tools.argument_types import random_seed
+
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Add ``demo`` to the acts command."""
@@ -35,7 +37,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     )
     hand.add_argument("acts", nargs="*", metavar="ACT", help="acts to play: sphere, slip, sharp, hand_to_hand (all)")
     hand.add_argument("--out", type=Path, default=Path("out"), help="folder for the results (default: out)")
-    hand.add_argument("--seed", type=int, default=5, help="seed of the simulated hands' variation")
+    hand.add_argument("--seed", type=random_seed, default=5, help="seed of the simulated hands' variation")
 
 
 def run(arguments: argparse.Namespace) -> int:

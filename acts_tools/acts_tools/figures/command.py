@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from acts_core.errors import RecordingError
+from acts_tools.argument_types import random_seed
 from acts_tools.evaluate import report
 from acts_tools.figures.differences import differences
 from acts_tools.figures.drawing import draw
@@ -38,7 +39,9 @@ def add_parser(subparsers: Any) -> None:
     parser.add_argument("name", nargs="*", metavar="NAME", help=f"of {', '.join(FIGURES)} (default: all)")
     parser.add_argument("--out", type=Path, default=Path("figures"), metavar="DIR", help="default: %(default)s")
     parser.add_argument("--fast", action="store_true", help="few presses and drops, rough numbers: a minute for all")
-    parser.add_argument("--seed", type=int, default=1, metavar="X", help="of everything random (default: %(default)s)")
+    parser.add_argument(
+        "--seed", type=random_seed, default=1, metavar="X", help="of everything random (default: %(default)s)"
+    )
     parser.add_argument("--again", action="store_true", help="measure again what was measured before")
     parser.add_argument(
         "--paper-data",

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 
 from acts_core.array import MAX_SIDE
 from acts_core.errors import ActsError
+from acts_tools.argument_types import real, whole
 
 if TYPE_CHECKING:
     from acts_driver.selftest import FrameRecord
@@ -45,15 +46,18 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
+    side, seconds = whole(1, MAX_SIDE), real(0.5, 3600)
     parser.add_argument("port", nargs="?", default="auto", help="a path, auto (default) or serial:NUMBER")
     parser.add_argument(
         "--protocol", default="binary", help="protocol of the board: binary, raster_ascii or your own (binary)"
     )
-    parser.add_argument("--rows", type=_side, default=32, help="rows of the array, with raster_ascii and --sim (32)")
-    parser.add_argument("--cols", type=_side, default=32, help="columns of the array, with raster_ascii and --sim (32)")
-    parser.add_argument("--baud", type=_baud, default=115200, help="baud rate; no effect on USB boards (115200)")
-    parser.add_argument("--untouched-s", type=_seconds, default=4.0, metavar="S", help="time untouched (4)")
-    parser.add_argument("--touch-s", type=_seconds, metavar="S", help="time to roll a hand over the skin (20; --sim 6)")
+    parser.add_argument("--rows", type=side, default=32, help="rows of the array, with raster_ascii and --sim (32)")
+    parser.add_argument("--cols", type=side, default=32, help="columns of the array, with raster_ascii and --sim (32)")
+    parser.add_argument(
+        "--baud", type=whole(2400, 12_000_000), default=115200, help="baud rate; no effect on USB boards (115200)"
+    )
+    parser.add_argument("--untouched-s", type=seconds, default=4.0, metavar="S", help="time untouched (4)")
+    parser.add_argument("--touch-s", type=seconds, metavar="S", help="time to roll a hand over the skin (20; --sim 6)")
     parser.add_argument("--no-touch", action="store_true", help="skip the touch: the wiring is not tested")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the report, with all maps, as JSON")
     parser.add_argument(
@@ -189,25 +193,3 @@ def _ended_by_signals() -> Iterator[None]:
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
-
-
-def _side(text: str) -> int:
-    if text.isdecimal() and 1 <= int(text) <= MAX_SIDE:
-        return int(text)
-    raise argparse.ArgumentTypeError(f"{text}: allowed is a whole number from 1 to {MAX_SIDE}")
-
-
-def _baud(text: str) -> int:
-    if text.isdecimal() and 2400 <= int(text) <= 12_000_000:
-        return int(text)
-    raise argparse.ArgumentTypeError(f"{text}: allowed is a whole number from 2400 to 12000000")
-
-
-def _seconds(text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = -1.0
-    if 0.5 <= value <= 3600:
-        return value
-    raise argparse.ArgumentTypeError(f"{text}: allowed is a number from 0.5 to 3600")

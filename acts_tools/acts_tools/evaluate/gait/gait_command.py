@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from acts_recon.gait import FEET, GaitConfig
+from acts_tools.argument_types import real
 from acts_tools.evaluate import report
 from acts_tools.evaluate.gait import force_curve, walks
 from acts_tools.evaluate.gait.insoles import FoundSteps, InsoleRecording, find_steps, read_insoles
@@ -49,13 +50,26 @@ def add_parser(commands: Any) -> None:
         "with `t_s` or `rate_hz`; optionally `start` and `length` of each recording",
     )
     parser.add_argument(
-        "--length-m", type=float, default=0.28, metavar="X", help="of a recorded insole (default: %(default)s)"
+        "--length-m",
+        type=real(0.01, 10.0),
+        default=0.28,
+        metavar="X",
+        help="of a recorded insole (default: %(default)s)",
     )
     parser.add_argument(
-        "--width-m", type=float, default=0.085, metavar="X", help="of a recorded insole (default: %(default)s)"
+        "--width-m",
+        type=real(0.01, 10.0),
+        default=0.085,
+        metavar="X",
+        help="of a recorded insole (default: %(default)s)",
     )
     parser.add_argument(
-        "--rate", type=float, nargs="+", default=list(_RATES_HZ), metavar="HZ", help="of simulated insoles"
+        "--rate",
+        type=real(1.0, 10_000.0),
+        nargs="+",
+        default=list(_RATES_HZ),
+        metavar="HZ",
+        help="of simulated insoles",
     )
     add_seeds(parser, 20, "simulated walks at each rate")
     parser.set_defaults(evaluate=_run)

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from acts_sim.pressing import EVENT_RATE_HZ, EVENTS, event_recordings
+from acts_tools.argument_types import at_least_one
 from acts_tools.evaluate import report
 from acts_tools.evaluate.images import options
 from acts_tools.evaluate.images.recovery import Recording
@@ -23,7 +24,7 @@ def add_parser(commands: Any) -> None:
     parser.add_argument("--event", nargs="+", default=list(EVENTS), choices=tuple(EVENTS), help="default: all")
     options.add_arguments(parser, noise_counts=3.0)
     parser.add_argument(
-        "--recordings", type=options.at_least_one, metavar="N", help="per kind (default: enough for steady figures)"
+        "--recordings", type=at_least_one, metavar="N", help="per kind (default: enough for steady figures)"
     )
     parser.set_defaults(evaluate=_run)
 

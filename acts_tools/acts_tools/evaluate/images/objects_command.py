@@ -13,6 +13,7 @@ import numpy as np
 
 from acts_core.errors import RecordingError
 from acts_sim.pressing import OBJECTS, PRESS_RATE_HZ, ContactModel, FoamConfig, object_named, press_over_time
+from acts_tools.argument_types import at_least_one, taxels
 from acts_tools.evaluate import report
 from acts_tools.evaluate.estimators.methods import method_names
 from acts_tools.evaluate.images import options
@@ -33,11 +34,11 @@ def add_parser(commands: Any) -> None:
         "method and linear interpolation, each with three sampling schemes, with a method of ours with tracking on "
         "the same frames, from first to last touch.",
     )
-    parser.add_argument("--m", nargs="+", type=int, default=list(_M), help="taxels per frame (default: %(default)s)")
+    parser.add_argument("--m", nargs="+", type=taxels, default=list(_M), help="taxels per frame (default: %(default)s)")
     parser.add_argument("--objects", nargs="+", default=list(OBJECTS), metavar="NAME", help="default: all 30")
     parser.add_argument("--ours", default=options.METHOD, choices=method_names(), help="default: %(default)s")
     parser.add_argument(
-        "--presses", type=options.at_least_one, default=1, metavar="N", help="per object (default: %(default)s)"
+        "--presses", type=at_least_one, default=1, metavar="N", help="per object (default: %(default)s)"
     )
     options.add_common_arguments(parser, noise_counts=3.0, onset_s=0.0)
     parser.add_argument("--picture", type=Path, metavar="PNG", help="draw the curves")

@@ -9,11 +9,13 @@ import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
+from acts_core.array import COUNT_MAX
 from acts_core.errors import SettingsError
 from acts_core.sampling import OWN_SETTINGS, SCHEMES, SamplingConfig
 from acts_core.settings import SettingValue, default_of, describe, from_text, unknown_key_message
 from acts_recon.methods import METHODS as REGISTERED
 from acts_recon.sparse import Dictionary, shipped_dictionary_path
+from acts_tools.argument_types import at_least_one, random_seed, real, taxels
 from acts_tools.evaluate.estimators.dictionaries import dictionary_named
 from acts_tools.evaluate.estimators.methods import method_names
 from acts_tools.evaluate.images.recovery import FOLLOW_COUNTS, Task
@@ -29,7 +31,7 @@ def add_arguments(parser: argparse.ArgumentParser, **defaults: float) -> None:
     """Add options of sampling, recovery and scoring; `defaults` replace those of `Task`."""
     # Repeated options accumulate; `tasks` sets the defaults, which argparse would extend otherwise.
     parser.add_argument("--scheme", nargs="+", action="extend", choices=tuple(SCHEMES), help=f"default: {_SCHEME}")
-    parser.add_argument("--m", nargs="+", action="extend", type=int, help=f"taxels per frame (default: {_M})")
+    parser.add_argument("--m", nargs="+", action="extend", type=taxels, help=f"taxels per frame (default: {_M})")
     parser.add_argument("--method", nargs="+", action="extend", choices=method_names(), help=f"default: {METHOD}")
     add_common_arguments(parser, **defaults)
 
@@ -71,14 +73,18 @@ def add_common_arguments(parser: argparse.ArgumentParser, **defaults: float) -> 
             metavar="X",
             help=f"{own.parameter_description} (default: %(default)s)",
         )
-    parser.add_argument("--seed", type=int, default=1, metavar="X", help="random seed (default: %(default)s)")
+    parser.add_argument("--seed", type=random_seed, default=1, metavar="X", help="random seed (default: %(default)s)")
     parser.add_argument("--json", type=Path, metavar="OUT", help="also write the results to a JSON file")
 
 
 def add_scene_arguments(parser: argparse.ArgumentParser, seeds: int, what: str) -> None:
     """Add options of evaluations on simulated scenes; `seeds` of them by default, of which `what` tells the kind."""
     parser.add_argument(
-        "--noise-counts", type=float, default=3.0, metavar="X", help="noise of a reading (default: %(default)s)"
+        "--noise-counts",
+        type=real(0, COUNT_MAX),
+        default=3.0,
+        metavar="X",
+        help="noise of a reading (default: %(default)s)",
     )
     add_seeds(parser, seeds, what)
 
@@ -86,7 +92,9 @@ def add_scene_arguments(parser: argparse.ArgumentParser, seeds: int, what: str) 
 def add_seeds(parser: argparse.ArgumentParser, seeds: int, what: str) -> None:
     """Add what all have that repeat something random: how often, from which seed on, and a file of the results."""
     parser.add_argument("--seeds", type=at_least_one, default=seeds, metavar="N", help=f"{what} (default: %(default)s)")
-    parser.add_argument("--seed", type=int, default=1, metavar="X", help="of everything random (default: %(default)s)")
+    parser.add_argument(
+        "--seed", type=random_seed, default=1, metavar="X", help="of everything random (default: %(default)s)"
+    )
     parser.add_argument("--json", type=Path, metavar="OUT", help="write the results here, too")
 
 
@@ -94,7 +102,7 @@ def add_m(parser: argparse.ArgumentParser, default: Sequence[int]) -> None:
     """Add ``--m``, one or several."""
     parser.add_argument(
         "--m",
-        type=int,
+        type=taxels,
         nargs="+",
         default=list(default),
         help=f"taxels per frame (default: {' '.join(map(str, default))})",
@@ -112,14 +120,6 @@ def _method_setting(word: str) -> tuple[str, SettingValue]:
         return name, from_text(configs[name], name, text)
     except SettingsError as error:
         raise argparse.ArgumentTypeError(str(error)) from None
-
-
-def at_least_one(word: str) -> int:
-    """A positive integer, for argparse."""
-    number = int(word)
-    if number < 1:
-        raise argparse.ArgumentTypeError(f"{word}: allowed is 1 or more")
-    return number
 
 
 def dictionary(arguments: argparse.Namespace) -> Dictionary:

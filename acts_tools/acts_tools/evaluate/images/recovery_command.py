@@ -16,6 +16,7 @@ import numpy as np
 from acts_core.errors import RecordingError
 from acts_core.files import load_frames, without_contact
 from acts_sim.pressing import OBJECTS
+from acts_tools.argument_types import at_least_one
 from acts_tools.evaluate import report
 from acts_tools.evaluate.images import options
 from acts_tools.evaluate.images.recovery import Recording
@@ -34,13 +35,13 @@ def add_parser(commands: Any) -> None:
         help="`frames` (n, rows, cols) of 0 to 1023 counts with `rate_hz`; optionally `live`, `start`, `length`",
     )
     source.add_argument(
-        "--presses", type=options.at_least_one, metavar="N", help="N static presses of the contact model's objects"
+        "--presses", type=at_least_one, metavar="N", help="N static presses of the contact model's objects"
     )
     options.add_arguments(parser)
     parser.add_argument(
         "--peaks", action="store_true", help="of each recording only one sampled frame, at its largest sum of counts"
     )
-    parser.add_argument("--every", type=options.at_least_one, default=1, metavar="N", help="only every Nth recording")
+    parser.add_argument("--every", type=at_least_one, default=1, metavar="N", help="only every Nth recording")
     parser.set_defaults(evaluate=_run)
 
 

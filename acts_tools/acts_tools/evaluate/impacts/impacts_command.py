@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from acts_recon.impacts import Kind
 from acts_sim.impacts import Scene, ball_named, collide, dropped, scene, skin_of
+from acts_tools.argument_types import real
 from acts_tools.evaluate import report
 from acts_tools.evaluate.images.options import add_m, add_scene_arguments
 from acts_tools.evaluate.images.recovery import SAMPLE_US
@@ -49,7 +50,11 @@ def add_parser(commands: Any) -> None:
     )
     add_m(parser, _M)
     parser.add_argument(
-        "--touch-ms", type=float, default=TOUCH_MS, metavar="T", help="how long a ball touches (default: %(default)s)"
+        "--touch-ms",
+        type=real(0.5, 500.0),
+        default=TOUCH_MS,
+        metavar="T",
+        help="how long a ball touches (default: %(default)s)",
     )
     add_scene_arguments(parser, 100, "drops")
     parser.set_defaults(evaluate=_run)

@@ -22,6 +22,7 @@ from acts_recon.contacts import ContactFinder
 from acts_recon.impacts import UNKNOWN_DIRECTION_SD_RAD
 from acts_recon.methods import PerFrame, PerFrameConfig, SkinSetup
 from acts_sim.impacts import Scene, ball_named, scene, skin_of, thrown
+from acts_tools.argument_types import real, taxels
 from acts_tools.evaluate import report
 from acts_tools.evaluate.images.options import add_scene_arguments
 from acts_tools.evaluate.impacts import plays
@@ -50,9 +51,14 @@ def add_parser(commands: Any) -> None:
         description="Throw rubber balls at the simulated skin at a shallow angle, from eight directions and with three "
         "speeds, and estimate the direction. docs/impacts.md tells what the numbers mean.",
     )
-    parser.add_argument("--m", type=int, default=64, help="taxels per frame (default: %(default)s)")
+    parser.add_argument("--m", type=taxels, default=64, help="taxels per frame (default: %(default)s)")
     parser.add_argument(
-        "--speeds", type=float, nargs="+", default=list(SPEEDS_M_S), metavar="V", help="[m/s] (default: 1 2 3)"
+        "--speeds",
+        type=real(0.1, 20.0),
+        nargs="+",
+        default=list(SPEEDS_M_S),
+        metavar="V",
+        help="[m/s] (default: 1 2 3)",
     )
     add_scene_arguments(parser, 25, "throws of each angle and speed")
     parser.set_defaults(evaluate=_run)

@@ -13,8 +13,8 @@ from acts_core.errors import SettingsError
 from acts_core.files import load_frames
 from acts_core.settings import default_of
 from acts_sim.pressing import OBJECTS, PressingConfig, object_named
+from acts_tools.argument_types import at_least_one, random_seed, taxels
 from acts_tools.evaluate import report
-from acts_tools.evaluate.images import options
 from acts_tools.evaluate.objects.classification import M_OVER_TIME, MS, Trials, run_trials
 from acts_tools.evaluate.objects.classification_recorded import run_recorded
 from acts_tools.evaluate.objects.classification_report import draw, table, times
@@ -39,7 +39,7 @@ def add_parser(commands: Any) -> None:
         "recordings becomes the library, the rest is classified",
     )
     parser.add_argument(
-        "--m", nargs="+", type=int, metavar="M", help=f"taxels per frame (default: {MS}; of --frames: 55)"
+        "--m", nargs="+", type=taxels, metavar="M", help=f"taxels per frame (default: {MS}; of --frames: 55)"
     )
     for name, text in (
         ("arms", "simulated arms, each with a skin, spots and a library of its own"),
@@ -47,10 +47,7 @@ def add_parser(commands: Any) -> None:
         ("columns", "presses of every object in the library of an arm"),
     ):
         parser.add_argument(
-            f"--{name}",
-            type=options.at_least_one,
-            default=getattr(Trials(), name),
-            help=f"{text} (default: %(default)s)",
+            f"--{name}", type=at_least_one, default=getattr(Trials(), name), help=f"{text} (default: %(default)s)"
         )
     parser.add_argument("--objects", nargs="+", default=list(OBJECTS), metavar="NAME", help="default: all 30")
     for name, text in (
@@ -65,7 +62,7 @@ def add_parser(commands: Any) -> None:
             metavar="X",
             help=f"{text} (default: %(default)s)",
         )
-    parser.add_argument("--seed", type=int, default=1, metavar="X", help="random seed (default: %(default)s)")
+    parser.add_argument("--seed", type=random_seed, default=1, metavar="X", help="random seed (default: %(default)s)")
     parser.add_argument("--json", type=Path, metavar="OUT", help="also write the results to a JSON file")
     parser.add_argument("--picture", type=Path, metavar="PNG", help="draw both curves (not with --frames)")
     parser.set_defaults(evaluate=_run)

@@ -24,6 +24,7 @@ from acts_core.errors import RecordingError
 from acts_core.files import FramesFile, load_frames
 from acts_core.settings import default_of, describe
 from acts_recon.slip import SlipConfig, SlipDetector
+from acts_tools.argument_types import real
 from acts_tools.evaluate import report
 from acts_tools.output_file import require_writable
 
@@ -68,7 +69,9 @@ def add_parser(commands: Any) -> None:
     )
     parser.add_argument("--frames", type=Path, required=True, metavar="FILE.npz", help="full frames (docs/recovery.md)")
     parser.add_argument("--rate-hz", type=float, metavar="R", help="frames per second, where the file does not say")
-    parser.add_argument("--pitch-m", type=float, default=ArrayGeometry().pitch_m, metavar="P", help="taxel pitch [m]")
+    parser.add_argument(
+        "--pitch-m", type=real(1e-4, 0.1), default=ArrayGeometry().pitch_m, metavar="P", help="taxel pitch [m]"
+    )
     parser.add_argument(
         "--noise-counts", type=float, default=1.5, metavar="S", help="noise of a taxel (default: %(default)s)"
     )

@@ -23,6 +23,7 @@ from acts_core.sampling import SamplingConfig
 from acts_core.skin import ForceResponse, Layout, SkinPatch, layout
 from acts_recon.fusion import FusionConfig, FusionEstimator
 from acts_recon.regions import Regions
+from acts_tools.argument_types import at_least_one, real, taxels
 from acts_tools.evaluate import report
 from acts_tools.evaluate.images.board_sampler import BoardSampler
 
@@ -47,12 +48,16 @@ def add_parser(commands: Any) -> None:
         "without motion.",
     )
     parser.add_argument("--layout", default="leap_right", metavar="L", help="name or file (default: %(default)s)")
-    parser.add_argument("--m", type=int, nargs="+", default=[55, 128], help="taxels per frame (default: 55 128)")
+    parser.add_argument("--m", type=taxels, nargs="+", default=[55, 128], help="taxels per frame (default: 55 128)")
     parser.add_argument(
-        "--seeds", type=int, default=6, metavar="N", help="seeds for each of 3 kinds of contact (default: %(default)s)"
+        "--seeds",
+        type=at_least_one,
+        default=6,
+        metavar="N",
+        help="seeds for each of 3 kinds of contact (default: %(default)s)",
     )
     parser.add_argument(
-        "--hold-s", type=float, default=60.0, metavar="T", help="time of the hold (default: %(default)s)"
+        "--hold-s", type=real(0.0), default=60.0, metavar="T", help="time of the hold (default: %(default)s)"
     )
     parser.add_argument("--json", type=Path, metavar="OUT", help="also write the results to a JSON file")
     parser.set_defaults(evaluate=_run)

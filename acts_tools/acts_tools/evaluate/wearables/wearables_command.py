@@ -17,6 +17,7 @@ import numpy as np
 
 from acts_core.errors import RecordingError
 from acts_sim.wearables import SCENES, WornScene, worn_scene
+from acts_tools.argument_types import real, taxels
 from acts_tools.evaluate import report
 from acts_tools.evaluate.images.options import add_scene_arguments
 from acts_tools.evaluate.wearables.happened import Tally
@@ -46,9 +47,9 @@ def add_parser(commands: Any) -> None:
     parser.add_argument("--scene", nargs="*", choices=tuple(SCENES), default=list(SCENES), help="default: all")
     parser.add_argument("--untouched", nargs="*", choices=SKINS, default=list(SKINS), help="skins (default: all)")
     parser.add_argument(
-        "--minutes", type=float, default=10.0, metavar="T", help="each skin is left alone (default: %(default)s)"
+        "--minutes", type=real(0.0), default=10.0, metavar="T", help="each skin is left alone (default: %(default)s)"
     )
-    parser.add_argument("--m", type=int, default=64, help="taxels per frame (default: %(default)s)")
+    parser.add_argument("--m", type=taxels, default=64, help="taxels per frame (default: %(default)s)")
     parser.add_argument(
         "--recordings",
         type=Path,

@@ -1,0 +1,62 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Numbers on the command line that are not allowed: refused in words, by every command that takes them."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import pytest
+
+from acts_tools.argument_types import real, whole
+from acts_tools.cli import main
+
+EVALUATIONS = ("classification", "events", "gait", "impacts", "objects", "outlines", "ricochet", "spectra", "wearables")
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        *(["evaluate", name, "--seed", "-1"] for name in EVALUATIONS),
+        *(["evaluate", name, "--seeds", "0"] for name in ("gait", "impacts", "slip-sampled", "wearables")),
+        ["evaluate", "impacts", "--m", "0"],
+        ["evaluate", "impacts", "--touch-ms", "0"],
+        ["evaluate", "ricochet", "--speeds", "1", "nan"],
+        ["evaluate", "spectra", "--noise-counts", "-1"],
+        ["evaluate", "gait", "--rate", "0"],
+        ["evaluate", "slip", "--frames", "any.npz", "--pitch-m", "nan"],
+        ["figures", "4E", "--seed", "-1"],
+        ["demo", "hand", "--seed", "-1"],
+        ["library", "-o", "any.npz", "--seed", "x"],
+        ["library", "-o", "any.npz", "--touch-counts", "1023"],
+    ],
+    ids=" ".join,
+)
+def test_a_number_out_of_range_is_refused(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as end:
+        main(words)
+    assert end.value.code == 2
+    assert f"{words[-1]}: allowed is " in capsys.readouterr().err
+
+
+def test_an_option_is_not_taken_for_another_that_begins_alike(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    with pytest.raises(SystemExit):
+        main(["evaluate", "slip-sampled", "--seed", "3", "--json", str(tmp_path / "out.json")])
+    assert "unrecognized arguments: --seed 3" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("word", ["", "x", "1.5", "0", "65", "-1", "nan"])
+def test_whole_numbers_have_a_range(word: str) -> None:
+    with pytest.raises(argparse.ArgumentTypeError, match="allowed is a whole number from 1 to 64"):
+        whole(1, 64)(word)
+
+
+@pytest.mark.parametrize("word", ["", "x", "0.4", "inf", "nan", "-1"])
+def test_real_numbers_have_a_range_and_are_finite(word: str) -> None:
+    with pytest.raises(argparse.ArgumentTypeError, match=r"allowed is 0\.5 or more"):
+        real(0.5)(word)
+    assert real(0.5, 0.5)("0.5") == 0.5
