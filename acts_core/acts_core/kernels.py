@@ -24,6 +24,7 @@ import re
 import shutil
 import sys
 import tempfile
+import warnings
 from collections.abc import Callable, Iterator
 from functools import lru_cache
 from pathlib import Path
@@ -36,6 +37,7 @@ _IMPORT = re.compile(
     r"^[ \t]*(?:from[ \t]+(acts_[\w.]+)[ \t]+import[ \t]+(\([^)]*\)|[^\n]*)|import[ \t]+(acts_[\w.]+))", re.MULTILINE
 )
 _CACHES = "kernels"
+_told_uncached = False
 
 
 def _import_numba() -> ModuleType:
@@ -104,13 +106,46 @@ def skip_extras() -> None:
 def _compiled(function: Callable[..., R], options: dict[str, Any]) -> Callable[..., R]:
     before = numba.config.CACHE_DIR
     # Read while a function is decorated, and at no other time.
-    numba.config.CACHE_DIR = str(cache_folder(function))
+    folder = cache_folder(function)
+    numba.config.CACHE_DIR = str(folder)
     try:
         compiled = numba.njit(cache=True, nogil=True, **options)(function)
+    except RuntimeError as error:
+        # It finds no folder at all that can be written.
+        _tell_uncached(folder, error)
+        compiled = numba.njit(nogil=True, **options)(function)
+    else:
+        _go_on_where_it_cannot_be_kept(compiled, folder)
     finally:
         numba.config.CACHE_DIR = before
     _compile_for_types_alone(compiled)
     return cast(Callable[..., R], compiled)
+
+
+def _go_on_where_it_cannot_be_kept(compiled: Any, folder: Path) -> None:
+    """Let a kernel run that was compiled and cannot be written, on a full disk: numba raises an error there."""
+    save = compiled._cache.save_overload
+
+    def save_where_there_is_room(*arguments: Any) -> None:
+        try:
+            save(*arguments)
+        except OSError as error:
+            _tell_uncached(folder, error)
+
+    compiled._cache.save_overload = save_where_there_is_room
+
+
+def _tell_uncached(folder: Path, error: Exception) -> None:
+    """Warn, once in a process."""
+    global _told_uncached
+    if not _told_uncached:
+        _told_uncached = True
+        warnings.warn(
+            f"compiled code cannot be kept in {folder.parent} ({error}): each start takes up to a minute; make room, "
+            "or set NUMBA_CACHE_DIR to a folder that can be written",
+            RuntimeWarning,
+            stacklevel=2,
+        )
 
 
 def _compile_for_types_alone(compiled: Any) -> None:
@@ -131,7 +166,8 @@ def _compile_for_types_alone(compiled: Any) -> None:
 def cache_folder(function: Callable[..., Any]) -> Path:
     """Where a kernel is cached: beside its file, or in the user's cache where that cannot be written.
 
-    The environment variable NUMBA_CACHE_DIR has its usual meaning. Folders of former contents are removed.
+    The environment variable NUMBA_CACHE_DIR has its usual meaning. Folders of former contents are removed. What cannot
+    be written is compiled at each start.
     """
     name, file = function.__module__, function.__code__.co_filename
     folder = _root(Path(file).parent) / f"{name}-{fingerprint(file)}"

@@ -176,6 +176,35 @@ def test_a_package_that_cannot_be_written_is_cached_with_the_user(run: Run, pack
     assert folders(tmp_path / "cache")
 
 
+WARNED = """
+import warnings
+with warnings.catch_warnings(record=True) as told:
+    warnings.simplefilter("always")
+    {limit}
+    from acts_kerneltest.outer import twice
+    result = [twice(0), *(str(one.message) for one in told)]
+"""
+
+
+def test_on_a_full_disk_a_kernel_runs_and_it_is_said_once(run: Run, package: Path) -> None:
+    # Files cannot grow: as on a full disk, but for the number of the error.
+    full = "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (0, resource.RLIM_INFINITY))"
+    (value, *told), is_compiled = run(WARNED.format(limit=full))  # type: ignore[misc]
+    assert (value, is_compiled, len(told)) == (2, True, 1)
+    assert "cannot be kept in " in told[0]
+    assert "File too large" in told[0]
+    assert run() == (2, True)
+    assert run() == (2, False)
+
+
+def test_where_no_folder_can_be_written_a_kernel_runs(run: Run, package: Path) -> None:
+    (package / "__pycache__").write_text("")
+    nowhere = dict.fromkeys(("NUMBA_CACHE_DIR", "XDG_CACHE_HOME", "HOME"), "/dev/null/x")
+    (value, *told), is_compiled = run(WARNED.format(limit="pass"), **nowhere)  # type: ignore[misc]
+    assert (value, is_compiled, len(told)) == (2, True, 1)
+    assert "set NUMBA_CACHE_DIR" in told[0]
+
+
 def test_a_kernel_is_compiled_for_types_and_not_for_each_constant(run: Run, package: Path) -> None:
     # The variable begins as a constant as well.
     assert run("from acts_kerneltest.counting import count; result = count(3)") == (3 + 11, True)

@@ -9,6 +9,7 @@ import os
 import socket
 import sys
 import time
+from contextlib import suppress
 from datetime import datetime
 from pathlib import Path
 from typing import TextIO
@@ -53,7 +54,8 @@ class Console:
     def close(self) -> None:
         """Close the log file."""
         if self._log is not None:
-            self._log.close()
+            with suppress(OSError):
+                self._log.close()
 
     def say(self, level: str, who: str, text: str) -> None:
         """Write a message of the launch itself; `level` is INFO, WARNING or ERROR."""
@@ -62,7 +64,14 @@ class Console:
     def write(self, line: str, to_screen: bool, to_log: bool) -> None:
         """Write one line to the screen, the log file, both or neither."""
         if to_log and self._log is not None:
-            self._log.write(f"{time.time():.7f} {line}\n")
+            try:
+                self._log.write(f"{time.time():.7f} {line}\n")
+            except OSError as error:
+                # What is launched goes on: it may move a robot.
+                log, self._log = self._log, None
+                with suppress(OSError):
+                    log.close()
+                self.say("WARNING", "launch", f"{log.name} ends here: {error.strerror}")
         if to_screen and not self.screen_lost:
             try:
                 self._screen.write(f"{line}\n")
@@ -70,3 +79,7 @@ class Console:
             except BrokenPipeError:
                 # The reader of our output has ended; the launcher notices and stops its processes in order.
                 self.screen_lost = True
+            except OSError:
+                # A file on a full disk: likewise, what is launched goes on. What Python still holds goes nowhere.
+                with suppress(OSError):
+                    os.dup2(os.open(os.devnull, os.O_WRONLY), self._screen.fileno())

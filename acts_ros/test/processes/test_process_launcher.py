@@ -5,6 +5,8 @@
 
 from __future__ import annotations
 
+import errno
+import io
 import os
 import re
 import signal
@@ -163,3 +165,29 @@ def test_what_refuses_what_it_was_given_is_not_started_again_and_may_leave_the_o
     assert "[other] done" in output
     assert "choosy refuses what it was given: exit code 2" in output
     assert "other died" not in output
+
+
+class Full(io.StringIO):
+    """A file on a disk that becomes full."""
+
+    name = "launch.log"
+
+    def write(self, text: str) -> int:
+        if self.tell() > 0:
+            raise OSError(errno.ENOSPC, "No space left on device")
+        return super().write(text)
+
+
+def test_on_a_full_disk_the_output_goes_on_without_the_log_and_the_launch_without_output() -> None:
+    screen = io.StringIO()
+    console = Console(None, screen)
+    console._log = Full()
+    for text in ("one", "two", "three"):
+        console.say("INFO", "it", text)
+    console.close()
+    end = "[WARNING] [launch]: launch.log ends here: No space left on device"
+    assert screen.getvalue().splitlines() == ["[INFO] [it]: one", end, "[INFO] [it]: two", "[INFO] [it]: three"]
+    full = Console(None, Full())
+    for text in ("one", "two", "three"):
+        full.say("INFO", "it", text)
+    assert not full.screen_lost
