@@ -113,16 +113,23 @@ print(policy(), os.sched_getaffinity(0))
 @pytest.mark.usefixtures("on_the_same_core")
 def test_a_thread_that_runs_away_in_python_is_put_back() -> None:
     finished = run("""
+error = threading.Event()
+def told(level, sentence):
+    log(level, sentence)
+    if level == "error":
+        error.set()
 def run_away():
-    enter_realtime(config, "reader", log)
+    enter_realtime(config, "reader", told)
     while policy() == "fifo" and time.monotonic() < longest:
         pass
     print(policy())
-    enter_realtime(config, "reader", log)
+    enter_realtime(config, "reader", told)
 thread = threading.Thread(target=run_away)
 thread.start()
 thread.join()
 print(policy())
+# The guard tells it after it has put the thread back, and ends with the process.
+error.wait(30)
 """)
     assert finished.returncode == 0
     lines = finished.stdout.splitlines()
