@@ -38,8 +38,12 @@ _MAX_M = 10.0
 
 @dataclass(frozen=True)
 class LayoutFile:
-    """What a layout file says; as of `acts_core.skin.layouts.Layout`."""
+    """What a layout file says; as of `acts_core.skin.layouts.Layout`.
 
+    `matrix` is the number of rows and of columns of the matrix.
+    """
+
+    matrix: tuple[int, int]
     taxels: NDArray[np.uint16]
     pitch_m: float
     row_pitch_m: float
@@ -56,8 +60,8 @@ class _Wired:
     section: Section
 
 
-def read_layout(path: Path, rows: int, cols: int) -> LayoutFile:
-    """Read a layout file for a matrix of `rows` x `cols`.
+def read_layout(path: Path, rows: int | None, cols: int | None) -> LayoutFile:
+    """Read a layout file for a matrix of `rows` x `cols`, or None for what the file says.
 
     Raises
     ------
@@ -68,7 +72,7 @@ def read_layout(path: Path, rows: int, cols: int) -> LayoutFile:
     """
     top = read_yaml(path)
     top.check_keys(_FILE_KEYS)
-    _check_matrix(top, rows, cols)
+    rows, cols = _matrix(top, rows, cols)
     pitch_m = _length(top, "pitch_m", ArrayGeometry().pitch_m)
     row_pitch_m = _length(top, "row_pitch_m", pitch_m)
     patches = top.section("patches", "")
@@ -107,6 +111,7 @@ def read_layout(path: Path, rows: int, cols: int) -> LayoutFile:
     taxels[taxels < 0] = np.setdiff1d(np.arange(rows * cols), taxels)
     geometry = ArrayGeometry(picture_rows, picture_cols, pitch_m, row_pitch_m)
     return LayoutFile(
+        (rows, cols),
         taxels.astype(np.uint16),
         pitch_m,
         row_pitch_m,
@@ -115,15 +120,18 @@ def read_layout(path: Path, rows: int, cols: int) -> LayoutFile:
     )
 
 
-def _check_matrix(top: Section, rows: int, cols: int) -> None:
-    if "matrix" not in top.values:
-        return
-    made_for = _size(top, "matrix")
-    if made_for != (rows, cols):
+def _matrix(top: Section, rows: int | None, cols: int | None) -> tuple[int, int]:
+    """The size that is asked for, or that of the file, or else 32 x 32; refused where the file is for another."""
+    made_for = _size(top, "matrix") if "matrix" in top.values else None
+    default_rows, default_cols = made_for or (32, 32)
+    rows, cols = default_rows if rows is None else rows, default_cols if cols is None else cols
+    ArrayGeometry(rows, cols)  # refuses sizes that are none
+    if made_for not in (None, (rows, cols)):
         raise ArrayError(
             f"layout {top.path.stem} of a matrix of {rows} x {cols}: it is made of {made_for[0]} x {made_for[1]}; "
             "use square, or a layout file of your own"
         )
+    return rows, cols
 
 
 def _size(section: Section, key: str) -> tuple[int, int]:

@@ -145,7 +145,7 @@ def layout_path(name_or_path: str) -> Path:
     )
 
 
-def layout(name_or_path: str, rows: int = 32, cols: int = 32) -> Layout:
+def layout(name_or_path: str, rows: int | None = None, cols: int | None = None) -> Layout:
     """A layout of a matrix.
 
     Parameters
@@ -155,8 +155,8 @@ def layout(name_or_path: str, rows: int = 32, cols: int = 32) -> Layout:
         thumb and four fingers (both as in the authors' published analysis); ``leap_right``, the right LEAP hand, 13
         patches; ``arm``, ``chest``, ``end_effector``, ``helmet`` and ``leg``, the matrix as it is, with the size and
         the bend of each. Or the path of a layout file of one's own.
-    rows, cols : int
-        Size of the matrix.
+    rows, cols : int or None
+        Size of the matrix; None for that of the file, or 32 where the layout is for matrices of any size.
 
     Raises
     ------
@@ -166,11 +166,10 @@ def layout(name_or_path: str, rows: int = 32, cols: int = 32) -> Layout:
         When the file is not a layout; with file and line.
     """
     path = layout_path(name_or_path)
-    ArrayGeometry(rows, cols)  # refuses sizes that are none
     read = read_layout(path, rows, cols)
     places = np.argsort(read.taxels.ravel()).astype(np.uint16)
     for array in (read.taxels, read.patch_of, places):
         array.flags.writeable = False
     return Layout(
-        name_or_path, read.taxels, places, rows, cols, read.pitch_m, read.row_pitch_m, read.patches, read.patch_of
+        name_or_path, read.taxels, places, *read.matrix, read.pitch_m, read.row_pitch_m, read.patches, read.patch_of
     )

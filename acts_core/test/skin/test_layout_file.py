@@ -71,6 +71,14 @@ def test_the_file_of_the_documents_is_one(tmp_path: Path) -> None:
     assert gripper.patches[0].normals()[0, 0] == pytest.approx([1, 0, 0], abs=1e-6)
 
 
+def test_without_a_size_it_is_that_of_the_file(tmp_path: Path) -> None:
+    read(tmp_path, HAND)
+    hand = layout(str(tmp_path / "hand.yaml"))
+    assert hand.picture(np.arange(24).reshape(4, 6)).shape == (hand.rows, hand.cols)
+    (tmp_path / "hand.yaml").write_text(HAND.replace("matrix: [4, 6]\n", "picture: [32, 32]\n"))
+    assert layout(str(tmp_path / "hand.yaml")).taxels.size == 32 * 32
+
+
 def test_it_is_for_one_matrix(tmp_path: Path) -> None:
     with pytest.raises(ArrayError, match=r"hand of a matrix of 6 x 4: it is made of 4 x 6"):
         read(tmp_path, HAND, 6, 4)

@@ -128,7 +128,7 @@ class HandWorld:
         self._substeps = _LIGHT_SUBSTEPS if is_light else _SUBSTEPS
         self._model = hand_model.build(self._thing, STEP_S / self._substeps)
         self._data = mujoco.MjData(self._model)
-        self.layout = layout(config.layout)
+        self.layout = layout(config.layout, 32, 32)
         overload = OverloadLaw(config.overload_after_s, config.overload_ma)
         self.motors = [
             Motor(MODELS[config.motor_model], k, config.return_delay_time, overload=overload) for k in range(len(LINKS))

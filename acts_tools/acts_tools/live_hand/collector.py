@@ -62,7 +62,7 @@ class HandCollector(PollingNode):
         self.touch_age_s = float("inf")
         self.fresh_s = 0.0
         self._stale_s = 0.0
-        skin = layout(layout_name)
+        skin = layout(layout_name, 32, 32)
         recording.patches = tuple(patch.name for patch in skin.patches)
         self._taxels = int(skin.taxels.size)
         # Stamps are of the system's clock, the world's times of CLOCK_MONOTONIC.

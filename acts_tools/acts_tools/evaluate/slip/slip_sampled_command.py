@@ -153,7 +153,7 @@ def _delay_ms(skin: Skin, m: int, seed: int, way_m: Callable[[float], float], no
 
 def _run(arguments: argparse.Namespace) -> int:
     results = report.Results(arguments.json, {"layout": arguments.layout, "hold_s": arguments.hold_s})
-    skin = layout(arguments.layout)
+    skin = layout(arguments.layout, 32, 32)
     print(
         "| M | detected after 0.2 mm: median, last [ms] | false slips while closing | in the hold |\n|---|---|---|---|"
     )
