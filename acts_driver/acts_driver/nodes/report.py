@@ -171,6 +171,9 @@ class DriverReport:
             )
         if added.crc_errors or added.malformed:
             troubles.append(f"last: {self._decoder.last_error}")
+        elif added.frames == 0 and added.bytes_discarded and self._decoder.last_error:
+            # What never ends a packet is counted once, and goes on.
+            troubles.append(f"{added.bytes_discarded} bytes without one: {self._decoder.last_error}")
         delay_us = self._stream.clock.state.delay_us if self._stream.has_board_clock else 0.0
         if delay_us > _LATE_US:
             late = f"frames are read {delay_us / 1e6:.1f} s late"

@@ -1,16 +1,17 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The driver's report on frames that are read late."""
+"""The driver's report on frames that are read late, and on bytes that hold none."""
 
 import numpy as np
+import pytest
 
 from acts_core.frames import SampleFrame, Scheme
-from acts_core.wire import StreamDecoder
+from acts_core.wire import RasterDecoder, StreamDecoder
 from acts_driver.nodes.report import DriverReport
 from acts_driver.port import Reader, SerialSource
 from acts_driver.stream import FrameStream
-from acts_ros.diagnostics import WARN
+from acts_ros.diagnostics import ERROR, WARN
 
 MS = 1_000_000
 NO_TAXELS = np.empty(0, dtype=np.uint16)
@@ -42,3 +43,27 @@ def test_frames_that_are_read_late_are_told() -> None:
     receive(116, 1, late_ms=0)
     _, message, _ = report.make("active", 2600 * MS)
     assert "late" not in message
+
+
+@pytest.mark.parametrize(
+    ("decoder", "sent", "words"),
+    [
+        (StreamDecoder(), b"0,0,3,118,402,29312\r\n", "a board that prints lines of text speaks another protocol"),
+        (RasterDecoder(2, 2), b"0,0,3,118,402,29312\r", "does each frame end with \\n?"),
+    ],
+    ids=["text", "without a line feed"],
+)
+def test_bytes_that_never_are_a_frame_are_told_as_long_as_they_come(
+    decoder: StreamDecoder | RasterDecoder, sent: bytes, words: str
+) -> None:
+    source = SerialSource("/dev/ttyACM0")
+    reader = Reader(source, decoder, lambda frames, arrival_ns: None)
+    reader.connected = True
+    report = DriverReport(source, reader, decoder, FrameStream(2, 2), (2, 2))
+    for second in range(1, 4):
+        decoder.feed(sent * 1000)
+        level, message, _ = report.make("active", 1000 * second * MS)
+        assert level == ERROR
+        assert message.startswith("no frames from /dev/ttyACM0, ")
+        assert words in message
+    assert report.make("active", 4000 * MS)[1] == "no frames from /dev/ttyACM0"
