@@ -323,7 +323,7 @@ def test_a_command_that_cannot_be_is_refused_in_words(
     assert why in hand_node.refused[0]
     level, words, values = hand_node.report()
     assert level == WARN
-    assert words.startswith(f"1 commands left out: {hand_node.refused[0]}; ")
+    assert words.startswith(f"commands left out: 1, the last: {hand_node.refused[0]}; ")
     assert hand_node.report()[2] == values
     assert "left out" not in hand_node.report()[1]
 

@@ -49,7 +49,7 @@ class HandNode(MotorNode):
         level, words, values = super().report()
         refused, self._reported_refused = self._refused - self._reported_refused, self._refused
         if refused:
-            level, words = max(level, WARN), f"{refused} commands left out: {self._refusal}; {words}"
+            level, words = max(level, WARN), f"commands left out: {refused}, the last: {self._refusal}; {words}"
         return level, words, {**values, "refused": self._refused}
 
     def _on_command(self, data: bytes) -> None:

@@ -180,7 +180,7 @@ class HandReflexesNode(MotorNode):
         if level == OK and status.is_stale:
             level, words = WARN, f"no touch for {min(status.touch_age_s, _LONG_AGO_S):.2g} s; {words}"
         if refused:
-            level, words = max(level, WARN), f"{refused} left out: {status.refusal}; {words}"
+            level, words = max(level, WARN), f"messages left out: {refused}, the last: {status.refusal}; {words}"
         return level, words, {**values, **hand}
 
     def _answer(self, name: str) -> Callable[[Trigger.Request, Trigger.Response], Trigger.Response]:
