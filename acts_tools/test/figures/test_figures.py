@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -92,3 +93,11 @@ def test_unknown_figures_and_folders_are_refused(tmp_path: Path, capsys: pytest.
     (tmp_path / "file").touch()
     assert main(["figures", "4D", "--out", str(tmp_path / "file")]) == 1
     assert "--out" in capsys.readouterr().err
+
+
+def test_the_page_names_the_files_that_are_read() -> None:
+    root = Path(__file__).resolve().parents[3]
+    code = "".join(path.read_text() for path in (root / "acts_tools" / "acts_tools" / "figures").rglob("*.py"))
+    page = (root / "docs" / "paper.md").read_text()
+    listed = page.partition("some figures npz files: ")[2].partition(".")[0]
+    assert sorted(re.findall(r"`(\w+)`", listed)) == sorted(set(re.findall(r'"(\w+)\.npz"', code)))
