@@ -16,7 +16,7 @@ from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
 
-from acts_core.errors import ActsError, exit_code
+from acts_core.errors import ActsError, SettingsError, exit_code
 from acts_core.stop_signals import StopSignals
 from acts_ros import middleware
 
@@ -84,6 +84,7 @@ def run(
             for factory in factories:
                 node = factory()
                 nodes.append(node)
+                _require_own_names(nodes)
                 executor.add_node(node)
         settle()
         for node in nodes:
@@ -131,6 +132,22 @@ def _spin(executor: Executor, signals: StopSignals) -> None:
     signals.on_stop(lambda: stopped.set_result(None))
     while not stopped.done():
         executor.spin_until_future_complete(stopped, timeout_sec=_SPIN_S)
+
+
+def _require_own_names(nodes: Sequence[Node]) -> None:
+    """Refuse two nodes of one name: nobody could reach the parameters and services of either.
+
+    Raises
+    ------
+    SettingsError
+        The last node has the name of another.
+    """
+    *others, last = (node.get_fully_qualified_name() for node in nodes)
+    if last in others:
+        raise SettingsError(
+            f"two nodes of this process are named {last}: __node, which is the name= of a <node> in a launch file, "
+            "renames all nodes of a process; leave it out, and give a namespace instead"
+        )
 
 
 def _call(node: Node, name: str) -> None:

@@ -13,6 +13,8 @@ from pathlib import Path
 
 import pytest
 
+from acts_core.errors import REFUSED_EXIT_CODE
+
 pytestmark = pytest.mark.slow
 
 NODE = """
@@ -51,7 +53,7 @@ class Example(Node):
             self.create_publisher(DiagnosticArray, "told", 10).publish(DiagnosticArray())
         print("closed", flush=True)
 
-sys.exit(run([Example]))
+sys.exit(run([Example] * (2 if "two" in sys.argv else 1)))
 """
 
 
@@ -132,3 +134,12 @@ def test_an_error_at_start_is_one_line_and_the_exit_code_tells_whether_to_try_ag
     assert process.returncode == code
     assert errors == "error: rate_hz = 0: allowed is 1 to 1000\n"
     assert output == ""
+
+
+def test_two_nodes_of_one_name_are_refused() -> None:
+    with started("two") as process:
+        output, errors = process.communicate(timeout=60)
+    assert output == "closed\nclosed\n"
+    error = errors.splitlines()[-1]
+    assert error.startswith("error: two nodes of this process are named /example: __node, ")
+    assert process.returncode == REFUSED_EXIT_CODE
