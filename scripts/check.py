@@ -65,8 +65,8 @@ def run_side_by_side(commands: dict[str, list[str]]) -> list[str]:
     return [one for title, future in done.items() for one in failed(title, future.result().returncode)]
 
 
-def lint() -> list[str]:
-    """Every linter, also after one has failed, so that one run shows all there is."""
+def lint(beside: dict[str, list[str]]) -> list[str]:
+    """Every linter, also after one has failed, so that one run shows all there is; and commands to run beside them."""
     firmware = [
         f"-I{ROOT}/acts_firmware/{folder}"
         for folder in ("src", "virtual_board", "teensy/arduino", "test/example_scheme")
@@ -80,6 +80,7 @@ def lint() -> list[str]:
             "clang-format": ["clang-format", "--dry-run", "--Werror", *tracked(*CXX_PATTERNS)],
             "g++: warnings": ["g++", *CXX_WARNINGS, *firmware, *on_host],
             "package.xml: what is imported is declared": [sys.executable, "scripts/dependencies.py"],
+            **beside,
         }
     )
 
@@ -142,7 +143,7 @@ def main() -> int:
         print(f"[check] linters left out, not installed: {', '.join(missing)} (pip install {' '.join(missing)})")
         failures = ["linters: not installed"] if arguments.lint else []
     else:
-        failures = lint()
+        failures = lint({} if arguments.lint else {"kernels": [sys.executable, "scripts/compile_kernels.py"]})
     if not arguments.lint:
         failures += test(arguments.pytest)  # also when a linter complained, so that one run shows all there is
     return ended(failures)

@@ -29,8 +29,7 @@ def realtime_is_allowed() -> bool:
     return subprocess.run([sys.executable, "-c", tried], capture_output=True).returncode == 0
 
 
-# A thread that runs away under SCHED_FIFO keeps others from the core.
-pytestmark = [pytest.mark.alone, pytest.mark.slow]
+pytestmark = pytest.mark.slow
 
 needs_realtime = pytest.mark.skipif(not realtime_is_allowed(), reason="SCHED_FIFO is not allowed here (`acts doctor`)")
 
