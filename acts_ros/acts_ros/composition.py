@@ -46,7 +46,8 @@ def parameters_from(words: Sequence[str], nodes: Mapping[str, type]) -> dict[str
         ROS refuses.
     """
     # --help is answered before, see acts_ros.executables.program.
-    parser = argparse.ArgumentParser(add_help=False)
+    usage = "%(prog)s [--set NODE.PARAMETER=VALUE ...] [--ros-args -p NAME:=VALUE --params-file FILE ...]"
+    parser = argparse.ArgumentParser(usage=usage, add_help=False)
     parser.add_argument("--set", metavar="NODE.PARAMETER=VALUE", action="append", default=[])
     with telling_wrong_arguments():
         own = remove_ros_args(list(words))[1:]

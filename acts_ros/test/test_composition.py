@@ -82,3 +82,9 @@ def test_a_params_file_that_ros_cannot_read_is_refused(tmp_path: Path, text: str
     with pytest.raises(SettingsError, match=f"params file: '--params-file {path}'") as caught:
         given("--ros-args", "--params-file", str(path))
     assert ".c:" not in str(caught.value)
+
+
+def test_ros_words_without_their_flag_are_refused_with_where_they_go(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit, match="2"):
+        given("-p", "word:=two")
+    assert "[--ros-args -p NAME:=VALUE --params-file FILE ...]" in capsys.readouterr().err

@@ -49,6 +49,12 @@ def test_a_distribution_without_wheels_is_refused_first(tmp_path: Path, monkeypa
     assert not (tmp_path / "checkout" / ".acts").exists()
 
 
+def test_run_without_a_program_says_what_it_is_for() -> None:
+    done = subprocess.run([str(BOOTSTRAP.parents[1] / "acts"), "run"], capture_output=True, text=True, timeout=30)
+    assert done.returncode == 2
+    assert done.stderr.startswith("usage: ./acts run PROGRAM [ARGUMENT ...], any program inside the environment")
+
+
 @pytest.fixture
 def bootstrap() -> ModuleType:
     """The set-up's functions."""
