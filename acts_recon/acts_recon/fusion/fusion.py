@@ -22,8 +22,9 @@ instead of a covariance matrix. One frame takes five steps:
    this frame, too, since an image is of the end of its frame. A count that can be noise has no slope. The trust is
    the least squares solution of ``measured change = trust * predicted change``, of each taxel for predictions over
    less than `horizon_s`, of each tile for longer ones. Where nothing predicted comes true, the image is that of the
-   last values. A slope counts for this as one more prediction, which comes true over times well below `UNPROVEN_S`
-   and fails over longer ones, so that one that nothing has confirmed is not followed past the end of an impact. At
+   last values. A slope is trusted as far as earlier slopes came true, and what it predicts counts as one more such
+   prediction, which comes true over times well below `UNPROVEN_S` and fails over longer ones: a slope that nothing
+   but samples beside has confirmed is not followed past the end of an impact, nor a tap that holds. At
    `horizon_s` the slope is forgotten, and what it added stays as far as it was trusted. Readings of untouched skin are
    shown as 0, since the noise of a thousand taxels would pull the centre of pressure to the middle. What untouched skin
    reads is learnt, see below.

@@ -23,6 +23,9 @@ TRUST_PRIOR = 0.3
 # ones: an impact is over within a few milliseconds. It weighs as much as so many confirmed predictions of its size.
 UNPROVEN_S = 1e-3
 UNPROVEN_WEIGHT = 0.3
+# What came true of earlier slopes counts for at most so much of what they predicted: a small one before a large one
+# confirms little of it.
+MOST_CONFIRMED = 2.0
 # Smaller predicted changes are not shown: one step of the converter looks like a slope of nearly one count.
 LEAST_CHANGE_COUNTS = 0.85
 
@@ -38,11 +41,18 @@ def trust(product: np.float32, square: np.float32) -> np.float32:
 
 
 @kernel(fastmath=FASTMATH, inline="always")
-def _trust_slope(product: np.float32, square: np.float32, change: np.float32, time: np.float32) -> np.float32:
-    """`trust`, as if one more prediction, of this change over this time [s], had come true by the share to expect."""
+def _trust_slope(
+    product: np.float32, square: np.float32, slope_square: np.float32, change: np.float32, time: np.float32
+) -> np.float32:
+    """`trust` in what a slope predicts, a change over a time [s].
+
+    Of all that was predicted only slopes confirm a slope. One more prediction, this one, has come true by the share to
+    expect.
+    """
+    came_true = min((product + _F(TRUST_PRIOR)) / (square + _F(TRUST_PRIOR)), _F(MOST_CONFIRMED))
     weight = _F(UNPROVEN_WEIGHT) * change * change
     expected = _F(1) / (_F(1) + time * time / _F(UNPROVEN_S * UNPROVEN_S))
-    return trust(product + weight * expected, square + weight)
+    return trust(slope_square * came_true + weight * expected, slope_square + weight)
 
 
 @kernel(fastmath=FASTMATH, inline="always")
@@ -73,8 +83,8 @@ def show(state: State, cols: int, tuning: Tuning) -> None:
     """Image of the estimates as far as they are trusted; 0 where readings are low, with none beside, and are noise."""
     above, quiet, tile_of = state.total, state.weight, state.tile_of
     image, value, age, low, fresh = state.image, state.value, state.age, state.low, state.fresh
-    rate, estimate, product, square = state.rate, state.estimate, state.product, state.square
-    learnt = state.learnt
+    rate, estimate, learnt = state.rate, state.estimate, state.learnt
+    product, square, slope_square = state.product, state.square, state.slope_square
     for i in range(image.shape[0]):
         t = tile_of[i]
         usual = state.noise[i] * learnt[t, QUIET]
@@ -87,7 +97,8 @@ def show(state: State, cols: int, tuning: Tuning) -> None:
         # Too old to be followed: of what the slope has added, only as much stays as is trusted.
         if slope[i] != _F(0) and not age[i] < horizon:
             if not velocity[tile_of[i], 2] > _F(0):
-                share = _trust_slope(product[i], square[i], slope[i] * fade[i] * horizon, horizon)
+                by_slope = slope[i] * fade[i] * horizon
+                share = _trust_slope(product[i], square[i], slope_square[i], by_slope, horizon)
                 estimate[i] = value[i] + share * (estimate[i] - value[i])
             slope[i] = _F(0)
     for i in range(image.shape[0]):
@@ -99,10 +110,12 @@ def show(state: State, cols: int, tuning: Tuning) -> None:
         if above[i] != _F(0):
             if age[i] < horizon:
                 by_slope = (_F(1) - velocity[tile_of[i], 2]) * slope[i] * fade[i] * age[i]
-                share = _trust_slope(product[i], square[i], by_slope, age[i])
+                # What samples beside have corrected since is not the slope's.
+                by_slope = min(max(by_slope, min(above[i], _F(0))), max(above[i], _F(0)))
+                slope_share = _trust_slope(product[i], square[i], slope_square[i], by_slope, age[i])
+                change = trust(product[i], square[i]) * (above[i] - by_slope) + slope_share * by_slope
             else:
-                share = learnt[tile_of[i], TRUST]
-            change = share * above[i]
+                change = learnt[tile_of[i], TRUST] * above[i]
             if abs(change) >= least:
                 # Whole counts, as readings are: with a fraction more, a taxel that reads just the threshold would be
                 # pressed.

@@ -153,6 +153,7 @@ def _learn(
     m = indices.shape[0]
     horizon, tile_fade = _F(tuning.horizon_s), _F(math.exp(-period_s / NOISE_MEMORY_S))
     learnt, product, square, noise_excess = state.learnt, state.product, state.square, state.noise_excess
+    slope_square = state.slope_square
     for p in range(noise_excess.shape[0]):
         state.noise_scale[p] = _F(math.exp(state.log_noise[p]))
         noise_excess[p] = _F(0)
@@ -170,6 +171,8 @@ def _learn(
             fade = _F(math.exp(-since / _F(TRUST_MEMORY_S)))
             product[i] = product[i] * fade + predicted * change
             square[i] = square[i] * fade + predicted * predicted
+            by_slope = (_F(1) - state.velocity[tile, 2]) * state.slope[i] * state.fade[i] * since
+            slope_square[i] = slope_square[i] * fade + by_slope * by_slope
             if value > _F(0):
                 expected = _F(2) * noise * noise * state.noise_scale[p]
                 noise_excess[p] += min(innovation * innovation / expected, _F(NOISE_OUTLIER)) - _F(NOISE_MEAN)
@@ -178,7 +181,7 @@ def _learn(
             if not since < horizon:
                 learnt[tile, PRODUCT] += predicted * change
                 learnt[tile, SQUARE] += predicted * predicted
-                product[i], square[i] = _F(0), _F(0)
+                product[i], square[i], slope_square[i] = _F(0), _F(0), _F(0)
         if since > _F(0) and state.low[i] and count <= _F(2) * noise * learnt[tile, QUIET]:
             learnt[tile, READINGS] += count * count
             learnt[tile, CHANGES] += change * change

@@ -13,6 +13,7 @@ from acts_core.array import COUNT_MAX
 from acts_recon.fusion.fusion_image_kernels import (
     IDLE_COUNTS_PER_S,
     LEAST_CHANGE_COUNTS,
+    MOST_CONFIRMED,
     TRUST_PRIOR,
     UNPROVEN_S,
     UNPROVEN_WEIGHT,
@@ -85,7 +86,7 @@ class FusionReference:
         """Start anew, but keep what was learnt of the noise."""
         shape, tiles = self.noise.shape, self.readings.shape
         self.tile_product, self.tile_square = np.zeros(tiles), np.zeros(tiles)
-        self.product, self.square = np.zeros(shape), np.zeros(shape)
+        self.product, self.square, self.slope_square = np.zeros(shape), np.zeros(shape), np.zeros(shape)
         self.low = np.zeros(shape, dtype=bool)
         self.image = np.zeros(shape)
         self.estimate = np.zeros(shape)
@@ -114,7 +115,7 @@ class FusionReference:
         self._observe_motion(at, y, self.age[at] + period_s - lag, period_s)
         rate, unexplained = self._predict(period_s)
         since = self.age[at] - lag
-        innovation = self._learn(at, y, lag, rate, period_s)
+        innovation = self._learn(at, y, lag, rate, unexplained, period_s)
         self._update(at, y, lag, rate, innovation, unexplained)
         self._spread(at, innovation, since)
         self._show(rate, unexplained)
@@ -176,7 +177,15 @@ class FusionReference:
         np.divide(change, elapsed, out=rate, where=elapsed > 0)
         return rate, 1 - share
 
-    def _learn(self, at: tuple[NDArray[np.intp], ...], y: Floats, lag: Floats, rate: Floats, period_s: float) -> Floats:
+    def _learn(
+        self,
+        at: tuple[NDArray[np.intp], ...],
+        y: Floats,
+        lag: Floats,
+        rate: Floats,
+        unexplained: Floats,
+        period_s: float,
+    ) -> Floats:
         """Innovations; what they say of the predictions and of the noise."""
         tile = (at[0] // TILE, at[1] // TILE)
         value, noise, since = self.value[at], self.noise[at], self.age[at] - lag
@@ -189,6 +198,9 @@ class FusionReference:
         fade = np.where(stale, 0, np.exp(-np.where(known, since, 0) / TRUST_MEMORY_S))
         self.product[at] = fade * self.product[at] + np.where(known, predicted * change, 0)
         self.square[at] = fade * self.square[at] + np.where(known, predicted**2, 0)
+        slope = self.slope[at] * np.exp(-np.where(known, self.age[at], 0) / self._tuning.damping_s)
+        by_slope = unexplained[at] * slope * np.where(known, since, 0)
+        self.slope_square[at] = fade * self.slope_square[at] + by_slope**2
         scale = np.exp(self.log_noise)
         used = known & (value > 0)
         ratio = np.minimum(innovation[used] ** 2 / (2 * noise[used] ** 2 * scale), NOISE_OUTLIER)
@@ -220,9 +232,11 @@ class FusionReference:
         return _share(self.product, self.square), _share(self.tile_product, self.tile_square)
 
     def _trust_slope(self, change: Floats, time: Floats) -> Floats:
-        """Trust of every taxel, as if one more prediction, of this change, had come true by the share to expect."""
+        """Trust in the slope of every taxel: as if it had predicted this change, too, and it came true as expected."""
+        came_true = np.minimum((self.product + TRUST_PRIOR) / (self.square + TRUST_PRIOR), MOST_CONFIRMED)
         weight = UNPROVEN_WEIGHT * change**2
-        return _share(self.product + weight / (1 + (time / UNPROVEN_S) ** 2), self.square + weight)
+        expected = weight / (1 + (time / UNPROVEN_S) ** 2)
+        return _share(self.slope_square * came_true + expected, self.slope_square + weight)
 
     def _update(
         self,
@@ -299,16 +313,21 @@ class FusionReference:
         self.low = ndimage.maximum_filter(above, size=3, mode="nearest") == 0
         time = np.minimum(self.age, tuning.horizon_s)
         by_slope = unexplained * self.slope * np.exp(-self.age / tuning.damping_s) * time
-        taxel_trust = self._trust_slope(by_slope, time)
+        taxel_trust, tile_trust = self._trust()
+        # Where motion explains nothing, all of the slope.
+        all_slope = self.slope * np.exp(-self.age / tuning.damping_s) * time
+        slope_trust = self._trust_slope(all_slope, time)
         stale = (self.slope != 0) & (self.age >= tuning.horizon_s)
         self.slope[stale] = 0
         stale &= unexplained == 1
-        self.estimate[stale] = (self.value + taxel_trust * (self.estimate - self.value))[stale]
-        trust = np.where(self.age < tuning.horizon_s, taxel_trust, self._trust()[1][self._tile_of])
+        self.estimate[stale] = (self.value + slope_trust * (self.estimate - self.value))[stale]
         of_fresh = np.where(self.low, 0, rate * np.where(self.fresh, self.age, 0))
         ahead = np.where(self.fresh, of_fresh, self.estimate - self.value)
-        is_change = (np.abs(ahead) >= LEAST_CHANGE_COUNTS) & (np.abs(trust * ahead) >= LEAST_CHANGE_COUNTS)
-        self.image = np.clip(self.value + np.where(is_change, trust * ahead, 0), 0, COUNT_MAX)
+        by_slope = np.clip(by_slope, np.minimum(ahead, 0), np.maximum(ahead, 0))
+        trusted = taxel_trust * (ahead - by_slope) + self._trust_slope(by_slope, time) * by_slope
+        change = np.where(self.age < tuning.horizon_s, trusted, tile_trust[self._tile_of] * ahead)
+        is_change = (np.abs(ahead) >= LEAST_CHANGE_COUNTS) & (np.abs(change) >= LEAST_CHANGE_COUNTS)
+        self.image = np.clip(self.value + np.where(is_change, change, 0), 0, COUNT_MAX)
         self.image = np.floor(self.image + 0.5)
         is_settled = (self.image <= quiet) | (self.age < tuning.quiet_s)
         self.image[self.low & ~self.fresh & self.is_noise[self._tile_of] & is_settled] = 0

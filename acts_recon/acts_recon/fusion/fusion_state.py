@@ -74,9 +74,9 @@ class State(NamedTuple):
         Whether the taxel was measured in the last frame.
     low : np.ndarray [shape=(taxels,), dtype=bool]
         Whether the last readings of the taxel and of all beside it can be noise.
-    product, square : np.ndarray [shape=(taxels,), dtype=float32]
-        Sums, fading, of predicted times measured change and of predicted change squared [counts^2], where a taxel was
-        measured within the horizon.
+    product, square, slope_square : np.ndarray [shape=(taxels,), dtype=float32]
+        Sums, fading, of predicted times measured change, of predicted change squared, and of the square of what the
+        slope alone predicted [counts^2], where a taxel was measured within the horizon.
     learnt : np.ndarray [shape=(tiles + 1, LEARNT_COLUMNS), dtype=float32]
         Fading sums of each tile [counts^2]: the same two of taxels not measured for longer, and of low readings their
         squares, squares of their changes, and calibrated variances. From them: what untouched taxels may read, in
@@ -118,6 +118,7 @@ class State(NamedTuple):
     low: NDArray[np.bool_]
     product: NDArray[np.float32]
     square: NDArray[np.float32]
+    slope_square: NDArray[np.float32]
     learnt: NDArray[np.float32]
     log_noise: NDArray[np.float32]
     noise_scale: NDArray[np.float32]
@@ -150,7 +151,7 @@ class Memory(NamedTuple):
 
     Attributes
     ----------
-    taxels : np.ndarray [shape=(21, taxels), dtype=float32]
+    taxels : np.ndarray [shape=(22, taxels), dtype=float32]
     flags : np.ndarray [shape=(2, taxels), dtype=bool]
     tiles : np.ndarray [shape=(2, tiles + 1, 6), dtype=float32]
     velocity : np.ndarray [shape=(tiles + 1, 3), dtype=float32]
@@ -176,7 +177,7 @@ def new_memory(rows: int, cols: int, borders: Borders, noise_counts: float) -> M
     patches = _with_tiles(borders.rectangles)
     tiles = int((patches[:, 5] * patches[:, 6]).sum())
     memory = Memory(
-        taxels=np.zeros((21, rows * cols), dtype=np.float32),
+        taxels=np.zeros((22, rows * cols), dtype=np.float32),
         flags=np.zeros((2, rows * cols), dtype=np.bool_),
         tiles=np.zeros((2, tiles + 1, 6), dtype=np.float32),
         velocity=np.zeros((tiles + 1, 3), dtype=np.float32),
@@ -234,11 +235,12 @@ def state_of(memory: Memory) -> State:
         process_noise=taxels[5],
         fade=taxels[6],
         estimate=taxels[16],
-        noise=taxels[19],
+        noise=taxels[21],
         fresh=memory.flags[0],
         low=memory.flags[1],
         product=taxels[17],
         square=taxels[18],
+        slope_square=taxels[19],
         learnt=memory.learnt,
         log_noise=scales[5],
         noise_scale=scales[6],
@@ -269,7 +271,7 @@ def state_of(memory: Memory) -> State:
 
 def forget(memory: Memory) -> None:
     """Reset a memory to the state of an array that was never measured, but for what was learnt of its noise."""
-    for array in (memory.taxels[:19], memory.flags, memory.tiles, memory.velocity, memory.scales[:5]):
+    for array in (memory.taxels[:20], memory.flags, memory.tiles, memory.velocity, memory.scales[:5]):
         array.fill(0)
     state = state_of(memory)
     state.age.fill(np.inf)
