@@ -16,8 +16,9 @@ instead of a covariance matrix. One frame takes five steps:
    with ``b = t^2 / (t^2 + slope_memory_s^2)``, where t is the time between two measurements.
 3. **Update.** The innovation of a sample is its count less the prediction for its time. The taxel takes the count. The
    taxels around it are corrected by inverse-distance interpolation: the mean of the innovations within two taxels,
-   weighted by ``1 / distance^4``, times `spread_gain`. A taxel measured t ago is corrected by the share that arose
-   since then: t over the time between the sample's measurements.
+   weighted by ``1 / distance^5``, times `spread_gain`. A taxel measured t ago is corrected by the share that arose
+   since then: t over the time between the sample's measurements. One that was never measured is known by those around
+   it alone: what of its estimate is above all samples within two taxels fades, by the share of their weights.
 4. **Image.** A taxel shows its last count and, as far as predictions are trusted, how it has changed since: those of
    this frame, too, since an image is of the end of its frame. A count that can be noise has no slope. The trust is
    the least squares solution of ``measured change = trust * predicted change``, of each taxel for predictions over

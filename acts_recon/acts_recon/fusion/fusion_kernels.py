@@ -81,11 +81,11 @@ _TOP = np.float32(COUNT_MAX)
 
 
 def _weights_around() -> NDArray[np.float32]:
-    """Weights of a sample's innovation for the taxels around it, row by row: ``1 / distance^4``."""
+    """Weights of a sample's innovation for the taxels around it, row by row: ``1 / distance^5``."""
     away = np.arange(-REACH, REACH + 1, dtype=np.float32)
     square = away[:, None] ** 2 + away[None, :] ** 2
     square[REACH, REACH] = np.inf
-    return np.asarray(1.0 / square**2, dtype=np.float32).ravel()
+    return np.asarray(1.0 / square**2.5, dtype=np.float32).ravel()
 
 
 _SIDE = 2 * REACH + 1
@@ -265,12 +265,13 @@ def _excess(innovation: np.float32, since: np.float32, noise_variance: np.float3
 
 
 @kernel(fastmath=FASTMATH, inline="always")
-def _spread(state: State, indices: NDArray[np.uint16], cols: int, tuning: Tuning) -> None:
+def _spread(state: State, indices: NDArray[np.uint16], counts: NDArray[np.uint16], cols: int, tuning: Tuning) -> None:
     """Scatter the innovations to the taxels around the samples, then correct each taxel by their weighted mean."""
     m = indices.shape[0]
     total, process_noise_total, weight = state.total, state.process_noise_total, state.weight
     estimate, process_noise, fresh = state.estimate, state.process_noise, state.fresh
-    patches, patch_of, age = state.patches, state.patch_of, state.age
+    patches, patch_of, age, most = state.patches, state.patch_of, state.age, state.in_row
+    most[:] = _F(0)
     for k in range(m):
         i = int(np.int64(indices[k]))
         row = i // cols
@@ -278,7 +279,7 @@ def _spread(state: State, indices: NDArray[np.uint16], cols: int, tuning: Tuning
         innovation = state.innovation[k]
         if abs(innovation) <= _F(QUIET_SIGMAS) * state.noise[i]:
             innovation = _F(0)
-        own_noise = process_noise[i]
+        own_noise, count = process_noise[i], _F(counts[k])
         # A taxel that was measured since then has seen part of the change: only the rest is missing there.
         per_s = _F(1) / min(max(state.since[k], _F(SHORTEST_AGE_S)), _F(LONGEST_AGE_S))
         p = patch_of[i]
@@ -292,6 +293,7 @@ def _spread(state: State, indices: NDArray[np.uint16], cols: int, tuning: Tuning
                 total[beside] += near * innovation * min(min(age[beside], _F(LONGEST_AGE_S)) * per_s, _F(1))
                 process_noise_total[beside] += near * own_noise
                 weight[beside] += near
+                most[beside] = max(most[beside], count)
                 beside += np.uint64(1)
                 place += np.uint64(1)
     gain = _F(tuning.spread_gain)
@@ -300,6 +302,9 @@ def _spread(state: State, indices: NDArray[np.uint16], cols: int, tuning: Tuning
     for j in range(estimate.shape[0]):
         share = (_F(0) if fresh[j] else _F(1)) / (weight[j] + _F(SPREAD_PRIOR))
         estimate[j] = min(max(estimate[j] + gain * total[j] * share, _F(0)), _TOP)
+        # A taxel that was never measured is known by those around it alone: what is above all of them fades.
+        fading = weight[j] * share if age[j] > _F(LONGEST_AGE_S) else _F(0)
+        estimate[j] -= fading * max(estimate[j] - most[j], _F(0))
         learnt = (process_noise_total[j] - weight[j] * process_noise[j]) * share
         updated = process_noise[j] + _F(PROCESS_NOISE_GAIN) * learnt
         process_noise[j] = updated if updated > TINY else _F(0)
@@ -341,6 +346,6 @@ def fuse(
     _predict(state, period_s, cols, tuning)
     _learn(state, indices, counts, period_s, lag_step_s, tuning)
     _update(state, indices, counts, lag_step_s, tuning)
-    _spread(state, indices, cols, tuning)
+    _spread(state, indices, counts, cols, tuning)
     show(state, cols, tuning)
     update_sigma(state, cols, tuning)

@@ -117,7 +117,7 @@ class FusionReference:
         since = self.age[at] - lag
         innovation = self._learn(at, y, lag, rate, unexplained, period_s)
         self._update(at, y, lag, rate, innovation, unexplained)
-        self._spread(at, innovation, since)
+        self._spread(at, y, innovation, since)
         self._show(rate, unexplained)
         self._update_sigma()
 
@@ -277,11 +277,11 @@ class FusionReference:
         self.value[at], self.age[at], self.fresh[at] = y, lag, True
         rate[at] += unexplained[at] * (self.slope[at] * np.exp(-lag / tuning.damping_s) - slope_before)
 
-    def _spread(self, at: tuple[NDArray[np.intp], ...], innovation: Floats, since: Floats) -> None:
+    def _spread(self, at: tuple[NDArray[np.intp], ...], y: Floats, innovation: Floats, since: Floats) -> None:
         tuning = self._tuning
         step_rows, step_cols = np.indices((2 * REACH + 1,) * 2) - REACH
         square = (step_rows**2 + step_cols**2).astype(np.float64)
-        near = np.divide(1, square**2, out=np.zeros_like(square), where=square > 0)
+        near = np.divide(1, square**2.5, out=np.zeros_like(square), where=square > 0)
 
         def reached(values: Floats | float) -> Floats:
             field = np.zeros(self.image.shape)
@@ -289,11 +289,13 @@ class FusionReference:
             return ndimage.convolve(field, near, mode="constant")
 
         weight = reached(1.0)
-        total = np.zeros(self.image.shape)
+        total, most = np.zeros(self.image.shape), np.zeros(self.image.shape)
         age = np.clip(self.age, 0, LONGEST_AGE_S)
-        for row, col, change, over in zip(*at, innovation, np.clip(since, SHORTEST_AGE_S, LONGEST_AGE_S), strict=True):
+        limited = np.clip(since, SHORTEST_AGE_S, LONGEST_AGE_S)
+        for row, col, count, change, over in zip(*at, y, innovation, limited, strict=True):
+            around = (slice(max(row - REACH, 0), row + REACH + 1), slice(max(col - REACH, 0), col + REACH + 1))
+            most[around] = np.maximum(most[around], count)
             if abs(change) > QUIET_SIGMAS * self.noise[row, col]:
-                around = (slice(max(row - REACH, 0), row + REACH + 1), slice(max(col - REACH, 0), col + REACH + 1))
                 weights = near[around[0].start - row + REACH :, around[1].start - col + REACH :]
                 missed = np.minimum(age[around] / over, 1)
                 total[around] += weights[: missed.shape[0], : missed.shape[1]] * change * missed
@@ -301,6 +303,8 @@ class FusionReference:
         to = ~self.fresh & (weight > 1e-9)
         shrunk = weight[to] + SPREAD_PRIOR
         self.estimate[to] = np.clip(self.estimate[to] + tuning.spread_gain * total[to] / shrunk, 0, COUNT_MAX)
+        fading = np.where(self.age[to] > LONGEST_AGE_S, weight[to] / shrunk, 0)
+        self.estimate[to] -= fading * np.maximum(self.estimate[to] - most[to], 0)
         self.process_noise[to] += (
             PROCESS_NOISE_GAIN * weight[to] / shrunk * (process_noise_total[to] / weight[to] - self.process_noise[to])
         )

@@ -176,6 +176,24 @@ def test_what_comes_down_beside_is_uncertain_before_it_is_measured() -> None:
     assert estimator.sigma[16, 25] < 1.2 * before[16, 25]
 
 
+def test_what_rises_at_once_and_holds_is_not_followed_further() -> None:
+    """Samples beside predicted the rise, and rightly; that says nothing of the slope, which is over."""
+    geometry, duration_s = ArrayGeometry(), 64 * 17.877e-6
+    sampler = Sampler(SamplingConfig("uniform", m=64, threshold_counts=50))
+    estimator = FusionEstimator(geometry)
+    held = np.zeros((32, 32), dtype=np.int64)
+    held[10:14, 20:24] = 240
+    errors = []
+    for k in range(1, 60):
+        pressed = k > 20
+        image = estimator.step(
+            *sampler.frame(measure_in(held if pressed else np.zeros_like(held))), k * duration_s, duration_s
+        )
+        if k > 37:  # all taxels were measured pressed
+            errors.append(np.linalg.norm(image - held) / np.linalg.norm(held))
+    assert max(errors) < 0.15  # with trust in samples beside: 0.33
+
+
 def test_what_was_not_measured_for_long_is_in_doubt() -> None:
     estimator = FusionEstimator(ArrayGeometry())
     everything = np.arange(1024, dtype=np.uint16)

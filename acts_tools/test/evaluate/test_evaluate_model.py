@@ -48,6 +48,23 @@ def test_objects_give_curves_and_a_picture(tmp_path: Path, capsys: pytest.Captur
     assert main(["evaluate", "objects", *words, "--picture", str(tmp_path / "no" / "a.png")]) == 1
 
 
+# Errors after the onset: with trust in samples beside they were 2.7, 2.0 and 1.2 times those of last values.
+@pytest.mark.parametrize(
+    ("event", "seed", "scheme", "m"),
+    [("tap_4x4", 1, "uniform", 256), ("tap_2x2", 1, "uniform", 64), ("slide_0.1_m_s", 7, "adaptive", 128)],
+)
+def test_what_is_held_or_slides_slowly_is_not_worse_than_last_values(
+    tmp_path: Path, event: str, seed: int, scheme: str, m: int
+) -> None:
+    out = tmp_path / "events.json"
+    words = ["--event", event, "--recordings", "3" if "slide" in event else "40", "--seed", str(seed)]
+    words += ["--scheme", scheme, "--m", str(m), "--method", "acts", "last", "--json", str(out)]
+    assert main(["evaluate", "events", *words]) == 0
+    ours, last = json.loads(out.read_text())["results"]
+    assert ours["relative_error"] < 1.05 * last["relative_error"]
+    assert ours["cop_error_taxels"]["mean"] < 1.05 * last["cop_error_taxels"]["mean"]
+
+
 # Before slopes had to be confirmed it was 1.47 times the error of last values, with `adaptive` and M = 256.
 @pytest.mark.parametrize(
     ("scheme", "m"), [("tracking", 55), ("tracking", 512), ("adaptive", 128), ("adaptive", 256), ("uniform", 256)]
