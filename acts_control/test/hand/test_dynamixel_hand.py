@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import math
+import os
 import signal
 import subprocess
 import sys
@@ -239,10 +240,19 @@ def test_a_bus_that_another_program_moves_is_refused_with_its_name_and_goes_on(b
     first = bus.hand(motor_watchdog_s=0.0)
     first.connect()
     first.enable()
-    with pytest.raises(HandError, match=rf"is held by .*process {bus.process.pid}.*obeys one program"):
+    with pytest.raises(HandError, match=rf"is held by .*process {os.getpid()}\b.*obeys one program"):
         bus.hand().connect()
+    # By another name of the port, too.
+    other_name = DynamixelHand(LEAP_RIGHT, DynamixelConfig(port=str(bus.link.resolve())))
+    with pytest.raises(HandError, match=rf"is held by .*process {bus.process.pid}.*obeys one program"):
+        other_name.connect()
     first.command([0.1] * 16)
     reading_where(first, lambda reading: reading.q_rad == pytest.approx([0.1] * 16, abs=0.02))
+    # While the first one connects anew, nobody else gets the hand.
+    first.disconnect()
+    with pytest.raises(HandError, match=rf"is held by .*process {os.getpid()}\b.*obeys one program"):
+        bus.hand().connect()
+    first.connect()
     first.close()
     second = bus.hand()
     second.connect()

@@ -225,7 +225,7 @@ class Bus:
     def enable(self) -> None:
         pass
 
-    release = close = enable
+    release = disconnect = close = enable
 
 
 class Commanded(NamedTuple):

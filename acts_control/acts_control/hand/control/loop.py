@@ -205,24 +205,31 @@ class HandLoop:
         return ""
 
     def _run(self) -> None:
-        while not self._closing.is_set():
-            try:
-                self._connect()
-                if not self._closing.is_set():
-                    self._serve()
-            except HandLostError as error:
-                self._log("error", str(error))
-                self._set(HandPhase.CONNECTING, str(error), reading=None)
-            except HandError as error:
-                self._log("error", f"{error}; connecting anew")
-                self._set(HandPhase.CONNECTING, str(error), reading=None)
-            except Exception:
-                # The thread ends with it; the motors' own watchdog stops them, and `enable` says that nothing runs.
-                self._set(HandPhase.GIVEN_UP, "the hand's loop failed", reading=None)
-                raise
-            finally:
-                self._bus.close()
-            self._closing.wait(self._config.connect_retry_s)
+        try:
+            while not self._closing.is_set():
+                self._run_once()
+                self._closing.wait(self._config.connect_retry_s)
+        finally:
+            self._bus.close()
+
+    def _run_once(self) -> None:
+        """Until the hand is lost, or the loop is to end."""
+        try:
+            self._connect()
+            if not self._closing.is_set():
+                self._serve()
+        except HandLostError as error:
+            self._log("error", str(error))
+            self._set(HandPhase.CONNECTING, str(error), reading=None)
+        except HandError as error:
+            self._log("error", f"{error}; connecting anew")
+            self._set(HandPhase.CONNECTING, str(error), reading=None)
+        except Exception:
+            # The thread ends with it; the motors' own watchdog stops them, and `enable` says that nothing runs.
+            self._set(HandPhase.GIVEN_UP, "the hand's loop failed", reading=None)
+            raise
+        finally:
+            self._bus.disconnect()
 
     def _connect(self) -> None:
         """Try until the hand is there."""

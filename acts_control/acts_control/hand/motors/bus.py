@@ -65,5 +65,8 @@ class HandBus(Protocol):
     def recover(self, joint: int) -> None:
         """Bring a motor back that has switched itself off; its torque stays off."""
 
+    def disconnect(self) -> None:
+        """Give the port back, until the next `connect`; the hand stays this program's own."""
+
     def close(self) -> None:
-        """Give the port back; the torque stays as it is."""
+        """Give port and hand back; the torque stays as it is."""

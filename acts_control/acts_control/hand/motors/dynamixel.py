@@ -11,7 +11,6 @@ port itself raises (OSError, termios.error) passes through.
 
 from __future__ import annotations
 
-import errno
 import math
 import termios
 import time
@@ -21,9 +20,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from acts_control.claims import Claim, ClaimedError
 from acts_control.hand.description import HandDescription, Joint
 from acts_control.hand.motors.bus import HandError, HandLostError, HandReading
-from acts_core.runtime import holders, is_multiplexer, is_stale_link
+from acts_control.hand.motors.port_words import held, usb_latency, why_not
+from acts_core.runtime import is_multiplexer, is_stale_link
 from acts_core.settings import setting, validate
 
 # The control table, see the e-manual of the XC330-M288.
@@ -95,6 +96,7 @@ class DynamixelHand:
         self._port: Any = None
         self._packets: Any = None
         self._state: Any = None
+        self._claim: Claim | None = None
 
     def connect(self) -> list[str]:
         """Open the port, find all motors, set them up with the torque off.
@@ -116,7 +118,7 @@ class DynamixelHand:
             self._each(_TORQUE, 1, 0)
             # Where it has stopped a motor, that would refuse the goal current.
             self._each(_WATCHDOG, 1, 0)
-            told = [*self._check_return_delay(), *_usb_latency(Path(self._config.port))]
+            told = [*self._check_return_delay(), *usb_latency(Path(self._config.port))]
             for index, joint in enumerate(self._hand.joints):
                 if self._read_register(joint, _HARDWARE_ERROR, 1):
                     told.append(f"motor {_name(joint)} had switched itself off; it has been started anew")
@@ -124,7 +126,7 @@ class DynamixelHand:
                 else:
                     self._set_up(joint)
         except HandError:
-            self.close()
+            self.disconnect()
             raise
         self._state = self._sdk.GroupSyncRead(self._port, self._packets, _INDIRECT_DATA, len(_GATHERED))
         for joint in self._hand.joints:
@@ -235,7 +237,14 @@ class DynamixelHand:
         self._set_up(motor)
 
     def close(self) -> None:
-        """Give the port back; the torque stays as it is."""
+        """Give port and hand back; the torque stays as it is."""
+        self.disconnect()
+        if self._claim is not None:
+            self._claim.close()
+            self._claim = None
+
+    def disconnect(self) -> None:
+        """Give the port back, until the next `connect`; a program that waits for the hand does not get it meanwhile."""
         port, self._port = self._port, None
         # The library fails where it has not come to open it.
         if port is not None and port.ser is not None:
@@ -256,6 +265,7 @@ class DynamixelHand:
         self._sdk = dynamixel_sdk
         if is_multiplexer(config.port) or is_stale_link(config.port):
             raise HandError(f"{config.port} is no port of a hand: behind it is a terminal that belongs to nobody yet")
+        self._take()
         # The library's only setting for how long it waits; its own 16 ms is that of a USB adapter as it comes.
         port_handler.LATENCY_TIMER = config.answer_timeout_ms
         self._packets = dynamixel_sdk.PacketHandler(2.0)
@@ -268,11 +278,21 @@ class DynamixelHand:
                 # The library reads in a loop without a pause until an answer is complete: that would fill a core.
                 self._port.ser.timeout = _READ_TIMEOUT_S
         except (OSError, termios.error) as error:
-            self.close()
-            raise HandError(_why_not(config.port, error)) from error
+            self.disconnect()
+            raise HandError(why_not(config.port, error)) from error
         if not known:
-            self.close()
+            self.disconnect()
             raise HandError(f"baud = {config.baud}: the library does not know it; the LEAP hand has 4000000")
+
+    def _take(self) -> None:
+        """Keep other programs from the hand, also while it is not connected."""
+        if self._claim is None:
+            try:
+                self._claim = Claim("hand", str(Path(self._config.port).absolute()))
+            except ClaimedError as error:
+                raise HandError(held(self._config.port, str(error))) from error
+            except OSError as error:
+                raise HandError(f"{self._config.port} cannot be claimed ({error.strerror})") from error
 
     def _find_all(self) -> None:
         missing = []
@@ -373,23 +393,3 @@ def _name(joint: Joint) -> str:
 
 def _fault(bits: int) -> str:
     return ", ".join(words for bit, words in _FAULTS.items() if bits >> bit & 1)
-
-
-def _why_not(port: str, error: Exception) -> str:
-    """Words for a port that cannot be opened."""
-    if getattr(error, "errno", None) in (errno.EBUSY, errno.EAGAIN):
-        held_by = ", ".join(holders(port)) or f"another program (`lsof {port}` tells which)"
-        return f"{port} is held by {held_by}; a hand obeys one program: stop that first"
-    return f"{port} cannot be opened ({error}); is the hand connected, and may this user open the port?"
-
-
-def _usb_latency(port: Path) -> list[str]:
-    """What to do where the USB adapter waits before it passes on what has come."""
-    file = Path("/sys/bus/usb-serial/devices") / port.resolve().name / "latency_timer"
-    try:
-        waits_ms = int(file.read_text())
-    except (OSError, ValueError):
-        return []  # no USB adapter, or one without such a setting
-    if waits_ms <= 1:
-        return []
-    return [f"the USB adapter waits {waits_ms} ms for more bytes: echo 1 | sudo tee {file}"]

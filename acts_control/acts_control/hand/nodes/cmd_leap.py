@@ -66,5 +66,8 @@ class CmdLeapBus:
     def recover(self, joint: int) -> None:
         """Nothing can be done from here."""
 
+    def disconnect(self) -> None:
+        """Nothing to give back."""
+
     def close(self) -> None:
         """Nothing to give back."""

@@ -1,0 +1,68 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Something that moves, as this process's own among the programs of this machine, whoever runs them."""
+
+from __future__ import annotations
+
+import errno
+import socket
+import struct
+
+from acts_core.errors import ActsError
+from acts_core.runtime import process_name
+
+_CREDENTIALS = struct.Struct("3i")
+
+
+class ClaimedError(ActsError):
+    """Another program has it; the message is that program."""
+
+
+class Claim:
+    """Taken from now on, until `close` or the process's end, however it ends.
+
+    A socket of an abstract name stands for the thing: Linux gives a name to one process of a machine (or container with
+    a network of its own), tells the others who has it, and leaves nothing behind.
+
+    Parameters
+    ----------
+    kind, name : str
+        What it is, and which one.
+
+    Raises
+    ------
+    ClaimedError
+        With the process that has it.
+    OSError
+        It cannot be claimed.
+    """
+
+    def __init__(self, kind: str, name: str) -> None:
+        address = b"\0acts/" + f"{kind}/{name}".encode()
+        self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+        try:
+            self._socket.bind(address)
+            self._socket.listen()
+        except OSError as error:
+            self._socket.close()
+            if error.errno != errno.EADDRINUSE:
+                raise
+            raise ClaimedError(_holder(address)) from error
+
+    def close(self) -> None:
+        """Give it up. May be called again."""
+        self._socket.close()
+
+
+def _holder(address: bytes) -> str:
+    with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as question:
+        question.setblocking(False)
+        try:
+            question.connect(address)
+            data = question.getsockopt(socket.SOL_SOCKET, socket.SO_PEERCRED, _CREDENTIALS.size)
+        except OSError:
+            # It has just gone, or does not answer.
+            return process_name(0)
+        pid, _user, _group = _CREDENTIALS.unpack(data)
+        return process_name(pid)
