@@ -11,6 +11,7 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Sequence
+from contextlib import ExitStack, closing
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -79,10 +80,13 @@ class BallWorld(Node):
         self._reported = (time.monotonic(), LoopStatistics())
         field_ring = Path(settings.field_ring or default_run_dir() / "field.ring")
         joint_ring = settings.joint_ring or str(default_run_dir() / "joints.ring")
-        self._claim = Claim(field_ring)
-        self._world = World(settings)
-        self._joints = JointFollower(None if joint_ring == "none" else Path(joint_ring))
-        self._ring = TimedRingWriter(field_ring, settings.rows * settings.cols)
+        with ExitStack() as undone:
+            # A signal may come while the world is compiled.
+            self._claim = undone.enter_context(closing(Claim(field_ring)))
+            self._world = World(settings)
+            self._joints = JointFollower(None if joint_ring == "none" else Path(joint_ring))
+            self._ring = TimedRingWriter(field_ring, settings.rows * settings.cols)
+            undone.pop_all()
         self._loop = WorldLoop(self._world, self._joints, self._ring, self._publish, on_running=self._enter_realtime)
         self._diagnostics = DiagnosticsReporter(self, str(field_ring), self._report)
         self.get_logger().info(

@@ -219,6 +219,31 @@ def test_a_world_that_fails_ends_the_node(tmp_path: Path) -> None:
     assert not (tmp_path / "field.ring").exists()
 
 
+INTERRUPTED = """
+import os, signal, sys, time
+from acts_core.stop_signals import StopSignals
+from acts_sim.ball import ball_world_node
+
+def compile(settings):
+    print(sorted(os.listdir(sys.argv[-1])))
+    os.kill(os.getpid(), signal.SIGINT)
+    time.sleep(30)
+
+ball_world_node.World = compile
+words = ["--ros-args", "-p", f"field_ring:={sys.argv[1]}/field.ring"]
+sys.exit(ball_world_node.main(StopSignals(), [sys.argv[0], *words]))
+"""
+
+
+def test_a_world_that_is_interrupted_while_it_starts_leaves_nothing(tmp_path: Path) -> None:
+    environment = {**os.environ, "ROS_DOMAIN_ID": "79", "ROS_PYTHON_CHECK_FIELDS": "1"}
+    finished = subprocess.run(
+        [sys.executable, "-c", INTERRUPTED, str(tmp_path)], env=environment, capture_output=True, text=True, timeout=60
+    )
+    assert (finished.returncode, finished.stdout) == (0, "['field.ring.lock']\n"), finished.stderr
+    assert not list(tmp_path.iterdir())
+
+
 @pytest.mark.parametrize("observer", [103], indirect=True)
 def test_without_a_robot_nothing_is_amiss(observer: Observer, tmp_path: Path) -> None:
     with world(103, tmp_path, "joint_ring:=none"):
