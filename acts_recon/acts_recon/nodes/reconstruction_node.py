@@ -103,7 +103,7 @@ class ReconstructionNode(Node):
         self._rejected: Counter[str] = Counter()
         self._last_sequence: int | None = None
         self._durations_s: deque[float] = deque(maxlen=1000)
-        self._reported = (time.monotonic(), 0, 0, 0)
+        self._reported = (time.monotonic(), 0, 0, 0, 0)
 
         self._look_for_subscribers()
         steady_timer(self, _SUBSCRIBERS_PERIOD_S, self._look_for_subscribers)
@@ -269,10 +269,10 @@ class ReconstructionNode(Node):
     def _report(self) -> Report:
         now_s = time.monotonic()
         rejected = self._rejected.total()
-        before_s, frames, rejected_before, lost_before = self._reported
-        self._reported = (now_s, self._frames, rejected, self._lost)
+        before_s, frames, rejected_before, lost_before, untold_before = self._reported
+        self._reported = (now_s, self._frames, rejected, self._lost, self._untold)
         new_frames, new_rejected = self._frames - frames, rejected - rejected_before
-        new_lost = self._lost - lost_before
+        new_lost, new_untold = self._lost - lost_before, self._untold - untold_before
         rate_hz = new_frames / max(now_s - before_s, 1e-9)
         durations_s = list(self._durations_s)
         self._durations_s.clear()
@@ -295,6 +295,9 @@ class ReconstructionNode(Node):
             return WARN, "no samples", values
         if new_lost:
             return WARN, f"{new_lost} frames lost before they came here, {rate_hz:.0f} frames/s", values
+        if new_untold:
+            words = f"{new_untold} contacts left out because their frames came late, {rate_hz:.0f} frames/s"
+            return WARN, f"{words}: this machine is too slow or too busy (acts doctor tells)", values
         return OK, f"{rate_hz:.0f} frames/s", values
 
 

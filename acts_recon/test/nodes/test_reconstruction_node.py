@@ -372,6 +372,20 @@ def test_late_frames_are_published_while_they_are_rare_and_very_late_ones_are_le
     bench.diagnostics(told)
 
 
+def test_contacts_that_are_left_out_are_warned_of(make_bench: Callable[..., Bench]) -> None:
+    bench = make_bench(43)
+    cells = np.arange(10, dtype=np.uint16)
+    now_ns = time.time_ns()
+    frames = [
+        (SampleFrame(k, 0, 900, Scheme.RANDOM, 32, 32, 0, cells, cells), now_ns - (1000 - k) * 1_000_000)
+        for k in range(4)
+    ]
+    bench.node.take(frames, "plate")
+    bench.contact(3)
+    words = "3 contacts left out because their frames came late, "
+    bench.diagnostics(lambda status, _: status.level == b"\x01" and status.message.startswith(words))
+
+
 def test_a_board_that_begins_anew_among_very_late_frames_is_noticed(make_bench: Callable[..., Bench]) -> None:
     bench = make_bench(44, method="fusion")
     pressed = np.array([500], dtype=np.uint16)
