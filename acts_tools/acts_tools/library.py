@@ -15,7 +15,7 @@ from acts_core.errors import RecordingError
 from acts_core.files import load_frames, without_contact
 from acts_recon.objects import ImageClassifierConfig, build_object_library, save_object_library
 from acts_sim.pressing import OBJECTS, PressingArm, object_named
-from acts_tools.argument_types import at_least_one, random_seed, whole
+from acts_tools.arguments import at_least_one, random_seed, whole
 from acts_tools.output_file import require_writable
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from acts_core.errors import RecordingError
-from acts_tools.argument_types import random_seed
+from acts_tools.arguments import random_seed
 from acts_tools.evaluate import report
 from acts_tools.figures.differences import differences
 from acts_tools.figures.drawing import draw

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 
 from acts_core.array import MAX_SIDE
 from acts_core.errors import ActsError
-from acts_tools.argument_types import real, whole
+from acts_tools.arguments import real, whole
 
 if TYPE_CHECKING:
     from acts_driver.selftest import FrameRecord

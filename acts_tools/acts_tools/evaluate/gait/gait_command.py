@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from acts_recon.gait import FEET, GaitConfig
-from acts_tools.argument_types import real
+from acts_tools.arguments import real
 from acts_tools.evaluate import report
 from acts_tools.evaluate.gait import force_curve, walks
 from acts_tools.evaluate.gait.insoles import FoundSteps, InsoleRecording, find_steps, read_insoles

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from acts_sim.pressing import EVENT_RATE_HZ, EVENTS, event_recordings
-from acts_tools.argument_types import at_least_one
+from acts_tools.arguments import at_least_one
 from acts_tools.evaluate import report
 from acts_tools.evaluate.images import options
 from acts_tools.evaluate.images.recovery import Recording

@@ -13,7 +13,7 @@ import numpy as np
 
 from acts_core.errors import RecordingError
 from acts_sim.pressing import OBJECTS, PRESS_RATE_HZ, ContactModel, FoamConfig, object_named, press_over_time
-from acts_tools.argument_types import at_least_one, taxels
+from acts_tools.arguments import at_least_one, taxels
 from acts_tools.evaluate import report
 from acts_tools.evaluate.estimators.methods import method_names
 from acts_tools.evaluate.images import options

@@ -15,7 +15,7 @@ from acts_core.sampling import OWN_SETTINGS, SCHEMES, SamplingConfig
 from acts_core.settings import SettingValue, default_of, describe, from_text, unknown_key_message
 from acts_recon.methods import METHODS as REGISTERED
 from acts_recon.sparse import Dictionary, shipped_dictionary_path
-from acts_tools.argument_types import at_least_one, random_seed, real, taxels
+from acts_tools.arguments import at_least_one, random_seed, real, taxels
 from acts_tools.evaluate.estimators.dictionaries import dictionary_named
 from acts_tools.evaluate.estimators.methods import method_names
 from acts_tools.evaluate.images.recovery import FOLLOW_COUNTS, Task

@@ -16,7 +16,7 @@ import numpy as np
 from acts_core.errors import RecordingError
 from acts_core.files import load_frames, without_contact
 from acts_sim.pressing import OBJECTS
-from acts_tools.argument_types import at_least_one
+from acts_tools.arguments import at_least_one
 from acts_tools.evaluate import report
 from acts_tools.evaluate.images import options
 from acts_tools.evaluate.images.recovery import Recording

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from acts_recon.impacts import Kind
 from acts_sim.impacts import Scene, ball_named, collide, dropped, scene, skin_of
-from acts_tools.argument_types import real
+from acts_tools.arguments import real
 from acts_tools.evaluate import report
 from acts_tools.evaluate.images.options import add_m, add_scene_arguments
 from acts_tools.evaluate.images.recovery import SAMPLE_US

@@ -22,7 +22,7 @@ from acts_recon.contacts import ContactFinder
 from acts_recon.impacts import UNKNOWN_DIRECTION_SD_RAD
 from acts_recon.methods import PerFrame, PerFrameConfig, SkinSetup
 from acts_sim.impacts import Scene, ball_named, scene, skin_of, thrown
-from acts_tools.argument_types import real, taxels
+from acts_tools.arguments import real, taxels
 from acts_tools.evaluate import report
 from acts_tools.evaluate.images.options import add_scene_arguments
 from acts_tools.evaluate.impacts import plays

@@ -13,7 +13,7 @@ from acts_core.errors import SettingsError
 from acts_core.files import load_frames
 from acts_core.settings import default_of
 from acts_sim.pressing import OBJECTS, PressingConfig, object_named
-from acts_tools.argument_types import at_least_one, random_seed, taxels
+from acts_tools.arguments import at_least_one, random_seed, taxels
 from acts_tools.evaluate import report
 from acts_tools.evaluate.objects.classification import M_OVER_TIME, MS, Trials, run_trials
 from acts_tools.evaluate.objects.classification_recorded import run_recorded

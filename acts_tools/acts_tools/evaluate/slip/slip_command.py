@@ -24,7 +24,7 @@ from acts_core.errors import RecordingError
 from acts_core.files import FramesFile, load_frames
 from acts_core.settings import default_of, describe
 from acts_recon.slip import SlipConfig, SlipDetector
-from acts_tools.argument_types import real
+from acts_tools.arguments import real
 from acts_tools.evaluate import report
 from acts_tools.output_file import require_writable
 

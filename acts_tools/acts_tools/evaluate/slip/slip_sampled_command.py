@@ -23,7 +23,7 @@ from acts_core.sampling import SamplingConfig
 from acts_core.skin import ForceResponse, Layout, SkinPatch, layout
 from acts_recon.fusion import FusionConfig, FusionEstimator
 from acts_recon.regions import Regions
-from acts_tools.argument_types import at_least_one, real, taxels
+from acts_tools.arguments import at_least_one, real, taxels
 from acts_tools.evaluate import report
 from acts_tools.evaluate.images.board_sampler import BoardSampler
 

@@ -17,7 +17,7 @@ import numpy as np
 
 from acts_core.errors import RecordingError
 from acts_sim.wearables import SCENES, WornScene, worn_scene
-from acts_tools.argument_types import real, taxels
+from acts_tools.arguments import real, taxels
 from acts_tools.evaluate import report
 from acts_tools.evaluate.images.options import add_scene_arguments
 from acts_tools.evaluate.wearables.happened import Tally

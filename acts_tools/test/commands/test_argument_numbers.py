@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from acts_tools.argument_types import real, whole
+from acts_tools.arguments import real, whole
 from acts_tools.cli import main
 
 EVALUATIONS = ("classification", "events", "gait", "impacts", "objects", "outlines", "ricochet", "spectra", "wearables")
