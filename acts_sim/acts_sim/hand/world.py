@@ -22,7 +22,7 @@ from acts_sim.dynamixel import MODELS, Bus, Motor, OverloadLaw
 from acts_sim.hand import model as hand_model
 from acts_sim.hand.disturbances import Disturbances
 from acts_sim.hand.holder import Holder
-from acts_sim.hand.kinematics import LINKS
+from acts_sim.hand.kinematics import LINKS, PALM
 from acts_sim.hand.objects import OBJECTS, HeldObject, held_object
 from acts_sim.hand.skin import Skin, SkinConfig
 from acts_sim.hand.solids import Solids
@@ -129,6 +129,7 @@ class HandWorld:
         self._model = hand_model.build(self._thing, STEP_S / self._substeps)
         self._data = mujoco.MjData(self._model)
         self.layout = layout(config.layout, 32, 32)
+        self._require_links()
         overload = OverloadLaw(config.overload_after_s, config.overload_ma)
         self.motors = [
             Motor(MODELS[config.motor_model], k, config.return_delay_time, overload=overload) for k in range(len(LINKS))
@@ -199,6 +200,15 @@ class HandWorld:
         """Hold the object at its present pose with springs."""
         if self._thing is not None:
             self.holder.hold(self._data.xpos[self._body], self._data.xquat[self._body])
+
+    def _require_links(self) -> None:
+        strange = [patch.link for patch in self.layout.patches if _body(self._model, patch.link) < 0]
+        if strange:
+            links = ", ".join([PALM, *(link.name for link in LINKS)])
+            raise SettingsError(
+                f"layout = {self.config.layout}: a patch lies on {strange[0] or 'no link'}, and "
+                f"the simulated hand has the links {links}; allowed is leap_right or a file with patches on these"
+            )
 
     def put(self, x_m: float, y_m: float, height_m: float = 0.0, *, held: bool = False) -> None:
         """Put the object on the palm, at an offset from its centre; held by springs, or free."""

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from hand_motors import AROUND_SPHERE, close, switch_on
 
-from acts_core.errors import ActsError
+from acts_core.errors import ActsError, SettingsError
 from acts_sim.hand import HandWorld, HandWorldConfig
 
 pytestmark = pytest.mark.slow
@@ -31,6 +31,11 @@ def test_a_sphere_lies_on_the_palm_with_its_weight() -> None:
     elsewhere = world.layout.picture(world.forces_n.reshape(32, 32))
     palm.of(elsewhere)[...] = 0.0
     assert not elsewhere.any()
+
+
+def test_a_skin_that_lies_on_no_link_of_the_hand_is_refused() -> None:
+    with pytest.raises(SettingsError, match="layout = square: a patch lies on no link, and the simulated hand has"):
+        HandWorld(HandWorldConfig(layout="square"))
 
 
 def test_physics_that_has_become_unstable_is_told_and_leaves_no_file(

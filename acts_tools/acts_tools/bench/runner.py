@@ -44,7 +44,7 @@ def choose(names: Sequence[str], entries: Mapping[str, Entry] = MEASUREMENTS) ->
     """
     for name in names:
         if name not in entries:
-            raise ActsError(f"there is no measurement '{name}'; there are: {', '.join(entries)}")
+            raise ActsError(f"there is no measurement '{name}'; there are: {', '.join(entries)}; and skins, by itself")
     return list(dict.fromkeys(names)) or [name for name, entry in entries.items() if not entry.only_by_name]
 
 
