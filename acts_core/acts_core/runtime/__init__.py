@@ -11,7 +11,7 @@ from acts_core.runtime.addresses import is_loopback
 from acts_core.runtime.background import begin, is_done, within_patience
 from acts_core.runtime.late_frames import LateFrames, Use
 from acts_core.runtime.process_names import process_name
-from acts_core.runtime.rate_limit import RateLimit, Turns
+from acts_core.runtime.rate_limit import RateLimit
 from acts_core.runtime.realtime import RealtimeConfig, enter_realtime, parse_cores
 from acts_core.runtime.realtime_guard import LogCallback, demote_process
 from acts_core.runtime.stamp_order import Order, StampOrder
@@ -26,7 +26,6 @@ __all__ = [
     "RealtimeConfig",
     "StampOrder",
     "StreamCounter",
-    "Turns",
     "Use",
     "background",
     "begin",

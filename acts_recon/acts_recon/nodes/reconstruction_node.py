@@ -23,7 +23,7 @@ from std_msgs.msg import Header
 from acts_core.errors import ArrayError, PacketError
 from acts_core.frames import SampleFrame
 from acts_core.kernels import skip_extras
-from acts_core.runtime import LateFrames, Turns, Use, enter_realtime
+from acts_core.runtime import LateFrames, RateLimit, Use, enter_realtime
 from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import Baseline, TactileSamples
 from acts_msgs.msg import Contact as ContactMessage
@@ -80,7 +80,7 @@ class ReconstructionNode(Node):
         self._header = Header()
         self._cop = PointStamped()
         self._images = ImagesPublisher(self, self._settings, self._recovery)
-        self._turns = Turns(self._settings.image_rate_hz)
+        self._view_limit = RateLimit(self._settings.image_rate_hz)
         self._viewed: list[str] = []
         recogniser = self._settings.recogniser(self._recovery)
         self._objects: ObjectPublisher | None = None
@@ -125,7 +125,7 @@ class ReconstructionNode(Node):
         """Put changed parameters in force."""
         self._settings = settings
         self._images.set_rates(settings)
-        self._turns.set_rate(settings.image_rate_hz)
+        self._view_limit.set_rate(settings.image_rate_hz)
         if self._objects is not None:
             self._objects.set_rate(settings.object_rate_hz)
         self._abilities.set_rates(settings)
@@ -224,7 +224,7 @@ class ReconstructionNode(Node):
             self._cop_publisher.publish(self._cop)
         if self._regions is not None:
             self._regions.publish(stamp_ns, frame_id, frame.sequence, self._recovery)
-        due = self._turns.due(time.monotonic(), self._viewed) if self._viewed else ()
+        due = self._viewed if self._viewed and self._view_limit.due(time.monotonic()) else ()
         self._images.publish(header, frame.sequence, stamp_ns, duration_s, contact, due)
         self._contacts.publish(header, frame.sequence, self._recovery.image, self._recovery.sigma, due)
         self._abilities.publish(header, frame, every, end_s)

@@ -37,11 +37,11 @@ def test_rates_of_images_change_while_it_runs(make_bench: Callable[..., Bench]) 
     parameters = {"image_raw_rate_hz": 20.0, "image_rate_hz": 5.0, "image_full_scale_counts": 500.0}
     results = bench.node.set_parameters([Parameter(name, value=value) for name, value in parameters.items()])
     assert all(result.successful for result in results)
-    assert [limit.due(0.0) for limit in (bench.node._images._raw_limit, bench.node._turns._limit)] == [True, True]
+    assert [limit.due(0.0) for limit in (bench.node._images._raw_limit, bench.node._view_limit)] == [True, True]
     assert not bench.node._images._raw_limit.due(0.049)
     assert bench.node._images._raw_limit.due(0.051)
-    assert not bench.node._turns._limit.due(0.199)
-    assert bench.node._turns._limit.due(0.201)
+    assert not bench.node._view_limit.due(0.199)
+    assert bench.node._view_limit.due(0.201)
     for refused in (Parameter("image_rate_hz", value=0.0), Parameter("rows", value=16)):
         assert not bench.node.set_parameters([refused])[0].successful
 
@@ -239,7 +239,7 @@ def test_the_viewer_image_keeps_its_rate_and_costs_nothing_unheard(make_bench: C
     indices = np.arange(10)
     bench.send(0, indices, indices)
     bench.contact(0)
-    assert bench.node._turns._limit.taken == 0
+    assert bench.node._view_limit.taken == 0
     topics = ("image", "view/image_raw", "view/confidence", "view/age")
     for topic in topics:
         bench.listen(Image, topic, qos.VIEW)
@@ -250,8 +250,7 @@ def test_the_viewer_image_keeps_its_rate_and_costs_nothing_unheard(make_bench: C
     bench.until(lambda: all(bench.received[topic] for topic in topics))
     assert [len(bench.received[topic]) for topic in topics] == [1, 1, 1, 1]
     assert [bench.received[topic][0].encoding for topic in topics] == ["rgb8", "mono16", "mono8", "32FC1"]
-    # One with a frame: all of them would keep the next frames waiting.
-    assert len({bench.received[topic][0].header.stamp.sec for topic in topics}) == len(topics)
+    assert len({bench.received[topic][0].header.stamp.sec for topic in topics}) == 1
     age_s = np.frombuffer(bench.received["view/age"][0].data, np.float32)
     assert not age_s[indices].any()
     assert np.isinf(np.delete(age_s, indices)).all()
