@@ -110,10 +110,13 @@ def show(state: State, cols: int, tuning: Tuning) -> None:
         if above[i] != _F(0):
             if age[i] < horizon:
                 by_slope = (_F(1) - velocity[tile_of[i], 2]) * slope[i] * fade[i] * age[i]
+                # Of a fresh taxel the rest is motion, found in the same changes as the slope: it is in doubt with it.
+                in_doubt = by_slope if fresh[i] else _F(0)
+                share = _trust_slope(product[i], square[i], square[i], in_doubt, age[i])
                 # What samples beside have corrected since is not the slope's.
                 by_slope = min(max(by_slope, min(above[i], _F(0))), max(above[i], _F(0)))
                 slope_share = _trust_slope(product[i], square[i], slope_square[i], by_slope, age[i])
-                change = trust(product[i], square[i]) * (above[i] - by_slope) + slope_share * by_slope
+                change = share * (above[i] - by_slope) + slope_share * by_slope
             else:
                 change = learnt[tile_of[i], TRUST] * above[i]
             if abs(change) >= least:

@@ -231,12 +231,12 @@ class FusionReference:
 
         return _share(self.product, self.square), _share(self.tile_product, self.tile_square)
 
-    def _trust_slope(self, change: Floats, time: Floats) -> Floats:
-        """Trust in the slope of every taxel: as if it had predicted this change, too, and it came true as expected."""
+    def _trust_slope(self, change: Floats, time: Floats, square: Floats) -> Floats:
+        """Trust of every taxel by predictions of this square: as if this change, too, had come true as expected."""
         came_true = np.minimum((self.product + TRUST_PRIOR) / (self.square + TRUST_PRIOR), MOST_CONFIRMED)
         weight = UNPROVEN_WEIGHT * change**2
         expected = weight / (1 + (time / UNPROVEN_S) ** 2)
-        return _share(self.slope_square * came_true + expected, self.slope_square + weight)
+        return _share(square * came_true + expected, square + weight)
 
     def _update(
         self,
@@ -317,18 +317,19 @@ class FusionReference:
         self.low = ndimage.maximum_filter(above, size=3, mode="nearest") == 0
         time = np.minimum(self.age, tuning.horizon_s)
         by_slope = unexplained * self.slope * np.exp(-self.age / tuning.damping_s) * time
-        taxel_trust, tile_trust = self._trust()
+        _, tile_trust = self._trust()
         # Where motion explains nothing, all of the slope.
         all_slope = self.slope * np.exp(-self.age / tuning.damping_s) * time
-        slope_trust = self._trust_slope(all_slope, time)
+        slope_trust = self._trust_slope(all_slope, time, self.slope_square)
         stale = (self.slope != 0) & (self.age >= tuning.horizon_s)
         self.slope[stale] = 0
         stale &= unexplained == 1
         self.estimate[stale] = (self.value + slope_trust * (self.estimate - self.value))[stale]
         of_fresh = np.where(self.low, 0, rate * np.where(self.fresh, self.age, 0))
         ahead = np.where(self.fresh, of_fresh, self.estimate - self.value)
+        rest_trust = self._trust_slope(np.where(self.fresh, by_slope, 0), time, self.square)
         by_slope = np.clip(by_slope, np.minimum(ahead, 0), np.maximum(ahead, 0))
-        trusted = taxel_trust * (ahead - by_slope) + self._trust_slope(by_slope, time) * by_slope
+        trusted = rest_trust * (ahead - by_slope) + self._trust_slope(by_slope, time, self.slope_square) * by_slope
         change = np.where(self.age < tuning.horizon_s, trusted, tile_trust[self._tile_of] * ahead)
         is_change = (np.abs(ahead) >= LEAST_CHANGE_COUNTS) & (np.abs(change) >= LEAST_CHANGE_COUNTS)
         self.image = np.clip(self.value + np.where(is_change, change, 0), 0, COUNT_MAX)

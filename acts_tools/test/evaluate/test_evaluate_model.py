@@ -67,7 +67,8 @@ def test_what_is_held_or_slides_slowly_is_not_worse_than_last_values(
 
 # Before slopes had to be confirmed it was 1.47 times the error of last values, with `adaptive` and M = 256.
 @pytest.mark.parametrize(
-    ("scheme", "m"), [("tracking", 55), ("tracking", 512), ("adaptive", 128), ("adaptive", 256), ("uniform", 256)]
+    ("scheme", "m"),
+    [("tracking", 55), ("tracking", 512), ("tracking", 1024), ("adaptive", 128), ("adaptive", 256), ("uniform", 256)],
 )
 def test_bounces_are_at_most_slightly_worse_than_last_values(tmp_path: Path, scheme: str, m: int) -> None:
     out = tmp_path / "events.json"
