@@ -1,0 +1,82 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""The node where frames come late; ROS_DOMAIN_IDs 26 and 27."""
+
+import time
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from recon_bench import Bench
+
+from acts_core.frames import SampleFrame, Scheme
+
+pytestmark = pytest.mark.slow
+
+
+def test_late_frames_are_published_while_they_are_rare_and_very_late_ones_are_left_out(
+    make_bench: Callable[..., Bench],
+) -> None:
+    bench = make_bench(26, method="fusion")
+    cells = [np.array([cell], dtype=np.uint16) for cell in (100, 140, 180, 220)]
+
+    def take(first: int, age_ms: float, counts: int) -> list[bool]:
+        """Give it four frames; which of them the image shows."""
+        begin_ns = time.time_ns() - round(age_ms * 1e6)
+        pressed = np.array([counts], dtype=np.uint16)
+        frames = [
+            (SampleFrame(first + k, 0, 900, Scheme.TRACKING, 32, 32, 0, cell, pressed), begin_ns + k * 1_000_000)
+            for k, cell in enumerate(cells)
+        ]
+        bench.node.take(frames, "plate")
+        bench.contact(first + 3)
+        image = bench.node._recovery.image.ravel()
+        return [bool(abs(float(image[cell]) - counts) < 50) for (cell,) in cells]
+
+    assert take(0, 1000.0, 500) == [False, False, False, True]
+    assert take(4, 5.0, 600) == [True, True, True, True]
+    # Some stalls are caught up with. Then there are too many: the newest is published, then only the newest is used.
+    for first in range(8, 112, 4):
+        assert take(first, 40.0, 700) == [True, True, True, True]
+    assert take(112, 40.0, 800) == [True, True, True, True]
+    assert take(116, 80.0, 900) == [False, False, False, True]
+    assert [message.sequence for message in bench.received["contact"]] == [3, *range(4, 108), 111, 115, 119]
+
+    def told(status: object, values: dict[str, str]) -> bool:
+        counted = (values["not_published"], values["not_used"], values["frames"], values["lost"])
+        return counted == ("12", "6", "114", "0")
+
+    bench.diagnostics(told)
+
+
+def test_contacts_that_are_left_out_are_warned_of(make_bench: Callable[..., Bench]) -> None:
+    bench = make_bench(27)
+    cells = np.arange(10, dtype=np.uint16)
+    now_ns = time.time_ns()
+    frames = [
+        (SampleFrame(k, 0, 900, Scheme.RANDOM, 32, 32, 0, cells, cells), now_ns - (1000 - k) * 1_000_000)
+        for k in range(4)
+    ]
+    bench.node.take(frames, "plate")
+    bench.contact(3)
+    words = "3 contacts left out because their frames came late, "
+    bench.diagnostics(lambda status, _: status.level == b"\x01" and status.message.startswith(words))
+
+
+def test_a_board_that_begins_anew_among_very_late_frames_is_noticed(make_bench: Callable[..., Bench]) -> None:
+    bench = make_bench(26, method="fusion")
+    pressed = np.array([500], dtype=np.uint16)
+    now_ns = time.time_ns()
+
+    def frame(sequence: int, cell: int, age_ms: float) -> tuple[SampleFrame, int]:
+        cells = np.array([cell], dtype=np.uint16)
+        measured = SampleFrame(sequence, 0, 900, Scheme.TRACKING, 32, 32, 0, cells, pressed)
+        return measured, now_ns - round(age_ms * 1e6)
+
+    bench.node.take([frame(7000, 100, 110.0)], "plate")
+    image = bench.node._recovery.image.ravel()
+    assert image[100] == 500
+    bench.node.take([frame(0, 140, 105.0), frame(1, 180, 100.0), frame(2, 220, 95.0)], "plate")
+    # Of the life before nothing is known any more, nor of what was left out.
+    assert image[[100, 140, 180, 220]].tolist() == [0, 0, 0, 500]
