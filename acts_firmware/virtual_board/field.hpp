@@ -19,8 +19,9 @@ class Field {
   Field& operator=(const Field&) = delete;
   virtual ~Field() = default;
 
-  // Called once a frame, before its measurements, with the time of the frame's end.
-  virtual void refresh(std::int64_t /*monotonic_ns*/) {}
+  // Called before every frame, with the present time. False where the field stands still: it is that of a world which
+  // has ended or hangs, and nothing is to be measured of it.
+  virtual bool refresh(std::int64_t /*monotonic_ns*/) { return true; }
 
   // Counts at a row-major index at a time of CLOCK_MONOTONIC.
   virtual double counts(std::size_t index, std::int64_t monotonic_ns) = 0;
@@ -38,7 +39,8 @@ std::unique_ptr<Field> open_recording(const std::string& path, int rows, int col
                                       std::int64_t start_monotonic_ns);
 
 // The simulated world's field, in the ring that acts_sim/shared/timed_ring.py describes. Untouched while there is no
-// file at `path`; a new file is taken up within a tenth of a second.
+// file at `path`; a new file is taken up within a tenth of a second. It stands still where its newest slot is more than
+// half a second old, which is told on standard error.
 std::unique_ptr<Field> watch_ring(const std::string& path, std::size_t width);
 
 }  // namespace acts

@@ -134,7 +134,7 @@ void Process::run() {
       firmware_->skip_frames(static_cast<std::uint32_t>(skipped));
       start_ns_ += skipped * step_ns_;
     }
-    board_->begin_frame(start_ns_, sample_ns_, firmware_->sampler().frame_size());
+    board_->begin_frame(start_ns_, sample_ns_);
     firmware_->measure_frame();
     ++frames_;
     last_start_ns_ = start_ns_;
@@ -178,6 +178,16 @@ bool Process::wait_for_frame() {
     if (frozen_) {
       sleep_until(std::min(frozen_until_ns_, now + kNapNs));
       continue;
+    }
+    if (!field_->refresh(now)) {
+      // As frozen: a board that sent frames of a dead world would tell the host of a touch that is none.
+      stands_still_ = true;
+      sleep_until(now + kNapNs);
+      continue;
+    }
+    if (stands_still_) {
+      stands_still_ = false;
+      start_ns_ = time_.to_board_ns(now);
     }
     const std::int64_t wake_ns = time_.to_host_ns(start_ns_ + duration_ns_);
     if (now >= wake_ns) {

@@ -76,6 +76,7 @@ class Process {
   std::int64_t plug_in_at_ns_ = 0;
   std::optional<Fault> frozen_;
   std::int64_t frozen_until_ns_ = 0;
+  bool stands_still_ = false;       // the field does
   std::int64_t start_ns_ = 0;       // of the next frame, on the board's clock
   std::int64_t last_start_ns_ = 0;  // of the last frame
   std::int64_t sample_ns_ = 0;

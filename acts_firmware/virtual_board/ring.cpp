@@ -24,6 +24,11 @@ constexpr std::size_t kWrittenOffset = 24;
 constexpr std::size_t kSlotHeaderBytes = 16;
 constexpr std::uint32_t kVersion = 1;
 constexpr std::int64_t kLookEveryNs = 100'000'000;
+constexpr double kStandsStillNs = 5e8;
+constexpr const char* kStandsStill =
+    ": nothing was written for half a second, so the world that writes it has ended or hangs; no frames until it goes "
+    "on";
+constexpr const char* kGoesOn = ": goes on; frames again";
 constexpr int kAttempts = 20;
 
 // One open ring. Slots are named by their number since the first one written.
@@ -51,6 +56,13 @@ class Ring {
 
   bool same_file(const struct stat& status) const {
     return status.st_dev == file_.device() && status.st_ino == file_.inode();
+  }
+
+  // Whether its newest slot is too old. One that is just being written is not.
+  bool stands_still(std::int64_t monotonic_ns) const {
+    const std::uint64_t count = written();
+    const std::optional<Slot> newest = count == 0 ? std::nullopt : slot(count - 1);
+    return newest && static_cast<double>(monotonic_ns) - static_cast<double>(newest->time_ns) > kStandsStillNs;
   }
 
   double counts(std::size_t index, std::int64_t time_ns) {
@@ -160,7 +172,23 @@ class WatchedRing final : public Field {
  public:
   WatchedRing(std::string path, std::size_t width) : path_(std::move(path)), width_(width) {}
 
-  void refresh(std::int64_t monotonic_ns) override {
+  bool refresh(std::int64_t monotonic_ns) override {
+    look(monotonic_ns);
+    const bool stands_still = ring_ && ring_->stands_still(monotonic_ns);
+    if (stands_still != stands_still_) {
+      stands_still_ = stands_still;
+      std::cerr << "virtual_board: " << path_ << (stands_still ? kStandsStill : kGoesOn) << std::endl;
+    }
+    return !stands_still;
+  }
+
+  double counts(std::size_t index, std::int64_t monotonic_ns) override {
+    return ring_ ? ring_->counts(index, monotonic_ns) : 0.0;
+  }
+
+ private:
+  // Takes up a new file, and lets go of one that is gone.
+  void look(std::int64_t monotonic_ns) {
     if (monotonic_ns < next_look_ns_) {
       return;
     }
@@ -186,16 +214,12 @@ class WatchedRing final : public Field {
     }
   }
 
-  double counts(std::size_t index, std::int64_t monotonic_ns) override {
-    return ring_ ? ring_->counts(index, monotonic_ns) : 0.0;
-  }
-
- private:
   std::string path_;
   std::size_t width_;
   std::int64_t next_look_ns_ = std::numeric_limits<std::int64_t>::min();
   std::optional<Ring> ring_;
   std::optional<struct stat> refused_;
+  bool stands_still_ = false;
 };
 
 }  // namespace

@@ -23,10 +23,9 @@ VirtualBoard::VirtualBoard(int rows, int cols, Field& field, const BoardTime& ti
       noise_counts_(noise_counts),
       random_(seed, kNoiseStream) {}
 
-void VirtualBoard::begin_frame(std::int64_t start_ns, std::int64_t sample_ns, int m) {
+void VirtualBoard::begin_frame(std::int64_t start_ns, std::int64_t sample_ns) {
   now_ns_ = start_ns;
   sample_ns_ = sample_ns;
-  field_.refresh(time_.to_host_ns(start_ns + m * sample_ns));
 }
 
 double VirtualBoard::taxel_counts(int row, int col) {

@@ -42,8 +42,8 @@ class VirtualBoard final : public WiredBoard {
   VirtualBoard(int rows, int cols, Field& field, const BoardTime& time, double noise_counts, std::uint64_t seed,
                std::uint64_t id);
 
-  // Jump to a board time, the start of a frame whose m measurements take `sample_ns` each.
-  void begin_frame(std::int64_t start_ns, std::int64_t sample_ns, int m);
+  // Jump to a board time, the start of a frame whose measurements take `sample_ns` each.
+  void begin_frame(std::int64_t start_ns, std::int64_t sample_ns);
 
   // What recovery or classification of a frame takes.
   void set_computing_ns(std::int64_t computing_ns) { computing_ns_ = computing_ns; }

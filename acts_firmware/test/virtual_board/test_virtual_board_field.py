@@ -3,14 +3,18 @@
 
 """What the virtual board measures: the simulated world's ring or a recording, each taxel at its own time."""
 
+import os
+import select
 import subprocess
+import threading
 import time
-from contextlib import ExitStack
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 import numpy as np
 import pytest
-from board_process import BoardProcess
+from board_process import DEADLINE_S, BoardProcess
 from core_library import installed
 from numpy.typing import NDArray
 
@@ -21,6 +25,26 @@ ROWS, COLS = 6, 5
 TAXELS = ROWS * COLS
 SAMPLE_NS = 20_000
 SMALL = ("--rows", ROWS, "--cols", COLS, "--m", 20, "--scheme", "random", "--sample-us", 20, "--noise-counts", 0)
+
+
+@contextmanager
+def pressed(ring: Path, field: NDArray[np.float64]) -> Iterator[TimedRingWriter]:
+    """A world that writes one field [shape=(n,)] every 10 ms, killed at the end of the block: its file stays."""
+    writer = TimedRingWriter(ring, len(field), slots=8)
+    writer.write(time.monotonic_ns(), field)
+    ended = threading.Event()
+
+    def run() -> None:
+        while not ended.wait(0.01):
+            writer.write(time.monotonic_ns(), field)
+
+    world = threading.Thread(target=run)
+    world.start()
+    try:
+        yield writer
+    finally:
+        ended.set()
+        world.join()
 
 
 def measured_at_ns(board: BoardProcess, frame: SampleFrame, drift_ppm: float = 0.0) -> NDArray[np.float64]:
@@ -61,11 +85,9 @@ def test_newest_slot_is_held_and_strange_values_are_clipped(tmp_path: Path) -> N
     ring = tmp_path / "field.ring"
     field = np.linspace(0, 1000, TAXELS)
     field[:5] = (np.nan, np.inf, -np.inf, -20.0, 5000.0)
-    with TimedRingWriter(ring, TAXELS, slots=4) as writer:
-        writer.write(1, field)
-        with BoardProcess(tmp_path, *SMALL, "--scheme", "raster", "--field-ring", ring) as board:
-            board.open_port()
-            frame = board.read_frames(1)[0]
+    with pressed(ring, field), BoardProcess(tmp_path, *SMALL, "--scheme", "raster", "--field-ring", ring) as board:
+        board.open_port()
+        frame = board.read_frames(1)[0]
     assert frame.counts[:5].tolist() == [0, 1023, 0, 0, 1023]
     assert np.abs(frame.counts[5:] - field[5:]).max() <= 0.5
 
@@ -77,17 +99,40 @@ def test_ring_appears_is_replaced_and_goes(tmp_path: Path) -> None:
         assert all(not frame.counts.any() for frame in board.read_frames(20))
         for value in (100.0, 200.0):
             # Not closed: its writer was killed, and the next one replaces the file.
-            TimedRingWriter(ring, TAXELS, slots=8).write(time.monotonic_ns(), np.full(TAXELS, value))
-            board.read_until(lambda frame, value=value: bool((frame.counts == value).all()))
+            with pressed(ring, np.full(TAXELS, value)):
+                board.read_until(lambda frame, value=value: bool((frame.counts == value).all()))
         # A ring of another array is refused in words, and its successor taken up.
-        TimedRingWriter(ring, TAXELS + 1, slots=8).write(time.monotonic_ns(), np.full(TAXELS + 1, 300.0))
-        board.read_until(lambda frame: not frame.counts.any())
+        with pressed(ring, np.full(TAXELS + 1, 300.0)):
+            board.read_until(lambda frame: not frame.counts.any())
         assert f"holds {TAXELS + 1} values a slot, the array has {TAXELS} taxels" in board.errors.read_text()
-        last = TimedRingWriter(ring, TAXELS, slots=8)
-        last.write(time.monotonic_ns(), np.full(TAXELS, 400.0))
-        board.read_until(lambda frame: bool((frame.counts == 400).all()))
-        last.close()
-        board.read_until(lambda frame: not frame.counts.any())
+        with pressed(ring, np.full(TAXELS, 400.0)) as last:
+            board.read_until(lambda frame: bool((frame.counts == 400).all()))
+            last.close()
+            board.read_until(lambda frame: not frame.counts.any())
+
+
+def test_a_world_that_stands_still_is_told_and_nothing_is_measured_of_it(tmp_path: Path) -> None:
+    ring = tmp_path / "field.ring"
+    frames: list[SampleFrame] = []
+    with BoardProcess(tmp_path, *SMALL, "--field-ring", ring) as board:
+        port = board.open_port()
+        with pressed(ring, np.full(TAXELS, 300.0)):
+            board.read_until(lambda frame: bool((frame.counts == 300).all()))
+        died_ns = time.monotonic_ns()
+        deadline_ns = died_ns + int(DEADLINE_S * 1e9)
+        while "no frames until it goes on" not in board.errors.read_text() or time.monotonic_ns() < died_ns + 1e9:
+            assert time.monotonic_ns() < deadline_ns, "it tells nothing of the dead world"
+            if select.select([port], [], [], 0.01)[0]:
+                frames += board.decoder.feed(os.read(port, 65536))
+        back_ns = time.monotonic_ns()
+        with pressed(ring, np.full(TAXELS, 400.0)):
+            frames.append(board.read_until(lambda frame: bool((frame.counts == 400).all())))
+        assert "frames again" in board.errors.read_text()
+    ends_ns = [board.start["epoch_monotonic_ns"] + 1000 * frame.board_us for frame in frames]
+    assert not [end_ns for end_ns in ends_ns if died_ns + 6e8 < end_ns < back_ns]
+    # As of a frozen board, there are none that would have to be missed.
+    before, after = frames[-2:]
+    assert after.sequence - before.sequence - 1 == after.overruns - before.overruns
 
 
 def test_a_ring_that_is_written_all_the_time_is_never_torn(tmp_path: Path) -> None:

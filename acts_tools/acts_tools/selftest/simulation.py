@@ -19,6 +19,7 @@ from acts_tools.bench.rigs.processes import virtual_board
 
 _STEP_S = 0.01
 _LEAD_S = 0.2
+_AFTER_S = 3600.0
 _WIDTH_TAXELS = 2.5
 _PEAK_COUNTS = 550.0
 _LEAST_SHARE = 0.35
@@ -44,10 +45,12 @@ class SimulatedSkin:
         """Roll over the whole skin for `seconds`, once along the columns and once along the rows."""
         fields = roller_fields(rows, cols, max(round((seconds - 2 * _LEAD_S) / _STEP_S), 10))
         begin_ns = time.monotonic_ns() + int(_LEAD_S * 1e9)
-        with TimedRingWriter(self.ring, rows * cols, slots=len(fields) + 1) as writer:
+        with TimedRingWriter(self.ring, rows * cols, slots=len(fields) + 2) as writer:
             # Written in advance: the board interpolates, and no process needs to keep up with it.
             for step, field in enumerate(fields):
                 writer.write(begin_ns + int(step * _STEP_S * 1e9), field.ravel())
+            # Untouched afterwards: a board makes no frames of a ring that ends.
+            writer.write(begin_ns + int((seconds + _AFTER_S) * 1e9), fields[-1].ravel())
             yield
 
 
