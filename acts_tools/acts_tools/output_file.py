@@ -9,11 +9,20 @@ from pathlib import Path
 
 from acts_core.errors import RecordingError
 
+_PICTURES = (".png", ".svg", ".pdf")
 
-def require_writable(path: Path | None) -> None:
+
+def require_writable(path: Path | None, *, makes_folder: bool = False) -> None:
     """Raise an error, before any work, if a file for results cannot be written; None is allowed.
 
     An existing file is not changed.
+
+    Parameters
+    ----------
+    path : Path or None
+        The file.
+    makes_folder : bool
+        Whether to make its folder.
 
     Raises
     ------
@@ -22,6 +31,11 @@ def require_writable(path: Path | None) -> None:
     """
     if path is None:
         return
+    if makes_folder:
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise RecordingError(f"{path}: its folder cannot be made ({error.strerror})") from error
     is_new = not path.exists()
     try:
         path.open("ab").close()
@@ -31,3 +45,13 @@ def require_writable(path: Path | None) -> None:
         raise RecordingError(
             f"{path}: cannot be written ({error.strerror}); needed is a file's name in a folder that exists"
         ) from error
+
+
+def require_picture(path: Path | None, *, makes_folder: bool = False) -> None:
+    """Raise an error, as `require_writable`, also for a name whose end is no kind of picture.
+
+    Matplotlib would add an end to a name without one, and so write beside a folder of that name.
+    """
+    require_writable(path, makes_folder=makes_folder)
+    if path is not None and path.suffix.lower() not in _PICTURES:
+        raise RecordingError(f"{path}: no name of a picture; allowed are names that end in {', '.join(_PICTURES)}")

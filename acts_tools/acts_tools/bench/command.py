@@ -79,12 +79,7 @@ def _file(arguments: argparse.Namespace, name: str) -> Path:
     from acts_tools.output_file import require_writable
 
     path = Path(arguments.out / name if arguments.json is None else arguments.json)
-    option = "--out" if arguments.json is None else "--json"
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise ActsError(f"{option} {path.parent}: the folder cannot be made ({error.strerror})") from error
-    require_writable(path)
+    require_writable(path, makes_folder=True)
     return path
 
 

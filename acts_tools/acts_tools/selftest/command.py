@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING
 from acts_core.array import MAX_SIDE
 from acts_core.errors import ActsError
 from acts_tools.arguments import real, whole
+from acts_tools.output_file import require_picture, require_writable
 
 if TYPE_CHECKING:
     from acts_driver.selftest import FrameRecord
@@ -77,6 +78,8 @@ def run(arguments: argparse.Namespace) -> int:
     """Test and report; return 1 if something is faulty."""
     if arguments.hardware_fault and not arguments.sim:
         raise ActsError("--hardware-fault breaks the wiring of a virtual board: give --sim as well")
+    require_writable(arguments.json, makes_folder=True)
+    require_picture(arguments.picture, makes_folder=True)
     with _ended_by_signals(), ExitStack() as stack:
         skin = _simulated(arguments, stack) if arguments.sim else None
         test = _test(arguments, skin)
@@ -87,7 +90,6 @@ def run(arguments: argparse.Namespace) -> int:
     print(test.text())
     try:
         if arguments.json is not None:
-            arguments.json.parent.mkdir(parents=True, exist_ok=True)
             arguments.json.write_text(test.to_json())
         draw(test, arguments.picture)
     except OSError as error:

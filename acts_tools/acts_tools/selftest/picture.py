@@ -26,7 +26,7 @@ _LINE_CHARACTERS = 56
 
 
 def draw(test: SelfTest, path: Path) -> None:
-    """Draw a self-test to a PNG file; its folder is made."""
+    """Draw a self-test to a file."""
     figure = plt.figure(figsize=(15, 9.2), layout="constrained")
     grid = figure.add_gridspec(2, 3, height_ratios=[1.25, 1], width_ratios=[1, 1, 1.3])
     figure.suptitle(f"Self-test of {test.board}: {test.verdict}", fontsize=14, color=_COLOURS[test.level])
@@ -46,7 +46,6 @@ def draw(test: SelfTest, path: Path) -> None:
     _draw_lines(figure.add_subplot(grid[1, 0]), test)
     _draw_delay(figure.add_subplot(grid[1, 1]), test)
     _draw_findings(figure.add_subplot(grid[1, 2]), test.findings)
-    path.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path, dpi=100)
     plt.close(figure)
 

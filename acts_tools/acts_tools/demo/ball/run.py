@@ -28,6 +28,7 @@ from acts_tools.demo.ball.score import score, table
 from acts_tools.demo.claims import claimed_folder, claimed_robot
 from acts_tools.demo.launched import launched
 from acts_tools.demo.watcher import Watcher
+from acts_tools.output_file import require_writable
 from acts_tools.process_load import LoadMeter
 from acts_tools.ros_domain import use_free_domain
 from acts_tools.run_folder import shared_memory
@@ -162,6 +163,8 @@ def run(seconds: float | None, out: Path, robot_ip: str, realtime_priority: int 
         out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise ActsError(f"--out {out}: the folder cannot be made ({error.strerror})") from error
+    for kind in ("json", "png", "log"):
+        require_writable(out / f"ball_balancing.{kind}")
     with claimed_folder(out), claimed_robot(robot_ip):
         return _run(seconds, out, robot_ip, realtime_priority)
 

@@ -21,6 +21,7 @@ from acts_tools.evaluate.hand.scenarios import SCENARIOS
 from acts_tools.live_hand.collector import HandCollector
 from acts_tools.live_hand.live import STATES
 from acts_tools.live_hand.rigs import LiveRigs
+from acts_tools.output_file import require_writable
 from acts_tools.ros_domain import use_free_domain
 
 TITLES = {
@@ -52,6 +53,8 @@ def run(names: list[str], out: Path, seed: int) -> int:
         out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise ActsError(f"--out {out}: the folder cannot be made ({error.strerror})") from error
+    for kind in ("json", "png", "log"):
+        require_writable(out / f"hand.{kind}")
     with claimed_folder(out), StopFlag() as stop:
         return _run(chosen, out, seed, stop)
 

@@ -19,7 +19,7 @@ from acts_tools.evaluate.estimators.methods import method_names
 from acts_tools.evaluate.images import options
 from acts_tools.evaluate.images.recovery import Recording
 from acts_tools.evaluate.images.tasks import evaluate_all
-from acts_tools.output_file import require_writable
+from acts_tools.output_file import require_picture
 
 _M = (42, 56, 64, 88, 128, 176, 256, 352, 512)
 _PER_FRAME = ("adaptive", "uniform", "random")
@@ -50,7 +50,7 @@ def _run(arguments: argparse.Namespace) -> int:
     pairs.append((arguments.ours, "tracking"))
     tasks = [options.task(arguments, scheme, m, method) for m in arguments.m for method, scheme in pairs]
     results = report.Results(arguments.json, options.as_report(arguments))
-    require_writable(arguments.picture)
+    require_picture(arguments.picture)
     dictionary = options.dictionary(arguments)
     items = [object_named(name) for name in arguments.objects]
     # The sampler adds the noise.

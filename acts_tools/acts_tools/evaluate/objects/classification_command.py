@@ -18,7 +18,7 @@ from acts_tools.evaluate import report
 from acts_tools.evaluate.objects.classification import M_OVER_TIME, MS, Trials, run_trials
 from acts_tools.evaluate.objects.classification_recorded import run_recorded
 from acts_tools.evaluate.objects.classification_report import draw, table, times
-from acts_tools.output_file import require_writable
+from acts_tools.output_file import require_picture, require_writable
 from acts_tools.progress import Progress
 
 
@@ -70,7 +70,7 @@ def add_parser(commands: Any) -> None:
 
 def _run(arguments: argparse.Namespace) -> int:
     require_writable(arguments.json)
-    require_writable(arguments.picture)
+    require_picture(arguments.picture)
     if arguments.frames:
         if arguments.picture:
             raise SettingsError(f"--picture {arguments.picture}: shows simulated presses and does not go with --frames")

@@ -38,15 +38,17 @@ def _run(arguments: argparse.Namespace) -> int:
     recordings, live, rate_hz = _SETS[arguments.which](arguments.source)
     length = np.array([len(frames) for _, frames in recordings])
     try:
-        np.savez_compressed(
-            arguments.output,
-            frames=np.concatenate([frames for _, frames in recordings]),
-            rate_hz=rate_hz,
-            live=live,
-            start=np.cumsum(length) - length,
-            length=length,
-            label=np.array([label for label, _ in recordings]),
-        )
+        # An open file: numpy would append .npz to any other name.
+        with arguments.output.open("wb") as file:
+            np.savez_compressed(
+                file,
+                frames=np.concatenate([frames for _, frames in recordings]),
+                rate_hz=rate_hz,
+                live=live,
+                start=np.cumsum(length) - length,
+                length=length,
+                label=np.array([label for label, _ in recordings]),
+            )
     except OSError as error:
         raise RecordingError(f"{arguments.output}: cannot be written ({error.strerror})") from error
     print(f"{arguments.output}: {len(recordings)} recordings, {length.sum()} frames")

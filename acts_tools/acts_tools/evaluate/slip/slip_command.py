@@ -26,7 +26,7 @@ from acts_core.settings import default_of, describe
 from acts_recon.slip import SlipConfig, SlipDetector
 from acts_tools.arguments import real
 from acts_tools.evaluate import report
-from acts_tools.output_file import require_writable
+from acts_tools.output_file import require_picture
 
 # A grip is steady where its force changes by less than this share of its largest, for this time before and after.
 _STEADY_SHARE = 0.05
@@ -158,7 +158,7 @@ def _steady(sums: NDArray[np.float32], reach: int) -> NDArray[np.bool_]:
 
 def _run(arguments: argparse.Namespace) -> int:
     results = report.Results(arguments.json, {"frames": str(arguments.frames)})
-    require_writable(arguments.picture)
+    require_picture(arguments.picture)
     config = SlipConfig(**{name: getattr(arguments, name) for name in describe(SlipConfig)})
     recorded = load_frames(arguments.frames, labels=True)
     rate_hz = arguments.rate_hz or recorded.rate_hz

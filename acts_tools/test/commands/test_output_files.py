@@ -1,0 +1,62 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Output files that cannot be: every command refuses them before its work, and writes nothing beside them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from acts_tools.cli import main
+
+pytestmark = pytest.mark.slow
+
+COMMANDS = [
+    ["selftest", "--sim", "--picture"],
+    ["selftest", "--sim", "--json"],
+    ["evaluate", "objects", "--picture"],
+    ["evaluate", "objects", "--json"],
+    ["evaluate", "classification", "--picture"],
+    ["evaluate", "classification", "--json"],
+    ["evaluate", "slip", "--frames", "/no.npz", "--picture"],
+    ["evaluate", "slip", "--frames", "/no.npz", "--json"],
+    ["evaluate", "gait", "--json"],
+    ["evaluate", "hand", "--scenario", "slip", "--json"],
+    ["evaluate", "convert", "insole", "/no", "-o"],
+    ["bench", "--json"],
+    ["doctor", "--json"],
+    ["train", "-o"],
+    ["library", "-o"],
+]
+
+
+@pytest.mark.parametrize("words", COMMANDS, ids=lambda words: " ".join(words))
+def test_a_folder_is_no_file_to_write(words: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    folder = tmp_path / "results"
+    folder.mkdir()
+    assert main([*words, str(folder)]) == 1
+    assert f"{folder}: cannot be written (Is a directory)" in capsys.readouterr().err
+    assert list(tmp_path.rglob("*")) == [folder]
+
+
+@pytest.mark.parametrize("name", ["results", "results.doc"])
+@pytest.mark.parametrize(
+    "words", [words for words in COMMANDS if words[-1] == "--picture"], ids=lambda words: " ".join(words)
+)
+def test_a_picture_says_its_kind(
+    words: list[str], name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([*words, str(tmp_path / name)]) == 1
+    assert f"{name}: no name of a picture; allowed are names that end in .png, .svg, .pdf" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(("words", "name"), [(["ball_balancing"], "ball_balancing"), (["hand", "slip"], "hand")])
+def test_a_demo_writes_its_files_or_does_not_begin(
+    words: list[str], name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / f"{name}.png").mkdir()
+    assert main(["demo", *words, "--out", str(tmp_path)]) == 1
+    assert f"{name}.png: cannot be written (Is a directory)" in capsys.readouterr().err
