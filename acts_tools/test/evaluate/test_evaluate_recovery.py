@@ -43,11 +43,11 @@ def scored(dictionary: Dictionary, frames: NDArray[np.uint16], method: str = "la
     return evaluate([Recording(frames, 1000.0, LIVE)], Task(sampling, method, **task), dictionary)
 
 
-def command(tmp_path: Path, frames: NDArray[np.uint16], *options: str, **arrays: object) -> list[dict]:
+def command(tmp_path: Path, frames: NDArray[np.uint16], *options: str, code: int = 0, **arrays: object) -> list[dict]:
     np.savez(tmp_path / "frames.npz", frames=frames, **{"rate_hz": 1000.0, **arrays})
     out = tmp_path / "out.json"
     words = ["evaluate", "recovery", "--frames", str(tmp_path / "frames.npz"), "--json", str(out), *options]
-    assert main(words) == 0
+    assert main(words) == code
     return json.loads(out.read_text())["results"]
 
 
@@ -85,8 +85,13 @@ def test_options_that_are_given_again_add_to_one_another(tmp_path: Path) -> None
     assert [(r["scheme"], r["m"], r["method"]) for r in results] == expected
 
 
-def test_a_recording_without_contact_has_no_scores(tmp_path: Path) -> None:
-    (result,) = command(tmp_path, still(30, []))
+def test_a_recording_without_contact_has_no_scores_and_that_is_said(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (result,) = command(tmp_path, still(30, []), code=1)
+    said = capsys.readouterr().err
+    assert "nothing was scored, since no frame ends in a contact" in said
+    assert "above --touch-counts 50" in said
     assert result["frames"] == 0
     assert result["relative_error"] is None
     assert result["cop_error_taxels"] == {"mean": None, "median": None, "p95": None}
@@ -259,7 +264,7 @@ def test_bad_files_are_refused(tmp_path: Path, arrays: dict, message: str, capsy
 
 def test_frames_in_volts_are_told_from_counts(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     np.savez(tmp_path / "volts.npz", frames=np.full((30, 32, 32), 3.3), rate_hz=1000.0)
-    assert main(["evaluate", "recovery", "--frames", str(tmp_path / "volts.npz")]) == 0
+    assert main(["evaluate", "recovery", "--frames", str(tmp_path / "volts.npz")]) == 1
     assert "the largest count is 3, and only what is above 50 is a contact" in capsys.readouterr().err
 
 

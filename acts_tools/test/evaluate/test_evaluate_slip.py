@@ -73,6 +73,16 @@ def test_slip_is_told_on_the_patch_and_at_the_time_where_it_is(
     assert picture.read_bytes().startswith(b"\x89PNG")
 
 
+def test_a_recording_in_which_nothing_is_pressed_is_nothing_to_watch(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = save(tmp_path / "f.npz", np.zeros((50, 20, 8), dtype=np.uint16))
+    assert main(["evaluate", "slip", "--frames", str(path)]) == 1
+    assert "nothing could be watched, since no patch is pressed: the counts of one sum up to 0 at most" in (
+        capsys.readouterr().err
+    )
+
+
 def test_patches_that_are_no_rectangles_are_refused_by_their_place(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

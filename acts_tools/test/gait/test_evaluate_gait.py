@@ -114,6 +114,15 @@ def test_one_foot_with_a_rate_and_labels(tmp_path: Path) -> None:
     assert whole["double_support"] is None
 
 
+def test_insoles_without_a_step_are_nothing_to_compare(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "none.npz"
+    np.savez(path, frames=np.zeros((100, 2, 5, 5)), rate_hz=20.0)
+    assert main(["evaluate", "gait", "--frames", str(path)]) == 1
+    said = capsys.readouterr().err
+    assert "nothing could be compared" in said
+    assert "frames hold 0 to 0; needed are recordings of somebody who walks" in said
+
+
 @pytest.mark.parametrize(
     ("change", "message"),
     [

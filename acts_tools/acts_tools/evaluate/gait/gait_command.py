@@ -13,6 +13,9 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
+from acts_core.errors import RecordingError
 from acts_recon.gait import FEET, GaitConfig
 from acts_tools.arguments import real
 from acts_tools.evaluate import report
@@ -102,6 +105,14 @@ def _run_recorded(arguments: argparse.Namespace) -> int:
         entry = _recorded(recording, found)
         results.add(entry)
         print(_recorded_lines(entry), flush=True)
+    feet = [foot for entry in results.entries for foot in entry["feet"].values()]
+    if not any(foot["steps"] or foot["curve_steps"] for foot in feet):
+        least, most = (extreme([float(extreme(one.frames)) for one in recordings]) for extreme in (np.min, np.max))
+        raise RecordingError(
+            f"{arguments.frames}: nothing could be compared, since neither a step is found nor does the force curve "
+            f"show one; frames hold {least:g} to {most:g}; needed are recordings of somebody who walks, with larger "
+            "numbers where the foot presses more"
+        )
     return 0
 
 

@@ -53,7 +53,13 @@ def _run(arguments: argparse.Namespace) -> int:
     dictionary = options.dictionary(arguments)
     source = arguments.frames.name if arguments.frames else f"{arguments.presses} presses"
     about = {"frames_file": source, **options.as_report(arguments)}
-    evaluate_all(recordings, tasks, dictionary, report.Results(arguments.json, about))
+    results = report.Results(arguments.json, about)
+    evaluate_all(recordings, tasks, dictionary, results)
+    if not any(entry["frames"] or entry["onset"]["frames"] for entry in results.entries):
+        raise RecordingError(
+            f"{source}: nothing was scored, since no frame ends in a contact; needed are recordings with taxels above "
+            f"--touch-counts {tasks[0].touch_counts}"
+        )
     return 0
 
 

@@ -181,6 +181,13 @@ def _run(arguments: argparse.Namespace) -> int:
     results.add(total)
     if arguments.picture:
         _draw(arguments.picture, watched)
+    if not total["pressed"]:
+        largest = max(int(recorded.frames[:, rows, cols].sum(axis=(1, 2)).max()) for rows, cols in boxes)
+        raise RecordingError(
+            f"{arguments.frames}: nothing could be watched, since no patch is pressed: the counts of one sum up to "
+            f"{largest} at most; needed are ADC counts of 10 bits that reach {config.slip_min_counts:g} "
+            "(--slip-min-counts)"
+        )
     return 0
 
 
