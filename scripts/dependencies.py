@@ -32,6 +32,7 @@ KEYS = {
 }
 # Without a key: they are in requirements-ros.txt, or a command that needs one says how to install it.
 WITHOUT_KEY = {"dashboard_client", "mujoco", "playwright", "pyarrow", "rosbags", "rtde_control", "rtde_receive"}
+WITHOUT_KEY |= {"backports", "compression", "lz4"}  # rosbags brings them
 WITHOUT_KEY |= {"websockets"}
 EXECUTION = ("depend", "exec_depend")
 TESTS = (*EXECUTION, "test_depend")

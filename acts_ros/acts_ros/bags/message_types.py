@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import importlib
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -118,11 +119,23 @@ def _hash(name: str, definition: str, kind: MessageDefinitionFormat) -> str:
     """Hash of a definition, for comparison only: for types with ``char`` fields it differs from that of ROS."""
     store = get_typestore(Stores.EMPTY)
     try:
-        is_msg = kind == MessageDefinitionFormat.MSG
-        store.register(get_types_from_msg(definition, name) if is_msg else get_types_from_idl(definition))
+        if kind == MessageDefinitionFormat.MSG:
+            store.register(get_types_from_msg(definition, name))
+        for one in _idl_parts(definition) if kind == MessageDefinitionFormat.IDL else ():
+            store.register(get_types_from_idl(one))
         return store.hash_rihs01(name)
     except Exception as error:  # rosbags raises errors of many types on an invalid text
         raise RecordingError(f"the recorded definition of {name} cannot be read: {error}") from error
+
+
+def _idl_parts(definition: str) -> list[str]:
+    """The IDL of each type of a definition as rosbag2 writes it: behind lines of 80 ``=`` and the type's name.
+
+    Without the ``#include`` lines, which rosbags does not take.
+    """
+    definition = re.sub(r"^#.*$", "", definition, flags=re.MULTILINE)
+    first, *others = re.split(r"^={80}\nIDL: .*$", definition, flags=re.MULTILINE)
+    return [*([first] if first.strip() else []), *others]
 
 
 def _split(name: str) -> tuple[str, str, str]:

@@ -5,24 +5,27 @@
 
 from __future__ import annotations
 
+import shutil
+import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, cast
+from typing import cast
 
 from rosbags.interfaces import Connection, ConnectionExtRosbag2, Qos
-from rosbags.rosbag2 import Reader
-from rosbags.rosbag2.storage_mcap import McapReader
 
 from acts_core.errors import RecordingError
 from acts_core.files import TEXT_BYTES_MAX, is_there, require_regular
 from acts_ros.bags.message_types import Definitions
-from acts_ros.bags.salvage import WholeRecords, largest_chunk
+from acts_ros.bags.salvage import largest_chunk
+from acts_ros.bags.storages import BagReader
+from acts_ros.bags.unfinished import SUFFIXES, UnfinishedBag, storage_files
+from acts_ros.bags.unpacking import CHUNK_BYTES_MAX, unpack, unpacked_bytes
 
-# Recorders close a chunk after some megabytes. It is unpacked as a whole, so a larger one could fill the memory.
-_CHUNK_BYTES_MAX = 1 << 28
-_NEEDED = "give the folder that `acts record` or `ros2 bag record` made, or its .mcap file"
+# How a message begins that zstd or lz4 has compressed; a serialised one begins with 0.
+_PACKED = (b"\x28\xb5\x2f\xfd", b"\x04\x22\x4d\x18")
+_NEEDED = "give the folder that `acts record` or `ros2 bag record` made, or its .mcap or .db3 file"
 
 
 @dataclass
@@ -39,7 +42,7 @@ class Bag:
 
     connections: list[Connection]
     note: str | None
-    _reader: Reader | McapReader
+    _reader: BagReader | UnfinishedBag
     _path: Path
     _definitions: Definitions = field(default_factory=Definitions)
 
@@ -76,7 +79,7 @@ class Bag:
         RecordingError
             The bag is damaged.
         """
-        if isinstance(self._reader, Reader):
+        if isinstance(self._reader, BagReader):
             return self._reader.start_time, self._reader.end_time
         begin_ns = end_ns = 0
         for _, stamp_ns, _ in self.messages([topic]):
@@ -101,13 +104,19 @@ class Bag:
         if not wanted:
             return
         count = 0
-        reader = self._reader
+        are_packed = isinstance(self._reader, BagReader) and self._reader.packs_messages
         try:
-            read = reader.messages_scan if isinstance(reader, McapReader) else reader.messages
-            messages = read(wanted, start=from_ns)
-            for connection, stamp_ns, data in messages:
-                yield connection.topic, stamp_ns, bytes(data)
+            for connection, stamp_ns, data in self._reader.messages(wanted, start=from_ns):
+                message = unpack(data, "zstd") if are_packed else bytes(data)
+                if message[:4] in _PACKED:
+                    raise RecordingError(
+                        f"messages of {connection.topic} are compressed one by one, and nothing here says how; "
+                        "`ros2 bag reindex` restores a lost metadata.yaml, `ros2 bag convert` unpacks them"
+                    )
+                yield connection.topic, stamp_ns, message
                 count += 1
+        except RecordingError as error:
+            raise RecordingError(f"the bag '{self._path}', after {count} messages: {error}") from error
         except Exception as error:  # rosbags raises errors of many types on damaged bags
             raise RecordingError(f"the bag '{self._path}' is damaged after {count} messages: {error}") from error
         expected = sum(connection.msgcount for connection in wanted)
@@ -142,52 +151,76 @@ def open_bag(path: Path) -> Iterator[Bag]:
 
 
 def _check_files(path: Path) -> None:
-    """Refuse files that are not regular or too large, and chunks that unpack to more than `_CHUNK_BYTES_MAX`."""
+    """Refuse files that are not regular or too large, and what unpacks to more than is allowed."""
     for file in path.iterdir() if path.is_dir() else [path]:
         size = require_regular(file, error=RecordingError)
         if file.name == "metadata.yaml" and size > TEXT_BYTES_MAX:
             raise RecordingError(f"{file}: {size / 1e6:.1f} MB; allowed are {TEXT_BYTES_MAX / 1e6:.1f} MB")
-        if file.suffix == ".mcap":
-            try:
-                with file.open("rb") as stream:
-                    largest = largest_chunk(stream)
-            except (OSError, RecordingError) as error:
-                raise RecordingError(f"{file}: {error}") from error
-            if largest > _CHUNK_BYTES_MAX:
-                raise RecordingError(
-                    f"{file}: a chunk of {largest / 1e6:.0f} MB unpacked; allowed are {_CHUNK_BYTES_MAX / 1e6:.0f} MB"
-                )
+        # A recorder that was killed may have begun a further file.
+        if file.suffix == ".mcap" and (size or not path.is_dir()):
+            _check_chunks(file)
+    _check_space(path)
 
 
-def _open_reader(path: Path) -> tuple[Reader | McapReader, str | None]:
+def _check_chunks(file: Path) -> None:
+    """Refuse chunks that unpack to more than `CHUNK_BYTES_MAX`."""
+    try:
+        with file.open("rb") as stream:
+            largest = largest_chunk(stream)
+    except (OSError, RecordingError) as error:
+        raise RecordingError(f"{file}: {error}") from error
+    if largest > CHUNK_BYTES_MAX:
+        raise RecordingError(
+            f"{file}: a chunk of {largest / 1e6:.0f} MB unpacked; allowed are {CHUNK_BYTES_MAX / 1e6:.0f} MB"
+        )
+
+
+def _check_space(path: Path) -> None:
+    """Refuse files that are compressed as a whole, and do not fit unpacked where temporary files are."""
+    packed = [file for file in path.iterdir() if file.suffix == ".zstd"] if path.is_dir() else []
+    if not packed or not (path / "metadata.yaml").exists():
+        return
+    folder = tempfile.gettempdir()
+    left = shutil.disk_usage(folder).free
+    for file in packed:
+        left -= unpacked_bytes(file, left)
+        if left < 0:
+            raise RecordingError(
+                f"{file}: unpacked it is larger than the space in {folder}; unpack the bag where there is more, by "
+                "`ros2 bag convert`, or set TMPDIR"
+            )
+
+
+def _open_reader(path: Path) -> tuple[BagReader | UnfinishedBag, str | None]:
     if path.is_dir() and not (path / "metadata.yaml").exists():
-        return _salvage(path, "no metadata.yaml"), (
-            f"the bag '{path}' was never closed (recorder killed, or disk full); its complete records are read"
+        return _open_unfinished(
+            path, "it has no metadata.yaml", f"the bag '{path}' was never closed (recorder killed, or disk full)"
         )
     try:
         return _open_complete(path), None
     except RecordingError as error:
-        return _salvage(path, str(error)), f"the bag '{path}' is damaged ({error}); its complete records are read"
+        return _open_unfinished(path, str(error), f"the bag '{path}' is damaged or of another version ({error})")
 
 
-def _open_complete(path: Path) -> Reader:
+def _open_complete(path: Path) -> BagReader:
     try:
-        reader = Reader(path)
+        reader = BagReader(path)
         reader.open()
-    except Exception as error:
+    except Exception as error:  # rosbags raises errors of many types on damaged bags
         raise RecordingError(str(error) or type(error).__name__) from error
     return reader
 
 
-def _salvage(path: Path, reason: str) -> McapReader:
-    """Read the complete records of an MCAP file that has no index."""
-    files = sorted(path.glob("*.mcap")) if path.is_dir() else [path]
+def _open_unfinished(path: Path, reason: str, note: str) -> tuple[UnfinishedBag, str]:
+    """Read the complete records of files without an index, and say so."""
+    files = storage_files(path)
     if not files:
-        raise RecordingError(f"'{path}' holds no bag that can be read: {reason}, no MCAP file; {_NEEDED}")
+        raise RecordingError(
+            f"'{path}' holds no bag that can be read: {reason}, and no file {' or '.join(SUFFIXES)}; {_NEEDED}"
+        )
     try:
-        # Of a path, rosbags uses only `open`.
-        reader = McapReader(cast(Any, WholeRecords(files[0])))
-        reader.open()
-    except Exception as damage:
+        bag = UnfinishedBag(files)
+    except RecordingError as damage:
         raise RecordingError(f"nothing in the bag '{path}' can be read: {damage}; {_NEEDED}") from damage
-    return reader
+    unread = f"; not read: {'; '.join(bag.unread)}" if bag.unread else ""
+    return bag, f"{note}; its complete records are read{unread}"

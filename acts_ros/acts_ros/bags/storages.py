@@ -1,0 +1,139 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Readers of a bag's files that take what rosbag2 writes and the library rosbags refuses, and unpack within limits."""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Collection, Generator, Iterable
+from functools import partial
+from typing import Any
+
+from rosbags.interfaces import Connection
+from rosbags.rosbag2 import Reader, storage_mcap
+from rosbags.rosbag2.errors import ReaderError
+from rosbags.rosbag2.reader import DirectoryReader
+from rosbags.rosbag2.storage_mcap import McapReader, Schema
+from rosbags.rosbag2.storage_sqlite3 import Sqlite3Reader
+
+from acts_ros.bags.unpacking import CHUNK_BYTES_MAX, unpack
+
+
+def _unpack_chunk(kind: str, data: bytes, size: int) -> bytes:
+    """Unpack no more of a chunk than it is said to hold, where rosbags would unpack all there is."""
+    return unpack(data, kind, min(size, CHUNK_BYTES_MAX))
+
+
+storage_mcap.DECOMPRESSORS.update({kind: partial(_unpack_chunk, kind) for kind in ("lz4", "zstd")})
+
+Message = tuple[Connection, int, bytes]
+"""Topic, stamp [ns] and serialised message."""
+
+# Far longer than a recorder's queues, and not too much to be kept in memory.
+_DISORDER_NS = 2_000_000_000
+
+_ENCODINGS = ("ros2msg", "ros2idl", "omgidl", "")
+
+
+def in_order(messages: Iterable[Message]) -> Generator[Message, None, None]:
+    """Messages by their stamps, as far as they are at most `_DISORDER_NS` behind later ones."""
+    waiting: list[tuple[int, int, Connection, bytes]] = []
+    newest_ns = 0
+    for number, (connection, stamp_ns, data) in enumerate(messages):
+        heapq.heappush(waiting, (stamp_ns, number, connection, data))
+        newest_ns = max(newest_ns, stamp_ns)
+        while waiting[0][0] < newest_ns - _DISORDER_NS:
+            due_ns, _, due, due_data = heapq.heappop(waiting)
+            yield due, due_ns, due_data
+    while waiting:
+        due_ns, _, due, due_data = heapq.heappop(waiting)
+        yield due, due_ns, due_data
+
+
+class _Schemas(dict[int, Schema]):
+    """Schemas by number; one in an encoding that is not known counts as none.
+
+    rosbag2 writes the encoding ``unknown`` where it finds no definition, for instance of the messages of an action.
+    """
+
+    def __setitem__(self, number: int, schema: Schema) -> None:
+        known = schema if schema.encoding in _ENCODINGS else schema._replace(encoding="", data="")
+        super().__setitem__(number, known)
+
+
+class McapFileReader(McapReader):
+    """Reads an MCAP file, whatever the encodings of its definitions and the order of its messages."""
+
+    def __init__(self, path: Any) -> None:
+        super().__init__(path)
+        self.schemas = _Schemas()
+
+    def messages(
+        self, connections: Collection[Connection], start: int | None = None, stop: int | None = None
+    ) -> Generator[Message, None, None]:
+        """Topic, stamp [ns] and serialised message, in the order of the stamps."""
+        if self.chunks:
+            yield from super().messages(connections, start, stop)
+            return
+        # As rosbag2's preset `fastwrite` leaves it: without chunks, and messages as they were taken from their queues.
+        yield from in_order(self.messages_scan(connections, start, stop))
+
+
+class SqliteFileReader(Sqlite3Reader):
+    """Reads a ``.db3`` file; names an encoding of a definition that cannot be read."""
+
+    def _open(self) -> None:
+        try:
+            super()._open()
+        except KeyError as error:
+            raise ReaderError(
+                f"it has a message definition in the encoding {error}; `ros2 bag convert` to MCAP makes it readable"
+            ) from error
+
+
+class FolderReader(DirectoryReader):
+    """Reads a folder with ``metadata.yaml``."""
+
+    STORAGE_PLUGINS = {"mcap": McapFileReader, "sqlite3": SqliteFileReader}  # noqa: RUF012
+
+    def __init__(self, path: Any) -> None:
+        super().__init__(path)
+        self.packs_messages = False
+        """Whether each message is compressed by zstd, and given as it is."""
+
+    def open(self) -> None:
+        """Open all files."""
+        super().open()
+        self.packs_messages = self.metadata.compression_mode == "message"
+
+    def messages(
+        self, connections: Collection[Connection], start: int | None = None, stop: int | None = None
+    ) -> Generator[Message, None, None]:
+        """Messages of all files, one file after another.
+
+        rosbags would leave out topics whose quality of service a file says otherwise than ``metadata.yaml``, and unpack
+        messages without a limit.
+        """
+        wanted = {(connection.topic, connection.msgtype): connection for connection in connections}
+        for storage in self.storages:
+            own = {
+                one.id: wanted[one.topic, one.msgtype]
+                for one in storage.connections
+                if (one.topic, one.msgtype) in wanted
+            }
+            if own:
+                chosen = [one for one in storage.connections if one.id in own]
+                for connection, stamp_ns, data in storage.messages(chosen, start, stop):
+                    yield own[connection.id], stamp_ns, data
+
+
+class BagReader(Reader):
+    """Reads a folder with ``metadata.yaml``, or one file."""
+
+    STORAGE_PLUGINS = {"dir": FolderReader, ".mcap": McapFileReader, ".db3": SqliteFileReader}  # noqa: RUF012
+
+    @property
+    def packs_messages(self) -> bool:
+        """Whether each message is compressed by zstd, and given as it is."""
+        return isinstance(self.storage, FolderReader) and self.storage.packs_messages
