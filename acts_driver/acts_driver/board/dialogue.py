@@ -35,12 +35,19 @@ REPLY_TIMEOUT_S = 0.1
 TRIES = 3
 """How often a command is sent before the board counts as silent. Repeating one is harmless."""
 
+CATCH_UP_S = 1.0
+"""How long it is waited for the thread that reads, before it is said that a board does not answer."""
+
 Write = Callable[[bytes, float], None]
 """Writes bytes to the board within a time [s], or raises `PortError`; see `acts_driver.port.source.Source.write`."""
 
 
 class NoAnswerError(BoardError):
     """The board does not answer: an older firmware, another sketch, or a stuck one."""
+
+
+class NotHeardError(NoAnswerError):
+    """Whether the board answers is not known: this machine is too busy to read what it sends."""
 
 
 class RefusedError(BoardError):
@@ -64,10 +71,21 @@ class BoardLink:
         How long a reply is waited for, and how long writing may take [s].
     tries : int
         How often a command is sent.
+    catch_up : callable
+        Waits up to a time [s] until all that has arrived is decoded, and says whether it is; see `Reader.catch_up`.
     """
 
-    def __init__(self, write: Write, *, reply_timeout_s: float = REPLY_TIMEOUT_S, tries: int = TRIES) -> None:
+    def __init__(
+        self,
+        write: Write,
+        *,
+        reply_timeout_s: float = REPLY_TIMEOUT_S,
+        tries: int = TRIES,
+        catch_up: Callable[[float], bool] = lambda timeout_s: True,
+    ) -> None:
         self._write = write
+        self._catch_up = catch_up
+        self._has_answered = False
         self._timeout_s = reply_timeout_s
         self._tries = tries
         self._turn = threading.Lock()
@@ -82,6 +100,7 @@ class BoardLink:
             with self._arrived:
                 if message.request == self._request:
                     self._reply = message
+                    self._has_answered = True
                     self._arrived.notify_all()
 
     def query(self) -> Reply:
@@ -90,7 +109,7 @@ class BoardLink:
         Raises
         ------
         NoAnswerError
-            No reply came, however often it was asked.
+            No reply came, however often it was asked; `NotHeardError` where one may have come that was not read yet.
         PortError
             The port is not open, was lost, or takes no bytes.
         RefusedError
@@ -166,6 +185,18 @@ class BoardLink:
                     if self._arrived.wait_for(lambda: self._reply is not None, self._timeout_s):
                         assert self._reply is not None
                         return self._reply
+            # Not before this machine has seen that there is none: a busy one reads late.
+            has_heard_all = self._catch_up(CATCH_UP_S)
+            with self._arrived:
+                if self._reply is not None:
+                    return self._reply
+        if not has_heard_all:
+            raise NotHeardError(
+                "this machine is too slow or too busy to read all that the board sends, an answer among it perhaps "
+                "(acts doctor tells)"
+            )
+        if self._has_answered:
+            raise NoAnswerError("the board does not answer commands any more (it hangs, or is another one)")
         raise NoAnswerError("the board does not answer commands (an older firmware, or another sketch)")
 
     @staticmethod

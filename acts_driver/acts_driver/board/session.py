@@ -13,7 +13,7 @@ from pathlib import Path
 
 from acts_core.errors import ActsError, BoardError, PortError
 from acts_core.wire import BoardModel, BoardSettings, BoardState, ReplyStatus
-from acts_driver.board.dialogue import BoardLink, NoAnswerError, RefusedError
+from acts_driver.board.dialogue import BoardLink, NoAnswerError, NotHeardError, RefusedError
 from acts_driver.board.layout import BoardLayout
 from acts_driver.board.model_file import ModelFile
 from acts_driver.board.parameters import BoardParameters
@@ -228,6 +228,11 @@ class BoardSession:
             state = self._link.query().state
         except PortError as error:
             self._set(BoardStatus(problem=str(error)))
+            return False
+        except NotHeardError as error:
+            # What was known of the board still is.
+            if self.status.state is None and not self.status.is_silent:
+                self._set(BoardStatus(problem=str(error)))
             return False
         except NoAnswerError as error:
             self._set(BoardStatus(problem=str(error), is_silent=True))

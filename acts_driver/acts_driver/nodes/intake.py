@@ -66,7 +66,7 @@ class Intake:
         self._consume = consume
         self._log = log
         self._results = BoardResults()
-        self._link = BoardLink(source.write)
+        self._link = BoardLink(source.write, catch_up=lambda timeout_s: self.reader.catch_up(timeout_s))
         decoder = settings.make_decoder(self._receive)
         self._stale_frames = StaleFrames(decoder)
         self.stream = FrameStream(*size, has_board_clock=decoder.has_board_clock)

@@ -25,6 +25,7 @@ LogCallback = Callable[[str, str], None]
 
 _FIRST_RETRY_S = 0.02
 _STOP_S = 5.0
+_DISCARDED_S = 1.0
 
 
 class Reader:
@@ -93,6 +94,9 @@ class Reader:
         self._thread = threading.Thread(target=self._run, name="acts_reader", daemon=True)
         self._consumer_error = ""
         self._discards = False
+        self._discarded_s = -_DISCARDED_S
+        self._is_asked = False
+        self._caught_up = threading.Event()
         self.connected = False
         self.problem = ""
         self.reconnects = 0
@@ -119,6 +123,18 @@ class Reader:
         """Throw away what waits to be read; to be called by `on_frames`."""
         self._discards = True
 
+    def catch_up(self, timeout_s: float) -> bool:
+        """Wait until all that has arrived by now is decoded, and say whether it is; from one other thread at a time.
+
+        It is not where that takes longer than `timeout_s`, or where bytes were thrown away within the last second.
+        """
+        if not self.connected:
+            return True
+        self._caught_up.clear()
+        self._is_asked = True
+        is_decoded = self._caught_up.wait(timeout_s)
+        return is_decoded and time.monotonic() - self._discarded_s >= _DISCARDED_S
+
     def _run(self) -> None:
         was_lost = False
         while not self._stop.is_set():
@@ -129,6 +145,7 @@ class Reader:
             # Also what nobody expects: a thread that has ended reads no more, and nobody would be told.
             except Exception as error:  # noqa: BLE001
                 self.connected = False
+                self._caught_up.set()
                 was_lost = True
                 self.problem = _told(error)
                 self._source.close()
@@ -162,9 +179,13 @@ class Reader:
         while not self._stop.is_set():
             data = read()
             arrival_ns = now_ns()
+            frames = feed(data) if data else []
+            # In this order: what arrives after the question need not be decoded for the answer.
+            if self._is_asked and not self._source.waits():
+                self._is_asked = False
+                self._caught_up.set()
             if not data:
                 continue
-            frames = feed(data)
             if frames or has_results():
                 self._hand_on(frames, arrival_ns)
                 if self._realtime is not None:
@@ -173,6 +194,7 @@ class Reader:
                     self._realtime = None
             if self._discards:
                 self._discards = False
+                self._discarded_s = time.monotonic()
                 self._source.discard()
                 # The packet whose end is gone is no error.
                 self._decoder.reset()

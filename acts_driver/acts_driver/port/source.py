@@ -56,6 +56,9 @@ class Source(Protocol):
         Raises `PortError` when the stream was lost.
         """
 
+    def waits(self) -> bool:
+        """Whether bytes have arrived that were not read; on the thread that reads."""
+
     def write(self, data: bytes, timeout_s: float) -> None:
         """Give bytes to the board, waiting up to `timeout_s` for room. From any thread.
 
@@ -136,6 +139,10 @@ class SerialSource:
             # An unplugged port is always ready and has nothing to give.
             raise PortError(f"port {self.name} was lost: end of stream")
         return data
+
+    def waits(self) -> bool:
+        """Whether bytes have arrived that were not read."""
+        return bool(self._poll.poll(0))
 
     def write(self, data: bytes, timeout_s: float) -> None:
         """Write all of it, or raise `PortError` when the port is not open, is lost, or stays full."""

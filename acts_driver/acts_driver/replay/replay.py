@@ -141,6 +141,10 @@ class ReplaySource:
             self._prepare()
         return b"".join(data)
 
+    def waits(self) -> bool:
+        """Nothing of a recording arrives before it is read."""
+        return False
+
     def discard(self) -> None:
         """A recording waits by itself for a reader that is late."""
 

@@ -30,7 +30,15 @@ from acts_core.wire import (
     patch_dictionary,
 )
 from acts_core.wire.board_models import ModelKind
-from acts_driver.board import BoardLink, BoardParameters, BoardSession, BoardStatus, NoAnswerError, RefusedError
+from acts_driver.board import (
+    BoardLink,
+    BoardParameters,
+    BoardSession,
+    BoardStatus,
+    NoAnswerError,
+    NotHeardError,
+    RefusedError,
+)
 from acts_driver.board.model_file import load_model
 from acts_driver.port import Reader, SerialSource
 
@@ -46,7 +54,9 @@ class Host:
 
     def __init__(self, path: Path, reply_timeout_s: float = PATIENT_S, write_limit_s: float = 10.0) -> None:
         self.source = SerialSource(str(path))
-        self.link = BoardLink(self.source.write, reply_timeout_s=reply_timeout_s)
+        self.link = BoardLink(
+            self.source.write, reply_timeout_s=reply_timeout_s, catch_up=lambda timeout_s: self.catch_up(timeout_s)
+        )
         self.decoder = StreamDecoder(self.link.receive)
         self.sizes: list[int] = []
         self.published = 0
@@ -62,6 +72,9 @@ class Host:
         self.sizes += [len(one.indices) for one in frames]  # type: ignore[attr-defined]
         if self.session is not None and self.session.may_publish:
             self.published += len(frames)
+
+    def catch_up(self, timeout_s: float) -> bool:
+        return self.reader.catch_up(timeout_s)
 
     def reconnected(self) -> None:
         if self.session is not None:
@@ -132,6 +145,63 @@ def test_a_silent_board_costs_bounded_time(tmp_path: Path) -> None:
         host = Host(board.path, reply_timeout_s=0.02)
         with pytest.raises(NoAnswerError, match="does not answer commands"):
             host.link.query()
+        host.close()
+
+
+class BusyHost(Host):
+    """One whose consumer stands still until all tries of a command are over, or for good."""
+
+    def __init__(self, path: Path, *, gets_on: bool) -> None:
+        self._gets_on = gets_on
+        self._stands_still, self._goes_on = threading.Event(), threading.Event()
+        super().__init__(path, reply_timeout_s=0.02)
+        assert self._stands_still.wait(60.0)
+
+    def _take(self, frames: list[object], arrival_ns: int) -> None:
+        self._stands_still.set()
+        self._goes_on.wait(60.0)
+        super()._take(frames, arrival_ns)
+
+    def catch_up(self, timeout_s: float) -> bool:
+        if not self._gets_on:
+            return super().catch_up(0.0)
+        self._goes_on.set()
+        return super().catch_up(60.0)
+
+    def close(self) -> None:
+        self._goes_on.set()
+        super().close()
+
+
+def test_an_answer_that_this_machine_reads_late_is_one(board: VirtualBoard) -> None:
+    host = BusyHost(board.link, gets_on=True)
+    assert host.link.query().state.board_id == 77
+    host.close()
+
+
+def test_a_machine_that_does_not_get_to_reading_says_so_of_itself(board: VirtualBoard) -> None:
+    host = BusyHost(board.link, gets_on=False)
+    with pytest.raises(NotHeardError, match="this machine is too slow or too busy to read all"):
+        host.link.query()
+    session = host.start_session(m=64)
+    assert not session.status.is_silent
+    assert "this machine is too slow" in session.status.problem
+    host.close()
+
+
+def test_a_board_that_has_answered_before_is_no_older_firmware(tmp_path: Path) -> None:
+    control = tmp_path / "control"
+    with VirtualBoard(tmp_path / "board", "--control", str(control)) as board:
+        host = Host(board.link, reply_timeout_s=0.05)
+
+        def ask_until_it_is_frozen() -> None:
+            for _ in range(1000):
+                host.link.query()
+
+        host.link.query()
+        control.write_text("freeze:60\n")
+        with pytest.raises(NoAnswerError, match="does not answer commands any more"):
+            ask_until_it_is_frozen()
         host.close()
 
 

@@ -175,6 +175,29 @@ def test_a_failing_consumer_does_not_end_reading(board: PtyBoard, collector: Col
     assert collector.reader.connected
 
 
+def test_a_reader_tells_when_all_that_has_arrived_is_decoded(board: PtyBoard, collector: Collector) -> None:
+    goes_on = threading.Event()
+    take = collector.take
+
+    def wait(frames: list[SampleFrame], arrival_ns: int) -> None:
+        goes_on.wait(60.0)
+        take(frames, arrival_ns)
+
+    collector.reader = Reader(collector.source, collector.decoder, wait)
+    collector.open()
+    assert collector.reader.catch_up(60.0), "nothing has arrived"
+    board.write_frames(frame(0))
+    wait_for(lambda: collector.decoder.frames == 1, "the first frame")
+    board.write_frames(frame(1))
+    assert not collector.reader.catch_up(0.0), "its consumer stands still"
+    goes_on.set()
+    assert collector.reader.catch_up(60.0)
+    assert collector.decoder.frames == 2
+    board.unplug()
+    wait_for(lambda: not collector.reader.connected, "the loss")
+    assert collector.reader.catch_up(0.0), "nothing can arrive"
+
+
 def test_raster_lines(board: PtyBoard) -> None:
     collector = Collector(board.path, RasterDecoder(2, 2))
     collector.open()

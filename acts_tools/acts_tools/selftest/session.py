@@ -14,7 +14,7 @@ from dataclasses import replace
 from acts_core.errors import PortError
 from acts_core.frames import SampleFrame
 from acts_core.wire import BoardSettings, BoardState
-from acts_driver.board import BoardLink, NoAnswerError, RefusedError
+from acts_driver.board import BoardLink, NoAnswerError, NotHeardError, RefusedError
 from acts_driver.port import Reader, SerialSource
 from acts_driver.protocols import protocol_named
 from acts_driver.selftest import FrameRecord
@@ -46,7 +46,12 @@ class BoardReader:
         kind = protocol_named(protocol)
         self._takes_commands = kind.takes_commands
         # Longer timeouts than in the driver, because full frames are slow.
-        self._link = BoardLink(self._source.write, reply_timeout_s=_REPLY_S, tries=_TRIES)
+        self._link = BoardLink(
+            self._source.write,
+            reply_timeout_s=_REPLY_S,
+            tries=_TRIES,
+            catch_up=lambda timeout_s: self._reader.catch_up(timeout_s),
+        )
         self._decoder = kind.decoder(rows, cols, self._link.receive)
         self._batches: queue.SimpleQueue[tuple[list[SampleFrame], int]] = queue.SimpleQueue()
         self._reader = Reader(
@@ -72,11 +77,19 @@ class BoardReader:
         return self._decoder.has_board_clock
 
     def query(self) -> BoardState | None:
-        """The board's state; None where it has no commands."""
+        """The board's state; None where it has no commands.
+
+        Raises
+        ------
+        NotHeardError, PortError
+            The machine is too busy to read its answer, or the port was lost.
+        """
         if not self._takes_commands:
             return None
         try:
             return self._link.query().state
+        except NotHeardError:
+            raise
         except (NoAnswerError, RefusedError):
             return None
 
