@@ -49,7 +49,7 @@ def parameters_from(words: Sequence[str], nodes: Mapping[str, type]) -> dict[str
     usage = "%(prog)s [--set NODE.PARAMETER=VALUE ...] [--ros-args -p NAME:=VALUE --params-file FILE ...]"
     parser = argparse.ArgumentParser(usage=usage, add_help=False)
     parser.add_argument("--set", metavar="NODE.PARAMETER=VALUE", action="append", default=[])
-    with telling_wrong_arguments():
+    with telling_wrong_arguments(words):
         own = remove_ros_args(list(words))[1:]
     options = parser.parse_args(own)
     given: dict[str, dict[str, Parameter]] = {node: {} for node in nodes}

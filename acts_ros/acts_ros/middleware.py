@@ -14,7 +14,8 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterator, Mapping, MutableMapping
+import sys
+from collections.abc import Iterator, Mapping, MutableMapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -24,6 +25,7 @@ from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.logging import get_logger
 
 from acts_core.errors import SettingsError
+from acts_ros.names import check_remaps
 from acts_ros.processes import packages
 
 _RANGE, _LOCALHOST_ONLY = "ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_LOCALHOST_ONLY"
@@ -54,7 +56,8 @@ def init(**options: Any) -> None:
     """
     check_domain(os.environ)
     obstacle = choose_transports(os.environ, rclpy.get_rmw_implementation_identifier(), Path.cwd())
-    with telling_wrong_arguments():
+    given = options.get("args")
+    with telling_wrong_arguments(sys.argv if given is None else given):
         rclpy.init(**options)
     if obstacle is not None:
         get_logger("acts_ros").warning(
@@ -79,8 +82,9 @@ def check_domain(environment: Mapping[str, str]) -> None:
 
 
 @contextmanager
-def telling_wrong_arguments() -> Iterator[None]:
+def telling_wrong_arguments(words: Sequence[str]) -> Iterator[None]:
     """Raise `SettingsError` where ROS refuses a command line, for example a params file that is not YAML."""
+    check_remaps(words)
     try:
         yield
     except rclpy_implementation.RCLInvalidROSArgsError as error:

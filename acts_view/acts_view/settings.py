@@ -5,13 +5,11 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 
 from acts_core.errors import SettingsError
 from acts_core.settings import setting, validate
-
-_NAMESPACE = re.compile(r"(/[A-Za-z_][A-Za-z0-9_]*)+")
+from acts_ros.names import ALLOWED, is_full_name
 
 
 @dataclass(frozen=True)
@@ -46,10 +44,10 @@ class ViewSettings:
         if not self.record_dir:
             raise SettingsError("record_dir is empty: needed is a folder, such as recordings")
         for name in self.namespaces:
-            if _NAMESPACE.fullmatch(name) is None:
+            if not is_full_name(name):
                 raise SettingsError(
-                    f"skins: {name[1:]!r} is no namespace: allowed are letters, digits (not first) and _, parts with / "
-                    "between, and a comma between skins"
+                    f"skins: {name[1:]!r} is no namespace: allowed are {ALLOWED}, parts with / between, and a comma "
+                    "between skins"
                 )
 
     @property

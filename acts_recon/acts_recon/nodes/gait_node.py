@@ -28,6 +28,7 @@ from acts_ros.composition import parameters_from
 from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
 from acts_ros.messages import ContactFields, read_contact
+from acts_ros.names import ALLOWED, is_full_name
 from acts_ros.parameters import declare, node_options
 from acts_ros.polled import PollingNode
 
@@ -50,6 +51,11 @@ class GaitSettings(GaitConfig):
             raise SettingsError(
                 f"left = {self.left!r}, right = {self.right!r}: needed are the namespaces of two insoles, or of one"
             )
+        for name in filter(None, (self.left, self.right)):
+            if not is_full_name(f"/{name.removeprefix('/')}"):
+                raise SettingsError(
+                    f"left, right: {name!r} is no namespace: allowed are {ALLOWED}, parts with / between"
+                )
 
 
 class GaitNode(PollingNode):

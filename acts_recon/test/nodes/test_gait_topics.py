@@ -80,3 +80,10 @@ def test_steps_and_gait_of_two_insoles(make_peers: Callable[..., Peers]) -> None
 def test_feet_that_are_none_or_one_are_refused(feet: tuple[str, str]) -> None:
     with pytest.raises(SettingsError, match="needed are the namespaces of two insoles, or of one"):
         GaitSettings(left=feet[0], right=feet[1])
+
+
+@pytest.mark.parametrize("name", ["9a", "a-b", "a//b", "a/", "/"])
+def test_a_foot_that_can_be_no_namespace_is_refused(name: str) -> None:
+    with pytest.raises(SettingsError, match="is no namespace: allowed are letters, digits"):
+        GaitSettings(left=name)
+    GaitSettings(left="/left/sole_1")

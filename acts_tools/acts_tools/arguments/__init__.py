@@ -1,12 +1,11 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What people type after a command: numbers within a range, names of topics and namespaces.
+"""What people type after a command: numbers within a range.
 
-Words come in; numbers and names that can be used go out, or an error that says what is allowed.
+Words come in; numbers that can be used go out, or an error that says what is allowed.
 """
 
-from acts_tools.arguments.graph_names import full_name
 from acts_tools.arguments.numbers import at_least_one, random_seed, real, taxels, whole
 
-__all__ = ["at_least_one", "full_name", "random_seed", "real", "taxels", "whole"]
+__all__ = ["at_least_one", "random_seed", "real", "taxels", "whole"]

@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING
 
 from acts_core.errors import RecordingError
 from acts_ros.bags import require_rosbags
+from acts_ros.names import full_name
 from acts_tools import __version__
-from acts_tools.arguments import full_name
 
 if TYPE_CHECKING:
     from acts_ros.bags.recorder import Recorder

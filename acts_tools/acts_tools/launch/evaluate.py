@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import os
-import re
 import shutil
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
@@ -15,6 +14,7 @@ from pathlib import Path
 import yaml
 
 from acts_core.errors import LaunchError
+from acts_ros.names import ALLOWED, is_full_name, is_name
 from acts_ros.processes import packages
 from acts_ros.processes.process import Process
 from acts_tools.launch import parameters, substitutions
@@ -263,9 +263,8 @@ def _push_namespace(pushed: str, scope: Scope) -> None:
     previous = scope.variables.get(_NAMESPACE_VARIABLE)
     namespace = _absolute(_joined(previous, pushed))
     if not _is_namespace(namespace):
-        raise LaunchError(
-            f"The resulting namespace is invalid: [previous_namespace='{previous}', pushed_namespace='{pushed}']"
-        )
+        within = f" within '{previous}'" if previous else ""
+        raise LaunchError(f"'{pushed}'{within} is no namespace: allowed are {ALLOWED}, parts with one / between")
     scope.variables[_NAMESPACE_VARIABLE] = namespace
 
 
@@ -276,7 +275,7 @@ def _node_namespace(node: Node, scope: Scope) -> str | None:
         return None if pushed is None else _absolute(pushed)
     namespace = _absolute(_joined(pushed, own))
     if not _is_namespace(namespace):
-        raise LaunchError(f"Invalid namespace: '{namespace}' (letters, digits and '_', parts separated by one '/')")
+        raise LaunchError(f"'{namespace}' is no namespace: allowed are {ALLOWED}, parts with one / between")
     return namespace
 
 
@@ -291,15 +290,12 @@ def _absolute(namespace: str) -> str:
 
 
 def _is_namespace(text: str) -> bool:
-    return text == "/" or re.fullmatch(r"(/[A-Za-z_][A-Za-z0-9_]*)+", text) is not None
+    return text == "/" or is_full_name(text)
 
 
 def _node_name(name: str) -> str:
-    if re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", name) is None:
-        raise LaunchError(
-            f"Invalid node name: '{name}' (node name must not contain characters other than alphanumerics or '_', "
-            "nor start with a digit)"
-        )
+    if not is_name(name):
+        raise LaunchError(f"'{name}' is no name of a node: allowed are {ALLOWED}")
     return name
 
 

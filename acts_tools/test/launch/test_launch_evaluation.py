@@ -243,9 +243,16 @@ def test_respawn_output_and_programs_outside_of_packages(launch: Launch) -> None
         ('<node pkg="nope" exec="node"/>', "package 'nope' not found, searching: ["),
         ('<node pkg="fake" exec="nope"/>', "executable 'nope' not found on the libexec directory"),
         ('<node exec="no-such-program"/>', "executable 'no-such-program' not found on the PATH"),
-        ('<node pkg="fake" exec="node" name="a-b"/>', "Invalid node name: 'a-b'"),
-        ('<node pkg="fake" exec="node" namespace="a b"/>', "Invalid namespace: '/a b'"),
-        ('<push-ros-namespace namespace="a b"/>', "The resulting namespace is invalid:"),
+        ('<node pkg="fake" exec="node" name="a-b"/>', "'a-b' is no name of a node: allowed are letters, digits"),
+        ('<node pkg="fake" exec="node" namespace="a b"/>', "'/a b' is no namespace: allowed are letters"),
+        (
+            '<push-ros-namespace namespace="9a"/>',
+            "'9a' is no namespace: allowed are letters, digits (not first) and _, parts with one / between",
+        ),
+        (
+            '<push-ros-namespace namespace="arm"/><push-ros-namespace namespace="a//b"/>',
+            "'a//b' within '/arm' is no namespace",
+        ),
         (
             '<node pkg="fake" exec="node"><remap from="a"/></node>',
             "Attribute 'to' of type '<class 'str'>' not found in Entity 'remap'",

@@ -1,0 +1,73 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Names in ROS's graph as people write them. Imports no ROS."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from itertools import pairwise
+
+from acts_core.errors import SettingsError
+
+ALLOWED = "letters, digits (not first) and _"
+"""What a part of a name consists of, for messages."""
+
+_NAME = re.compile(r"[A-Za-z_]\w*", re.ASCII)
+_FULL_NAME = re.compile(r"(/[A-Za-z_]\w*)+", re.ASCII)
+_REMAP = re.compile(r"(?:[^:]*:)?(__ns|__node|__name):=(.*)", re.DOTALL)
+
+
+def is_name(text: str) -> bool:
+    """Whether a node may have this name."""
+    return _NAME.fullmatch(text) is not None
+
+
+def is_full_name(text: str) -> bool:
+    """Whether a topic or namespace may have this name, which begins with a slash; not ``/`` alone."""
+    return _FULL_NAME.fullmatch(text) is not None
+
+
+def full_name(given: str, what: str = "topic") -> str:
+    """The name with one slash before it and none behind.
+
+    Parameters
+    ----------
+    given : str
+        As somebody writes it, such as ``/plate/contact`` or ``plate``.
+    what : str
+        What it names, for the message.
+
+    Raises
+    ------
+    SettingsError
+        ROS has no such names.
+    """
+    name = f"/{given.strip('/')}"
+    if not is_full_name(name):
+        raise SettingsError(f"{given!r} is no {what}: allowed are {ALLOWED}, parts with / between")
+    return name
+
+
+def check_remaps(words: Sequence[str]) -> None:
+    """Refuse a namespace or name of a node on a command line (``-r __ns:=/9a``) that ROS would refuse by a riddle.
+
+    Raises
+    ------
+    SettingsError
+        It is not allowed.
+    """
+    given = list(words)
+    given = given[given.index("--ros-args") :] if "--ros-args" in given else []
+    for option, word in pairwise(given):
+        rule = _REMAP.fullmatch(word) if option in ("-r", "--remap") else None
+        if rule is None:
+            continue
+        kind, name = rule.groups()
+        if kind == "__ns" and name != "/" and not is_full_name(name):
+            raise SettingsError(
+                f"{word}: {name!r} is no namespace: allowed are {ALLOWED}, each part with a / before it"
+            )
+        if kind != "__ns" and not is_name(name):
+            raise SettingsError(f"{word}: {name!r} is no name of a node: allowed are {ALLOWED}")

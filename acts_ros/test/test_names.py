@@ -1,0 +1,46 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Names of topics, namespaces and nodes as people write them."""
+
+from __future__ import annotations
+
+import pytest
+
+from acts_core.errors import SettingsError
+from acts_ros.composition import parameters_from
+from acts_ros.names import check_remaps, full_name
+
+
+@pytest.mark.parametrize("given", ["plate/contact", "/plate/contact", "/plate/contact/"])
+def test_a_name_gets_one_slash_before_it(given: str) -> None:
+    assert full_name(given) == "/plate/contact"
+
+
+@pytest.mark.parametrize("given", ["", "/", "9a", "a-b", "a//b", "a b", "plate/9a", "Prüfung"])
+def test_what_ros_has_no_name_for_is_refused(given: str) -> None:
+    with pytest.raises(SettingsError, match=r"is no namespace: allowed are letters, digits \(not first\) and _, parts"):
+        full_name(given, "namespace")
+
+
+@pytest.mark.parametrize(
+    ("word", "message"),
+    [
+        ("__ns:=/9a", "__ns:=/9a: '/9a' is no namespace: allowed are letters"),
+        ("__ns:=plate", "'plate' is no namespace: .* each part with a / before it"),
+        ("__ns:=/a//b", "'/a//b' is no namespace"),
+        ("driver:__node:=9a", "'9a' is no name of a node: allowed are letters"),
+        ("__name:=a/b", "'a/b' is no name of a node"),
+    ],
+)
+def test_a_namespace_that_cannot_be_is_refused_in_words_of_ours(word: str, message: str) -> None:
+    for option in ("-r", "--remap"):
+        with pytest.raises(SettingsError, match=message):
+            parameters_from(["program", "--ros-args", option, word], {})
+
+
+def test_other_words_are_left_to_ros() -> None:
+    check_remaps(["program", "-r", "__ns:=/9a"])
+    check_remaps(
+        ["program", "--ros-args", "-r", "__ns:=/", "-r", "__ns:=/a/b_1", "-r", "contact:=9a", "-p", "__ns:=9a"]
+    )
