@@ -14,7 +14,7 @@ from acts_core.errors import ArrayError
 from acts_core.frames import SampleFrame
 from acts_core.skin import RegionContact
 from acts_recon.contacts import BlobTracker, Contact, TrackedBlob
-from acts_recon.images import BaselineSubtraction
+from acts_recon.images import BaselineSubtraction, check_untouched
 from acts_recon.settings import ReconstructionConfig
 
 _SEQUENCE_MODULUS = 1 << 32
@@ -64,7 +64,14 @@ class FrameRecovery:
     def set_baseline(
         self, counts: NDArray[np.float32], noise_counts: NDArray[np.float32], valid: NDArray[np.bool_]
     ) -> None:
-        """Use from now on what the taxels read untouched; see `BaselineSubtraction.set` and `Method.set_noise`."""
+        """Use from now on what the taxels read untouched; see `BaselineSubtraction.set` and `Method.set_noise`.
+
+        Raises
+        ------
+        ArrayError
+            One of the two cannot be; nothing is changed then.
+        """
+        check_untouched("noise", noise_counts, valid, self._size[0] * self._size[1])
         self._baseline.set(counts, valid)
         self.recovery.set_noise(noise_counts, valid)
 

@@ -5,12 +5,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from rclpy.node import Node
 
 from acts_ros.clocks import steady_timer
+from acts_ros.publishers import OnlyPublishers
 
 OK = 0
 WARN = 1
@@ -31,6 +32,9 @@ class DiagnosticsReporter:
         What the status is about, for example the port.
     report : callable
         Returns the present `Report`.
+    only_publishers : sequence of str
+        Topics that this node subscribes, and that one node is meant to publish; with a second one the level is at least
+        WARN.
 
     Attributes
     ----------
@@ -38,16 +42,28 @@ class DiagnosticsReporter:
         As given; may be changed.
     """
 
-    def __init__(self, node: Node, hardware_id: str, report: Callable[[], Report], *, period_s: float = 1.0) -> None:
+    def __init__(
+        self,
+        node: Node,
+        hardware_id: str,
+        report: Callable[[], Report],
+        *,
+        only_publishers: Sequence[str] = (),
+        period_s: float = 1.0,
+    ) -> None:
         self._node = node
         self.hardware_id = hardware_id
         self._report = report
+        self._only = OnlyPublishers(node, only_publishers)
         self._publisher = node.create_publisher(DiagnosticArray, "/diagnostics", 10)
         self._timer = steady_timer(node, period_s, self.publish)
 
     def publish(self) -> None:
         """Publish the present report at once."""
         level, message, values = self._report()
+        problem = self._only.problem()
+        if problem:
+            level, message = max(level, WARN), f"{message}; {problem}" if level else problem
         status = DiagnosticStatus(
             level=bytes([level]),
             name=self._node.get_fully_qualified_name().lstrip("/"),

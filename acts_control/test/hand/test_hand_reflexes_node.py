@@ -114,6 +114,11 @@ def test_the_hand_grasps_avoids_and_opens_by_touch_and_ends_in_order(bus: Bus) -
             )
 
         until(is_said)
+        forger = Node("forger", context=node.context)
+        forger.create_publisher(RegionContacts, "regions", STREAM)
+        words = "/regions has 2 publishers (/forger, "
+        until(lambda: any(words in status.message for report in reports for status in report.status))
+        forger.destroy_node()
         # A hand without torque is about nothing.
         assert statuses[-1].state == HandStatus.STATE_OPEN
         assert called("disable").success

@@ -57,7 +57,7 @@ from acts_core.skin import Layout
 from acts_recon.fusion.fusion_image_kernels import confidence
 from acts_recon.fusion.fusion_kernels import fuse
 from acts_recon.fusion.fusion_state import LEAST_NOISE_COUNTS, Tuning, expect_noise, forget, new_memory, state_of
-from acts_recon.images import PlacedSamples, borders_of
+from acts_recon.images import PlacedSamples, borders_of, check_untouched
 
 
 @dataclass(frozen=True)
@@ -164,13 +164,9 @@ class FusionEstimator:
         Raises
         ------
         ArrayError
-            For another size, or noise that is negative or not finite.
+            See `check_untouched`.
         """
-        size = self._places.size
-        if noise_counts.shape != (size,) or valid.shape != (size,):
-            raise ArrayError(f"noise {noise_counts.shape} and valid {valid.shape}: needed are {size} values of each")
-        if not (np.isfinite(noise_counts[valid]).all() and (noise_counts[valid] >= 0).all()):
-            raise ArrayError("the noise has values that are negative or not finite")
+        check_untouched("noise", noise_counts, valid, self._places.size)
         noise = np.full(self.geometry.size, self.config.noise_counts, dtype=np.float32)
         noise[self._places[valid]] = noise_counts[valid]
         noise = np.maximum(noise, np.float32(LEAST_NOISE_COUNTS))

@@ -83,8 +83,8 @@ class GaitNode(PollingNode):
         self._steps = [0, 0]
         self._refused = 0
         steady_timer(self, _PERIOD_S, self.update)
-        topics = ", ".join(contacts.topic_name for contacts in self._contacts.values())
-        self._diagnostics = DiagnosticsReporter(self, topics, self._report)
+        topics = [contacts.topic_name for contacts in self._contacts.values()]
+        self._diagnostics = DiagnosticsReporter(self, ", ".join(topics), self._report, only_publishers=topics)
 
     def update(self) -> None:
         """Take in the contacts that have arrived, and publish the steps that are over."""

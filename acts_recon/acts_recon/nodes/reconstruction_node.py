@@ -28,7 +28,7 @@ from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import Baseline, TactileSamples
 from acts_msgs.msg import Contact as ContactMessage
 from acts_recon.contacts import Contact
-from acts_recon.images import BaselineSubtraction
+from acts_recon.images import BaselineSubtraction, check_untouched
 from acts_recon.nodes.abilities import Abilities
 from acts_recon.nodes.contacts_publisher import ContactsPublisher
 from acts_recon.nodes.images_publisher import ImagesPublisher
@@ -107,7 +107,10 @@ class ReconstructionNode(Node):
 
         self._look_for_subscribers()
         steady_timer(self, _SUBSCRIBERS_PERIOD_S, self._look_for_subscribers)
-        self._diagnostics = DiagnosticsReporter(self, self.resolve_topic_name("samples"), self._report)
+        needed = (["samples"] if subscribes else []) + (["baseline"] if self._settings.subtract_baseline else [])
+        self._diagnostics = DiagnosticsReporter(
+            self, self.resolve_topic_name("samples"), self._report, only_publishers=needed
+        )
         if self._settings.subtract_baseline:
             self.create_subscription(Baseline, "baseline", self._on_baseline, **qos.overridable(qos.LATCHED))
         if subscribes:
@@ -240,11 +243,14 @@ class ReconstructionNode(Node):
                     f"{settings.rows} x {settings.cols}"
                 )
             valid = np.asarray(message.valid, dtype=np.bool_)
+            noise = np.asarray(message.noise, dtype=np.float32)
+            # Before anything is taken over.
+            check_untouched("noise", noise, valid, settings.rows * settings.cols)
             self._baseline.set(np.asarray(message.baseline, dtype=np.float32), valid)
-            self._recovery.set_noise(np.asarray(message.noise, dtype=np.float32), valid)
+            self._recovery.set_noise(noise, valid)
         except ArrayError as error:
             self._rejected["bad_baseline"] += 1
-            self.get_logger().warning(f"baseline not used: {error}")
+            self.get_logger().warning(f"baseline not used: {error}", throttle_duration_sec=5.0)
 
     def _missing_before(self, sequence: int) -> int:
         """Frames missing before this one; all are forgotten where its board counts from the start again."""

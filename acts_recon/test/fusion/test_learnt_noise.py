@@ -129,7 +129,7 @@ def test_the_same_noise_again_forgets_nothing_and_wrong_ones_are_refused() -> No
     learnt = estimator._state.learnt.copy()
     estimator.set_noise(np.full(256, 2.0, dtype=np.float32), valid)
     assert np.array_equal(estimator._state.learnt, learnt)
-    for wrong in (np.full(256, np.nan), np.full(256, -1.0), np.zeros(255)):
+    for wrong in (np.full(256, np.nan), np.full(256, -1.0), np.full(256, 1e30), np.zeros(255)):
         with pytest.raises(ArrayError, match="noise"):
             estimator.set_noise(wrong.astype(np.float32), valid)
     assert np.array_equal(estimator._state.learnt, learnt)

@@ -54,8 +54,9 @@ def test_baselines_that_do_not_fit_are_refused() -> None:
     subtraction = BaselineSubtraction(4)
     with pytest.raises(ArrayError, match="needed are 4 values"):
         subtraction.set(np.zeros(5, dtype=np.float32), np.ones(4, dtype=bool))
-    with pytest.raises(ArrayError, match="not finite"):
-        subtraction.set(np.array([0, 0, np.inf, 0], dtype=np.float32), np.ones(4, dtype=bool))
+    for wrong in (np.inf, np.nan, -0.1, -1e30, 1023.5, 1e30):
+        with pytest.raises(ArrayError, match="not within 0 to 1023 counts"):
+            subtraction.set(np.array([0, 0, wrong, 0], dtype=np.float32), np.ones(4, dtype=bool))
     assert not subtraction.is_set
 
 
@@ -84,6 +85,12 @@ def test_the_node_subtracts_the_baseline_once_there_is_one(bench: Bench) -> None
     bench.diagnostics(lambda status, values: values["rejected.bad_baseline"] == "1" and values["baseline"] == "none")
     publisher.publish(baseline_message(32, 32, 15.2))
     bench.until(lambda: bench.node._baseline.is_set)
+    # What is refused changes nothing, not even half of it.
+    for rejected, (counts_of_all, noise) in enumerate(((-2000.0, 1.0), (500.0, 1e30)), start=2):
+        wrong = baseline_message(32, 32, counts_of_all)
+        wrong.noise = array("f", [noise] * 1024)
+        publisher.publish(wrong)
+        bench.until(lambda count=rejected: bench.node._rejected["bad_baseline"] == count)
     bench.send(2, indices, counts)
     assert not bench.contact(2).in_contact
     bench.send(3, indices, counts + 100)

@@ -86,7 +86,12 @@ class SkinContactsNode(PollingNode):
         self._aligned: Aligned[bytes] | None = None
         self._cycle = Cycle(settings.rate_hz, self._step)
         self._reported: tuple[float, int, int, Counter[tuple[str, str]]] = (time.monotonic(), 0, 0, Counter())
-        self._diagnostics = DiagnosticsReporter(self, str(skins_file.path), self._report)
+        self._diagnostics = DiagnosticsReporter(
+            self,
+            str(skins_file.path),
+            self._report,
+            only_publishers=[contacts.topic_name for contacts in self._subscriptions_of.values()],
+        )
 
     def begin(self) -> None:
         """Start merging."""

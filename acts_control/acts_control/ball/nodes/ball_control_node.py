@@ -117,7 +117,12 @@ class BallControlNode(Node):
         self.create_service(Trigger, "~/start", self._on_start)
         self.create_service(Trigger, "~/stop", self._on_stop)
         self._status_timer = steady_timer(self, 1.0 / settings.status_rate_hz, self._publish_status)
-        self._diagnostics = DiagnosticsReporter(self, robot.address, self._report)
+        self._diagnostics = DiagnosticsReporter(
+            self,
+            robot.address,
+            self._report,
+            only_publishers=[STATE_TOPIC, REFERENCE_TOPIC] if subscribes else [],
+        )
 
     def follow(self, state: BallStateNode, trajectory: BallTrajectoryNode) -> None:
         """Ask these two nodes of the same process at the begin of every control step; they wait for no timer then."""

@@ -87,7 +87,9 @@ class BallStateNode(PollingNode):
             self.create_subscription(Vector3Stamped, TILT_TOPIC, self._on_tilt, STREAM)
             self._timer = steady_timer(self, 1.0 / settings.publish_rate_hz, self.update)
         steady_timer(self, _STATISTICS_PERIOD_S, self._publish_statistics)
-        self._diagnostics = DiagnosticsReporter(self, "ball", self._report)
+        self._diagnostics = DiagnosticsReporter(
+            self, "ball", self._report, only_publishers=[CONTACT_TOPIC, *([] if is_driven else [TILT_TOPIC])]
+        )
 
     def update(self) -> BallReport | None:
         """Take in the contacts that have arrived; the newest estimate, None before the first contact. From any thread.

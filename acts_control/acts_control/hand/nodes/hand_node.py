@@ -41,7 +41,7 @@ class HandNode(MotorNode):
         super().__init__("hand", **node_options(), **node_arguments)
         self._refused = self._reported_refused = 0
         self._refusal = ""
-        self.start_with(declare(self, HandSettings), None, "release")
+        self.start_with(declare(self, HandSettings), None, "release", "~/command")
         self.create_subscription(JointState, "~/command", self._on_command, STATE, raw=True)
 
     def report(self) -> Report:

@@ -57,7 +57,7 @@ def make_bus(node: Node, hand: HandDescription, settings: MotorSettings) -> Hand
 class MotorNode(PollingNode):
     """A node that moves a hand; `start_with` is to be called once, after the parameters are declared."""
 
-    def start_with(self, settings: MotorSettings, behaviour: Behaviour | None, torque_off: str) -> None:
+    def start_with(self, settings: MotorSettings, behaviour: Behaviour | None, torque_off: str, moved_by: str) -> None:
         """Make the loop and everything that shows it.
 
         Parameters
@@ -67,6 +67,8 @@ class MotorNode(PollingNode):
             Says where the joints go; None: `HandLoop.command` does.
         torque_off : str
             Name of the service that switches the torque off.
+        moved_by : str
+            Topic by which the hand is moved, which one node is meant to publish.
         """
         keep_system_clock(self, "it moves a hand, which knows nothing of simulated time")
         self.settings = settings
@@ -79,7 +81,7 @@ class MotorNode(PollingNode):
         self.loop = HandLoop(self.hand, bus, settings, log_of(self), self._on_reading, behaviour)
         self.create_service(Trigger, "~/enable", self._on_enable)
         self.create_service(Trigger, f"~/{torque_off}", self._on_torque_off)
-        self.diagnostics = DiagnosticsReporter(self, settings.port, self.report)
+        self.diagnostics = DiagnosticsReporter(self, settings.port, self.report, only_publishers=[moved_by])
 
     def begin(self) -> None:
         """Start the loop, and with `autostart` the motors."""

@@ -157,7 +157,7 @@ class HandReflexesNode(MotorNode):
         self._times, self._timed_s = touched.times, time.monotonic()
         self._told = SupervisorStatus()
         self._reported_refused = 0
-        self.start_with(settings, touched, "disable")
+        self.start_with(settings, touched, "disable", "regions")
         for name in ("grasp", "release", "stop"):
             self.create_service(Trigger, f"~/{name}", self._answer(name))
         self._steady_timers = (

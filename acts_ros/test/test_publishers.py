@@ -1,0 +1,97 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""A second publisher of a topic that one node is meant to publish is reported; ROS_DOMAIN_ID 113."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+
+import pytest
+import rclpy
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from std_msgs.msg import Int32
+
+from acts_ros.diagnostics import ERROR, OK, DiagnosticsReporter
+from acts_ros.publishers import SAME_NAME_S, OnlyPublishers
+
+DEADLINE_S = 30.0
+
+
+class Graph:
+    """A node that watches `/plate/touch`, and others that publish it."""
+
+    def __init__(self) -> None:
+        self.context = Context()
+        rclpy.init(context=self.context, domain_id=113)
+        self.watcher = Node("watcher", namespace="/plate", context=self.context)
+        self.executor = SingleThreadedExecutor(context=self.context)
+        self.executor.add_node(self.watcher)
+        self.others: list[Node] = []
+
+    def publish(self, name: str) -> Node:
+        other = Node(name, namespace="/plate", context=self.context)
+        other.create_publisher(Int32, "touch", 10)
+        self.others.append(other)
+        self.until(lambda: self.watcher.count_publishers("/plate/touch") == len(self.others))
+        return other
+
+    def until(self, condition: Callable[[], bool]) -> None:
+        deadline_s = time.monotonic() + DEADLINE_S
+        while not condition():
+            assert time.monotonic() < deadline_s, "timed out"
+            self.executor.spin_once(timeout_sec=0.02)
+
+
+@pytest.fixture
+def graph() -> Iterator[Graph]:
+    made = Graph()
+    yield made
+    for node in [*made.others, made.watcher]:
+        node.destroy_node()
+    made.executor.shutdown()
+    rclpy.try_shutdown(context=made.context)
+
+
+def test_a_second_publisher_is_named_as_long_as_it_is_there(graph: Graph) -> None:
+    only = OnlyPublishers(graph.watcher, ["touch", "other"])
+    assert only.problem() == ""
+    graph.publish("skin")
+    assert only.problem() == ""
+    forger = graph.publish("forger")
+    assert only.problem() == "/plate/touch has 2 publishers (/plate/forger, /plate/skin): end all but one"
+    graph.others.remove(forger)
+    forger.destroy_node()
+    graph.until(lambda: only.problem() == "")
+
+
+def test_a_node_that_was_killed_and_started_again_is_no_problem_at_first(graph: Graph) -> None:
+    now_s = 100.0
+    only = OnlyPublishers(graph.watcher, ["touch"], lambda: now_s)
+    graph.publish("skin")
+    graph.publish("skin")
+    assert only.problem() == ""
+    now_s += SAME_NAME_S - 1.0
+    assert only.problem() == ""
+    now_s += 1.0
+    assert only.problem() == "/plate/touch has 2 publishers (/plate/skin, /plate/skin): end all but one"
+
+
+@pytest.mark.parametrize(
+    ("own", "message"), [(OK, "/plate/touch has 2 publishers"), (ERROR, "no port; /plate/touch has 2 publishers")]
+)
+def test_the_diagnostics_warn_of_it(own: int, message: str, graph: Graph) -> None:
+    found: list[DiagnosticStatus] = []
+    graph.watcher.create_subscription(DiagnosticArray, "/diagnostics", lambda report: found.extend(report.status), 10)
+    reporter = DiagnosticsReporter(
+        graph.watcher, "skin", lambda: (own, "no port", {}), only_publishers=["touch"], period_s=0.05
+    )
+    graph.publish("skin")
+    graph.publish("forger")
+    graph.until(lambda: any(one.message.startswith(message) for one in found))
+    assert found[-1].level == (DiagnosticStatus.WARN if own == OK else DiagnosticStatus.ERROR)
+    reporter.destroy()
