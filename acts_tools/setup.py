@@ -21,5 +21,5 @@ setup(
     zip_safe=False,
     description="The acts command: launch, record, play, train, demo, bench.",
     license="Apache-2.0",
-    entry_points={"console_scripts": ["acts = acts_tools.cli:main"]},
+    entry_points={"console_scripts": ["acts = acts_tools.__main__:run"]},
 )

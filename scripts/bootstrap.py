@@ -18,6 +18,7 @@ import os
 import re
 import shlex
 import shutil
+import signal
 import subprocess
 import sys
 import sysconfig
@@ -299,8 +300,8 @@ def build_workspace() -> None:
 def write_first_lines() -> None:
     """Let the nodes' scripts take Python from PATH: their first line cannot hold a path that is long or has a space.
 
-    Where `env` can do that, they start with the stop signals blocked, and `acts_core.stop_signals` unblocks them. So an
-    early signal waits, and does not end Python with a traceback.
+    Where `env` can do that, they start with the stop signals blocked, and `acts_core.stop_signals` (of `acts` its
+    `__main__`) unblocks them. So an early signal waits, and does not end Python with a traceback.
     """
     block = "--block-signal=INT,TERM,HUP"
     is_able = subprocess.run(["/usr/bin/env", block, "true"], capture_output=True, check=False).returncode == 0
@@ -309,9 +310,7 @@ def write_first_lines() -> None:
             continue
         first, _, rest = script.read_bytes().partition(b"\n")
         if first.startswith(b"#!") and bytes(VENV) in first:
-            # `acts` takes signals as Python does.
-            blocks = is_able and script.name != "acts"
-            line = f"#!/usr/bin/env -S {block} python3" if blocks else "#!/usr/bin/env python3"
+            line = f"#!/usr/bin/env -S {block} python3" if is_able else "#!/usr/bin/env python3"
             script.write_bytes(line.encode() + b"\n" + rest)
 
 
@@ -336,6 +335,8 @@ def main() -> int:
     if not arguments.this_python:
         hand_over_to_recorded_python()
     try:
+        # scripts/enter.sh has kept Ctrl-C back until now.
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
         check_distribution()
         check_place(ROOT)
         check_machine()

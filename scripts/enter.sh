@@ -17,12 +17,17 @@ acts_is_sourced() {
   return 1
 }
 
+# Before a program of Python that takes Ctrl-C when it can: while Python itself starts, it would show a traceback.
+# Tried with another signal: a shell whose child does not end by Ctrl-C goes on.
+acts_hold="env --block-signal=INT"
+if ! env --block-signal=USR1 true 2>/dev/null; then acts_hold=; fi
+
 if ! command -v ros2 >/dev/null 2>&1; then
   if ! command -v "${PYTHON:-python3}" >/dev/null; then
     echo "[setup] missing: ${PYTHON:-python3}. Install with: sudo apt-get install python3 python3-venv python3-dev" >&2
     exit 1
   fi
-  "${PYTHON:-python3}" "$acts_root/scripts/bootstrap.py" --quiet ${PYTHON:+--this-python}
+  $acts_hold "${PYTHON:-python3}" "$acts_root/scripts/bootstrap.py" --quiet ${PYTHON:+--this-python}
   acts_state="$acts_root/.acts"
   if [ "${ROS:-kilted}" != kilted ]; then acts_state="$acts_state/$ROS"; fi
   # shellcheck disable=SC1091

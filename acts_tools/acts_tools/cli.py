@@ -16,6 +16,7 @@ from typing import Any
 from acts_core.errors import ActsError
 from acts_core.shared_memory import check_shared_memory
 from acts_tools import __version__
+from acts_tools.__main__ import INTERRUPTED
 
 COMMANDS = {
     "launch": ("acts_tools.launch.command", "start the nodes of a launch file"),
@@ -48,8 +49,6 @@ examples:
 `acts COMMAND --help` explains a command. `./acts run COMMAND ...` runs any program in the ACTS environment.
 """
 
-_INTERRUPTED = 130
-
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the acts command.
@@ -79,7 +78,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         print(f"error: {error}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
-        return _INTERRUPTED
+        return INTERRUPTED
     except BrokenPipeError:
         # The reader of our output has ended (`acts ... | head`); without this Python prints another error at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -9,6 +9,7 @@ import argparse
 from pathlib import Path
 
 from acts_core.skin import LAYOUTS
+from acts_core.stop_signals import StopSignals
 
 _EPILOG = """\
 examples:
@@ -62,28 +63,28 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 def run(arguments: argparse.Namespace) -> int:
     """Show until told to stop, and return the exit code."""
-    # Imported here, because they are slow to import and other commands do not need them.
-    from acts_core.stop_signals import StopSignals
-
+    signals = StopSignals()
     if arguments.bag or arguments.npz or arguments.board:
-        return _show_local(arguments, StopSignals())
-    from acts_view.main import main
+        return _show_local(arguments, signals)
+    # Imported here, because it is slow to import and other commands do not need it. Ctrl-C meanwhile is not lost in a
+    # module written in C.
+    with signals.interrupting():
+        from acts_view.main import main
 
     given = {"skins": ",".join(arguments.skins), "host": arguments.host, "port": arguments.port}
     given |= {name: str(getattr(arguments, name)).lower() for name in ("control", "outlines")}
     words = [word for name, value in given.items() for word in ("--set", f"view.{name}={value}")]
-    return main(StopSignals(), ["acts view", *words])
+    return main(signals, ["acts view", *words])
 
 
-def _show_local(arguments: argparse.Namespace, signals: object) -> int:
+def _show_local(arguments: argparse.Namespace, signals: StopSignals) -> int:
     """Show a recording or a board, and return the exit code."""
-    from acts_core.stop_signals import StopSignals
-    from acts_driver.settings import DriverSettings
-    from acts_view.local.show import log, show
-    from acts_view.local.sources import BoardSource, LocalSource, open_recorded
-    from acts_view.settings import ViewSettings
+    with signals.interrupting():
+        from acts_driver.settings import DriverSettings
+        from acts_view.local.show import log, show
+        from acts_view.local.sources import BoardSource, LocalSource, open_recorded
+        from acts_view.settings import ViewSettings
 
-    assert isinstance(signals, StopSignals)
     source: LocalSource
     if arguments.board:
         rows, cols = arguments.size

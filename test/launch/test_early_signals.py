@@ -1,8 +1,10 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Ctrl-C while Python itself still starts: no traceback, exit code 0. No node is made, so no ROS_DOMAIN_ID is used."""
+"""Ctrl-C while Python itself still starts: no traceback. No node is made, so no ROS_DOMAIN_ID is used."""
 
+import os
+import shutil
 import subprocess
 import time
 from pathlib import Path
@@ -14,6 +16,7 @@ from ament_index_python.packages import get_package_prefix
 pytestmark = pytest.mark.slow
 
 DEADLINE_S = 60.0
+CHECKOUT = Path(__file__).resolve().parents[2]
 PROGRAMS = [
     ("acts_control", "ball_balancing"),
     ("acts_driver", "driver"),
@@ -41,3 +44,29 @@ def test_a_signal_before_any_module_of_ours_is_an_orderly_end(package: str, name
         process.send_signal(SIGINT)
         output, errors = process.communicate(timeout=DEADLINE_S)
     assert (process.returncode, output, errors) == (0, "", "")
+
+
+# Python imports it while it starts, before anything of ours.
+INTERRUPTING = "import os, signal, sys\nif {word!r} in ' '.join(sys.orig_argv): os.kill(os.getpid(), signal.SIGINT)\n"
+
+
+@pytest.mark.parametrize(
+    ("command", "word", "said"),
+    [
+        ("acts", "-m acts_tools", ""),
+        (
+            str(CHECKOUT / "acts"),
+            "bootstrap.py",
+            "[setup] interrupted; the same command does again what is not finished",
+        ),
+    ],
+)
+def test_the_command_says_nothing_of_python_either(tmp_path: Path, command: str, word: str, said: str) -> None:
+    if subprocess.run(["env", "--block-signal=INT", "true"], capture_output=True, check=False).returncode:
+        pytest.skip("`env` knows no --block-signal")
+    if word == "bootstrap.py" and shutil.which("ros2"):
+        pytest.skip("where ROS is installed, nothing is set up")
+    (tmp_path / "sitecustomize.py").write_text(INTERRUPTING.format(word=word))
+    environment = {**os.environ, "PYTHONPATH": f"{tmp_path}:{os.environ.get('PYTHONPATH', '')}"}
+    done = subprocess.run([command, "--version"], env=environment, capture_output=True, text=True, timeout=DEADLINE_S)
+    assert (done.returncode, done.stdout, done.stderr.strip()) == (130, "", said)

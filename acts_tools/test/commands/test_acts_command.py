@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import re
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -14,6 +15,7 @@ import pytest
 from fake_prefix import Prefix
 
 from acts_tools import __version__
+from acts_tools.__main__ import INTERRUPTED, run
 from acts_tools.cli import COMMANDS, main
 from acts_tools.launch import command
 
@@ -53,6 +55,22 @@ def test_the_version_is_the_package_s(capsys: pytest.CaptureFixture[str]) -> Non
 def test_it_is_on_the_path_of_the_environment() -> None:
     said = subprocess.run(["acts", "--version"], capture_output=True, text=True, check=True).stdout
     assert said == f"acts {__version__}\n"
+
+
+def test_ctrl_c_is_no_error_even_where_a_library_makes_one_of_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    def import_numpy() -> int:
+        try:
+            signal.raise_signal(signal.SIGINT)
+        except KeyboardInterrupt:
+            raise ImportError("we have compiled some common reasons") from None
+        return 0
+
+    monkeypatch.setattr("acts_tools.cli.main", import_numpy)
+    handler = signal.getsignal(signal.SIGINT)
+    try:
+        assert run() == INTERRUPTED
+    finally:
+        signal.signal(signal.SIGINT, handler)
 
 
 def test_errors_are_one_line_on_standard_error(capsys: pytest.CaptureFixture[str]) -> None:
