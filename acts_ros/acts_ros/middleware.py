@@ -25,7 +25,7 @@ from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.logging import get_logger
 
 from acts_core.errors import SettingsError
-from acts_ros.names import check_remaps
+from acts_core.names import check_remaps
 from acts_ros.processes import packages
 
 _RANGE, _LOCALHOST_ONLY = "ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_LOCALHOST_ONLY"

@@ -84,6 +84,11 @@ def test_a_params_file_that_ros_cannot_read_is_refused(tmp_path: Path, text: str
     assert ".c:" not in str(caught.value)
 
 
+def test_a_namespace_that_cannot_be_is_refused() -> None:
+    with pytest.raises(SettingsError, match="'/9a' is no namespace: allowed are letters"):
+        given("--ros-args", "-r", "__ns:=/9a")
+
+
 def test_ros_words_without_their_flag_are_refused_with_where_they_go(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit, match="2"):
         given("-p", "word:=two")

@@ -4,3 +4,6 @@
 """The `acts` command: launch files, bags, training, measurements and demonstrations. See `acts --help`."""
 
 __version__ = "0.1.0"
+
+INTERRUPTED = 130
+"""Exit code of the command after Ctrl-C."""

@@ -9,7 +9,7 @@ import signal
 import sys
 from types import FrameType
 
-INTERRUPTED = 130
+from acts_tools import INTERRUPTED
 
 
 def run() -> int:

@@ -15,8 +15,7 @@ from typing import Any
 
 from acts_core.errors import ActsError
 from acts_core.shared_memory import check_shared_memory
-from acts_tools import __version__
-from acts_tools.__main__ import INTERRUPTED
+from acts_tools import INTERRUPTED, __version__
 
 COMMANDS = {
     "launch": ("acts_tools.launch.command", "start the nodes of a launch file"),

@@ -8,8 +8,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from acts_core.errors import SettingsError
+from acts_core.names import ALLOWED, is_full_name
 from acts_core.settings import setting, validate
-from acts_ros.names import ALLOWED, is_full_name
 
 
 @dataclass(frozen=True)

@@ -17,6 +17,7 @@ from typing import Any
 from builtin_interfaces.msg import Time
 
 from acts_core.errors import PacketError, SettingsError
+from acts_core.names import ALLOWED, is_full_name
 from acts_core.settings import setting
 from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import Contact, FootStep
@@ -28,7 +29,6 @@ from acts_ros.composition import parameters_from
 from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
 from acts_ros.messages import ContactFields, read_contact
-from acts_ros.names import ALLOWED, is_full_name
 from acts_ros.parameters import declare, node_options
 from acts_ros.polled import PollingNode
 

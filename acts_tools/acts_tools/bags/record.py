@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from acts_core.errors import RecordingError
+from acts_core.names import full_name
 from acts_ros.bags import require_rosbags
-from acts_ros.names import full_name
 from acts_tools import __version__
 
 if TYPE_CHECKING:

@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from acts_core.errors import BoardError, SettingsError
+from acts_core.names import full_name
 from acts_core.settings import default_of
-from acts_ros.names import full_name
 
 if TYPE_CHECKING:
     from rclpy.client import Client

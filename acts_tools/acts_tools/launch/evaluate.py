@@ -14,7 +14,7 @@ from pathlib import Path
 import yaml
 
 from acts_core.errors import LaunchError
-from acts_ros.names import ALLOWED, is_full_name, is_name
+from acts_core.names import ALLOWED, is_full_name, is_name
 from acts_ros.processes import packages
 from acts_ros.processes.process import Process
 from acts_tools.launch import parameters, substitutions

@@ -12,7 +12,7 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING
 
 from acts_core.errors import SettingsError
-from acts_ros.names import full_name
+from acts_core.names import full_name
 
 if TYPE_CHECKING:
     from acts_tools.listen.arrivals import Interval

@@ -14,8 +14,8 @@ from pathlib import Path
 import pytest
 from fake_prefix import Prefix
 
-from acts_tools import __version__
-from acts_tools.__main__ import INTERRUPTED, run
+from acts_tools import INTERRUPTED, __version__
+from acts_tools.__main__ import run
 from acts_tools.cli import COMMANDS, main
 from acts_tools.launch import command
 

@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Names in ROS's graph as people write them. Imports no ROS."""
+"""Names of nodes, topics and namespaces in ROS, as people write them."""
 
 from __future__ import annotations
 

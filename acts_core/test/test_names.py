@@ -8,8 +8,7 @@ from __future__ import annotations
 import pytest
 
 from acts_core.errors import SettingsError
-from acts_ros.composition import parameters_from
-from acts_ros.names import check_remaps, full_name
+from acts_core.names import check_remaps, full_name
 
 
 @pytest.mark.parametrize("given", ["plate/contact", "/plate/contact", "/plate/contact/"])
@@ -36,7 +35,7 @@ def test_what_ros_has_no_name_for_is_refused(given: str) -> None:
 def test_a_namespace_that_cannot_be_is_refused_in_words_of_ours(word: str, message: str) -> None:
     for option in ("-r", "--remap"):
         with pytest.raises(SettingsError, match=message):
-            parameters_from(["program", "--ros-args", option, word], {})
+            check_remaps(["program", "--ros-args", option, word])
 
 
 def test_other_words_are_left_to_ros() -> None:
