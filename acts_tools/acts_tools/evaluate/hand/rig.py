@@ -67,7 +67,7 @@ class RigOptions:
         default_factory=lambda: SamplingConfig(scheme="tracking", m=55, threshold_counts=20, search_share=0.4)
     )
     touch_counts: float = 8.0
-    slip: SlipConfig = field(default_factory=lambda: SlipConfig(slip_distance_taxels=0.05))
+    slip: SlipConfig = field(default_factory=lambda: SlipConfig(slip_distance_taxels=0.05, slip_sigmas=4.0))
     settings: Mapping[str, Any] = field(default_factory=dict)
 
 

@@ -94,7 +94,7 @@ def _grasped(one: Run) -> tuple[Any, Outcome]:
         object_x_m=draw.uniform(-0.003, 0.003),
     )
     # A light grip, which carries little more than the object.
-    settings = {"grip_force_n": 0.25, **one.settings}
+    settings = {"grip_force_n": 0.15, **one.settings}
     rig = one.rig(world, RigOptions(one.rate_hz, ("sharp", "slip") if one.reflex else ("sharp",), settings=settings))
     outcome = Outcome(kept=False, details={"mass_kg": world.object_mass_kg})
     if not rig.grasp():
