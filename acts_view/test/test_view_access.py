@@ -39,7 +39,14 @@ def test_no_other_page_may_connect(host: str | None, origin: str | None) -> None
 def test_other_hosts_need_the_token() -> None:
     host, origin = "lab:8080", "http://lab:8080"
     assert refusal(host, origin, f"/stream?token={TOKEN}", TOKEN) == ""
-    for path in ("/stream", "/stream?token=", f"/stream?token={TOKEN}x", "/stream?token=ä"):
+    for path in (
+        "/stream",
+        "/stream?token=",
+        f"/stream?token={TOKEN}x",
+        f"/stream?token={TOKEN[:-1]}",
+        f"/stream?token={TOKEN.swapcase()}",
+        "/stream?token=ä",
+    ):
         assert "token" in refusal(host, origin, path, TOKEN)
     assert refusal(host, "http://example.org", f"/stream?token={TOKEN}", TOKEN)
     assert len({new_token() for _ in range(100)}) == 100

@@ -83,6 +83,27 @@ def test_files_are_served_and_nothing_else(bench: Bench) -> None:
         assert get(path).status == 404
 
 
+@pytest.mark.parametrize("path", ["/", "/stream", "/no/such/page"])
+@pytest.mark.parametrize("method", ["POST", "PUT", "DELETE", "OPTIONS", "TRACE", "PROPFIND"])
+def test_nothing_is_answered_but_what_only_reads(method: str, path: str, bench: Bench) -> None:
+    connection = http.client.HTTPConnection("127.0.0.1", bench.server.address.port, timeout=DEADLINE_S)
+    connection.request(method, path)
+    answer = connection.getresponse()
+    assert (answer.status, answer.headers["Allow"]) == (405, "GET, HEAD")
+
+
+@pytest.mark.parametrize(("path", "status"), [("/", 200), ("/style.css", 200), ("/nothing", 404), ("/stream", 403)])
+def test_a_head_is_a_page_without_its_body(path: str, status: int, bench: Bench) -> None:
+    with socket.create_connection(("127.0.0.1", bench.server.address.port), DEADLINE_S) as client:
+        client.sendall(f"HEAD {path} HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n".encode())
+        answer = b""
+        while piece := client.recv(65536):
+            answer += piece
+    head, _, body = answer.partition(b"\r\n\r\n")
+    assert head.startswith(f"HTTP/1.1 {status} ".encode())
+    assert body == b""
+
+
 def test_a_page_gets_what_the_skin_is_like_and_what_is_newest(bench: Bench) -> None:
     bench.server.show_shape("/plate", SkinShape(rows=64, cols=64))
     for value in range(5):

@@ -10,7 +10,7 @@ import socket
 import threading
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from http import HTTPStatus
 from pathlib import Path
@@ -43,6 +43,7 @@ _SEND_BUFFER_BYTES = 65536
 _LARGEST_REQUEST_BYTES = 1024
 # A browser on a slow network sends its request within this.
 _HANDSHAKE_S = 5.0
+_METHODS = ("GET", "HEAD")
 _HEADERS = {
     "Cache-Control": "no-cache",
     "X-Content-Type-Options": "nosniff",
@@ -204,7 +205,19 @@ class ViewServer:
         self._loop.close()
 
     def _answer(self, connection: ServerConnection, request: Request) -> Response | None:
-        """Answer a request for a file; None for the socket, which the library goes on with."""
+        """Answer a request; None for the socket, which the library goes on with."""
+        # Before version 16 the library itself takes no other method than GET.
+        method = getattr(request, "method", "GET")
+        answer = self._find(connection, request) if method in _METHODS else None
+        if method == "GET":
+            return answer
+        if answer is None:
+            answer = connection.respond(HTTPStatus.METHOD_NOT_ALLOWED, f"only {' and '.join(_METHODS)} are answered\n")
+            answer.headers["Allow"] = ", ".join(_METHODS)
+        return answer if method not in _METHODS else replace(answer, body=b"")
+
+    def _find(self, connection: ServerConnection, request: Request) -> Response | None:
+        """Answer a request by GET; None for the socket."""
         path = request.path.partition("?")[0]
         if path == STREAM_PATH or path.startswith(FILES_PATH):
             reason = refusal(_one(request, "Host"), _one(request, "Origin"), request.path, self._token)
