@@ -10,7 +10,7 @@ from pathlib import Path
 
 from acts_core.array import MAX_SIDE
 from acts_core.runtime import RealtimeConfig
-from acts_core.settings import Changeable, setting
+from acts_core.settings import Changeable, default_of, describe, setting
 from acts_driver.baseline import BaselineParameters
 from acts_driver.board import BoardParameters
 from acts_driver.port import SerialSource, Source, check_port
@@ -110,6 +110,14 @@ class DriverSettings(RealtimeConfig, BaselineParameters, BoardParameters, Source
     def is_replay(self) -> bool:
         """Whether a recording stands in for the board."""
         return self.replay not in ("", NO_FILE)
+
+    @property
+    def unused(self) -> tuple[str, ...]:
+        """Parameters of a recording that were given while none is replayed."""
+        names = [name for name in describe(SourceParameters) if name.startswith("replay_")]
+        if self.is_replay:
+            return ()
+        return tuple(name for name in names if getattr(self, name) != default_of(SourceParameters, name))
 
     def make_source(self) -> Source:
         """Where bytes come from."""

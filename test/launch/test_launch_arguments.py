@@ -32,6 +32,7 @@ from acts_tools.launch.parser import parse_file
 pytestmark = pytest.mark.slow
 
 FILES = sorted((Path(get_package_share_directory(PACKAGE)) / "launch").glob("*.launch.xml"))
+TACTILE = next(file for file in FILES if file.name == "tactile.launch.xml")
 PARAMS_ARGUMENT = '<arg name="params_file"'
 
 # Arguments that take any text, by launch file.
@@ -130,7 +131,54 @@ def test_any_text_of_an_argument_arrives_whole(launch: Callable[..., Printed], f
         )
 
 
-TACTILE = next(file for file in FILES if file.name == "tactile.launch.xml")
+@pytest.mark.parametrize(
+    ("name", "given", "without"),
+    [
+        ("tactile", {"port": "/dev/x", "view_port": "9000"}, {"port": "with sim:=true", "view_port": "view:=true"}),
+        ("tactile", {"port": "/dev/x", "sim": "false", "view": "true", "view_port": "9000"}, {}),
+        ("tactile", {"port": "/dev/x", "sim": "0", "replay": "a.npz"}, {"port": "with replay:=a.npz"}),
+        ("tactile", {"run_dir": "/tmp/x", "sim": "false"}, {"run_dir": "with sim:=false"}),
+        ("tactile", {"recording": "a.npy", "recording_rate_hz": "500", "run_dir": "/tmp/x"}, {}),
+        ("tactile", {"recording_rate_hz": "500"}, {"recording_rate_hz": "without a recording"}),
+        (
+            "tactile",
+            {"recording": "a.npy", "recording_rate_hz": "500", "replay": "a.npz"},
+            {"recording": "no board is simulated", "recording_rate_hz": "no board is simulated"},
+        ),
+        ("tactile", {"replay": "none", "replay_speed": "2"}, {"replay_speed": "with replay:=none"}),
+        ("tactile", {"replay": "a.npz", "replay_speed": "2", "replay_loop": "false"}, {}),
+        ("tactile", {"scheme": "raster", "m": "5"}, {"m": "scheme:=raster, which measures all"}),
+        ("tactile", {"scheme": "random", "m": "5", "threshold": "7"}, {"threshold": "scheme:=random"}),
+        ("tactile", {"scheme": "tracking", "m": "5", "threshold": "7"}, {}),
+        ("tactile", {"protocol": "raster_ascii", "m": "5"}, {"m": "with protocol:=raster_ascii"}),
+        ("ball_balancing", {"port": "/dev/x", "view_port": "1"}, {"port": "sim:=true", "view_port": "view:=true"}),
+        ("hand_reflexes", {"hand_port": "/dev/x", "object": "box", "seed": "2"}, {"hand_port": "with sim:=true"}),
+        (
+            "hand_reflexes",
+            {"sim": "false", "object": "box", "seed": "2"},
+            {"object": "sim:=false", "seed": "sim:=false"},
+        ),
+        ("skins", {"merge": "false", "base_frame": "a", "rate_hz": "7"}, {"base_frame": "merge", "rate_hz": "merge"}),
+        ("skins", {"left_sole": "a", "right_sole": "b"}, {"left_sole": "gait:=true", "right_sole": "gait:=true"}),
+        ("skins", {"sim": "false", "run_dir": "/tmp/x"}, {"run_dir": "with sim:=false"}),
+        ("skins", {"gait": "true", "left_sole": "a", "base_frame": "a", "rate_hz": "7", "run_dir": "/tmp/x"}, {}),
+    ],
+)
+def test_an_argument_that_has_no_effect_is_said(
+    tmp_path: Path, name: str, given: dict[str, str], without: dict[str, str]
+) -> None:
+    messages = evaluate(TACTILE.with_name(f"{name}.launch.xml"), given, os.environ, tmp_path).messages
+    assert [message.partition(":=")[0] for message in messages] == list(without)
+    for message, (argument, why) in zip(messages, without.items(), strict=True):
+        assert message.startswith(f"{argument}:={given[argument]} has no effect ")
+        assert why in message
+
+
+@pytest.mark.parametrize("sim", ["true", "false"])
+@pytest.mark.parametrize("file", FILES, ids=lambda file: file.name)
+def test_of_what_was_not_given_nothing_is_said(tmp_path: Path, file: Path, sim: str) -> None:
+    given = {"sim": sim} if '<arg name="sim"' in file.read_text() else {}
+    assert evaluate(file, given, os.environ, tmp_path).messages == []
 
 
 @settings(max_examples=50, suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None)

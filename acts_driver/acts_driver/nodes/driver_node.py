@@ -69,6 +69,8 @@ class DriverNode(LifecycleNode):
         self._settings = declare(
             self, DriverSettings, self._on_changed_parameters, is_unconfigured=lambda: self.intake is None
         )
+        if self._settings.unused:
+            self.get_logger().warning(f"{', '.join(self._settings.unused)}: not used without replay")
         keep_system_clock(self, "the board does not wait for simulated time, and frames are stamped as they arrive")
         self.consumers: list[FrameConsumer] = []
         self._source: Source | None = None

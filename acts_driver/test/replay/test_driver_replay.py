@@ -322,6 +322,12 @@ def test_a_missing_recording_is_reported_and_waited_for(rig: Rig, tmp_path: Path
     rig.spin_until(lambda: len(rig.samples) > 3, "messages")
 
 
+def test_parameters_of_a_recording_are_told_where_none_is_replayed() -> None:
+    assert DriverSettings(replay_speed=2.0, replay_loop=False).unused == ("replay_speed", "replay_loop")
+    assert DriverSettings(replay="touch", replay_speed=2.0).unused == ()
+    assert DriverSettings(replay="none").unused == ()
+
+
 def test_defaults_of_an_npz_file(tmp_path: Path) -> None:
     np.savez(tmp_path / "s.npz", indices=[[3, 1]], counts=[[5, 6]], rate_hz=50, rows=2, cols=2)
     (found,) = RecordedSamples.load(tmp_path / "s.npz").frames()

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import ActsError, SettingsError
-from acts_core.settings import setting, validate
+from acts_core.settings import default_of, describe, setting, validate
 from acts_core.skin import layout
 from acts_sim.dynamixel import MODELS, Bus, Motor, OverloadLaw
 from acts_sim.hand import model as hand_model
@@ -93,6 +93,10 @@ class HandWorldConfig(SkinConfig):
         validate(self)
         if 0.0 < self.object_mass_kg < _SMALLEST_KG:
             raise SettingsError(f"object_mass_kg = {self.object_mass_kg}: allowed is 0, or {_SMALLEST_KG} to 2 kg")
+        for name in describe(HandWorldConfig):
+            value = getattr(self, name)
+            if self.object == "none" and name.startswith("object_") and value != default_of(HandWorldConfig, name):
+                raise SettingsError(f"{name} = {value}: there is no object; choose one, or leave {name} out")
 
 
 class HandWorld:

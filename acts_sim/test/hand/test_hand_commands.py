@@ -156,3 +156,8 @@ def test_a_light_object_squeezed_and_shaken_stays_within_reason(name: str, mass_
 def test_a_mass_that_physics_cannot_follow_is_refused() -> None:
     with pytest.raises(SettingsError, match="object_mass_kg"):
         HandWorldConfig(object_mass_kg=0.001)
+
+
+def test_what_tells_of_an_object_is_refused_where_there_is_none() -> None:
+    with pytest.raises(SettingsError, match=r"object_size_m = 0\.02: there is no object; choose one"):
+        HandWorldConfig(object="none", object_size_m=0.02)

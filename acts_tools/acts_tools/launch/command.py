@@ -122,6 +122,8 @@ def _launch(file: Path, values: dict[str, str], only_print: bool) -> int:
         if only_print:
             for text in plan.warnings:
                 print(f"warning: {text}", file=sys.stderr)
+            for text in plan.messages:
+                print(text, file=sys.stderr)
             for process in plan.processes:
                 print(f"[{process.label}] {shlex.join(process.command)}")
                 for path in process.parameter_files:
@@ -133,6 +135,8 @@ def _launch(file: Path, values: dict[str, str], only_print: bool) -> int:
             console.say("INFO", "launch", f"All log files can be found below {log_folder}")
             for text in plan.warnings:
                 console.say("WARNING", "launch", text)
+            for text in plan.messages:
+                console.say("INFO", "launch.user", text)
             return Launcher(console, *timeouts_s).run(plan.processes)
         finally:
             console.close()

@@ -25,6 +25,7 @@ from acts_tools.launch.model import (
     Executable,
     Group,
     Include,
+    Log,
     Node,
     ParameterFile,
     PushNamespace,
@@ -50,12 +51,15 @@ class Plan:
         In the order in which they are to be started.
     warnings : list of str
         Probable mistakes that the real launch accepts.
+    messages : list of str
+        What the file logs.
     declared : set of str
         Names of the arguments that the file and those it includes declare.
     """
 
     processes: list[Process] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
+    messages: list[str] = field(default_factory=list)
     declared: set[str] = field(default_factory=set)
 
 
@@ -134,6 +138,8 @@ class _Evaluator:
             scope.environment[substitutions.perform(action.name, scope)] = substitutions.perform(action.value, scope)
         elif isinstance(action, PushNamespace):
             _push_namespace(substitutions.perform(action.namespace, scope), scope)
+        elif isinstance(action, Log):
+            self.plan.messages.append(substitutions.perform(action.message, scope))
         elif isinstance(action, Group):
             inner = Scope(dict(scope.variables), dict(scope.environment), scope.file) if action.scoped else scope
             self.visit(action.actions, inner, depth)

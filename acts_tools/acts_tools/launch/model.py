@@ -69,6 +69,13 @@ class PushNamespace(Action):
 
 
 @dataclass(frozen=True, kw_only=True)
+class Log(Action):
+    """`log`: a message of the launch file to who launches it."""
+
+    message: Template
+
+
+@dataclass(frozen=True, kw_only=True)
 class Group(Action):
     """`group`: if scoped, variables, environment and namespace are restored after it."""
 
@@ -161,5 +168,5 @@ class Executable(Action):
 
 
 AnyAction: TypeAlias = (
-    "DeclareArgument | SetVariable | SetEnvironment | PushNamespace | Group | Include | Node | Executable"
+    "DeclareArgument | SetVariable | SetEnvironment | PushNamespace | Log | Group | Include | Node | Executable"
 )

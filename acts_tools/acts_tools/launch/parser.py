@@ -18,6 +18,7 @@ from acts_tools.launch.model import (
     Executable,
     Group,
     Include,
+    Log,
     Node,
     ParameterFile,
     ParameterValue,
@@ -142,6 +143,11 @@ def _set_env(element: Element, condition: Condition | None) -> SetEnvironment:
 def _push_namespace(element: Element, condition: Condition | None) -> PushNamespace:
     element.take()
     return PushNamespace(place=element.place, condition=condition, namespace=_required(element, "namespace"))
+
+
+def _log(element: Element, condition: Condition | None) -> Log:
+    element.take()
+    return Log(place=element.place, condition=condition, message=_required(element, "message"))
 
 
 def _group(element: Element, condition: Condition | None) -> Group:
@@ -300,6 +306,7 @@ _TAGS: dict[str, Callable[[Element, Condition | None], AnyAction]] = {
     "set_env": _set_env,
     "push-ros-namespace": _push_namespace,
     "push_ros_namespace": _push_namespace,
+    "log": _log,
     "group": _group,
     "include": _include,
     "node": _node,

@@ -114,13 +114,14 @@ def test_printing_shows_the_commands_with_their_parameters(prefix: Prefix, capsy
     node = prefix.script("node", "#!/bin/sh\nexit 1\n")
     prefix.launch(
         "it.launch.xml",
-        '<arg name="a" default="1"/><node pkg="fake" exec="node"><param name="p" value="$(var a)"/></node>',
+        '<arg name="a" default="1"/><log message="a is $(var a)"/>'
+        '<node pkg="fake" exec="node"><param name="p" value="$(var a)"/></node>',
     )
     assert main(["launch", "--own", "--print", "fake", "it.launch.xml", "a:=7"]) == 0
     printed = capsys.readouterr()
     assert f"[node-1] {node} --ros-args --params-file /" in printed.out
     assert "        p: 7\n" in printed.out
-    assert printed.err == ""
+    assert printed.err == "a is 7\n"
 
 
 @pytest.mark.parametrize("options", [[], ["--print"]])

@@ -217,6 +217,13 @@ def test_undeclared_arguments_are_set_and_known_as_undeclared(launch: Launch) ->
     assert plan.declared == {"known"}
 
 
+def test_what_the_file_logs_is_told_where_its_condition_holds(launch: Launch) -> None:
+    plan = launch(
+        '<arg name="sim" default="true"/><log message="sim is $(var sim)"/><log message="never" unless="$(var sim)"/>'
+    )
+    assert plan.messages == ["sim is true"]
+
+
 def test_two_nodes_of_one_name_are_a_warning(launch: Launch) -> None:
     one = '<node pkg="fake" exec="node" name="n" namespace="a"/>'
     assert launch(one + one).warnings == [
@@ -239,6 +246,8 @@ def test_respawn_output_and_programs_outside_of_packages(launch: Launch) -> None
         ("<remap from='a' to='b'/>", "Unrecognized entity of the type: remap"),
         ('<node pkg="fake" exec="node" bogus="1"/>', "Unexpected attribute(s) found in `node`: {'bogus'}"),
         ('<node pkg="fake" exec="node"><foo/></node>', "Unexpected nested tag(s) found in `node`: {'foo'}"),
+        ('<log level="INFO" message="a"/>', "Unexpected attribute(s) found in `log`: {'level'}"),
+        ("<log/>", "Attribute 'message' of type '<class 'str'>' not found in Entity 'log'"),
         ('<node pkg="fake"/>', "Attribute 'exec' of type '<class 'str'>' not found in Entity 'node'"),
         ('<node pkg="nope" exec="node"/>', "package 'nope' not found, searching: ["),
         ('<node pkg="fake" exec="nope"/>', "executable 'nope' not found on the libexec directory"),
