@@ -84,15 +84,17 @@ def main(argv: Sequence[str] | None = None) -> int:
         return 1
 
 
-class _Parser(argparse.ArgumentParser):
+class Parser(argparse.ArgumentParser):
     """Options are given by their whole names, in subcommands too: ``--seed`` must not mean ``--seeds``."""
 
     def __init__(self, **options: Any) -> None:
         super().__init__(**{"allow_abbrev": False, **options})
+        # For `acts_tools.arguments.refuse_unused`.
+        self.set_defaults(default_of=self.get_default)
 
 
 def _build_parser(selected: str | None) -> tuple[argparse.ArgumentParser, ModuleType | None]:
-    parser = _Parser(
+    parser = Parser(
         prog="acts",
         description="ACTS: robot touch at 1 kHz, from the board's bytes to the robot's joints.",
         epilog=_EPILOG,

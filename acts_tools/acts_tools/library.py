@@ -15,7 +15,7 @@ from acts_core.errors import RecordingError
 from acts_core.files import load_frames, without_contact
 from acts_recon.objects import ImageClassifierConfig, build_object_library, save_object_library
 from acts_sim.pressing import OBJECTS, PressingArm, object_named
-from acts_tools.arguments import at_least_one, random_seed, whole
+from acts_tools.arguments import at_least_one, random_seed, refuse_unused, whole
 from acts_tools.output_file import require_writable
 
 
@@ -59,6 +59,8 @@ def run(arguments: argparse.Namespace) -> int:
         When the frames cannot be read, have no labels, or the file cannot be written.
     """
     require_writable(arguments.output)
+    if arguments.frames is not None:
+        refuse_unused(arguments, "with --frames", "presses", "seed")
     if arguments.frames is None:
         objects = [object_named(name) for name in arguments.objects] if arguments.objects else list(OBJECTS.values())
         frames, labels = PressingArm(objects, seed=arguments.seed).held_frames(arguments.presses)

@@ -21,6 +21,7 @@ from acts_core.settings import default_of
 from acts_recon.learning import KsvdConfig, KsvdProgress, learn_dictionary, prune_coherent, random_patches
 from acts_recon.sparse import Dictionary, save_dictionary
 from acts_sim.pressing import OBJECTS, FoamConfig, object_named
+from acts_tools.arguments import refuse_unused
 from acts_tools.output_file import require_writable
 from acts_tools.progress import Progress
 from acts_tools.training.checkpoint import Checkpoint
@@ -207,6 +208,8 @@ def _check(arguments: argparse.Namespace) -> None:
             raise SettingsError(f"--{option} {value}: allowed is {lowest} to {highest}")
     if arguments.frames is not None and arguments.objects:
         raise SettingsError("--objects names objects of the contact model and does not go with --frames; leave one out")
+    if arguments.frames is not None:
+        refuse_unused(arguments, "with --frames", "presses")
     if arguments.frames is None and arguments.topic:
         raise SettingsError(f"--topic {arguments.topic}: a topic of the bags of --frames, which were not given")
     require_writable(arguments.output)

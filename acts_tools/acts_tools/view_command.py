@@ -8,8 +8,10 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from acts_core.errors import SettingsError
 from acts_core.skin import LAYOUTS
 from acts_core.stop_signals import StopSignals
+from acts_tools.arguments import refuse_unused
 
 _EPILOG = """\
 examples:
@@ -44,7 +46,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "--layout", default="square", help=f"layout of a recording or board: {', '.join(LAYOUTS)}, or a file (square)"
     )
     parser.add_argument(
-        "--size", type=int, nargs=2, default=(32, 32), metavar=("ROWS", "COLS"), help="size of a board (32 32)"
+        "--size", type=int, nargs=2, default=[32, 32], metavar=("ROWS", "COLS"), help="size of a board (32 32)"
     )
     parser.add_argument(
         "--protocol", default="binary", help="protocol of a board: binary, raster_ascii or your own (binary)"
@@ -63,6 +65,14 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 def run(arguments: argparse.Namespace) -> int:
     """Show until told to stop, and return the exit code."""
+    if not arguments.board:
+        refuse_unused(arguments, "without --board", "size", "protocol", "baud")
+    if arguments.bag or arguments.npz:
+        refuse_unused(arguments, "on a recording", "control")
+    elif not arguments.board:
+        refuse_unused(arguments, "without --bag, --npz or --board: nodes tell theirs", "layout")
+    if arguments.board and len(arguments.skins) > 1:
+        raise SettingsError(f"a board is one skin; {', '.join(arguments.skins)} are {len(arguments.skins)}")
     signals = StopSignals()
     if arguments.bag or arguments.npz or arguments.board:
         return _show_local(arguments, signals)

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from acts_core.errors import ActsError
+from acts_tools.arguments import refuse_unused
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -48,6 +49,9 @@ def run(arguments: argparse.Namespace) -> int:
     from acts_tools.bench.skins import table as skins_table
 
     if arguments.show is not None:
+        refuse_unused(arguments, "with --show", "seconds", "out", "json", "skins", "load", "realtime")
+        if arguments.names:
+            raise ActsError(f"{' '.join(arguments.names)}: nothing is measured with --show; leave one of them out")
         report = _read(arguments.show)
     elif skins.is_chosen(arguments):
         from acts_tools.bench.skins import command
@@ -79,7 +83,12 @@ def _file(arguments: argparse.Namespace, name: str) -> Path:
     from acts_tools.output_file import require_writable
 
     path = Path(arguments.out / name if arguments.json is None else arguments.json)
-    require_writable(path, makes_folder=True)
+    option = "--out" if arguments.json is None else "--json"
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise ActsError(f"{option} {path.parent}: the folder cannot be made ({error.strerror})") from error
+    require_writable(path)
     return path
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from acts_core.errors import RecordingError
+from acts_tools.arguments import refuse_unused
 
 FORMATS = ("csv", "npz", "parquet", "lerobot")
 _LEROBOT_HZ = 30.0
@@ -62,6 +63,8 @@ def run(arguments: argparse.Namespace) -> int:
         raise RecordingError(f"--rate {rate_hz:g}: for {kind} allowed is {allowed}")
     if len(bags) > 1 and kind != "lerobot":
         raise RecordingError(f"{len(bags)} bags: of several only a LeRobot dataset is made; export them one by one")
+    if kind != "lerobot":
+        refuse_unused(arguments, f"with --to {kind}", "task")
     output = arguments.output or _default_output(bags[0], kind)
     if output.exists():
         raise RecordingError(f"'{output}' exists already and is not overwritten: choose another with -o")

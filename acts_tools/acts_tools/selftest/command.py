@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 
 from acts_core.array import MAX_SIDE
 from acts_core.errors import ActsError
-from acts_tools.arguments import real, whole
+from acts_tools.arguments import real, refuse_unused, whole
 from acts_tools.output_file import require_picture, require_writable
 
 if TYPE_CHECKING:
@@ -78,6 +78,14 @@ def run(arguments: argparse.Namespace) -> int:
     """Test and report; return 1 if something is faulty."""
     if arguments.hardware_fault and not arguments.sim:
         raise ActsError("--hardware-fault breaks the wiring of a virtual board: give --sim as well")
+    if arguments.sim:
+        refuse_unused(arguments, "with --sim", "baud")
+        if arguments.port != "auto":
+            raise ActsError(f"{arguments.port}: with --sim the board is a virtual one; leave one of them out")
+    elif arguments.protocol == "binary":
+        refuse_unused(arguments, "on a board that speaks binary: it tells its own size", "rows", "cols")
+    if arguments.no_touch:
+        refuse_unused(arguments, "with --no-touch", "touch_s")
     require_writable(arguments.json, makes_folder=True)
     require_picture(arguments.picture, makes_folder=True)
     with _ended_by_signals(), ExitStack() as stack:

@@ -3,7 +3,6 @@
 
 """Classification on simulated presses and on recordings; thresholds are measured, with margin."""
 
-import argparse
 import json
 from collections.abc import Callable
 from pathlib import Path
@@ -15,6 +14,7 @@ from acts_core.errors import ActsError, RecordingError, SettingsError
 from acts_recon.objects import load_object_library
 from acts_sim.pressing import PressingArm, object_named
 from acts_tools import library
+from acts_tools.cli import Parser
 from acts_tools.evaluate import command
 from acts_tools.evaluate.objects.classification import Trials, accuracy, run_trials
 
@@ -24,13 +24,13 @@ SIX = ("circle", "square", "bolt_and_nut", "glass_mug", "rubber_ball", "tennis_b
 
 
 def evaluate(*words: object) -> int:
-    parser = argparse.ArgumentParser()
+    parser = Parser()
     command.add_parser(parser.add_subparsers())
     return command.run(parser.parse_args(["evaluate", "classification", *(str(word) for word in words)]))
 
 
 def make_library(*words: object) -> int:
-    parser = argparse.ArgumentParser()
+    parser = Parser()
     library.add_parser(parser.add_subparsers())
     return library.run(parser.parse_args(["library", *(str(word) for word in words)]))
 

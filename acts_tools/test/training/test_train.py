@@ -1,7 +1,6 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-import argparse
 import hashlib
 from pathlib import Path
 
@@ -11,15 +10,17 @@ import pytest
 from acts_core.errors import ActsError, ArrayError, RecordingError, SettingsError
 from acts_recon.sparse import load_dictionary
 from acts_tools import train
+from acts_tools.cli import Parser
 
 
 def run(*words: object) -> int:
-    parser = argparse.ArgumentParser()
+    parser = Parser()
     train.add_parser(parser.add_subparsers())
     return train.run(parser.parse_args(["train", *(str(word) for word in words)]))
 
 
-SMALL = ("--presses", 60, "--patches", 400, "--atoms", 50, "--sparsity", 4, "--iterations", 2)
+OF_FRAMES = ("--patches", 400, "--atoms", 50, "--sparsity", 4, "--iterations", 2)
+SMALL = ("--presses", 60, *OF_FRAMES)
 
 
 def test_training_from_the_contact_model(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -45,7 +46,7 @@ def test_training_from_frames(tmp_path: Path) -> None:
     bumps = [900 * np.exp(-((row - r) ** 2 + (col - c) ** 2) / 9) for r in range(12) for c in range(10)]
     np.savez(frames, frames=np.array(bumps).astype(np.uint16))
     path = tmp_path / "d.npz"
-    assert run("-o", path, *SMALL, "--frames", frames, "--patch-size", 6) == 0
+    assert run("-o", path, *OF_FRAMES, "--frames", frames, "--patch-size", 6) == 0
     dictionary = load_dictionary(path, patch_size=6)
     assert hashlib.sha256(frames.read_bytes()).hexdigest() in dictionary.provenance
 

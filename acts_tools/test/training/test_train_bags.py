@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import argparse
 from array import array
 from pathlib import Path
 from typing import Any
@@ -22,6 +21,7 @@ from acts_recon.sparse import load_dictionary
 from acts_ros.bags.message_types import Definitions
 from acts_ros.bags.writing import BagWriter
 from acts_tools import train
+from acts_tools.cli import Parser
 from acts_tools.training.bag_frames import bag_frames
 from acts_tools.training.frames import recorded_frames
 
@@ -103,7 +103,7 @@ def test_a_dictionary_from_a_bag_and_an_npz_file(frames: Frames, tmp_path: Path)
     np.savez(tmp_path / "f.npz", frames=frames[1::2])
     words = ["train", "-o", str(tmp_path / "d.npz"), "--frames", str(bag), str(tmp_path / "f.npz")]
     words += ["--patch-size", "6", "--patches", "400", "--atoms", "50", "--sparsity", "4", "--iterations", "2"]
-    parser = argparse.ArgumentParser()
+    parser = Parser()
     train.add_parser(parser.add_subparsers())
     assert train.run(parser.parse_args(words)) == 0
     provenance = load_dictionary(tmp_path / "d.npz", patch_size=6).provenance

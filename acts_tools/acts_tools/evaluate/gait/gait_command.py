@@ -17,7 +17,7 @@ import numpy as np
 
 from acts_core.errors import RecordingError
 from acts_recon.gait import FEET, GaitConfig
-from acts_tools.arguments import real
+from acts_tools.arguments import real, refuse_unused
 from acts_tools.evaluate import report
 from acts_tools.evaluate.gait import force_curve, walks
 from acts_tools.evaluate.gait.insoles import FoundSteps, InsoleRecording, find_steps, read_insoles
@@ -80,7 +80,9 @@ def add_parser(commands: Any) -> None:
 
 def _run(arguments: argparse.Namespace) -> int:
     if arguments.frames is not None:
+        refuse_unused(arguments, "on recorded insoles", "rate", "seeds", "seed")
         return _run_recorded(arguments)
+    refuse_unused(arguments, "without --frames: simulated insoles have sizes of their own", "length_m", "width_m")
     results = report.Results(arguments.json, {"seed": arguments.seed, "seeds": arguments.seeds})
     print(_WALKS_TITLE, flush=True)
     with Progress("gait", len(arguments.rate) * arguments.seeds) as progress:

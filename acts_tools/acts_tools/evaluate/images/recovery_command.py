@@ -16,7 +16,7 @@ import numpy as np
 from acts_core.errors import RecordingError
 from acts_core.files import load_frames, without_contact
 from acts_sim.pressing import OBJECTS
-from acts_tools.arguments import at_least_one
+from acts_tools.arguments import at_least_one, refuse_unused
 from acts_tools.evaluate import report
 from acts_tools.evaluate.images import options
 from acts_tools.evaluate.images.recovery import Recording
@@ -46,6 +46,8 @@ def add_parser(commands: Any) -> None:
 
 
 def _run(arguments: argparse.Namespace) -> int:
+    if arguments.presses:
+        refuse_unused(arguments, "with --presses, which are single frames", "peaks")
     recordings = _recordings(arguments)
     tasks = options.tasks(arguments, recordings[0].frames.shape[1:])
     if arguments.frames:

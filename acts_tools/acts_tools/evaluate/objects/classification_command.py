@@ -13,13 +13,16 @@ from acts_core.errors import SettingsError
 from acts_core.files import load_frames
 from acts_core.settings import default_of
 from acts_sim.pressing import OBJECTS, PressingConfig, object_named
-from acts_tools.arguments import at_least_one, random_seed, taxels
+from acts_tools.arguments import at_least_one, random_seed, refuse_unused, taxels
 from acts_tools.evaluate import report
 from acts_tools.evaluate.objects.classification import M_OVER_TIME, MS, Trials, run_trials
 from acts_tools.evaluate.objects.classification_recorded import run_recorded
 from acts_tools.evaluate.objects.classification_report import draw, table, times
 from acts_tools.output_file import require_picture, require_writable
 from acts_tools.progress import Progress
+
+_OF_PRESSES = ("arms", "presses", "columns", "objects", "miss_taxels", "miss_deg", "seed")
+"""Options of simulated presses."""
 
 
 def add_parser(commands: Any) -> None:
@@ -74,6 +77,7 @@ def _run(arguments: argparse.Namespace) -> int:
     if arguments.frames:
         if arguments.picture:
             raise SettingsError(f"--picture {arguments.picture}: shows simulated presses and does not go with --frames")
+        refuse_unused(arguments, "on recordings", *_OF_PRESSES)
         recorded = load_frames(arguments.frames, labels=True)
         with Progress("recordings", 1) as progress:
             results = run_recorded(recorded, arguments.m or [55], progress.show)
