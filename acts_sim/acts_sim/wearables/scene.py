@@ -106,6 +106,7 @@ def worn_scene(name: str, rng: np.random.Generator, rest: RestConfig | None = No
     resting = RestingSkin(arranged.taxels.size, rng, rest)
     now_s = float(rng.uniform(_LAG_S, 10 * _LAG_S))
     baseline = resting.counts(now_s - _LAG_S) + _CALIBRATION_COUNTS * rng.standard_normal(arranged.taxels.size)
+    np.clip(baseline, 0, COUNT_MAX, out=baseline)  # a mean of readings
     untouched = np.rint(resting.counts(now_s)).astype(np.uint16).reshape(arranged.matrix_rows, arranged.matrix_cols)
     frames = np.tile(untouched, (count, 1, 1))
     _add_touch(frames, skin, arranged, contacts)

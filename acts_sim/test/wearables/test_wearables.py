@@ -32,6 +32,7 @@ def test_a_scene_rests_is_touched_when_it_says_so_and_rests_again(name: str) -> 
     assert not shown.is_touched(0.0, first.onset_s)
     # A minute of drift behind.
     assert np.abs(shown.baseline - rested.ravel()).max() < 15
+    assert shown.baseline.min() >= 0  # as a driver's, which is a mean of readings
 
 
 def test_a_seed_makes_the_same_scene_again_and_another_another() -> None:
