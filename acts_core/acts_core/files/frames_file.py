@@ -84,13 +84,14 @@ def load_frames(path: Path, *, labels: bool = False, limit_bytes: int | None = N
     RecordingError
         When it cannot be read or its arrays do not fit together.
     """
-    needed = "needed is an npz file with an array `frames` (n, rows, cols)"
-    names = ["frames", "live", "start", "length", "rate_hz", *(["label"] if labels else [])]
+    needed = "needed is an npz file with an array `frames` (n, rows, cols), or what `acts export BAG --to npz` writes"
+    names = ["frames", "image", "live", "start", "length", "rate_hz", *(["label"] if labels else [])]
     limit_bytes = half_of_memory_bytes() if limit_bytes is None else limit_bytes
     content = read_npz(path, names, error=RecordingError, hint=needed, limit_bytes=limit_bytes)
-    if "frames" not in content:
+    given = content.get("frames", content.get("image"))
+    if given is None:
         raise RecordingError(f"{path}: no array `frames`; {needed}")
-    frames = _frames(path, content["frames"])
+    frames = _frames(path, given)
     live = _live(path, content.get("live"), frames.shape)
     start, length = _recordings(path, content, len(frames))
     label: tuple[str, ...] = ()

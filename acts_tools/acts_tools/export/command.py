@@ -6,11 +6,15 @@
 from __future__ import annotations
 
 import argparse
+import tempfile
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from acts_core.errors import RecordingError
 from acts_tools.arguments import refuse_unused
+
+if TYPE_CHECKING:
+    from acts_tools.export.recording import Recording
 
 FORMATS = ("csv", "npz", "parquet", "lerobot")
 _LEROBOT_HZ = 30.0
@@ -37,7 +41,9 @@ def add_parser(subparsers: Any) -> None:
         help="folder (npz: file) to make (name of the first bag and format)",
     )
     parser.add_argument("--skin", default="", metavar="NAMESPACE", help="skin to export, if there are several")
-    parser.add_argument("--joints", default="", metavar="TOPIC", help="joint states to export, if there are several")
+    parser.add_argument(
+        "--joints", default="", metavar="TOPIC", help="joint states to export, if there are several; none: none"
+    )
     parser.add_argument("--layout", default="square", help="layout of the skin, as in acts view (square)")
     parser.add_argument(
         "--rate",
@@ -76,23 +82,37 @@ def run(arguments: argparse.Namespace) -> int:
     choice = Choice(arguments.skin, arguments.joints, arguments.layout, rate_hz)
     writer: LeRobotWriter | None = None
     try:
-        for bag in bags:
-            with open_recording(bag, choice) as recording:
-                if kind == "lerobot":
-                    writer = writer or LeRobotWriter(output, int(rate_hz), arguments.task)
-                    n_rows = writer.add(recording)
-                else:
-                    write = {"csv": write_csv, "npz": write_npz, "parquet": write_parquet}[kind]
-                    n_rows = write(recording, output)
-                left_out = f"; {recording.left_out} frames left out" if recording.left_out else ""
-                joints = f", {len(recording.joint_columns)} joint columns" if recording.joint_columns else ""
-                print(f"{bag}: {n_rows} rows of {recording.skin}{joints}{left_out}")
-        if writer is not None:
-            writer.close()
+        output.parent.mkdir(parents=True, exist_ok=True)
+        # What is not whole does not stay: it would be in the way of the next attempt.
+        with tempfile.TemporaryDirectory(prefix=".acts_export_", dir=output.parent) as folder:
+            begun = Path(folder) / output.name
+            for bag in bags:
+                with open_recording(bag, choice) as recording:
+                    if kind == "lerobot":
+                        writer = writer or LeRobotWriter(begun, int(rate_hz), arguments.task)
+                        n_rows = writer.add(recording)
+                    else:
+                        write = {"csv": write_csv, "npz": write_npz, "parquet": write_parquet}[kind]
+                        n_rows = write(recording, begun)
+                    _tell(bag, recording, n_rows)
+            if writer is not None:
+                writer.close()
+            begun.rename(output)
     except OSError as error:
         raise RecordingError(f"'{output}' cannot be written: {error.strerror or error}") from error
     print(f"written to {output}")
     return 0
+
+
+def _tell(bag: Path, recording: Recording, n_rows: int) -> None:
+    joints = f", {len(recording.joint_columns)} joint columns" if recording.joint_columns else ""
+    print(f"{bag}: {n_rows} rows of {recording.skin or '/'}{joints}")
+    if recording.early:
+        print(f"{bag}: {recording.early} frames left out, from before all else in the bag had come once")
+    if recording.backward:
+        print(f"{bag}: {recording.backward} frames left out, not newer than one before: was a clock set?")
+    if recording.hint:
+        print(f"{bag}: {recording.hint}")
 
 
 def _default_output(bag: Path, kind: str) -> Path:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from sensor_msgs.msg import Image
 
-from acts_core.errors import ActsError, RecordingError
+from acts_core.errors import ActsError, ArrayError, RecordingError
 from acts_msgs.msg import Baseline, TactileSamples
 from acts_recon.frame_recovery import FrameRecovery
 from acts_recon.settings import ReconstructionConfig, ReconstructionSettings
@@ -50,10 +50,16 @@ def recorded_frames(bag: Any, path: Path, topic: str) -> Iterator[Seen]:
     Raises
     ------
     RecordingError
-        A message is no image in counts.
+        A message is no image in counts, or of another size than the first.
     """
+    size: tuple[int, ...] = ()
     for number, message in enumerate(messages(bag, path, topic, Image)):
-        yield Seen(header_stamp_ns(message), image_counts(message, f"message {number} of {topic} in '{path}'"))
+        where = f"message {number} of {topic} in '{path}'"
+        image = image_counts(message, where)
+        size = size or image.shape
+        if image.shape != size:
+            raise RecordingError(f"{where} is an image of {image.shape}, those before are of {size}")
+        yield Seen(header_stamp_ns(message), image)
 
 
 def recovered_frames(bag: Any, path: Path, topic: str, beside: str | None, layout: str) -> Iterator[Seen]:
@@ -82,7 +88,7 @@ def recovered_frames(bag: Any, path: Path, topic: str, beside: str | None, layou
         if name == beside:
             latest = parsed(data, Baseline, f"a message of {beside} in '{path}'")
             if recovery is not None:
-                _subtract(recovery, latest)
+                _subtract(recovery, latest, f"{beside} in '{path}'")
             continue
         number += 1
         where = f"message {number} of {topic} in '{path}'"
@@ -91,8 +97,10 @@ def recovered_frames(bag: Any, path: Path, topic: str, beside: str | None, layou
             if recovery is None:
                 recovery = FrameRecovery(_settings(samples, layout))
                 if latest is not None:
-                    _subtract(recovery, latest)
+                    _subtract(recovery, latest, f"{beside} in '{path}'")
             yield _seen(recovery, samples)
+        except RecordingError:
+            raise
         except ActsError as error:
             raise RecordingError(f"{where}: {error}") from error
 
@@ -101,12 +109,15 @@ def _settings(samples: TactileSamples, layout: str) -> ReconstructionConfig:
     return ReconstructionSettings(rows=samples.rows, cols=samples.cols, layout=layout)
 
 
-def _subtract(recovery: FrameRecovery, message: Baseline) -> None:
-    recovery.set_baseline(
-        np.asarray(message.baseline, dtype=np.float32),
-        np.asarray(message.noise, dtype=np.float32),
-        np.asarray(message.valid, dtype=np.bool_),
-    )
+def _subtract(recovery: FrameRecovery, message: Baseline, where: str) -> None:
+    try:
+        recovery.set_baseline(
+            np.asarray(message.baseline, dtype=np.float32),
+            np.asarray(message.noise, dtype=np.float32),
+            np.asarray(message.valid, dtype=np.bool_),
+        )
+    except ArrayError as error:
+        raise RecordingError(f"{where}: {error}") from error
 
 
 def _seen(recovery: FrameRecovery, samples: TactileSamples) -> Seen:

@@ -175,15 +175,7 @@ class LeRobotWriter:
             kind = pa.struct([("bytes", pa.binary()), ("path", pa.string())])
             return pa.array([{"bytes": _png(one), "path": None} for one in values], kind)
         column = pa.array(values.ravel())
-        # From the innermost dimension outwards. lerobot stores matrices as lists of variable length.
-        for place, length in reversed(list(enumerate(values.shape[1:]))):
-            is_matrix = values.ndim > 2
-            if is_matrix:
-                n_lists = int(np.prod(values.shape[: place + 1]))
-                column = pa.ListArray.from_arrays(pa.array(np.arange(n_lists + 1) * length, pa.int32()), column)
-            else:
-                column = pa.FixedSizeListArray.from_arrays(column, length)
-        return column
+        return column if values.ndim == 1 else pa.FixedSizeListArray.from_arrays(column, values.shape[1])
 
     def _write(self, name: str, columns: dict[str, Any]) -> None:
         path = self._folder / name
@@ -198,14 +190,16 @@ def _features_of(rows: Sequence[Row], recording: Recording) -> tuple[Features, d
     """Features and values of the columns; names of touch columns contain the skin's name."""
     skin = recording.skin.strip("/").replace("/", "_") or "skin"
     image = np.stack([row.image for row in rows])
+    height, width = image.shape[1:]
     grey = np.rint(image * (255.0 / COUNT_MAX)).astype(np.uint8)
     columns: dict[str, NDArray[Any]] = {
         f"observation.images.{skin}": np.repeat(grey[..., np.newaxis], 3, axis=-1),
-        f"observation.tactile.{skin}": image.astype(np.float32),
+        # In one dimension, as all that is no picture: lerobot reads matrices, but its tools cannot write them.
+        f"observation.tactile.{skin}": image.reshape(len(rows), -1).astype(np.float32),
     }
     names: dict[str, Any] = {
         f"observation.images.{skin}": ["height", "width", "channels"],
-        f"observation.tactile.{skin}": ["rows", "cols"],
+        f"observation.tactile.{skin}": [f"taxel_{r}_{c}" for r in range(height) for c in range(width)],
     }
     contact = [row.contact for row in rows if row.contact is not None]
     if contact:
@@ -213,7 +207,9 @@ def _features_of(rows: Sequence[Row], recording: Recording) -> tuple[Features, d
         names[f"observation.contact.{skin}"] = list(CONTACT_COLUMNS)
     if rows[0].contacts is not None:
         columns[f"observation.contacts.{skin}"] = np.stack([_padded(row.contacts) for row in rows])
-        names[f"observation.contacts.{skin}"] = [f"rank x {', '.join(CONTACTS_COLUMNS)}"]
+        names[f"observation.contacts.{skin}"] = [
+            f"{rank}.{name}" for rank in range(MAX_BLOBS) for name in CONTACTS_COLUMNS
+        ]
     joints = [row.joints for row in rows if row.joints is not None]
     if joints:
         columns["observation.state"] = np.stack(joints).astype(np.float32)
@@ -232,12 +228,12 @@ def _features_of(rows: Sequence[Row], recording: Recording) -> tuple[Features, d
 
 
 def _padded(contacts: NDArray[np.float64] | None) -> NDArray[np.float32]:
-    """The contacts of a row; rows of zeros after the last."""
+    """The contacts of a row, one after another; zeros after the last."""
     padded = np.zeros((MAX_BLOBS, len(CONTACTS_COLUMNS)), dtype=np.float32)
     if contacts is not None:
         kept = contacts[:MAX_BLOBS]
         padded[: len(kept)] = kept
-    return padded
+    return padded.ravel()
 
 
 def _png(pixels: NDArray[np.uint8]) -> bytes:

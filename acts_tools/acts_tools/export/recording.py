@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from sensor_msgs.msg import Image
 
 from acts_core.errors import RecordingError
+from acts_msgs.msg import RegionContacts
 from acts_ros.bags import require_rosbags
 from acts_tools.bags.messages import messages
 from acts_tools.export.frames import Seen, recorded_frames, recovered_frames
@@ -24,7 +25,11 @@ from acts_tools.export.tracks import Track, Values, contact_track, contacts_trac
 _IMAGE = "sensor_msgs/msg/Image"
 _SAMPLES = "acts_msgs/msg/TactileSamples"
 _JOINTS = "sensor_msgs/msg/JointState"
+_REGIONS = "acts_msgs/msg/RegionContacts"
 _NS_PER_S = 1_000_000_000
+NO_JOINTS = "none"
+"""In place of a topic of joint states: none is exported."""
+
 # Rows are repeated for at most this time, because a bag whose clock was set would fill the disk [s].
 _PAUSE_MAX_S = 60.0
 
@@ -38,7 +43,7 @@ class Choice:
     skin : str
         Its namespace; empty for the only one in the bag.
     joints : str
-        Topic of joint states; empty for the only one in the bag, if there is one.
+        Topic of joint states; empty for the only one in the bag, if there is one, `NO_JOINTS` for none.
     layout : str
         Layout of the skin, for recovery from samples.
     rate_hz : float
@@ -90,8 +95,12 @@ class Recording:
     skin: str
     rate_hz: float
     joint_columns: tuple[str, ...]
-    left_out: int = 0
-    """Number of frames without a row: not newer than the one before, or before the first contact or joint state."""
+    early: int = 0
+    """Number of frames without a row: before the first contact or joint state."""
+    backward: int = 0
+    """Number of frames without a row: not newer than one before."""
+    hint: str = ""
+    """For the user: what may be meant otherwise; empty where there is nothing."""
     _frames: Iterator[Seen] = field(default_factory=lambda: iter(()))
     _contact: Track[Values] | None = None
     _contacts: Track[Values] | None = None
@@ -116,7 +125,7 @@ class Recording:
                     f"rows are repeated for at most {_PAUSE_MAX_S:.0f} s: export it with --rate 0, or record less"
                 )
             if seen.stamp_ns < begin_ns:
-                self.left_out += 1
+                self.early += 1
                 if not self.rate_hz:
                     continue
             if not self.rate_hz:
@@ -134,7 +143,16 @@ class Recording:
                 yield self._row(due_ns, first_ns, before)
                 made += 1
         if not made:
-            raise RecordingError(f"'{self.name}' has no frame of {self.skin} after all else in it had been told once")
+            raise RecordingError(f"'{self.name}' has no row of {self.skin or '/'}: {self._without_rows()}")
+
+    def _without_rows(self) -> str:
+        """Why there is no row."""
+        if self.early:
+            return (
+                f"all {self.early} frames are from before the first contact, contacts or joint state in it; joint "
+                "states can be left out by --joints none"
+            )
+        return f"its {self.backward} frames have no stamp" if self.backward else "its topic has no messages"
 
     def _ascending(self) -> Iterator[Seen]:
         last_ns = 0
@@ -143,7 +161,7 @@ class Recording:
                 last_ns = seen.stamp_ns
                 yield seen
             else:
-                self.left_out += 1
+                self.backward += 1
 
     def _due_ns(self, first_ns: int, number: int) -> int:
         return first_ns + round(number * _NS_PER_S / self.rate_hz)
@@ -187,7 +205,7 @@ def open_recording(path: Path, choice: Choice) -> Iterator[Recording]:
         joints = _joint_topic(path, types, choice.joints)
         for topic in (images, samples, beside, f"{skin}/contact", f"{skin}/contacts", joints):
             bag.check_definition(topic)
-        if types.get(images) == _IMAGE:
+        if types.get(images) == _IMAGE and _is_in_counts(bag, path, images):
             frames = recorded_frames(bag, path, images)
         else:
             frames = recovered_frames(bag, path, samples, beside if beside in types else None, choice.layout)
@@ -199,6 +217,7 @@ def open_recording(path: Path, choice: Choice) -> Iterator[Recording]:
             skin=skin,
             rate_hz=choice.rate_hz,
             joint_columns=columns if joint_values.stamps_ns else (),
+            hint=_layout_hint(bag, path, skin, choice.layout),
             _frames=frames,
             _contact=contact if contact.stamps_ns else None,
             _contacts=contacts if contacts.stamps_ns else None,
@@ -231,6 +250,21 @@ def _skin(bag: Any, path: Path, types: dict[str, str], wanted: str) -> str:
     return found[0]
 
 
+def _layout_hint(bag: Any, path: Path, skin: str, layout: str) -> str:
+    """That the skin has several patches, where its layout was not given."""
+    topic = f"{skin}/regions"
+    if layout != "square" or bag.topics().get(topic) != _REGIONS:
+        return ""
+    bag.check_definition(topic)
+    first = next(messages(bag, path, topic, RegionContacts), None)
+    if first is None or len(first.regions) < 2:
+        return ""
+    return (
+        f"{topic} has {len(first.regions)} patches: with --layout NAME, as the driver had it, images are those of the "
+        "patches, and what is recovered does not pass from one to another"
+    )
+
+
 def _is_in_counts(bag: Any, path: Path, topic: str) -> bool:
     first = next(messages(bag, path, topic, Image), None)
     return first is not None and first.encoding == "mono16"
@@ -238,10 +272,12 @@ def _is_in_counts(bag: Any, path: Path, topic: str) -> bool:
 
 def _joint_topic(path: Path, types: dict[str, str], wanted: str) -> str:
     found = sorted(topic for topic, kind in types.items() if kind == _JOINTS)
+    if wanted == NO_JOINTS:
+        return ""
     if wanted:
         if wanted not in found:
             raise RecordingError(f"'{path}' has no joint states on {wanted}; it has {', '.join(found) or 'none'}")
         return wanted
     if len(found) > 1:
-        raise RecordingError(f"'{path}' has joint states on {', '.join(found)}: choose one with --joints")
+        raise RecordingError(f"'{path}' has joint states on {', '.join(found)}: choose one with --joints, or none")
     return found[0] if found else ""

@@ -58,6 +58,8 @@ def write_npz(recording: Recording, path: Path) -> int:
     with path.open("xb") as file:
         arrays: dict[str, Any] = {"image": np.stack([row.image for row in rows]), **columns}
         arrays |= {f"contacts.{name}": values for name, values in contacts.items()}
+        if recording.rate_hz:
+            arrays["rate_hz"] = np.array(recording.rate_hz)
         np.savez_compressed(file, **arrays)
     return len(rows)
 

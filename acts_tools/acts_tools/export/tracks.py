@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from sensor_msgs.msg import JointState
 
+from acts_core.errors import RecordingError
 from acts_msgs.msg import Contact, Contacts
 from acts_recon.contacts import Contact as FoundContact
 from acts_recon.contacts import TrackedBlob
@@ -86,14 +87,25 @@ def joint_track(bag: Any, path: Path, topic: str) -> tuple[tuple[str, ...], Trac
         Such as ``knuckle.position``, of the joints in their order; velocity and effort where they are told.
     track : Track
         From the message on with which every joint has been told.
+
+    Raises
+    ------
+    RecordingError
+        A message has no stamp, so that nobody knows what it belongs to.
     """
     told = [(stamp_ns_of(message), _joint_values(message)) for message in messages(bag, path, topic, JointState)]
+    unstamped = sum(not stamp_ns for stamp_ns, _ in told)
+    if unstamped:
+        raise RecordingError(
+            f"'{path}': {unstamped} of {len(told)} joint states on {topic} have no stamp, so that it is not known when "
+            "they were; leave them out with --joints none"
+        )
     columns = tuple(dict.fromkeys(name for _, values in told for name in values))
     newest: dict[str, float] = {}
     track: Track[Values] = Track()
     for stamp_ns, values in told:
         newest.update(values)
-        if len(newest) == len(columns):
+        if columns and len(newest) == len(columns):
             track.add(stamp_ns, np.array([newest[name] for name in columns]))
     return columns, track
 

@@ -22,6 +22,7 @@ from sensor_msgs.msg import Image, JointState
 from std_msgs.msg import Header
 
 from acts_core.errors import RecordingError
+from acts_core.files import load_frames
 from acts_msgs.msg import Baseline, Contact, Contacts, TactileSamples, TrackedContact
 from acts_recon.settings import ReconstructionSettings
 from acts_ros.bags.message_types import Definitions
@@ -87,7 +88,7 @@ def write_bag(path: Path, *messages: tuple[str, Any]) -> Path:
 
 def rows_of(bag: Path, **choice: Any) -> tuple[list[Row], int]:
     with open_recording(bag, Choice(**choice)) as recording:
-        return list(recording.rows()), recording.left_out
+        return list(recording.rows()), recording.early + recording.backward
 
 
 @pytest.fixture
@@ -168,7 +169,9 @@ def test_images_and_contacts_are_recovered_from_samples_as_the_node_does(tmp_pat
 def test_csv(bag: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out = tmp_path / "out"
     assert main(["export", str(bag), "--to", "csv", "-o", str(out)]) == 0
-    assert "3 rows of /plate, 2 joint columns; 3 frames left out" in capsys.readouterr().out
+    said = capsys.readouterr().out
+    assert "3 rows of /plate, 2 joint columns\n" in said
+    assert "3 frames left out, from before all else in the bag had come once" in said
     with (out / "frames.csv").open() as file:
         rows = list(csv.DictReader(file))
     assert [int(row["stamp_ns"]) for row in rows] == [(BEGIN_MS + t) * 1_000_000 for t in (30, 40, 50)]
@@ -229,6 +232,14 @@ def test_what_cannot_be_exported_is_refused(
     assert not (tmp_path / "out").exists()
 
 
+def test_what_was_exported_at_a_rate_can_be_evaluated(bag: Path, tmp_path: Path) -> None:
+    out = tmp_path / "touch.npz"
+    assert main(["export", str(bag), "--to", "npz", "--rate", "100", "-o", str(out)]) == 0
+    recorded = load_frames(out)
+    assert recorded.rate_hz == 100.0
+    assert np.array_equal(recorded.frames, [pressed(n) for n in (2, 3, 4)])
+
+
 def test_nothing_is_overwritten_and_several_skins_ask_for_a_choice(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -266,6 +277,11 @@ def test_lerobot_dataset_is_as_its_description_says(bag: Path, tmp_path: Path) -
         assert table.column_names == list(features)
         for name, feature in features.items():
             column, kind = table[name], table.schema.field(name).type
+            # What lerobot's tools can write again: pictures, and rows of numbers.
+            assert feature["dtype"] == "image" or len(feature["shape"]) == 1
+            assert (
+                feature["names"] is None or feature["dtype"] == "image" or len(feature["names"]) == feature["shape"][0]
+            )
             if feature["dtype"] == "image":
                 assert kind == pa.struct([("bytes", pa.binary()), ("path", pa.string())])
             else:
@@ -293,7 +309,8 @@ def test_lerobot_pictures_and_counts_are_those_of_the_skin(bag: Path, tmp_path: 
     out = tmp_path / "out"
     assert main(["export", str(bag), "--to", "lerobot", "--rate", "100", "-o", str(out)]) == 0
     table = parquet.read_table(out / "data/chunk-000/file-000.parquet")
-    assert np.array_equal(table["observation.tactile.plate"][0].as_py(), pressed(2))
+    assert np.array_equal(np.reshape(table["observation.tactile.plate"][0].as_py(), (SIDE, SIDE)), pressed(2))
+    assert np.reshape(table["observation.contacts.plate"][0].as_py(), (16, 9))[:3, 0].tolist() == [1.0, 0.0, 0.0]
     picture = np.array(PngImage.open(io.BytesIO(table["observation.images.plate"][0].as_py()["bytes"])))
     assert picture.shape == (SIDE, SIDE, 3)
     assert np.array_equal(picture[..., 0], np.rint(pressed(2) * (255 / 1023)))
