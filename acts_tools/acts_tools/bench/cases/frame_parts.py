@@ -5,7 +5,7 @@
 
 In one process a frame is decoded, stamped and recovered, and its contact is published. With driver and reconstruction
 in two processes, it is also sent and received as a message. The CPU time of the thread is measured at the rate of the
-board: between two frames others use the caches, so that a step takes up to twice its time in a loop.
+board: between two frames others use the caches, so that a step takes three to six times its time in a loop.
 """
 
 from __future__ import annotations
