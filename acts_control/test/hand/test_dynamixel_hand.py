@@ -177,7 +177,7 @@ def test_a_cable_torn_off_is_told_and_the_hand_connects_again(bus: Bus) -> None:
         hand.read()
     with pytest.raises(HandLostError, match="not connected"):
         hand.command([0.0] * 16)
-    with pytest.raises(HandError, match="cannot be opened"):
+    with pytest.raises(HandError, match="is not there; plug the hand in"):
         hand.connect()
     bus.command("plug_in")
     assert hand.connect() == []
@@ -230,8 +230,12 @@ def test_the_return_delay_is_told_and_set_where_that_is_wanted(tmp_path: Path) -
 
 
 def test_a_port_that_is_none_and_a_rate_nobody_knows_are_refused(tmp_path: Path, bus: Bus) -> None:
-    with pytest.raises(HandError, match="cannot be opened"):
+    missing = r"nothing is not there; plug the hand in or name another port\. (Ports present:|No serial ports)"
+    with pytest.raises(HandError, match=missing):
         DynamixelHand(LEAP_RIGHT, DynamixelConfig(port=str(tmp_path / "nothing"))).connect()
+    (tmp_path / "file").touch()
+    with pytest.raises(HandError, match="file is no serial port"):
+        DynamixelHand(LEAP_RIGHT, DynamixelConfig(port=str(tmp_path / "file"))).connect()
     with pytest.raises(HandError, match="baud = 12345"):
         bus.hand(baud=12345).connect()
 

@@ -10,6 +10,7 @@ from acts_core.runtime import background
 from acts_core.runtime.addresses import is_loopback
 from acts_core.runtime.background import begin, is_done, within_patience
 from acts_core.runtime.late_frames import LateFrames, Use
+from acts_core.runtime.port_words import errno_of, not_opened, path_shown, port_shown, ports_present
 from acts_core.runtime.process_names import process_name
 from acts_core.runtime.rate_limit import RateLimit
 from acts_core.runtime.realtime import RealtimeConfig, enter_realtime, parse_cores
@@ -31,12 +32,17 @@ __all__ = [
     "begin",
     "demote_process",
     "enter_realtime",
+    "errno_of",
     "holders",
     "is_done",
     "is_loopback",
     "is_multiplexer",
     "is_stale_link",
+    "not_opened",
     "parse_cores",
+    "path_shown",
+    "port_shown",
+    "ports_present",
     "process_name",
     "within_patience",
 ]

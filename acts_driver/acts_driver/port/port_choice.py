@@ -11,6 +11,7 @@ from serial.tools import list_ports
 from serial.tools.list_ports_common import ListPortInfo
 
 from acts_core.errors import PortError, SettingsError
+from acts_core.runtime import port_shown, ports_present
 
 AUTO = "auto"
 SERIAL_PREFIX = "serial:"
@@ -68,33 +69,17 @@ def resolve(port: str, lister: Lister = list_ports.comports) -> str:
     if not found:
         raise PortError(
             f"port {port}: {wanted} plugged in; plug it in, wait until it has started, or name another port. "
-            f"{ports_present(lambda: present)}"
+            f"{ports_present(present)}"
         )
     if len(found) > 1:
         choices = ", ".join(
             f"{SERIAL_PREFIX}{one.serial_number}" if port == AUTO and one.serial_number else one.device for one in found
         )
         raise PortError(
-            f"port {port}: {len(found)} boards fit: {', '.join(map(shown, found))}; name one of them as the port: "
+            f"port {port}: {len(found)} boards fit: {', '.join(map(port_shown, found))}; name one of them as the port: "
             f"{choices}"
         )
     return str(found[0].device)
-
-
-def ports_present(lister: Lister = list_ports.comports) -> str:
-    """A sentence that lists the serial ports of this machine with what is known of them."""
-    ports = [shown(port) for port in _sorted(lister())]
-    return f"Ports present: {', '.join(ports)}." if ports else "No serial ports are present."
-
-
-def shown(port: ListPortInfo) -> str:
-    """A port for a person: path, description, USB numbers and serial number, as far as it has them."""
-    known = [] if port.description in (None, "", "n/a") else [str(port.description)]
-    if port.vid is not None and port.pid is not None:
-        known.append(f"USB {port.vid:04X}:{port.pid:04X}")
-    if port.serial_number:
-        known.append(f"serial number {port.serial_number}")
-    return f"{port.device} ({', '.join(known)})" if known else str(port.device)
 
 
 def _sorted(ports: Iterable[ListPortInfo]) -> list[ListPortInfo]:

@@ -8,15 +8,19 @@ from __future__ import annotations
 import errno
 from pathlib import Path
 
-from acts_core.runtime import holders
+from serial.tools import list_ports
+
+from acts_core.runtime import errno_of, holders, not_opened, ports_present
 
 
 def why_not(port: str, error: Exception) -> str:
     """Words for a port that cannot be opened."""
-    if getattr(error, "errno", None) in (errno.EBUSY, errno.EAGAIN):
+    number = errno_of(error)
+    if number in (errno.EBUSY, errno.EAGAIN):
         held_by = ", ".join(holders(port)) or f"another program (`lsof {port}` tells which)"
         return held(port, held_by)
-    return f"{port} cannot be opened ({error}); is the hand connected, and may this user open the port?"
+    words = not_opened(port, number, str(error), what="hand", present=ports_present(list_ports.comports()))
+    return words.removesuffix(".")  # it becomes a part of other sentences
 
 
 def held(port: str, held_by: str) -> str:
