@@ -69,7 +69,7 @@ class SourceParameters:
     )
     replay: str = setting(
         "",
-        "recording to replay in place of a board: a bag (folder or .mcap) or an .npz file; empty or none: the port",
+        "recording to replay in place of a board: a bag (folder, .mcap, .db3) or an .npz file; empty or none: the port",
         changeable=Changeable.UNCONFIGURED,
     )
     replay_topic: str = setting(

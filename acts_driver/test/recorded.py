@@ -27,12 +27,17 @@ uint16[] counts
 """
 
 
-def write_bag(path: Path, topics: dict[str, Sequence[tuple[SampleFrame, int]]], definition: str = DEFINITION) -> Path:
+def write_bag(
+    path: Path,
+    topics: dict[str, Sequence[tuple[SampleFrame, int]]],
+    definition: str = DEFINITION,
+    plugin: StoragePlugin = StoragePlugin.MCAP,
+) -> Path:
     """A bag in rosbag2's layout; for each topic frames and their stamps [ns]."""
     store = get_typestore(Stores.ROS2_KILTED if hasattr(Stores, "ROS2_KILTED") else Stores.LATEST)
     store.register(get_types_from_msg(definition, "acts_msgs/msg/TactileSamples"))
     message = SamplesMessage("plate")
-    with Writer(path, version=9, storage_plugin=StoragePlugin.MCAP) as writer:
+    with Writer(path, version=9, storage_plugin=plugin) as writer:
         for topic, frames in topics.items():
             connection = writer.add_connection(topic, "acts_msgs/msg/TactileSamples", typestore=store)
             for frame, stamp_ns in frames:

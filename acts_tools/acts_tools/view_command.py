@@ -39,7 +39,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     )
     parser.add_argument("skins", nargs="*", metavar="NAMESPACE", help="skins to show, such as plate; none: all found")
     source = parser.add_mutually_exclusive_group()
-    source.add_argument("--bag", type=Path, metavar="BAG", help="show the samples of a bag (folder or .mcap)")
+    source.add_argument("--bag", type=Path, metavar="BAG", help="show the samples of a bag (folder, .mcap or .db3)")
     source.add_argument("--npz", type=Path, metavar="FILE", help="show samples or full frames of an npz file")
     source.add_argument("--board", metavar="PORT", help="show the board at a port: a path, auto, or serial:NUMBER")
     parser.add_argument(

@@ -16,6 +16,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from rclpy.serialization import serialize_message
 from test_view_codec import decode
 from websockets.sync.client import ClientConnection, connect
 
@@ -23,7 +24,10 @@ from acts_core.errors import ViewRequestError
 from acts_core.frames import SampleFrame, Scheme
 from acts_core.stop_signals import StopSignals
 from acts_driver.replay import ReplayOptions, open_recording
+from acts_msgs.msg import TactileSamples
 from acts_recon.settings import ReconstructionSettings
+from acts_ros.bags.message_types import Definitions
+from acts_ros.bags.writing import BagWriter
 from acts_view.local.local_skin import LocalSkin
 from acts_view.local.playback import Playback
 from acts_view.local.show import show
@@ -111,6 +115,23 @@ def test_a_held_recording_shows_where_one_goes_and_goes_on_from_there(played: Pl
     until(lambda: not playback.state.is_playing)
     playback.seek(-5.0)
     until(lambda: played.numbers[-1] == 0)
+
+
+def test_a_bag_whose_recorder_was_killed_is_shown_and_said_to_be_one(tmp_path: Path) -> None:
+    bag, kind = BagWriter(tmp_path / "bag"), "acts_msgs/msg/TactileSamples"
+    topic = bag.add_topic("/plate/samples", kind, *Definitions().describe(kind), [])
+    for number in range(3):
+        message = TactileSamples(rows=32, cols=32, sequence=number, indices=[5], counts=[600])
+        message.header.stamp.sec = 1 + number
+        bag.write(topic, serialize_message(message))
+    bag.flush()
+    source, name = open_recorded(tmp_path / "bag", [], "square")
+    assert name == "/plate"
+    source.start(lambda: None)
+    (diagnosis,) = source.status()["diagnostics"]
+    source.stop()
+    assert diagnosis["level"] == 1
+    assert "was never closed" in diagnosis["message"]
 
 
 @pytest.mark.parametrize("kind", ["full frames", "samples"])

@@ -112,6 +112,10 @@ class DriverNode(LifecycleNode):
         self.intake = Intake(settings, source, self._publish, log=log_of(self), on_board=self._board.publish)
         self._board.session = self.intake.session
         self.intake.start()
+        # Of a recording whose recorder was killed; ports have none.
+        note = getattr(source, "note", "")
+        if note:
+            self.get_logger().warning(note)
         self.get_logger().info(f"reading {source.name}" + ("" if settings.is_replay else f" ({settings.protocol})"))
         return SUCCESS
 

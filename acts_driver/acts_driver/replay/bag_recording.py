@@ -25,9 +25,14 @@ class BagRecording:
     Parameters
     ----------
     path : Path
-        Folder in rosbag2's layout, or an MCAP file.
+        Folder in rosbag2's layout, or an MCAP or SQLite file.
     topic : str
         Full name of the topic; empty for the only one of type TactileSamples.
+
+    Attributes
+    ----------
+    note : str or None
+        For a person: what is wrong with the bag; None where it is whole.
 
     Raises
     ------

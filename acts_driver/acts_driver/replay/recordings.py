@@ -65,7 +65,7 @@ class ReplayOptions:
     Attributes
     ----------
     path : Path
-        A bag (folder or MCAP file) or an npz file.
+        A bag (folder, MCAP or SQLite file) or an npz file.
     topic : str
         Topic of a bag; empty for its only one of type TactileSamples.
     frames_hz : float
@@ -98,7 +98,7 @@ def open_recording(options: ReplayOptions) -> SeekableRecording:
     """
     path = options.path
     if not is_there(path, error=RecordingError):
-        raise RecordingError(f"there is no recording '{path}'; give a bag (folder or .mcap) or an .npz file")
+        raise RecordingError(f"there is no recording '{path}'; give a bag (folder, .mcap or .db3) or an .npz file")
     if path.suffix == ".npz":
         if "indices" in npz_names(path):
             return RecordedSamples.load(path)
@@ -113,7 +113,7 @@ def open_recording(options: ReplayOptions) -> SeekableRecording:
             options.rate_cap_hz,
             options.skin_map(rows, cols),
         )
-    if path.is_dir() or path.suffix == ".mcap":
+    if path.is_dir() or path.suffix in (".mcap", ".db3"):
         # Late: rosbags is needed for bags alone.
         try:
             from acts_driver.replay.bag_recording import BagRecording
@@ -125,8 +125,8 @@ def open_recording(options: ReplayOptions) -> SeekableRecording:
 
         return BagRecording(path, options.topic)
     raise RecordingError(
-        f"'{path}' is no recording that can be replayed: needed is a bag (folder or .mcap), or an .npz file with "
-        "samples (indices, counts) or full frames (frames, rate_hz)"
+        f"'{path}' is no recording that can be replayed: needed is a bag (folder, .mcap or .db3), or an .npz file "
+        "with samples (indices, counts) or full frames (frames, rate_hz)"
     )
 
 

@@ -83,6 +83,11 @@ class ReplaySource:
         """The recording."""
         return self._name
 
+    @property
+    def note(self) -> str:
+        """For a person: what is wrong with an open recording that is replayed all the same; empty where it is whole."""
+        return getattr(self._recording, "note", None) or ""
+
     def open(self) -> None:
         """Open the recording, or raise `RecordingError`.
 

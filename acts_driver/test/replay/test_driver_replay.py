@@ -16,6 +16,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pty_board import frame, wait_for
 from recorded import DEFINITION, write_bag
+from rosbags.rosbag2 import StoragePlugin
 
 from acts_core.errors import RecordingError, SettingsError
 from acts_core.frames import SampleFrame, Scheme
@@ -72,16 +73,17 @@ def rig() -> Iterator[Rig]:
     rig.close()
 
 
-@pytest.mark.parametrize("kind", ["npz", "bag", "mcap"])
+@pytest.mark.parametrize("kind", ["npz", "bag", "mcap", "db3"])
 def test_recorded_samples_come_back_as_they_were(kind: str, tmp_path: Path) -> None:
     sent = [frame(k, m=7) for k in (0, 1, 2, 5, 6)]
     if kind == "npz":
         path = write_samples(tmp_path / "samples.npz", sent)
     else:
         stamped = [(one, START_NS + one.board_us * 1000) for one in sent]
-        path = write_bag(tmp_path / "bag", {"/plate/samples": stamped})
-        if kind == "mcap":
-            (path,) = path.glob("*.mcap")
+        plugin = StoragePlugin.SQLITE3 if kind == "db3" else StoragePlugin.MCAP
+        path = write_bag(tmp_path / "bag", {"/plate/samples": stamped}, plugin=plugin)
+        if kind != "bag":
+            (path,) = path.glob(f"*.{kind}")
     recording = open_recording(ReplayOptions(path))
     for _ in range(2):
         found = list(recording.frames())
@@ -178,6 +180,17 @@ def test_samples_of_one_taxel_are_replayed(tmp_path: Path) -> None:
     assert {one.scheme for one in found} == {Scheme.FIXED}
 
 
+def test_what_is_wrong_with_a_bag_is_told_of_a_source_that_replays_it_all_the_same(tmp_path: Path) -> None:
+    path = write_bag(tmp_path / "bag", {"/plate/samples": [(frame(k), START_NS + k * MS) for k in range(3)]})
+    source = ReplaySource("bag", lambda: open_recording(ReplayOptions(path)))
+    source.open()
+    assert source.note == ""
+    (path / "metadata.yaml").unlink()
+    source.open()
+    assert "was never closed" in source.note
+    source.close()
+
+
 def test_files_that_are_no_recordings(tmp_path: Path) -> None:
     def refused(path: Path, words: str, topic: str = "") -> None:
         with pytest.raises(RecordingError, match=words):
@@ -190,7 +203,7 @@ def test_files_that_are_no_recordings(tmp_path: Path) -> None:
     (tmp_path / "text.npz").write_text("nothing")
     refused(tmp_path / "text.npz", "not an npz file")
     (tmp_path / "text.txt").write_text("nothing")
-    refused(tmp_path / "text.txt", r"needed is a bag \(folder or \.mcap\), or an \.npz file")
+    refused(tmp_path / "text.txt", r"needed is a bag \(folder, \.mcap or \.db3\), or an \.npz file")
     (tmp_path / "empty").mkdir()
     refused(tmp_path / "empty", "no bag that can be read")
     one = [(frame(0), START_NS)]

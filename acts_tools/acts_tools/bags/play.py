@@ -21,7 +21,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         description="Publish a bag's messages at the pace and with the quality of service of their recording. "
         "Reads bags of `acts record` and of ROS 2, also those whose recorder was killed.",
     )
-    parser.add_argument("bag", type=Path, help="folder of the bag, or an MCAP file")
+    parser.add_argument("bag", type=Path, help="folder of the bag, or its .mcap or .db3 file")
     parser.add_argument("-r", "--rate", type=float, default=1.0, help="speed, 2 is twice as fast (default: 1)")
     parser.add_argument("-l", "--loop", action="store_true", help="start again at the end, until Ctrl-C")
     parser.add_argument("-t", "--topics", nargs="+", metavar="TOPIC", help="only these topics")

@@ -111,10 +111,10 @@ def _tell(bag: Path, recording: Recording, n_rows: int) -> None:
         print(f"{bag}: {recording.early} frames left out, from before all else in the bag had come once")
     if recording.backward:
         print(f"{bag}: {recording.backward} frames left out, not newer than one before: was a clock set?")
-    if recording.hint:
-        print(f"{bag}: {recording.hint}")
+    for sentence in filter(None, (recording.note, recording.hint)):
+        print(f"{bag}: {sentence}")
 
 
 def _default_output(bag: Path, kind: str) -> Path:
-    name = bag.resolve().name.removesuffix(".mcap")
+    name = bag.resolve().name.removesuffix(".mcap").removesuffix(".db3")
     return Path(f"{name}.npz" if kind == "npz" else f"{name}_{kind}")

@@ -99,6 +99,8 @@ class Recording:
     """Number of frames without a row: before the first contact or joint state."""
     backward: int = 0
     """Number of frames without a row: not newer than one before."""
+    note: str | None = None
+    """For the user: what is wrong with the bag; None where it is whole."""
     hint: str = ""
     """For the user: what may be meant otherwise; empty where there is nothing."""
     _frames: Iterator[Seen] = field(default_factory=lambda: iter(()))
@@ -217,6 +219,7 @@ def open_recording(path: Path, choice: Choice) -> Iterator[Recording]:
             skin=skin,
             rate_hz=choice.rate_hz,
             joint_columns=columns if joint_values.stamps_ns else (),
+            note=bag.note,
             hint=_layout_hint(bag, path, skin, choice.layout),
             _frames=frames,
             _contact=contact if contact.stamps_ns else None,

@@ -118,6 +118,10 @@ class RecordedSource:
         assert self._playback is not None
         state = self._playback.state
         level, message = (2, state.problem) if state.problem else (0, "playing" if state.is_playing else "held")
+        # Of a bag whose recorder was killed.
+        note = getattr(self.recording, "note", None)
+        if note and not level:
+            level, message = 1, f"{message}; {note}"
         if self.skin.rejected:
             level, message = 1, f"{message}; {self.skin.rejected} frames do not fit: {self.skin.problem}"
         return {
