@@ -130,7 +130,11 @@ def test_a_port_that_sends_nothing_is_told(run: Run) -> None:
         ("fuse_recording.py", ["{here}/no.npz"], "error: there is no recording '{here}/no.npz'; give a bag"),
         ("fuse_recording.py", ["{here}/words.npz"], "error: {here}/words.npz: not an npz file, or a part of one; need"),
         ("fuse_recording.py", ["{here}/words.txt"], "error: '{here}/words.txt' is no recording that can be replayed: "),
-        ("fuse_recording.py", ["{here}"], "error: '{here}' holds no bag that can be read: no metadata.yaml, no MCAP"),
+        (
+            "fuse_recording.py",
+            ["{here}"],
+            "error: '{here}' holds no bag that can be read: it has no metadata.yaml, and no",
+        ),
         (
             "learn_dictionary.py",
             ["{here}/no.npz", "{here}/d.npz"],
