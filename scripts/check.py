@@ -67,10 +67,7 @@ def run_side_by_side(commands: dict[str, list[str]]) -> list[str]:
 
 def lint(beside: dict[str, list[str]]) -> list[str]:
     """Every linter, also after one has failed, so that one run shows all there is; and commands to run beside them."""
-    firmware = [
-        f"-I{ROOT}/acts_firmware/{folder}"
-        for folder in ("src", "virtual_board", "teensy/arduino", "test/example_scheme")
-    ]
+    firmware = [f"-I{ROOT}/acts_firmware/{folder}" for folder in ("src", "virtual_board", "teensy/arduino")]
     on_host = [name for name in tracked("*.cpp") if not name.startswith(TARGET_ONLY)]
     return run_side_by_side(
         {

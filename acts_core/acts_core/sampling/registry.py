@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import pkgutil
+from collections.abc import Iterable
 from importlib import import_module
 
 from acts_core.errors import SettingsError
@@ -19,8 +20,35 @@ def _find() -> dict[str, type[SamplingScheme]]:
         module = import_module(f"{schemes.__name__}.{info.name}")
         for scheme in vars(module).values():
             if isinstance(scheme, type) and issubclass(scheme, SamplingScheme) and scheme.__module__ == module.__name__:
+                if scheme.name in found:
+                    first = found[scheme.name].__module__
+                    raise SettingsError(f"name = {scheme.name!r} of {module.__name__}: {first} has it already")
                 found[scheme.name] = scheme
+    check_numbers(found.values())
     return dict(sorted(found.items()))
+
+
+def check_numbers(schemes: Iterable[type[SamplingScheme]]) -> None:
+    """Check the numbers on the wire: each is given once, and those of own settings have no gap.
+
+    Raises
+    ------
+    SettingsError
+        It names the next free number.
+    """
+    on_board = [scheme for scheme in schemes if scheme.number is not None]
+    numbers = {scheme.name: scheme.number or 0 for scheme in on_board}
+    for name, number in numbers.items():
+        others = [other for other in numbers if numbers[other] == number and other != name]
+        if others:
+            raise SettingsError(
+                f"number = {number} of scheme {name!r}: {others[0]!r} has it; the next free one is "
+                f"{max(numbers.values()) + 1}"
+            )
+    settings = {own.name: own.number for scheme in on_board for own in scheme.own_settings}
+    needed = [7, 8, *range(14, 14 + len(settings))][: len(settings)]
+    if sorted(number or 0 for number in settings.values()) != needed:
+        raise SettingsError(f"numbers of own settings = {settings}: allowed is each of {needed} once, without a gap")
 
 
 SCHEMES = _find()

@@ -239,7 +239,7 @@ def test_single_frames_are_each_sampled_at_other_random_places(dictionary: Dicti
 
 
 def test_the_model_is_pressed_where_there_is_no_file(capsys: pytest.CaptureFixture[str]) -> None:
-    words = ["--presses", "4", "--scheme", "adaptive", "--m", "128", "--method", "paper", "--onset-s", "0"]
+    words = ["--presses", "4", "--scheme", "adaptive", "--m", "128", "--method", "paper"]
     assert main(["evaluate", "recovery", *words]) == 0
     assert capsys.readouterr().out.splitlines()[1].startswith("adaptive   128 paper        4 ")
 

@@ -78,7 +78,9 @@ class Task:
     noise_counts: float = setting(
         0.0, "standard deviation of noise that is added to every measurement", minimum=0, maximum=100
     )
-    onset_s: float = setting(0.020, "time for which a contact counts as new", minimum=0)
+    onset_s: float = setting(
+        0.020, "time for which a contact counts as new, except in recordings of a single frame", minimum=0
+    )
     patch_step: int = setting(4, "taxels between patches, for methods that use patches", minimum=1, maximum=64)
     settings: tuple[tuple[str, SettingValue], ...] = ()
 
@@ -199,13 +201,14 @@ def evaluate(
     for which, recording in enumerate(recordings):
         notices = _Notices(recording, task.touch_counts)
         method.reset()
-        for frame in _play(recording, _for_recording(task, which, recording), method):
+        its_task = _for_recording(task, which, recording)
+        for frame in _play(recording, its_task, method):
             number += 1
             if number % _IMAGES_BETWEEN_SHOWS == 0:
                 show(number)
             notices.look(frame)
             if frame.in_contact:
-                new = frame.since_s < task.onset_s
+                new = frame.since_s < its_task.onset_s
                 (onset if new else settled).add(frame.scores)
                 errors = onset_errors if new else settled_errors
                 errors += frame.errors
@@ -238,11 +241,11 @@ def evaluate(
 
 
 def _for_recording(task: Task, which: int, recording: Recording) -> Task:
-    """The task with another seed for each single frame; otherwise all frames would be sampled at the same taxels."""
+    """The task of a recording: a single frame has no onset, and a seed of its own, so not all are sampled alike."""
     if len(recording.frames) > 1:
         return task
     sampling = replace(task.sampling, seed=(task.sampling.seed + which) % 2**64)
-    return replace(task, sampling=sampling)
+    return replace(task, sampling=sampling, onset_s=0.0)
 
 
 def _play(recording: Recording, task: Task, method: Method) -> Iterator[_Frame]:
