@@ -88,4 +88,4 @@ def unseal(packet: bytes) -> tuple[int, bytes]:
 
 def version_mismatch(what: str) -> PacketError:
     """The error for a whole packet that this release does not know."""
-    return PacketError(f"{what}: install firmware and driver of the same release")
+    return PacketError(f"{what}: install firmware and driver of the same release, with the same schemes")

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from acts_core.errors import ArrayError, PacketError, SettingsError
 from acts_core.frames import SampleFrame, Scheme
-from acts_core.sampling import SCHEME_NUMBERS, SamplingConfig
+from acts_core.sampling import BOARD_OWN_SETTINGS, SCHEME_NUMBERS, SamplingConfig
 from acts_core.settings import describe
 from acts_core.wire import (
     LEDS,
@@ -40,6 +40,7 @@ from acts_core.wire import (
 )
 from acts_core.wire.board_messages import encode_image, encode_object
 from acts_core.wire.board_models import MODEL_CAPACITY, ModelKind
+from acts_core.wire.board_settings import SETTINGS_SIZE
 from acts_core.wire.commands import BoardSettings, HeldModel, SettingField, encode_reply
 from acts_core.wire.packets import PacketType, seal
 
@@ -148,6 +149,7 @@ def test_commands_byte_by_byte() -> None:
     )
     body = bytes.fromhex("10 40 06 01 01 02 04 03 05 01 06 01 07 01 02 03 03 02 01 00 88 77 66 55 44 33 22 11")
     body += bytes.fromhex("08 00 09 00 0A 01")
+    body += b"".join(struct.pack("<H", own.default) for number, own in BOARD_OWN_SETTINGS.items() if number > 16)
     assert unstuffed(encode_query(0x01020304)) == command(16, 0x01020304, b"")
     assert unstuffed(encode_configure(1, settings)) == command(17, 1, body)
     model = patch_dictionary(np.arange(12).reshape(4, 3), patch_step=1)
@@ -162,7 +164,7 @@ def test_settings_round_trip(settings: BoardSettings) -> None:
     assert BoardSettings.from_bytes(settings.to_bytes()) == settings
 
 
-@given(st.binary(min_size=34, max_size=34))
+@given(st.binary(min_size=SETTINGS_SIZE, max_size=SETTINGS_SIZE))
 def test_settings_from_any_bytes_are_valid_or_refused(data: bytes) -> None:
     try:
         settings = BoardSettings.from_bytes(data)

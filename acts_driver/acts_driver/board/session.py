@@ -350,13 +350,19 @@ class BoardSession:
 
     def _set(self, status: BoardStatus) -> None:
         before, self.status = self.status, status
-        # A silent board may be as it should be, and a lost port is told by the reader.
+        # A silent board of which nothing is asked may be as it should be, and a lost port is told by the reader.
         if status.state is not None or status.is_wrong_version:
-            if status.problem and status.problem != self._told:
-                self._log("error", status.problem)
-            self._told = status.problem
+            self._tell("error", status.problem)
+        elif status.is_silent and self.asks_for_something:
+            self._tell("warning", f"{status.problem}: the parameters about the board are not in force")
         if _lasting(before) != _lasting(status):
             self._on_change(status)
+
+    def _tell(self, level: str, problem: str) -> None:
+        """Log a problem, once for as long as it lasts; empty where there is none any more."""
+        if problem and problem != self._told:
+            self._log(level, problem)
+        self._told = problem
 
 
 def settings_in_words(settings: BoardSettings) -> str:

@@ -452,6 +452,9 @@ def test_a_silent_board_may_be_listened_to(tmp_path: Path) -> None:
         session = host.start_session(m=64)
         assert session.may_publish
         assert session.status == BoardStatus(problem=session.status.problem, is_silent=True)
+        # Once, however often it is asked.
+        session.wake()
+        assert sum(line.endswith("the parameters about the board are not in force") for line in host.log) == 1
         with pytest.raises(BoardError, match="does not answer"):
             session.change(BoardParameters(m=32))
         begin_s = time.monotonic()

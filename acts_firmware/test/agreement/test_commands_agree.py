@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 
 from acts_core.errors import PacketError
 from acts_core.frames import Scheme
-from acts_core.sampling import SCHEME_NUMBERS
+from acts_core.sampling import BOARD_OWN_SETTINGS, SCHEME_NUMBERS
 from acts_core.wire import (
     LEDS,
     BoardSettings,
@@ -33,7 +33,10 @@ from acts_core.wire.packets import PacketType, seal
 pytestmark = pytest.mark.slow
 
 FAST = settings(max_examples=60, deadline=None)
-LAYOUT = struct.Struct("<BBBBHHHHHBBIQHHH")
+# Own settings of schemes beyond those that stand below by name.
+FURTHER = [own for number, own in BOARD_OWN_SETTINGS.items() if number > 16]
+LAYOUT = struct.Struct(f"<BBBBHHHHHBBIQHHH{len(FURTHER)}H")
+LAST_SCHEME = max(SCHEME_NUMBERS.values())
 OTHERS = BoardSettings(scheme="tracking", m=99, threshold_counts=7, search_quota=20, led="on", seed=5)
 
 
@@ -50,7 +53,7 @@ def raw_settings(draw: st.DrawFn) -> bytes:
     return LAYOUT.pack(
         rows,
         cols,
-        draw(near(1, 7, 255)),
+        draw(near(1, LAST_SCHEME, 255)),
         draw(near(0, 1, 255)),
         m,
         draw(near(0, 1023, 0xFFFF)),
@@ -64,6 +67,7 @@ def raw_settings(draw: st.DrawFn) -> bytes:
         draw(near(0, max(rows - 1, 0), 0xFFFF)),
         draw(near(0, max(cols - 1, 0), 0xFFFF)),
         draw(near(0, 4096, 0xFFFF)),
+        *(draw(near(own.minimum, own.maximum, 0xFFFF)) for own in FURTHER),
     )
 
 
@@ -99,7 +103,7 @@ def test_core_and_reference_take_the_same_settings(raw: bytes) -> None:
     [
         (SettingField.ROWS, 0, 65),
         (SettingField.COLS, 1, 0),
-        (SettingField.SCHEME, 2, 8),
+        (SettingField.SCHEME, 2, LAST_SCHEME + 1),
         (SettingField.NEIGHBOUR_ORDER, 3, 2),
         (SettingField.M, 4, 1025),
         (SettingField.THRESHOLD_COUNTS, 5, 1024),

@@ -1,7 +1,7 @@
 // Copyright 2026 ACTS contributors
 // SPDX-License-Identifier: Apache-2.0
 
-// Tracking sampling: on with the search, then what was pressed.
+// Tracking sampling: a search continued from the last frame, then what was pressed.
 #pragma once
 
 #include <array>
@@ -32,7 +32,10 @@ class Tracking : public SchemeDefaults {
                                               "share of a tracking frame that is kept for the search",
                                               0.2};
   static constexpr SchemeInfo kInfo = {
-      "tracking", Scheme{6}, "on with the search, then what was pressed in the last frames", {{kSearchQuota}}};
+      "tracking",
+      Scheme{6},
+      "a search continued from the last frame, then what was pressed in the last frames",
+      {{kSearchQuota}}};
 
   // Forgets what was pressed and where the search stopped.
   void begin(const SamplingConfig& config, const SkinMap& map);
