@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from acts_core.errors import ArrayError, PacketError, SettingsError
 from acts_core.frames import SampleFrame, Scheme
-from acts_core.sampling import BOARD_OWN_SETTINGS, SCHEME_NUMBERS, SamplingConfig
+from acts_core.sampling import BOARD_OWN_SETTINGS, SCHEME_NUMBERS, OwnSetting, SamplingConfig
 from acts_core.settings import describe
 from acts_core.wire import (
     LEDS,
@@ -49,6 +49,13 @@ pytestmark = pytest.mark.slow
 U8, U16, U32, U64 = (st.integers(0, 2**bits - 1) for bits in (8, 16, 32, 64))
 
 
+def values_of(own: OwnSetting, rows: int, cols: int, m: int) -> st.SearchStrategy[int]:
+    """What a board takes as a scheme's own setting, whatever the scheme."""
+    if own.share:
+        return st.integers(1, m)
+    return st.integers(own.minimum, {"rows": rows - 1, "cols": cols - 1}.get(own.below, own.maximum))
+
+
 @st.composite
 def board_settings(draw: st.DrawFn) -> BoardSettings:
     rows, cols = draw(st.integers(1, 64)), draw(st.integers(1, 64))
@@ -60,16 +67,12 @@ def board_settings(draw: st.DrawFn) -> BoardSettings:
         neighbour_order=draw(st.sampled_from(["columns", "rows"])),
         m=m,
         threshold_counts=draw(st.integers(0, 1023)),
-        search_quota=draw(st.integers(1, m)),
-        adaptive_quota=draw(st.integers(1, m)),
-        fixed_row=draw(st.integers(0, rows - 1)),
-        fixed_col=draw(st.integers(0, cols - 1)),
-        fixed_taxels=draw(st.integers(0, 4096)),
         touch_counts=draw(st.integers(0, 1023)),
         output=draw(st.sampled_from(OUTPUTS)),
         led=draw(st.sampled_from(LEDS)),
         frame_period_us=draw(st.integers(0, 1_000_000)),
         seed=draw(U64),
+        **{own.name: draw(values_of(own, rows, cols, m)) for own in BOARD_OWN_SETTINGS.values()},
     )
 
 
