@@ -129,7 +129,7 @@ def _matrix(top: Section, rows: int | None, cols: int | None) -> tuple[int, int]
     if made_for not in (None, (rows, cols)):
         raise ArrayError(
             f"layout {top.path.stem} of a matrix of {rows} x {cols}: it is made of {made_for[0]} x {made_for[1]}; "
-            "use square, or a layout file of your own"
+            f"set rows to {made_for[0]} and cols to {made_for[1]} if that is your board, or use another layout"
         )
     return rows, cols
 

@@ -15,6 +15,8 @@ from acts_driver.selftest.record import FrameRecord
 from acts_driver.stream import ClockFilter
 
 _SEQUENCE_MODULUS = 2**32
+# No board loses half of all numbers: it began to count anew.
+_RESTART_FROM = 2**31
 _DRIFT_FROM_S = 2.0
 
 
@@ -26,12 +28,14 @@ class Timing:
     ----------
     frames, lost : int
         Frames that came; numbers missing between them.
+    restarts : int
+        How often the numbers went back.
     rate_hz : float
         Frames per second of the board's clock, lost ones included; of the host's where the board has no clock.
     possible_hz : float
-        What measuring and the rate cap allow.
+        What measuring and the rate cap allow; NaN where the board says neither.
     taxel_us : float
-        Median time of one measurement [us].
+        Median time of one measurement [us]; NaN where the board does not say how long a frame takes.
     jitter_us : float
         99th percentile of how far a frame begins off the steady beat [us]; NaN without a clock or with too few frames.
     drift_ppm : float
@@ -42,6 +46,7 @@ class Timing:
 
     frames: int
     lost: int
+    restarts: int
     rate_hz: float
     possible_hz: float
     taxel_us: float
@@ -54,6 +59,8 @@ def measure_timing(record: FrameRecord, *, has_board_clock: bool, frame_period_u
     """Timing of a record of two frames or more; `frame_period_us` is the board's rate cap, 0 for none or unknown."""
     frames = record.frames
     steps = np.mod(np.diff(np.array([frame.sequence for frame in frames], dtype=np.int64)), _SEQUENCE_MODULUS)
+    restarts = int((steps >= _RESTART_FROM).sum())
+    steps[steps >= _RESTART_FROM] = 1
     lost = int((steps - 1).sum())
     arrivals_us = np.array(record.arrivals_ns, dtype=np.float64) / 1000
     board_us = np.array([frame.board_us for frame in frames], dtype=np.float64)
@@ -61,7 +68,7 @@ def measure_timing(record: FrameRecord, *, has_board_clock: bool, frame_period_u
     sizes = np.array([len(frame.indices) for frame in frames])
     clock_us = board_us if has_board_clock else arrivals_us
     beat_us = (clock_us[-1] - clock_us[0]) / max(int(steps.sum()), 1)
-    possible_us = max(float(np.median(duration_us)), frame_period_us, 1e-9)
+    possible_us = max(float(np.median(duration_us)), frame_period_us)
     jitter_us, drift_ppm, late_us = np.nan, np.nan, np.empty(0)
     if has_board_clock:
         begins_us = board_us - duration_us
@@ -78,9 +85,10 @@ def measure_timing(record: FrameRecord, *, has_board_clock: bool, frame_period_u
     return Timing(
         frames=len(frames),
         lost=lost,
+        restarts=restarts,
         rate_hz=1e6 / beat_us if beat_us > 0 else np.nan,
-        possible_hz=1e6 / possible_us,
-        taxel_us=float(np.median(duration_us / np.maximum(sizes, 1))),
+        possible_hz=1e6 / possible_us if possible_us > 0 else np.nan,
+        taxel_us=float(np.median(duration_us / np.maximum(sizes, 1))) if duration_us.any() else np.nan,
         jitter_us=jitter_us,
         drift_ppm=drift_ppm,
         late_us=late_us,
@@ -92,11 +100,13 @@ def judge_timing(timing: Timing, thresholds: Thresholds) -> list[Finding]:
     findings = []
     low, high = thresholds.taxel_us
     share = timing.lost / max(timing.frames + timing.lost, 1)
+    of_possible = f" of {timing.possible_hz:.1f} that measuring and the rate cap allow"
     findings.append(
         _item(
-            timing.rate_hz >= thresholds.rate_share * timing.possible_hz,
+            # Not where nothing is known that it could be compared with.
+            not timing.rate_hz < thresholds.rate_share * timing.possible_hz,
             "frame rate",
-            f"{timing.rate_hz:.1f} frames/s of {timing.possible_hz:.1f} that measuring and the rate cap allow",
+            f"{timing.rate_hz:.1f} frames/s{of_possible if np.isfinite(timing.possible_hz) else ''}",
             "the board does something besides measuring, or has no clock of its own",
         )
     )
@@ -109,14 +119,24 @@ def judge_timing(timing: Timing, thresholds: Thresholds) -> list[Finding]:
             Level.FAIL if share > thresholds.lost_share else Level.WARN,
         )
     )
-    findings.append(
-        _item(
-            low <= timing.taxel_us <= high,
-            "time per taxel",
-            f"{timing.taxel_us:.2f} us (published board: 17.9)",
-            f"usual are {low:g} to {high:g} us: check the processor's clock and the ADC's settings",
+    if timing.restarts:
+        findings.append(
+            Finding(
+                Level.WARN,
+                "frame numbers",
+                f"they went back in {timing.restarts} of {timing.frames} frames",
+                "the board restarted, or its decoder does not count on beyond the board's largest number",
+            )
         )
-    )
+    if np.isfinite(timing.taxel_us):
+        findings.append(
+            _item(
+                low <= timing.taxel_us <= high,
+                "time per taxel",
+                f"{timing.taxel_us:.2f} us (published board: 17.9)",
+                f"usual are {low:g} to {high:g} us: check the processor's clock and the ADC's settings",
+            )
+        )
     if np.isfinite(timing.jitter_us):
         findings.append(
             _item(

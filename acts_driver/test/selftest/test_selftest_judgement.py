@@ -240,6 +240,19 @@ def test_timing_of_a_good_and_of_a_bad_stream() -> None:
     }  # fmt: skip
 
 
+def test_a_board_without_clock_and_durations_whose_numbers_begin_anew() -> None:
+    record = Skin(shape=(16, 16)).record(1000, touched=False)
+    told = FrameRecord(16, 16)
+    for k, (frame, arrival_ns) in enumerate(zip(record.frames, record.arrivals_ns, strict=True)):
+        told.add(SampleFrame(k % 256, 0, 0, Scheme.RASTER, 16, 16, 0, frame.indices, frame.counts), arrival_ns)
+    timing = measure_timing(told, has_board_clock=False)
+    assert (timing.lost, timing.restarts) == (0, (len(told.frames) - 1) // 256)
+    assert timing.rate_hz == pytest.approx(1e6 / (256 * SAMPLE_US), rel=1e-3)
+    findings = judge_timing(timing, THRESHOLDS)
+    assert [finding.name for finding in findings] == ["frame rate", "lost frames", "frame numbers"]
+    assert faults(findings).keys() == {"frame numbers"}
+
+
 def test_numbers_are_listed_for_a_person() -> None:
     assert listed((3,)) == "3"
     assert listed((3, 4, 7, 8, 9)) == "3, 4, 7 to 9"

@@ -69,6 +69,7 @@ class SelfTest:
             "timing": {
                 "frames": timing.frames,
                 "lost": timing.lost,
+                "restarts": timing.restarts,
                 "rate_hz": _number(timing.rate_hz),
                 "possible_hz": _number(timing.possible_hz),
                 "taxel_us": _number(timing.taxel_us),
