@@ -3,8 +3,8 @@
 
 """Write docs/reference.md: every launch argument, node parameter and sampling scheme, from the sources.
 
-Writes the choices of the arguments `scheme`, `method` and `protocol` into the launch files, too: XML takes them from no
-registry.
+Writes the choices of the arguments `scheme`, `method`, `protocol` and `robot` into the launch files, too: XML takes
+them from no registry.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ import xml.etree.ElementTree as ET
 from collections.abc import Iterable
 from pathlib import Path
 
+from acts_control.robots import ROBOTS
 from acts_core.sampling import SCHEME_NUMBERS, SCHEMES
 from acts_core.settings import Changeable, default_of, describe
 from acts_driver.protocols import PROTOCOLS
@@ -42,7 +43,12 @@ NODES = (
 )
 """Package, executable, module and settings class of every node with parameters."""
 
-CHOICES: dict[str, Iterable[str]] = {"scheme": SCHEME_NUMBERS, "method": METHODS, "protocol": PROTOCOLS}
+CHOICES: dict[str, Iterable[str]] = {
+    "scheme": SCHEME_NUMBERS,
+    "method": METHODS,
+    "protocol": PROTOCOLS,
+    "robot": ROBOTS,
+}
 """What is registered, by the launch argument that chooses among it."""
 
 HEAD = """# Reference: launch arguments and parameters

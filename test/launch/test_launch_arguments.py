@@ -19,6 +19,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from launch_support import PACKAGE
 
+from acts_control.robots import ROBOTS
 from acts_core.errors import LaunchError
 from acts_core.settings import describe
 from acts_driver.protocols import PROTOCOLS
@@ -203,6 +204,7 @@ CHOICES = {
     "scheme": tuple(word for word in describe(DriverSettings)["scheme"].choices if word),
     "method": tuple(METHODS),
     "protocol": tuple(PROTOCOLS),
+    "robot": tuple(ROBOTS),
     "autostart": ("true", "false"),
     "replay_loop": ("true", "false"),
     "object": describe(HandWorldConfig)["object"].choices,
@@ -302,6 +304,16 @@ def test_a_simulated_robot_is_where_nothing_else_is_said_whatever_a_params_file_
         assert f"--host {expected} " in robot
         assert settings_of(started, "ball_control")["robot_ip"] == expected
     assert settings_of(launch(file, sim="false"), "ball_control")["robot_ip"] == IN_PARAMS_FILE
+
+
+def test_the_simulation_of_another_robot_is_left_to_whoever_has_it(
+    launch: Callable[..., Printed], tmp_path: Path
+) -> None:
+    file = tmp_path / "simulated_robot.launch.xml"
+    text = TACTILE.with_name(file.name).read_text()
+    file.write_text(text.replace('<choice value="ur5e"/>', '<choice value="ur5e"/><choice value="table"/>'))
+    for robot, expected in (("table", ["ball_world"]), ("ur5e", ["ur_controller", "ball_world"])):
+        assert [Path(words[0]).name for words, _ in launch(file, robot=robot)] == expected
 
 
 @pytest.mark.parametrize("sim", ["true", "1"])
