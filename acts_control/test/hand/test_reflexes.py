@@ -14,11 +14,11 @@ from hypothesis import strategies as st
 from acts_control.hand.control.step_rule import StepRule, StepRuleConfig
 from acts_control.hand.description import LEAP_RIGHT
 from acts_control.hand.reflexes import REFLEXES, HandToHandConfig, Wish, make_reflexes
-from acts_control.hand.reflexes.aiming import approaches, radius_on_palm, reach
-from acts_control.hand.reflexes.ball import fitted_sphere
 from acts_control.hand.reflexes.hand_to_hand import HandToHand
 from acts_control.hand.reflexes.sharp_avoidance import SharpAvoidance, SharpAvoidanceConfig
 from acts_control.hand.reflexes.slip_prevention import SlipPrevention, SlipPreventionConfig
+from acts_control.hand.reflexes.spheres.aiming import approaches, radius_on_palm, reach
+from acts_control.hand.reflexes.spheres.ball import fitted_sphere
 from acts_control.hand.reflexes.trapping import Trapping, TrappingConfig
 from acts_core.errors import SettingsError
 from acts_core.skin import RegionContact

@@ -17,12 +17,12 @@ from hypothesis import strategies as st
 
 from acts_control.hand.description import LEAP_RIGHT
 from acts_control.hand.reflexes import HandState, Sensed, Wish
-from acts_control.hand.reflexes.aiming import turned, unit
-from acts_control.hand.reflexes.ball import Ball, felt_ball
-from acts_control.hand.reflexes.pinching import Pinching
-from acts_control.hand.reflexes.reflex import Reflex
-from acts_control.hand.reflexes.rolling import Phase, Rolling
+from acts_control.hand.reflexes.base import Reflex
 from acts_control.hand.reflexes.sphere_balancing import SphereBalancing, SphereBalancingConfig
+from acts_control.hand.reflexes.spheres.aiming import turned, unit
+from acts_control.hand.reflexes.spheres.ball import Ball, felt_ball
+from acts_control.hand.reflexes.spheres.pinching import Pinching
+from acts_control.hand.reflexes.spheres.rolling import Phase, Rolling
 from acts_core.errors import SettingsError
 from acts_core.skin import RegionContact
 

@@ -15,7 +15,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_control.hand.reflexes import Sensed, Wish, aiming
+from acts_control.hand.reflexes.base import Sensed, Wish
+from acts_control.hand.reflexes.spheres import aiming
 from acts_core.settings import setting, validate
 
 Array = NDArray[np.float64]

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from acts_control.hand.reflexes.base import Reflex
 from acts_control.hand.reflexes.hand_to_hand import HandToHand
-from acts_control.hand.reflexes.reflex import Reflex
 from acts_control.hand.reflexes.sharp_avoidance import SharpAvoidance
 from acts_control.hand.reflexes.slip_prevention import SlipPrevention
 from acts_control.hand.reflexes.sphere_balancing import SphereBalancing

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from acts_control.hand.reflexes.reflex import HandState, Reflex, Sensed, Wish
+from acts_control.hand.reflexes.base import HandState, Reflex, Sensed, Wish
 from acts_core.settings import setting, validate
 
 

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from acts_control.hand.reflexes.reflex import HandState, Reflex, Sensed, Wish
+from acts_control.hand.reflexes.base import HandState, Reflex, Sensed, Wish
 from acts_core.settings import setting, validate
 
 

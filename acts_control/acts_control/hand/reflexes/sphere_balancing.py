@@ -18,11 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_control.hand.description import Region
-from acts_control.hand.reflexes import aiming
-from acts_control.hand.reflexes.ball import Ball, felt_ball
-from acts_control.hand.reflexes.pinching import Pinching
-from acts_control.hand.reflexes.reflex import HandState, Reflex, Sensed, Wish
-from acts_control.hand.reflexes.rolling import Phase, Rolling
+from acts_control.hand.reflexes.base import HandState, Reflex, Sensed, Wish
+from acts_control.hand.reflexes.spheres import Ball, Phase, Pinching, Rolling, aiming, felt_ball
 from acts_core.errors import SettingsError
 from acts_core.settings import setting, validate
 from acts_core.skin import RegionContact

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from acts_control.hand.reflexes import aiming
-from acts_control.hand.reflexes.reflex import HandState, Reflex, Sensed, Wish
+from acts_control.hand.reflexes.base import HandState, Reflex, Sensed, Wish
+from acts_control.hand.reflexes.spheres import aiming
 from acts_core.settings import setting, validate
 
 

@@ -14,9 +14,9 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_control.hand.reflexes import aiming
-from acts_control.hand.reflexes.ball import Ball
-from acts_control.hand.reflexes.reflex import Sensed
+from acts_control.hand.reflexes.base import Sensed
+from acts_control.hand.reflexes.spheres import aiming
+from acts_control.hand.reflexes.spheres.ball import Ball
 from acts_core.skin import RegionContact
 
 Array = NDArray[np.float64]

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_control.hand.description import Region
-from acts_control.hand.reflexes.reflex import Sensed
+from acts_control.hand.reflexes.base import Sensed
 from acts_core.skin import RegionContact
 
 Array = NDArray[np.float64]
