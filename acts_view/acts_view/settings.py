@@ -32,9 +32,9 @@ class ViewSettings:
     outlines: bool = setting(
         False, "whether to ask the reconstruction for outlines of contacts, which costs CPU there while a page is open"
     )
-    rate_hz: float = setting(30.0, "how often the page is sent what is new", minimum=1.0, maximum=100.0)
+    rate_hz: float = setting(30.0, "how often new data are sent to the page", minimum=1.0, maximum=100.0)
     send_limit_s: float = setting(
-        5.0, "a page that takes nothing for so long is dropped [s]", minimum=0.1, maximum=60.0
+        5.0, "a page that receives nothing for this long is disconnected [s]", minimum=0.1, maximum=60.0
     )
 
     def __post_init__(self) -> None:

@@ -72,7 +72,7 @@ class EstimatorConfig:
     )
     partial_sigma_m: float = setting(
         0.2,
-        "the same, added where the samples found nearly nothing of the contact; the less, the more they found [m]",
+        "standard deviation to add where samples found nearly nothing of the contact, less where they found more [m]",
         minimum=0.0,
         maximum=1.0,
         changeable=Changeable.RUNNING,
@@ -86,7 +86,7 @@ class EstimatorConfig:
     )
     gate_reset_s: float = setting(
         0.05,
-        "when everything was left out for so long, the estimate begins anew [s]",
+        "when every centre of pressure was left out for this long, the estimate begins anew [s]",
         minimum=0.001,
         maximum=1.0,
         changeable=Changeable.RUNNING,

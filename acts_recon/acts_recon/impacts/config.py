@@ -14,7 +14,7 @@ from acts_core.settings import setting, validate
 class ImpactConfig:
     """Settings of impacts. All become parameters of the reconstruction node."""
 
-    impact_longest_s: float = setting(0.04, "an impact is over after this time [s]", minimum=0.005, maximum=0.5)
+    impact_longest_s: float = setting(0.04, "longest duration of an impact [s]", minimum=0.005, maximum=0.5)
     impact_rise_s: float = setting(
         0.02, "the force of an impact that stays is largest within this time [s]", minimum=0.001, maximum=0.5
     )

@@ -16,13 +16,13 @@ class OutlinesConfig:
 
     outlines_level: float = setting(
         0.32,
-        "edge of a contact: force of a taxel there, over one that six of ten press less",
+        "edge of a contact: force of a taxel there, relative to the 60th percentile of the contact's taxels",
         minimum=0.05,
         maximum=0.9,
     )
     outlines_fast_s: float = setting(
         0.05,
-        "younger contacts are round or three-cornered and move fast, older ones have any shape and move slowly [s]",
+        "younger contacts are followed as round or three-cornered shapes that move fast; older ones have any shape [s]",
         minimum=0.0,
         maximum=10.0,
     )

@@ -34,7 +34,7 @@ class SharpnessConfig:
         maximum=0.01,
     )
     sharpness_blunt_radius_m: float = setting(
-        0.008, "of this radius and more the end of something is blunt [m]", minimum=1e-3, maximum=0.1
+        0.008, "radius from which on the end of something is blunt [m]", minimum=1e-3, maximum=0.1
     )
     sharpness_foam_n_per_m3: float = setting(
         2.5e7,

@@ -15,18 +15,20 @@ class SlipConfig:
     """When motion counts as slip."""
 
     slip_window_s: float = setting(
-        0.05, "motion is looked for between now and so long ago [s]", minimum=0.002, maximum=1.0
+        0.05, "motion is measured between now and this long ago [s]", minimum=0.002, maximum=1.0
     )
     slip_distance_m: float = setting(
-        0.00015, "motion of less within the window is none [m]", minimum=1e-6, maximum=0.02
+        0.00015, "motion of less than this within the window is no slip [m]", minimum=1e-6, maximum=0.02
     )
     slip_distance_taxels: float = setting(
-        0.07, "nor is that of less than this part of a taxel", minimum=0.001, maximum=5.0
+        0.07, "motion of less than this part of a taxel within the window is no slip", minimum=0.001, maximum=5.0
     )
-    slip_sigmas: float = setting(5.0, "nor is that of fewer standard deviations", minimum=1.0, maximum=100.0)
+    slip_sigmas: float = setting(
+        5.0, "motion of fewer standard deviations than this is no slip", minimum=1.0, maximum=100.0
+    )
     slip_max_gain: float = setting(
         1.6,
-        "nothing is told while the force changes by a larger factor within the window",
+        "no slip is reported while the force changes by a larger factor within the window",
         minimum=1.01,
         maximum=100.0,
     )
@@ -38,7 +40,7 @@ class SlipConfig:
         maximum=100.0,
     )
     slip_min_counts: float = setting(
-        300.0, "nothing is told of a patch with fewer counts in all", minimum=1.0, maximum=1e6
+        300.0, "no slip is reported of a patch with fewer counts in all", minimum=1.0, maximum=1e6
     )
     slip_max_lag_s: float = setting(
         0.015,
@@ -46,7 +48,9 @@ class SlipConfig:
         minimum=0.0,
         maximum=1.0,
     )
-    slip_hold_s: float = setting(0.03, "slip is over when none was told for longer [s]", minimum=0.0, maximum=1.0)
+    slip_hold_s: float = setting(
+        0.03, "slip is over when none was reported for longer than this [s]", minimum=0.0, maximum=1.0
+    )
 
     def __post_init__(self) -> None:
         validate(self)

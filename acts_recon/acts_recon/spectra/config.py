@@ -15,12 +15,12 @@ class SpectraConfig:
     """Settings of spectra. All become parameters of the reconstruction node."""
 
     spectra_window_s: float = setting(
-        1.0, "time of which a spectrum is made; tones nearer than 2 over this are one [s]", minimum=0.1, maximum=10.0
+        1.0, "length of a spectrum's window; tones nearer than 2 over this are one [s]", minimum=0.1, maximum=10.0
     )
     spectra_lowest_hz: float = setting(
-        5.0, "peaks below are not told: hands and arms move so [Hz]", minimum=0.0, maximum=1000.0
+        5.0, "peaks below this are not reported, because hands and arms move so [Hz]", minimum=0.0, maximum=1000.0
     )
-    spectra_peaks: int = setting(8, "peaks that are told of one contact, at most", minimum=1, maximum=50)
+    spectra_peaks: int = setting(8, "largest number of peaks that are reported of one contact", minimum=1, maximum=50)
     spectra_of: str = setting(
         "contacts",
         "what has a spectrum of its own: each contact, or all that touches one patch of the layout",

@@ -63,7 +63,10 @@ class DynamixelConfig:
     port: str = setting("/dev/ttyUSB0", "serial port of the motors")
     baud: int = setting(4_000_000, "bits a second on the bus", minimum=9600, maximum=4_000_000)
     answer_timeout_ms: float = setting(
-        16.0, "half of how long an answer is waited for, besides the time of its bytes [ms]", minimum=1.0, maximum=500.0
+        16.0,
+        "half of the time to wait for a reply, in addition to the time of its bytes [ms]",
+        minimum=1.0,
+        maximum=500.0,
     )
     position_p_gain: int = setting(600, "P gain of position control", minimum=0, maximum=16383)
     position_i_gain: int = setting(0, "I gain of position control", minimum=0, maximum=16383)

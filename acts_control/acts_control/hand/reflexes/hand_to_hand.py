@@ -43,7 +43,9 @@ class HandToHandConfig:
     hand_to_hand_steps_per_n: float = setting(0.6, "steps for each newton of difference", minimum=0.01, maximum=20.0)
     hand_to_hand_search_steps: float = setting(0.3, "steps of a phalanx that looks for touch", minimum=0.0, maximum=5.0)
     hand_to_hand_max_steps: float = setting(2.0, "most steps at once", minimum=0.1, maximum=20.0)
-    hand_to_hand_deadband_n: float = setting(0.2, "differences of less are none [N]", minimum=0.0, maximum=5.0)
+    hand_to_hand_deadband_n: float = setting(
+        0.2, "differences of less than this have no effect [N]", minimum=0.0, maximum=5.0
+    )
 
     def __post_init__(self) -> None:
         validate(self)

@@ -29,14 +29,14 @@ class SharpAvoidanceConfig:
     )
     sharp_touches: int = setting(
         2,
-        "so many times in succession: one image of something that moves fast, its taxels measured one after the other, "
-        "can look like a tip",
+        "cycles in succession in which a region must feel the tip: one image of something that moves fast can "
+        "look like a tip, because its taxels are measured one after the other",
         minimum=1,
         maximum=100,
     )
     sharp_open_steps: float = setting(20.0, "steps by which the finger opens", minimum=0.1, maximum=100.0)
     sharp_open_rad: float = setting(
-        0.5, "how far each joint that closes the finger is opened at most [rad]", minimum=0.01, maximum=3.0
+        0.5, "largest angle by which each joint that closes the finger is opened [rad]", minimum=0.01, maximum=3.0
     )
     sharp_away_s: float = setting(
         0.5, "how long the finger stays away once the tip is not felt any more [s]", minimum=0.0, maximum=60.0

@@ -21,20 +21,29 @@ from acts_core.settings import setting, validate
 class SlipPreventionConfig:
     """How a slip is answered."""
 
-    slip_grip_steps: float = setting(16.0, "steps by which fingers grip up while it slips", minimum=0.1, maximum=50.0)
+    slip_grip_steps: float = setting(
+        16.0, "steps by which fingers grip harder while the object slips", minimum=0.1, maximum=50.0
+    )
     slip_max_added_steps: float = setting(
         6.0, "most that is added to the grip, in steps of a cycle at 60 Hz", minimum=0.1, maximum=200.0
     )
     slip_growth_m: float = setting(
-        1e-5, "a distance that has grown by less between two touches has not [m]", minimum=0.0, maximum=1e-3
+        1e-5,
+        "a growth of the distance by less than this from touch to touch counts as none [m]",
+        minimum=0.0,
+        maximum=1e-3,
     )
     slip_quiet_s: float = setting(
         0.012, "slip has ceased when the distance has not grown for longer [s]", minimum=0.0, maximum=1.0
     )
-    slip_min_force_n: float = setting(0.1, "a region that feels less is not listened to [N]", minimum=0.0, maximum=10.0)
+    slip_min_force_n: float = setting(
+        0.1, "a region that feels less than this is ignored [N]", minimum=0.0, maximum=10.0
+    )
     slip_keep_s: float = setting(1.0, "how long the added grip is kept [s]", minimum=0.0, maximum=60.0)
-    slip_ease_steps: float = setting(0.03, "steps by which it is eased then", minimum=0.0, maximum=5.0)
-    slip_kept_share: float = setting(0.6, "of what was added, the part that is not eased", minimum=0.0, maximum=1.0)
+    slip_ease_steps: float = setting(
+        0.03, "steps by which the added grip is eased after that", minimum=0.0, maximum=5.0
+    )
+    slip_kept_share: float = setting(0.6, "share of the added grip that is not eased", minimum=0.0, maximum=1.0)
 
     def __post_init__(self) -> None:
         validate(self)

@@ -44,7 +44,9 @@ class SphereBalancingConfig:
     sphere_gain_per_s: float = setting(
         4.0, "speed wanted for each metre of distance from the palm's centre [1/s]", minimum=0.1, maximum=50.0
     )
-    sphere_deadband_m: float = setting(0.002, "nearer than this it is at the centre [m]", minimum=0.0, maximum=0.05)
+    sphere_deadband_m: float = setting(
+        0.002, "a sphere that is nearer to the palm's centre than this counts as centred [m]", minimum=0.0, maximum=0.05
+    )
     sphere_min_spread_m: float = setting(
         0.0035, "what the palm feels with less spread is too small to be rolled [m]", minimum=0.0, maximum=0.1
     )
@@ -56,10 +58,13 @@ class SphereBalancingConfig:
         1.5, "what the finger that has rolled it is to press with [N]", minimum=0.05, maximum=20.0
     )
     sphere_compliance_m_s_n: float = setting(
-        0.02, "speed at which a finger is pressed on or let off, for each newton [m/s/N]", minimum=0.0, maximum=1.0
+        0.02,
+        "speed at which a finger presses harder or yields, for each newton of difference [m/s/N]",
+        minimum=0.0,
+        maximum=1.0,
     )
     sphere_prior_m: float = setting(
-        0.03, "radius that is taken where the contacts do not say [m]", minimum=0.002, maximum=0.2
+        0.03, "radius that is assumed while the contacts do not determine it [m]", minimum=0.002, maximum=0.2
     )
     sphere_search_rad_s: float = setting(
         0.3, "how fast a finger that has lost the sphere looks for it [rad/s]", minimum=0.0, maximum=8.0

@@ -26,10 +26,13 @@ class TrappingConfig:
         2.0, "what a finger presses a small sphere into the palm with [N]", minimum=0.05, maximum=20.0
     )
     trap_compliance_m_s_n: float = setting(
-        0.02, "speed at which it is pressed on or let off, for each newton [m/s/N]", minimum=0.0, maximum=1.0
+        0.02,
+        "speed at which a finger presses harder or yields, for each newton of difference [m/s/N]",
+        minimum=0.0,
+        maximum=1.0,
     )
     trap_spread_m: float = setting(
-        0.008, "a contact of the palm with more spread is none of a small sphere [m]", minimum=0.0, maximum=0.1
+        0.008, "a contact of the palm with more spread than this is not of a small sphere [m]", minimum=0.0, maximum=0.1
     )
     trap_damping_m: float = setting(
         0.01, "keeps the joints slow where a finger is stretched [m/rad]", minimum=1e-4, maximum=0.1

@@ -23,11 +23,11 @@ class SafetyConfig:
     """Limits whose crossing ends motion."""
 
     touch_stale_after_s: float = setting(
-        0.2, "when no contact message is younger, the plate is levelled [s]", minimum=0.005, maximum=1.0
+        0.2, "when no contact message is younger than this, the plate is levelled [s]", minimum=0.005, maximum=1.0
     )
     touch_stop_after_s: float = setting(
         3.0,
-        "and when that has lasted for longer, motion ends: STOPPED; where touch returns before, balancing goes on [s]",
+        "when touch stays missing for this long after that, motion ends: STOPPED; if it returns before, it goes on [s]",
         minimum=0.005,
         maximum=60.0,
     )
