@@ -296,7 +296,7 @@ def test_viewers_get_every_contact_in_a_few_messages(make_bench: Callable[..., B
         ({"method": "per_frame", "rows": 7}, ArrayError, "do not fit a side of 7"),
         ({"layout": "sock"}, ArrayError, "layout 'sock': allowed is one of square"),
         ({"layout": "/dev/zero"}, SettingsError, "/dev/zero: not a regular file"),
-        ({"layout": "glove", "rows": 16}, ArrayError, "16 x 32.*use square"),
+        ({"layout": "glove", "rows": 16}, ArrayError, "16 x 32.*set rows to 32"),
         ({"touch_count": 60}, SettingsError, "'touch_count'.*'touch_counts'"),
         ({"touch_counts": 1024}, SettingsError, "touch_counts = 1024"),
         ({"image_rate_hz": "fast"}, SettingsError, "image_rate_hz = 'fast'"),
