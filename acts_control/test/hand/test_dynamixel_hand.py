@@ -177,6 +177,9 @@ def test_a_cable_torn_off_is_told_and_the_hand_connects_again(bus: Bus) -> None:
         hand.read()
     with pytest.raises(HandLostError, match="not connected"):
         hand.command([0.0] * 16)
+    # Nobody else gets the hand meanwhile.
+    with pytest.raises(HandError, match=rf"is held by .*process {os.getpid()}\b.*obeys one program"):
+        bus.hand().connect()
     with pytest.raises(HandError, match="is not there; plug the hand in"):
         hand.connect()
     bus.command("plug_in")

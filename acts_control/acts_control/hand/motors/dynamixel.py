@@ -386,7 +386,7 @@ class DynamixelHand:
             yield
         except (OSError, termios.error) as error:
             # The library is left in the middle of an exchange: it would call the port busy from now on.
-            self.close()
+            self.disconnect()
             raise HandLostError(f"{self._config.port} is gone ({error}); is the cable plugged in?") from error
 
 
