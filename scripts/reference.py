@@ -3,8 +3,8 @@
 
 """Write docs/reference.md: every launch argument, node parameter and sampling scheme, from the sources.
 
-Writes the choices of the arguments `scheme`, `method`, `protocol` and `robot` into the launch files, too: XML takes
-them from no registry.
+Writes the choices of the arguments `scheme`, `method`, `protocol` and `robot`, and the names of the reflexes, into the
+launch files, too: XML takes them from no registry.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ import xml.etree.ElementTree as ET
 from collections.abc import Iterable
 from pathlib import Path
 
+from acts_control.hand.reflexes import REFLEXES
 from acts_control.robots import ROBOTS
 from acts_core.sampling import SCHEME_NUMBERS, SCHEMES
 from acts_core.settings import Changeable, default_of, describe
@@ -50,6 +51,9 @@ CHOICES: dict[str, Iterable[str]] = {
     "robot": ROBOTS,
 }
 """What is registered, by the launch argument that chooses among it."""
+
+LISTED: dict[str, Iterable[str]] = {"reflexes": REFLEXES}
+"""What is registered, by the launch argument whose description lists it: it takes several of them."""
 
 HEAD = """# Reference: launch arguments and parameters
 
@@ -115,7 +119,7 @@ def schemes_section() -> list[str]:
 
 
 def with_choices(launch_file: str) -> str:
-    """The text of a launch file, with all that is registered as choices of the arguments that name it."""
+    """The text of a launch file, with all that is registered where it is chosen."""
     for argument, registered in CHOICES.items():
 
         def written(found: re.Match[str], names: Iterable[str] = registered) -> str:
@@ -125,6 +129,9 @@ def with_choices(launch_file: str) -> str:
 
         tag = rf'(<arg name="{argument}" default=[^>]*[^/]>)\n.*?\n(  </arg>)'
         launch_file = re.sub(tag, written, launch_file, flags=re.DOTALL)
+    for argument, registered in LISTED.items():
+        names = ", ".join(registered)
+        launch_file = re.sub(rf'(<arg name="{argument}" [^>]*between: )[^;"]*', rf"\g<1>{names}", launch_file)
     return launch_file
 
 

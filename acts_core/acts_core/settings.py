@@ -20,6 +20,7 @@ from __future__ import annotations
 import dataclasses
 import difflib
 import math
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from enum import Enum
 from typing import Any, TypeVar, cast
@@ -239,6 +240,28 @@ def from_mapping(settings_class: type[T], values: Mapping[str, Any], where: str 
         if name in values
     }
     return settings_class(**arguments)
+
+
+def refuse_doubles(*settings_classes: type, common: type | None = None) -> None:
+    """Refuse settings classes of which two have a setting of one name: one parameter would set both.
+
+    Parameters
+    ----------
+    *settings_classes : type
+        Dataclasses of `setting` fields.
+    common : type or None
+        Base class whose settings several of them may have.
+
+    Raises
+    ------
+    SettingsError
+        Naming the setting.
+    """
+    shared = describe(common) if common is not None else {}
+    names = Counter(name for one in settings_classes for name in describe(one) if name not in shared)
+    for name, number in names.items():
+        if number > 1:
+            raise SettingsError(f"parameter {name!r} is declared {number} times: begin it with the name of its thing")
 
 
 def part_of(settings_class: type[T], settings: object) -> T:

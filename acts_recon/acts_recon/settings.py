@@ -5,14 +5,13 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from dataclasses import dataclass, make_dataclass
 
 from acts_core.array import COUNT_MAX, MAX_SIDE, ArrayGeometry
 from acts_core.errors import SettingsError
 from acts_core.files import path_of
 from acts_core.runtime import RealtimeConfig
-from acts_core.settings import Changeable, default_of, describe, part_of, setting
+from acts_core.settings import Changeable, default_of, describe, part_of, refuse_doubles, setting
 from acts_core.skin import LAYOUTS, ForceResponse, Layout, MeasuredForceResponse, layout, layout_path
 from acts_recon.classifiers import AUTO, CLASSIFIERS, ObjectRecogniser, classifier_named
 from acts_recon.contacts import BlobConfig
@@ -356,10 +355,7 @@ def settings_class() -> type:
     """
     configs = [kind.Config for part in (METHODS, CLASSIFIERS) for kind in part.values()]
     configs = list(dict.fromkeys(configs))
-    names = Counter(name for config in (ReconstructionConfig, *configs) for name in describe(config))
-    for name, number in names.items():
-        if number > 1:
-            raise SettingsError(f"parameter {name!r} is declared {number} times: begin it with the name of its thing")
+    refuse_doubles(ReconstructionConfig, *configs)
     # The fields of the last base come first.
     bases = (*reversed(configs), ReconstructionConfig)
     checks = {"__post_init__": ReconstructionConfig.__post_init__}

@@ -80,7 +80,7 @@ def test_links_into_pages_lead_to_a_heading(page: Path) -> None:
 
 
 # What the pages on extending have one write.
-WRITTEN = {"fading", "overlap", "numbered_lines", "tilting_table", "comb", "tap_to_open", "NAME"}
+WRITTEN = {"fading", "overlap", "numbered_lines", "tilting_table", "comb", "tap_to_open", "line_servos", "NAME"}
 TRACKED = [
     path for folder in ROOT.iterdir() if not folder.name.startswith(".") for path in [folder, *folder.rglob("*")]
 ]

@@ -12,7 +12,7 @@ from typing import Any
 from acts_control.robots.base import Robot, RobotConfig
 from acts_control.robots.ur import UrConfig, UrRobot
 from acts_core.errors import SettingsError
-from acts_core.settings import setting
+from acts_core.settings import refuse_doubles, setting
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,13 @@ def with_robots(own: type) -> type:
     """A settings class: those of `own`, the name of the robot, and the settings of every robot there is.
 
     It checks what `own` checks, and what the robot of that name does.
+
+    Raises
+    ------
+    SettingsError
+        When two of them have a setting of one name.
     """
+    refuse_doubles(own, *(kind.config for kind in ROBOTS.values()), common=RobotConfig)
 
     def check(self: Any) -> None:
         own.__post_init__(self)  # type: ignore[attr-defined]

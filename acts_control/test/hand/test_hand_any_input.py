@@ -352,10 +352,10 @@ def changed() -> st.SearchStrategy[dict[str, Any]]:
 def test_with_any_settings_the_goals_keep_their_limits(values: dict[str, Any], touches: list[int]) -> None:
     try:
         given_settings = SETTINGS(**values)
+        reflexes = make_reflexes(" ".join(REFLEXES), given_settings)
     except SettingsError:
         reject()
     hand = RigidHand()
-    reflexes = make_reflexes(" ".join(REFLEXES), given_settings)
     hand.supervisor = HandSupervisor(LEAP, reflexes, given_settings)
     hand.supervisor.restart(recovered=False)
     hand.step(GRIPPED)

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import math
+import re
 from pathlib import Path
 
 import numpy as np
@@ -20,26 +21,9 @@ from acts_core.errors import SettingsError
 
 LEAP = HandKinematics(LEAP_RIGHT)
 
-GRIPPER = """\
-name: gripper
-base: body
-joints:
-  left: {motor: 1, limits_rad: [0, 1.2], zero_rad: 2.0, direction: -1}
-  right: {motor: 2, limits_rad: [0, 1.2], zero_rad: 2.0}
-links:
-  left_jaw: {parent: body, joint: left, position_m: [0.02, 0, 0], axis: [0, -1, 0]}
-  right_jaw: {parent: body, joint: right, position_m: [-0.02, 0, 0], axis: [0, 1, 0]}
-fingers:
-  left: {closes: {left: 1.0}, tip_link: left_jaw, tip_m: [0, 0, 0.05]}
-  right: {closes: {right: 1.0}, tip_link: right_jaw, tip_m: [0, 0, 0.05]}
-regions:
-  body: {link: body, role: palm, centre_m: [0, 0, 0.01], normal: [0, 0, 1]}
-  left_pad: {link: left_jaw, finger: left, role: distal}
-  right_pad: {link: right_jaw, finger: right, role: distal}
-postures:
-  open: {}
-  pregrasp: {left: 0.1, right: 0.1}
-"""
+(EXAMPLE,) = re.findall(r"```yaml\n(.*?)```", (Path(__file__).parents[3] / "docs" / "hand.md").read_text(), re.DOTALL)
+GRIPPER = re.sub(r" +#.*", "", EXAMPLE)
+"""The example of docs/hand.md, without its comments."""
 
 
 def test_the_leap_hand_has_the_joints_fingers_and_regions_of_the_contract() -> None:
@@ -162,6 +146,15 @@ def test_a_hand_that_is_not_shipped_is_refused_with_those_that_are() -> None:
         hand_description("leap_wrong")
     with pytest.raises(SettingsError, match=r"cannot be read .*too long"):
         hand_description("leap" * 100)
+
+
+@pytest.mark.parametrize("settings", [HandSettings, HandReflexesSettings])
+def test_the_frame_is_the_base_of_the_hand_unless_it_is_given(settings: type, tmp_path: Path) -> None:
+    path = tmp_path / "gripper.yaml"
+    path.write_text(GRIPPER)
+    assert settings().frame_of(LEAP_RIGHT) == "palm_lower"
+    assert settings().frame_of(hand_description(str(path))) == "body"
+    assert settings(frame_id="arm/palm").frame_of(LEAP_RIGHT) == "arm/palm"
 
 
 @pytest.mark.parametrize("settings", [HandSettings, HandReflexesSettings])

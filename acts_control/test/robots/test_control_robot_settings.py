@@ -3,12 +3,16 @@
 
 """Settings of a robot: refused where it could not be moved by them, or is none of this machine."""
 
+from dataclasses import make_dataclass
+
 import pytest
 
 from acts_control.ball import LoopConfig
-from acts_control.robots import with_robots
+from acts_control.robots import ROBOTS, RobotKind, with_robots
+from acts_control.robots.base import RobotConfig
 from acts_control.robots.ur import UrConfig
 from acts_core.errors import SettingsError
+from acts_core.settings import setting
 
 
 def test_settings_of_the_robot_are_checked() -> None:
@@ -27,3 +31,11 @@ def test_for_a_simulated_skin_only_a_robot_of_this_machine_is_controlled(robot_i
             settings(robot_ip=robot_ip, loopback_only=True)
         assert settings(robot_ip="127.0.6.5", loopback_only=True).robot_ip == "127.0.6.5"
         assert settings(robot_ip=robot_ip).robot_ip == robot_ip
+
+
+def test_a_robot_with_a_parameter_that_another_has_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    own = [("level_q_rad", float, setting(0.0, "where it is level [rad]"))]
+    kind = RobotKind(make_dataclass("Other", own, bases=(RobotConfig,), frozen=True), ROBOTS["ur5e"].make)
+    monkeypatch.setitem(ROBOTS, "other", kind)
+    with pytest.raises(SettingsError, match="'level_q_rad' is declared 2 times"):
+        with_robots(LoopConfig)

@@ -4,10 +4,23 @@
 """The motors of a hand, behind what the hand's loop knows of them.
 
 In come goals of joints; out come their angles and currents. `HandBus` is the interface, `DynamixelHand` that of the
-LEAP hand.
+LEAP hand; a make of motors is a module here and a line in `registry`.
 """
 
-from acts_control.hand.motors.bus import HandBus, HandError, HandLostError, HandReading
+from acts_control.hand.motors.bus import BusConfig, HandBus, HandError, HandLostError, HandReading
 from acts_control.hand.motors.dynamixel import DynamixelConfig, DynamixelHand
+from acts_control.hand.motors.registry import MOTORS, MotorKind, make_motors, with_motors
 
-__all__ = ["DynamixelConfig", "DynamixelHand", "HandBus", "HandError", "HandLostError", "HandReading"]
+__all__ = [
+    "MOTORS",
+    "BusConfig",
+    "DynamixelConfig",
+    "DynamixelHand",
+    "HandBus",
+    "HandError",
+    "HandLostError",
+    "HandReading",
+    "MotorKind",
+    "make_motors",
+    "with_motors",
+]

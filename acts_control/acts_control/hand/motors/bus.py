@@ -6,9 +6,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import NamedTuple, Protocol
 
 from acts_core.errors import ActsError
+from acts_core.settings import setting, validate
 
 
 class HandError(ActsError):
@@ -17,6 +19,16 @@ class HandError(ActsError):
 
 class HandLostError(HandError):
     """The port of the hand is gone; it has to be connected anew."""
+
+
+@dataclass(frozen=True)
+class BusConfig:
+    """The setting that motors of every make have; those of a make are a subclass of this."""
+
+    port: str = setting("/dev/ttyUSB0", "serial port of the motors")
+
+    def __post_init__(self) -> None:
+        validate(self)
 
 
 class HandReading(NamedTuple):
@@ -45,10 +57,17 @@ class HandReading(NamedTuple):
 
 
 class HandBus(Protocol):
-    """The motors of a hand. Every method may raise `HandError`."""
+    """The motors of a hand. Every method may raise `HandError`: it is logged, and the motors are connected anew.
+
+    The hand's loop (`acts_control.hand.control.HandLoop`) calls all of them, from one thread. Motors that hear nothing
+    for a while have to stop by themselves.
+    """
 
     def connect(self) -> list[str]:
-        """Find all motors and set them up, with the torque off; what a person should know of, in sentences."""
+        """Find all motors and set them up, with the torque off; what a person should know of, in sentences.
+
+        Called again and again until it succeeds, and after `disconnect`.
+        """
 
     def enable(self) -> None:
         """Switch the torque on; every joint holds where it is."""
@@ -57,10 +76,10 @@ class HandBus(Protocol):
         """Switch the torque off."""
 
     def read(self) -> HandReading:
-        """The newest state of all motors."""
+        """The newest state of all motors; called at the rate of the loop, also while the torque is off."""
 
     def command(self, q_rad: Sequence[float]) -> None:
-        """Send every joint to an angle."""
+        """Send every joint to an angle; finite, within the limits of the joint, near the angle before."""
 
     def recover(self, joint: int) -> None:
         """Bring a motor back that has switched itself off; its torque stays off."""

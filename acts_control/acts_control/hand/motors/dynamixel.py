@@ -22,10 +22,10 @@ from typing import Any
 
 from acts_control.claims import Claim, ClaimedError
 from acts_control.hand.description import HandDescription, Joint
-from acts_control.hand.motors.bus import HandError, HandLostError, HandReading
+from acts_control.hand.motors.bus import BusConfig, HandError, HandLostError, HandReading
 from acts_control.hand.motors.port_words import held, usb_latency, why_not
 from acts_core.runtime import is_multiplexer, is_stale_link
-from acts_core.settings import setting, validate
+from acts_core.settings import setting
 
 # The control table, see the e-manual of the XC330-M288.
 _RETURN_DELAY, _MODE, _TORQUE, _HARDWARE_ERROR = 9, 11, 64, 70
@@ -57,10 +57,9 @@ _TRIES = 3
 
 
 @dataclass(frozen=True)
-class DynamixelConfig:
+class DynamixelConfig(BusConfig):
     """How the motors are reached, and how strong they are."""
 
-    port: str = setting("/dev/ttyUSB0", "serial port of the motors")
     baud: int = setting(4_000_000, "bits a second on the bus", minimum=9600, maximum=4_000_000)
     answer_timeout_ms: float = setting(
         16.0,
@@ -78,9 +77,6 @@ class DynamixelConfig:
     set_return_delay: bool = setting(
         False, "whether to set the return delay in the EEPROM of the motors to 0 where it is not"
     )
-
-    def __post_init__(self) -> None:
-        validate(self)
 
 
 class DynamixelHand:

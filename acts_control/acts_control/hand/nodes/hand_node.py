@@ -10,13 +10,12 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import JointState
 
-from acts_control.hand.motors import HandError
+from acts_control.hand.motors import HandError, with_motors
 from acts_control.hand.nodes.motor_node import MotorNode, MotorSettings
 from acts_core.stop_signals import StopSignals
 from acts_ros.composition import parameters_from
@@ -29,9 +28,8 @@ from acts_ros.qos import STATE
 _COMMAND_BYTES_MAX = 65536
 
 
-@dataclass(frozen=True)
-class HandSettings(MotorSettings):
-    """Parameters of the node."""
+HandSettings = with_motors(MotorSettings)
+"""Parameters of the node."""
 
 
 class HandNode(MotorNode):
@@ -41,7 +39,8 @@ class HandNode(MotorNode):
         super().__init__("hand", **node_options(), **node_arguments)
         self._refused = self._reported_refused = 0
         self._refusal = ""
-        self.start_with(declare(self, HandSettings), None, "release", "~/command")
+        settings: Any = declare(self, HandSettings)
+        self.start_with(settings, None, "release", "~/command")
         self.create_subscription(JointState, "~/command", self._on_command, STATE, raw=True)
 
     def report(self) -> Report:

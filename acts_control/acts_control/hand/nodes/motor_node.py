@@ -14,7 +14,7 @@ from std_srvs.srv import Trigger
 
 from acts_control.hand.control import Behaviour, HandLoop, HandLoopConfig, HandPhase
 from acts_control.hand.description import HandDescription, hand_description
-from acts_control.hand.motors import DynamixelConfig, DynamixelHand, HandBus, HandReading
+from acts_control.hand.motors import MOTORS, BusConfig, HandBus, HandReading, make_motors
 from acts_control.hand.nodes.cmd_leap import CmdLeapBus
 from acts_core.runtime import RealtimeConfig, enter_realtime
 from acts_core.settings import setting
@@ -25,31 +25,37 @@ from acts_ros.messages import check_frame_id
 from acts_ros.polled import PollingNode
 from acts_ros.qos import STATE
 
+_BASE, _CMD_LEAP = "none", "cmd_leap"
 _LEVELS = {HandPhase.CONNECTING: WARN, HandPhase.RECOVERING: WARN, HandPhase.GIVEN_UP: ERROR}
 
 
 @dataclass(frozen=True)
-class MotorSettings(RealtimeConfig, HandLoopConfig, DynamixelConfig):
-    """Parameters of a node that moves a hand."""
+class MotorSettings(RealtimeConfig, HandLoopConfig, BusConfig):
+    """Parameters of a node that moves a hand; those of motors come with `acts_control.hand.motors.with_motors`."""
 
     hand: str = setting("leap_right", "the hand: leap_right, or the path of a .yaml file (docs/hand.md)")
     interface: str = setting(
-        "dynamixel",
-        "how the hand is moved: its motors' bus at port, or the topic cmd_leap of the LEAP team's own node",
-        choices=("dynamixel", "cmd_leap"),
+        next(iter(MOTORS)),
+        "how the hand is moved: by motors of this make at port, or by the topic cmd_leap of the LEAP team's own node",
+        choices=(*MOTORS, _CMD_LEAP),
     )
-    frame_id: str = setting("palm_lower", "frame of the joint states")
+    frame_id: str = setting(_BASE, "frame of joint states and status; none: the base of the hand")
 
     def __post_init__(self) -> None:
-        DynamixelConfig.__post_init__(self)
         RealtimeConfig.__post_init__(self)
-        check_frame_id(self.frame_id)
+        if self.interface in MOTORS:
+            MOTORS[self.interface].config.__post_init__(self)
+        check_frame_id(self.frame_id, "none is the base of the hand")
+
+    def frame_of(self, hand: HandDescription) -> str:
+        """Frame of the messages of a hand."""
+        return hand.base if self.frame_id == _BASE else self.frame_id
 
 
 def make_bus(node: Node, hand: HandDescription, settings: MotorSettings) -> HandBus:
     """The motors that the settings name."""
-    if settings.interface == "dynamixel":
-        return DynamixelHand(hand, settings)
+    if settings.interface != _CMD_LEAP:
+        return make_motors(settings.interface, hand, settings)
     publisher = node.create_publisher(JointState, "cmd_leap", STATE)
     return CmdLeapBus(hand, lambda angles_rad: publisher.publish(JointState(position=angles_rad)))
 
@@ -74,7 +80,7 @@ class MotorNode(PollingNode):
         self.settings = settings
         self.hand = hand_description(settings.hand)
         self._states = JointState()
-        self._states.header.frame_id = settings.frame_id
+        self._states.header.frame_id = settings.frame_of(self.hand)
         self._states.name = self.hand.names
         self._publisher = self.create_publisher(JointState, "joint_states", STATE)
         bus = make_bus(self, self.hand, settings)

@@ -13,16 +13,16 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import make_dataclass, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 from std_srvs.srv import Trigger
 
 from acts_control.hand.control import CycleTimes, HandPhase, HandSupervisor, SupervisorConfig, SupervisorStatus
 from acts_control.hand.description import HandKinematics, hand_description
-from acts_control.hand.motors import HandReading
+from acts_control.hand.motors import HandReading, with_motors
 from acts_control.hand.nodes.motor_node import MotorNode, MotorSettings, answered
-from acts_control.hand.reflexes import REFLEXES, HandState, make_reflexes
+from acts_control.hand.reflexes import REFLEXES, HandState, make_reflexes, with_reflexes
 from acts_control.names import set_stamp
 from acts_core.errors import PacketError
 from acts_core.settings import setting
@@ -47,21 +47,22 @@ _TOUCH_BYTES_MAX = 16384
 _TIMING_PERIOD_S = 1.0
 
 
+@dataclass(frozen=True)
+class _OwnSettings(SupervisorConfig, MotorSettings):
+    """Parameters of the node."""
+
+    rate_hz: float = setting(250.0, "how often the hand is read and moved", minimum=10.0, maximum=500.0)
+    max_speed_rad_s: float = setting(12.0, "fastest that a joint's goal moves [rad/s]", minimum=0.01, maximum=30.0)
+    reflexes: str = setting("sharp slip sphere", f"which act, with blanks between: {', '.join(REFLEXES)}")
+    status_rate_hz: float = setting(50.0, "how often the status is published", minimum=1.0, maximum=500.0)
+
+    def __post_init__(self) -> None:
+        MotorSettings.__post_init__(self)
+
+
 def settings_class() -> type:
-    """The node's own parameters, those of the motors and the supervisor, and those of every reflex there is."""
-    own: list[tuple[str, type, Any]] = [
-        ("rate_hz", float, setting(250.0, "how often the hand is read and moved", minimum=10.0, maximum=500.0)),
-        (
-            "max_speed_rad_s",
-            float,
-            setting(12.0, "fastest that a joint's goal moves [rad/s]", minimum=0.01, maximum=30.0),
-        ),
-        ("reflexes", str, setting("sharp slip sphere", f"which act, with blanks between: {', '.join(REFLEXES)}")),
-        ("status_rate_hz", float, setting(50.0, "how often the status is published", minimum=1.0, maximum=500.0)),
-    ]
-    bases = (*(kind.Config for kind in REFLEXES.values()), SupervisorConfig, MotorSettings)
-    checks = {"__post_init__": MotorSettings.__post_init__}
-    return make_dataclass("HandReflexesSettings", own, bases=bases, namespace=checks, frozen=True)
+    """The node's own parameters, those of every make of motors, and those of every reflex there is."""
+    return with_reflexes(with_motors(_OwnSettings))
 
 
 HandReflexesSettings = settings_class()
@@ -143,13 +144,14 @@ class HandReflexesNode(MotorNode):
         super().__init__("hand_reflexes", **node_options(), **node_arguments)
         settings: Any = declare(self, HandReflexesSettings)
         reflexes = make_reflexes(settings.reflexes, settings)
-        self._supervisor = HandSupervisor(HandKinematics(hand_description(settings.hand)), reflexes, settings)
+        hand = hand_description(settings.hand)
+        self._supervisor = HandSupervisor(HandKinematics(hand), reflexes, settings)
         self._status_lock = threading.Lock()
         self._status = HandStatus()
-        self._status.header.frame_id = settings.frame_id
+        self._status.header.frame_id = settings.frame_of(hand)
         self._status_publisher = self.create_publisher(HandStatus, "hand/status", STATE)
         self._timing = HandTiming()
-        self._timing.header.frame_id = settings.frame_id
+        self._timing.header.frame_id = settings.frame_of(hand)
         self._timing_publisher = self.create_publisher(HandTiming, "hand/timing", STATE)
         regions = self.create_raw_polled_subscription(RegionContacts, "regions", STREAM, depth=_TOUCH_DEPTH)
         clock = self.get_clock()

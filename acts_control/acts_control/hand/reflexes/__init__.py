@@ -9,6 +9,6 @@ In comes `Sensed`, out comes a `Wish` or nothing. `registry` names them all; ano
 
 from acts_control.hand.reflexes.base import HandState, Reflex, Sensed, Wish
 from acts_control.hand.reflexes.hand_to_hand import HandToHandConfig
-from acts_control.hand.reflexes.registry import REFLEXES, make_reflexes
+from acts_control.hand.reflexes.registry import REFLEXES, make_reflexes, with_reflexes
 
-__all__ = ["REFLEXES", "HandState", "HandToHandConfig", "Reflex", "Sensed", "Wish", "make_reflexes"]
+__all__ = ["REFLEXES", "HandState", "HandToHandConfig", "Reflex", "Sensed", "Wish", "make_reflexes", "with_reflexes"]

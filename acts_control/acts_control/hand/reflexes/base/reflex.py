@@ -142,7 +142,7 @@ class Wish(NamedTuple):
 
 
 class Reflex(ABC):
-    """A behaviour; `config` is an instance of its `Config`, or one object with the settings of several.
+    """A behaviour; `config` is an instance of its `Config`.
 
     Attributes
     ----------
