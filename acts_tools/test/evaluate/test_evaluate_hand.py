@@ -115,6 +115,45 @@ def test_a_rate_that_the_hand_does_not_have_is_refused(capsys: pytest.CaptureFix
     assert "allowed is 10 to 500" in capsys.readouterr().err
 
 
+def test_further_reflexes_and_settings_are_those_of_the_run(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def made(one: Run) -> Outcome:
+        rig = one.rig(HandWorldConfig(object="none"), one.options("slip", grip_force_n=0.15, slip_keep_s=0.5))
+        assert list(rig.reflexes) == ["slip", "hand_to_hand"]
+        assert rig.reflexes["slip"].config.slip_keep_s == 2.0
+        rig.reflexes["hand_to_hand"].events = one.seed
+        return Outcome(ok=True, kept=True)
+
+    monkeypatch.setitem(scenarios.SCENARIOS, "hold", made)
+    path = tmp_path / "out.json"
+    words = ["evaluate", "hand", "--scenario", "hold", "--seeds", "2", "--json", str(path)]
+    assert main([*words, "--also", "hand_to_hand", "slip", "--set", "slip_keep_s=2"]) == 0
+    report = json.loads(path.read_text())
+    assert (report["also"], report["set"]) == (["hand_to_hand", "slip"], {"slip_keep_s": 2.0})
+    assert [entry["events"] for entry in report["results"][:2]] == [
+        {"slip": 0, "hand_to_hand": 1},
+        {"slip": 0, "hand_to_hand": 2},
+    ]
+    assert "hand_to_hand: set off 3 times in 2 runs" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (("--also", "slipp"), "did you mean 'slip'"),
+        (("--set", "slip_keep=2"), "did you mean 'slip_keep_s'"),
+        (("--set", "slip_keep_s=-1"), "slip_keep_s"),
+        (("--set", "sphere_min_spread_m=0.05", "--also", "sphere"), "sphere_max_spread_m"),
+    ],
+)
+def test_reflexes_and_settings_that_there_are_not_are_refused(
+    words: tuple[str, ...], told: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["evaluate", "hand", "--scenario", "hold", *words]) != 0
+    assert told in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("seed", [20, 17], ids=["large, far from the thumb", "small"])
 def test_a_sphere_is_rolled_to_the_centre_and_gripped_there(seed: int) -> None:
     outcome = sphere.run(Run(seed))

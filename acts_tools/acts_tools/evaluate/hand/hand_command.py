@@ -8,12 +8,14 @@ from __future__ import annotations
 import argparse
 import statistics
 import tempfile
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from acts_core.errors import LaunchError, SettingsError
+from acts_core.settings import SettingValue, describe, from_text, unknown_key_message
 from acts_tools.evaluate import report
 from acts_tools.evaluate.shares import wilson
 
@@ -44,6 +46,21 @@ def add_parser(commands: Any) -> None:
         "--rate-hz", type=float, default=250.0, metavar="R", help="rate of the reflexes [Hz] (default: %(default)g)"
     )
     parser.add_argument(
+        "--also",
+        nargs="+",
+        default=[],
+        metavar="REFLEX",
+        help="further reflexes that act, such as one of your own (docs/reflexes.md); how often each was set off is "
+        "printed at the end",
+    )
+    parser.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        help="set a parameter of the hand's behaviour or of a reflex (docs/reference.md, hand_reflexes)",
+    )
+    parser.add_argument(
         "--live",
         action="store_true",
         help="use all real interfaces: each run launches the simulated hand, its board and the nodes, in real time",
@@ -55,7 +72,6 @@ def add_parser(commands: Any) -> None:
 def _run(arguments: argparse.Namespace) -> int:
     # Imported here, because MuJoCo and the kernels are slow to import.
     from acts_tools.evaluate.hand.scenario import Run
-    from acts_tools.evaluate.hand.scenarios import SCENARIOS
 
     if not 10.0 <= arguments.rate_hz <= 500.0:
         raise SettingsError(f"--rate-hz {arguments.rate_hz:g}: allowed is 10 to 500")
@@ -63,27 +79,67 @@ def _run(arguments: argparse.Namespace) -> int:
         raise SettingsError(
             f"--seed {arguments.seed} --seeds {arguments.seeds}: allowed are 0 or more, 1 to {_SEEDS_MAX}"
         )
+    also, settings = tuple(arguments.also), _settings(arguments.set, arguments.also)
     setup = {"scenario": arguments.scenario, "reflex": arguments.reflex, "rate_hz": arguments.rate_hz}
-    results = report.Results(arguments.json, setup)
+    results = report.Results(arguments.json, {**setup, "also": also, "set": settings})
     print("| seed | ok | kept | noticed [ms] | stopped [ms] | penetration [mm] | offset [mm] |")
     print("|---|---|---|---|---|---|---|")
     outcomes: list[Outcome] = []
+    events: Counter[str] = Counter()
     for seed in range(arguments.seed, arguments.seed + arguments.seeds):
-        one = Run(seed, arguments.reflex == "on", arguments.rate_hz)
-        outcome, timing = _live(arguments, one) if arguments.live else (SCENARIOS[arguments.scenario](one), {})
+        one = Run(seed, arguments.reflex == "on", arguments.rate_hz, also, settings)
+        outcome, further = (_live if arguments.live else _counted)(arguments.scenario, one)
         outcomes.append(outcome)
-        entry = {"seed": seed, **vars(outcome), **timing}
+        events.update(further["events"])
+        entry = {"seed": seed, **vars(outcome), **further}
         results.add(entry)
         numbers = " | ".join(_shown(getattr(outcome, name)) for name in _NUMBERS)
         print(f"| {seed} | {_shown(outcome.ok)} | {_shown(outcome.kept)} | {numbers} |", flush=True)
     results.add(_summary(outcomes))
+    for name in also:
+        print(f"{name}: set off {events[name]} times in {len(outcomes)} runs")
     return 0
 
 
-def _live(arguments: argparse.Namespace, one: Run) -> tuple[Outcome, dict[str, object]]:
-    """A run over the real interfaces, with the durations of its cycles and the latency from measurement to goals."""
-    from acts_tools.bags.stopping import StopFlag
+def _settings(words: Sequence[str], also: Sequence[str]) -> dict[str, SettingValue]:
+    """The settings of ``--set``, by name.
+
+    Raises
+    ------
+    SettingsError
+        For one that there is not, or that its reflex refuses, and for a reflex of ``--also`` that there is not.
+    """
+    from acts_control.hand.control import SupervisorConfig
+    from acts_control.hand.reflexes import make_reflexes, with_reflexes
+
+    kind = with_reflexes(SupervisorConfig)
+    given = {}
+    for word in words:
+        name, _, text = word.partition("=")
+        if name not in describe(kind):
+            raise SettingsError(unknown_key_message(name, list(describe(kind)), "settings of the hand"))
+        given[name] = from_text(kind, name, text)
+    make_reflexes(" ".join(also), kind(**given))
+    return given
+
+
+def _counted(scenario: str, one: Run) -> tuple[Outcome, dict[str, Any]]:
+    """A run, with the number of times that each reflex was set off."""
     from acts_tools.evaluate.hand.scenarios import SCENARIOS
+
+    made: list[Any] = []
+
+    def rig(*options: Any) -> Any:
+        made.append(one.rig(*options))
+        return made[-1]
+
+    outcome = SCENARIOS[scenario](replace(one, rig=rig))
+    return outcome, {"events": {name: reflex.events for rig in made for name, reflex in rig.reflexes.items()}}
+
+
+def _live(scenario: str, one: Run) -> tuple[Outcome, dict[str, Any]]:
+    """The same over the real interfaces, also with durations of cycles and the latency from measurement to goals."""
+    from acts_tools.bags.stopping import StopFlag
     from acts_tools.live_hand.rigs import LiveRigs
     from acts_tools.ros_domain import use_free_domain
 
@@ -92,11 +148,11 @@ def _live(arguments: argparse.Namespace, one: Run) -> tuple[Outcome, dict[str, o
         log = Path(folder) / "launch.log"
         try:
             with LiveRigs(log, stop) as rigs:
-                outcome = SCENARIOS[arguments.scenario](replace(one, rig=rigs))
+                outcome, counted = _counted(scenario, replace(one, rig=rigs))
         except LaunchError as error:
             said = "\n".join(log.read_text(errors="replace").splitlines()[-30:])
             raise LaunchError(f"{error}; the launch said:\n{said}") from error
-    return outcome, rigs.recording.timing_ms()
+    return outcome, {**counted, **rigs.recording.timing_ms()}
 
 
 def _summary(outcomes: Sequence[Any]) -> dict[str, object]:

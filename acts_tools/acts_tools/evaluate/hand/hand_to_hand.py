@@ -12,7 +12,6 @@ import numpy as np
 from acts_control.hand.description import LEAP_RIGHT
 from acts_control.hand.reflexes import HandToHandConfig
 from acts_sim.hand import HandWorldConfig
-from acts_tools.evaluate.hand.rig import RigOptions
 from acts_tools.evaluate.hand.scenario import Outcome, Run
 
 _WAY_M = 0.020
@@ -27,7 +26,7 @@ def run(one: Run) -> Outcome:
     draw = one.draw()
     world = HandWorldConfig(seed=one.seed, pose="thumb_up", object="other_hand", object_held=True)
     reflexes = ("slip", "hand_to_hand") if one.reflex else ("slip",)
-    rig = one.rig(world, RigOptions(one.rate_hz, reflexes, settings={"grip_force_n": 0.3, **one.settings}))
+    rig = one.rig(world, one.options(*reflexes, grip_force_n=0.3))
     outcome = Outcome()
     if not rig.grasp():
         outcome.details["failed"] = "not grasped"

@@ -9,7 +9,6 @@ import numpy as np
 
 from acts_control.hand.description import LEAP_RIGHT
 from acts_sim.hand import BLUNT_RADIUS_M, SHARP_RADIUS_M, HandWorldConfig
-from acts_tools.evaluate.hand.rig import RigOptions
 from acts_tools.evaluate.hand.scenario import Outcome, Run
 
 _SPEED_M_S = 0.05
@@ -49,7 +48,7 @@ def _poke(one: Run, radius_m: float) -> Outcome:
         seed=one.seed, pose="palm_up", object="cylinder", object_size_m=draw.uniform(0.022, 0.028), object_held=True
     )
     reflexes = ("sharp", "slip") if one.reflex else ("slip",)
-    rig = one.rig(world, RigOptions(one.rate_hz, reflexes, settings=one.settings))
+    rig = one.rig(world, one.options(*reflexes))
     outcome = Outcome(details={"radius_mm": 1e3 * radius_m})
     if not rig.grasp():
         outcome.details["failed"] = "not grasped"

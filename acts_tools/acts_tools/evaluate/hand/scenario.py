@@ -25,8 +25,10 @@ class Run:
     reflex : bool
         Whether the reflex of the scenario is on.
     rate_hz : float
+    also : tuple of str
+        Further reflexes that act, besides those of the scenario.
     settings : mapping
-        Settings of supervisor and reflexes that are not the defaults.
+        Settings of supervisor and reflexes that are not the defaults; they override those of the scenario.
     rig : callable
         Makes the hand: `HandRig`, or its equivalent over the real interfaces (`acts_tools.live_hand.rigs`).
     """
@@ -34,12 +36,18 @@ class Run:
     seed: int
     reflex: bool = True
     rate_hz: float = 250.0
+    also: tuple[str, ...] = ()
     settings: Mapping[str, Any] = field(default_factory=dict)
     rig: Callable[[HandWorldConfig, RigOptions], Any] = HandRig
 
     def draw(self) -> np.random.Generator:
         """Random generator of the run's variation."""
         return np.random.default_rng([self.seed, 7])
+
+    def options(self, *reflexes: str, **settings: Any) -> RigOptions:
+        """Options of the scenario's hand: its reflexes and settings, and those of this run."""
+        names = tuple(dict.fromkeys((*reflexes, *self.also)))
+        return RigOptions(self.rate_hz, names, settings={**settings, **self.settings})
 
 
 @dataclass

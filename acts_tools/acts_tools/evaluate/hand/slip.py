@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 
 from acts_sim.hand import HandWorldConfig
-from acts_tools.evaluate.hand.rig import RigOptions
 from acts_tools.evaluate.hand.scenario import Outcome, Run
 
 LOADS = (0.5, 1.0, 2.0)
@@ -94,8 +93,7 @@ def _grasped(one: Run) -> tuple[Any, Outcome]:
         object_x_m=draw.uniform(-0.003, 0.003),
     )
     # A light grip, which carries little more than the object.
-    settings = {"grip_force_n": 0.15, **one.settings}
-    rig = one.rig(world, RigOptions(one.rate_hz, ("sharp", "slip") if one.reflex else ("sharp",), settings=settings))
+    rig = one.rig(world, one.options(*(("sharp", "slip") if one.reflex else ("sharp",)), grip_force_n=0.15))
     outcome = Outcome(kept=False, details={"mass_kg": world.object_mass_kg})
     if not rig.grasp():
         outcome.details["failed"] = "not grasped"

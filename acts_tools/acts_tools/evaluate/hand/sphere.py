@@ -12,7 +12,7 @@ import numpy as np
 from acts_control.hand.description import LEAP_RIGHT
 from acts_control.hand.reflexes import HandState
 from acts_sim.hand import HandWorldConfig
-from acts_tools.evaluate.hand.rig import HandRig, RigOptions
+from acts_tools.evaluate.hand.rig import HandRig
 from acts_tools.evaluate.hand.scenario import Outcome, Run
 
 # The thumb closes around large spheres from above; for small ones it waits at the side.
@@ -49,8 +49,7 @@ def _run(one: Run, radius_m: float, name: str) -> Outcome:
         object_y_m=-0.1,
     )
     reflexes = ("slip", "sphere", "trap") if one.reflex else ("slip",)
-    settings = {"grasp_posture": _POSTURES[name], "grip_force_n": 0.3, **one.settings}
-    rig = one.rig(world, RigOptions(one.rate_hz, reflexes, settings=settings))
+    rig = one.rig(world, one.options(*reflexes, grasp_posture=_POSTURES[name], grip_force_n=0.3))
     outcome = Outcome(details={"radius_mm": 1e3 * radius_m, "angle_deg": math.degrees(angle)})
     rig.run(0.02)
     rig.supervisor.grasp()
