@@ -151,7 +151,7 @@ def test_a_pitch_of_ones_own() -> None:
     ("arguments", "words"),
     [
         (("sock",), "'sock'.*square, arm, .*, leap_right, leg, or the path"),
-        (("insole", 64, 16), "64 x 16.*use square"),
+        (("insole", 64, 16), "64 x 16.*use another layout"),
         (("glove", 16, 32), "16 x 32"),
         (("square", 65, 1), "rows = 65"),
     ],
