@@ -108,8 +108,8 @@ def side_by_side() -> list[str]:
     """Options of pytest-xdist, where that is installed; see conftest.py."""
     if importlib.util.find_spec("xdist") is None:
         return []
-    # One more than cores: tests of the whole system wait more than they compute.
-    processes = min(len(os.sched_getaffinity(0)) + 1, MAX_PROCESSES)
+    # More than cores: tests of the whole system wait more than they compute.
+    processes = min(len(os.sched_getaffinity(0)) + 2, MAX_PROCESSES)
     options = ["--numprocesses", str(processes), "--dist", "loadfile"]
     # In the order of pyproject.toml: files of few but long tests first. Without a restart the run ends where a process
     # has crashed; with one it hangs (pytest-xdist 3.8).
