@@ -14,7 +14,7 @@ import importlib
 import re
 import sys
 import xml.etree.ElementTree as ET
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from acts_control.hand.reflexes import REFLEXES
@@ -75,9 +75,9 @@ def cell(text: object) -> str:
     return str(text).replace("|", "\\|")
 
 
-def launch_section(path: Path) -> list[str]:
-    lines = [f"### {path.name}", "", "| argument | default | |", "|---|---|---|"]
-    for argument in ET.parse(path).getroot().iter("arg"):
+def launch_section(name: str, launch_file: str) -> list[str]:
+    lines = [f"### {name}", "", "| argument | default | |", "|---|---|---|"]
+    for argument in ET.fromstring(launch_file).iter("arg"):
         # An arg tag with a value belongs to an include.
         if "value" not in argument.attrib:
             default = argument.get("default")
@@ -138,13 +138,13 @@ def with_choices(launch_file: str) -> str:
 def written_files() -> dict[Path, str]:
     """What this script writes, by path."""
     launch_files = {path: with_choices(path.read_text()) for path in sorted((ROOT / "launch").glob("*.launch.xml"))}
-    return {**launch_files, PAGE: page()}
+    return {**launch_files, PAGE: page(launch_files)}
 
 
-def page() -> str:
+def page(launch_files: Mapping[Path, str]) -> str:
     lines = [HEAD, "## Launch files of acts_bringup", ""]
-    for path in sorted((ROOT / "launch").glob("*.launch.xml")):
-        lines += launch_section(path)
+    for path, text in launch_files.items():
+        lines += launch_section(path.name, text)
     lines += ["## Parameters of the nodes", "", CHANGE_IN_WORDS]
     for node in NODES:
         lines += node_section(*node)
