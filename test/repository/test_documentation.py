@@ -5,6 +5,8 @@
 
 import ast
 import re
+import runpy
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -77,6 +79,33 @@ def test_links_into_pages_lead_to_a_heading(page: Path) -> None:
     for target, anchor in re.findall(r"\]\((?!https?:)([^)#]*\.md)?#([^)]+)\)", page.read_text()):
         other = page.parent / target if target else page
         assert anchor in headings(other), f"{page.name} links to {target}#{anchor}"
+
+
+EXAMPLES = [
+    (page, code)
+    for page in ("extending.md", "hand.md", "reflexes.md")
+    for code in re.findall(r"```python\n(.*?)```", (ROOT / "docs" / page).read_text(), re.DOTALL)
+]
+
+
+@pytest.mark.skipif(shutil.which("ruff") is None, reason="needs ruff: pip install ruff")
+@pytest.mark.parametrize("words", [("check", "--quiet"), ("format", "--diff", "--quiet")], ids=["rules", "format"])
+@pytest.mark.parametrize(("page", "code"), EXAMPLES, ids=lambda part: part if part.endswith(".md") else "")
+def test_modules_to_be_copied_keep_the_rules(page: str, code: str, words: tuple[str, ...]) -> None:
+    code = "".join(Path(__file__).read_text().splitlines(keepends=True)[:3]) + code
+    command = ["ruff", *words, "--stdin-filename", str(ROOT / "acts_core" / "acts_core" / "example.py"), "-"]
+    finished = subprocess.run(command, input=code, capture_output=True, text=True, timeout=60, cwd=ROOT)
+    assert finished.returncode == 0, f"{page}: {finished.stdout}{finished.stderr}"
+
+
+def test_what_is_registered_reaches_the_reference_and_the_launch_files_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    written = runpy.run_path(str(ROOT / "scripts" / "reference.py"))
+    written["written_files"]()  # imports the nodes, whose parameters are those of the reflexes that there are
+    monkeypatch.setitem(written["LISTED"]["reflexes"], "mine", written["REFLEXES"]["slip"])
+    files = {path.name: text for path, text in written["written_files"]().items()}
+    names = ", ".join(written["REFLEXES"])
+    for name in ("hand_reflexes.launch.xml", "reference.md"):
+        assert f"between: {names}; none: " in files[name]
 
 
 # What the pages on extending have one write.
