@@ -1,0 +1,206 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""What is wanted of a board, and its session that keeps it in force: with virtual boards, silent and reset ones."""
+
+from __future__ import annotations
+
+import threading
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from board_host import SIZE, Host, LossyWay, SimpleBoard
+from pty_board import PtyBoard, wait_for
+from virtual_board import VirtualBoard
+
+from acts_core.errors import BoardError, SettingsError
+from acts_core.sampling import SkinMap
+from acts_core.skin import layout
+from acts_core.wire import BoardSettings
+from acts_core.wire.board_models import ModelKind
+from acts_driver.board import BoardParameters, BoardSession, BoardStatus
+from acts_driver.board.model_file import load_model
+
+pytestmark = pytest.mark.slow
+
+
+def test_the_session_brings_the_board_to_what_is_wanted(host: Host) -> None:
+    session = host.start_session(scheme="tracking", m=100, rate_cap_hz=500.0, led="off")
+    assert session.may_publish
+    assert session.status.problem == ""
+    assert session.status.state is not None
+    found = session.status.state.settings
+    assert (found.scheme, found.m, found.frame_period_us, found.led) == ("tracking", 100, 2000, "off")
+    # The board's own share of 11 of 55 is kept.
+    assert found.search_quota == 20
+    wait_for(lambda: host.sizes[-1:] == [100], "frames of 100")
+    session.change(BoardParameters(m=64, search_share=0.5))
+    assert host.link.query().state.settings.scheme == "adaptive", "what is not asked is the board's own again"
+    session.change(BoardParameters())
+    assert host.link.query().state.settings == BoardSettings.from_sampling(BoardParameters().sampling(32, 32))
+
+
+def test_the_session_keeps_the_layout_of_the_board(board: VirtualBoard, host: Host) -> None:
+    session = host.start_session(layout="leap_right")
+    hand = SkinMap.of(layout("leap_right"))
+    assert host.link.query().state.map_crc32 == hand.crc32
+    # Somebody else has told it otherwise.
+    host.link.arrange(None)
+    session.wake()
+    wait_for(lambda: host.link.query().state.map_crc32 == hand.crc32, "the layout again")
+    session.change(BoardParameters(layout="square"))
+    assert host.link.query().state.map_crc32 == 0
+    with pytest.raises(SettingsError, match=r"none\.yaml: cannot be read"):
+        session.change(BoardParameters(layout="/none.yaml"))
+    assert session.status.problem == ""
+    assert [line for line in host.log if "layout" in line] == [
+        "the board has taken the layout leap_right",
+        "the board has taken the layout leap_right",
+        "the board has taken the layout square",
+    ]
+
+
+def test_a_layout_that_takes_long_to_read_is_told_to_the_board_then(
+    host: Host, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    is_there, read = threading.Event(), BoardParameters.skin_map
+
+    def slowly(parameters: BoardParameters, rows: int, cols: int) -> SkinMap | None:
+        is_there.wait(10.0)
+        return read(parameters, rows, cols)
+
+    monkeypatch.setattr(BoardParameters, "skin_map", slowly)
+    session = host.start_session(layout="leap_right")
+    assert host.link.query().state.map_crc32 == 0
+    assert session.status.problem == ""
+    is_there.set()
+    hand = SkinMap.of(layout("leap_right"))
+    wait_for(lambda: host.link.query().state.map_crc32 == hand.crc32, "the layout")
+
+
+def test_a_board_that_knows_no_layouts_is_told_of_once() -> None:
+    board, log = SimpleBoard(), []
+    session = BoardSession(
+        LossyWay(board, []).link,
+        BoardParameters(layout="glove"),
+        size=SIZE,
+        log=lambda level, words: log.append((level, words)),
+    )
+    for _ in range(3):
+        session.ask()
+        session.change(BoardParameters(layout="glove"))
+    told = [words for level, words in log if level == "warning"]
+    assert len(told) == 1
+    assert "knows no layouts" in told[0]
+    session.change(BoardParameters(layout="square"))
+    assert session.status.problem == ""
+
+
+def test_a_change_that_cannot_be_leaves_the_old_wish(host: Host) -> None:
+    session = host.start_session(m=64)
+    with pytest.raises(SettingsError, match="no uniform grid"):
+        session.change(BoardParameters(scheme="uniform", m=57))
+    with pytest.raises(BoardError, match=r"no\.npz"):
+        session.change(BoardParameters(model="/no.npz"))
+    session.wake()
+    assert host.link.query().state.settings.m == 64
+    assert session.status.problem == ""
+
+
+def test_a_board_that_was_reset_is_told_again(board: VirtualBoard, host: Host, tmp_path: Path) -> None:
+    np.savez(tmp_path / "d.npz", atoms=np.eye(64))
+    session = host.start_session(m=64, model=str(tmp_path / "d.npz"))
+    board.kill()
+    wait_for(lambda: not host.reader.connected, "the loss")
+    with VirtualBoard(board.link, "--board-id", "78", "--threshold", "99"):
+        wait_for(
+            lambda: (
+                session.status.state is not None
+                and session.status.state.board_id == 78
+                and session.status.state.model.kind is ModelKind.PATCH_DICTIONARY
+            ),
+            "the new board with its model",
+        )
+        assert session.may_publish
+        found = host.link.query().state
+        assert (found.settings.m, found.settings.threshold_counts) == (64, 99)
+        assert found.model.crc32 == load_model(tmp_path / "d.npz").crc32
+
+
+def test_a_board_that_resets_itself_behind_an_open_port_is_told_again(tmp_path: Path) -> None:
+    control = tmp_path / "control"
+    with VirtualBoard(tmp_path / "board", "--control", str(control)) as board:
+        host = Host(board.link)
+        session = host.start_session(m=64, scheme="random")
+        assert session.status.state is not None
+        wait_for(lambda: host.sizes[-1:] == [64], "frames of 64")
+        control.write_text("reset:0\n")
+        wait_for(lambda: host.sizes[-1:] == [55], "the board's own frames")
+        # As the node does when the frames show it; otherwise it is noticed within a second.
+        session.wake()
+        wait_for(lambda: host.sizes[-1:] == [64], "frames of 64 again")
+        assert host.reader.reconnects == 0
+        session.change(BoardParameters())
+        assert host.link.query().state.settings.scheme == "adaptive", "its own settings were not mistaken"
+        host.close()
+
+
+def test_packets_of_another_version_are_named(tmp_path: Path) -> None:
+    with VirtualBoard(tmp_path / "board", "--fault", "version:2") as board:
+        host = Host(board.link, reply_timeout_s=0.05)
+        session = host.start_session(m=64)
+        assert session.status.is_silent
+        wait_for(lambda: host.decoder.last_error, "the reason")
+        assert "version 2; this release reads version 1: install firmware and driver" in host.decoder.last_error
+        assert host.sizes == []
+        host.close()
+
+
+def test_a_size_unlike_the_parameters_is_named(host: Host) -> None:
+    session = host.start_session(size=(16, 24))
+    wait_for(lambda: session.status.problem, "the problem")
+    assert "the board measures 32 x 32 taxels, the parameters rows and cols say 16 x 24" in session.status.problem
+
+
+def test_firmware_of_another_version_is_named_and_not_used(host: Host, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("acts_driver.board.session.FIRMWARE", (7, 3))
+    session = host.start_session(m=64)
+    assert not session.may_publish
+    assert session.status.is_wrong_version
+    assert "firmware is 0.1.0, this driver needs 7.3.x" in session.status.problem
+    assert host.link.query().state.settings.m == 55
+    with pytest.raises(BoardError, match=r"needs 7\.3\.x"):
+        session.change(BoardParameters(m=32))
+
+
+def test_another_firmware_after_a_silent_board_is_not_used(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("acts_driver.board.session.FIRMWARE", (7, 3))
+    with PtyBoard(tmp_path) as board:
+        host = Host(board.path, reply_timeout_s=0.2)
+        session = host.start_session()
+        assert session.may_publish
+        board.unplug()
+        wait_for(lambda: not host.reader.connected, "the loss")
+        with VirtualBoard(board.path):
+            wait_for(lambda: session.status.is_wrong_version, "the version")
+            wait_for(lambda: len(host.sizes) > 20, "frames")
+            assert host.published == 0
+        host.close()
+
+
+def test_a_silent_board_may_be_listened_to(tmp_path: Path) -> None:
+    with PtyBoard(tmp_path) as board:
+        host = Host(board.path, reply_timeout_s=0.02)
+        session = host.start_session(m=64)
+        assert session.may_publish
+        assert session.status == BoardStatus(problem=session.status.problem, is_silent=True)
+        # Once, however often it is asked.
+        session.wake()
+        assert sum(line.endswith("the parameters about the board are not in force") for line in host.log) == 1
+        with pytest.raises(BoardError, match="does not answer"):
+            session.change(BoardParameters(m=32))
+        begin_s = time.monotonic()
+        host.close()
+        assert time.monotonic() - begin_s < 10.0
