@@ -12,12 +12,11 @@ from numpy.typing import NDArray
 
 from acts_core.errors import ArrayError
 from acts_core.frames import SampleFrame
+from acts_core.runtime import SequenceNumbers
 from acts_core.skin import RegionContact
 from acts_recon.contacts import BlobTracker, Contact, TrackedBlob
 from acts_recon.images import BaselineSubtraction, check_untouched
 from acts_recon.settings import ReconstructionConfig
-
-_SEQUENCE_MODULUS = 1 << 32
 
 
 class FrameRecovery:
@@ -55,7 +54,7 @@ class FrameRecovery:
             self.recovery.geometry, self.recovery.response, settings.blob_config(), self.recovery.borders
         )
         self._baseline = BaselineSubtraction(settings.rows * settings.cols)
-        self._sequence: int | None = None
+        self._numbers = SequenceNumbers()
         self.frame: SampleFrame | None = None
         self.contact = Contact()
         self.blobs: Sequence[TrackedBlob] = ()
@@ -77,11 +76,8 @@ class FrameRecovery:
 
     def reset(self) -> None:
         """Forget all frames: the next one is long after or before, or of another board."""
-        self.recovery.reset()
-        self._tracker.reset()
-        if self._regions is not None:
-            self._regions.reset()
-        self._sequence = None
+        self._forget()
+        self._numbers = SequenceNumbers()
 
     def step(self, frame: SampleFrame, stamp_ns: int) -> int:
         """Recover one frame. A board that counts from the start again is another board.
@@ -106,7 +102,9 @@ class FrameRecovery:
             raise ArrayError(
                 f"frame of {frame.rows} x {frame.cols} taxels, expected are {self._size[0]} x {self._size[1]}"
             )
-        lost = self._follow(frame.sequence)
+        if self._numbers.goes_back(frame.sequence):
+            self._forget()
+        lost = self._numbers.step(frame.sequence)
         frame = frame._replace(counts=self._baseline.apply(frame.indices, frame.counts)).once()
         time_s = stamp_ns * 1e-9
         recovery = self.recovery
@@ -117,12 +115,8 @@ class FrameRecovery:
         self.frame = frame
         return lost
 
-    def _follow(self, sequence: int) -> int:
-        before = self._sequence
-        missing = 0 if before is None else (sequence - before - 1) % _SEQUENCE_MODULUS
-        # Half the range back is no gap.
-        if missing >= _SEQUENCE_MODULUS // 2:
-            self.reset()
-            missing = 0
-        self._sequence = sequence
-        return missing
+    def _forget(self) -> None:
+        self.recovery.reset()
+        self._tracker.reset()
+        if self._regions is not None:
+            self._regions.reset()

@@ -15,6 +15,7 @@ from acts_core.runtime.process_names import process_name
 from acts_core.runtime.rate_limit import RateLimit
 from acts_core.runtime.realtime import RealtimeConfig, enter_realtime, parse_cores
 from acts_core.runtime.realtime_guard import LogCallback, demote_process
+from acts_core.runtime.sequence_numbers import SequenceNumbers
 from acts_core.runtime.stamp_order import Order, StampOrder
 from acts_core.runtime.stream_statistics import StreamCounter
 from acts_core.runtime.terminals import holders, is_multiplexer, is_stale_link
@@ -25,6 +26,7 @@ __all__ = [
     "Order",
     "RateLimit",
     "RealtimeConfig",
+    "SequenceNumbers",
     "StampOrder",
     "StreamCounter",
     "Use",

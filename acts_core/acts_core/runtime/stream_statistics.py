@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from array import array
 
-_MODULUS = 1 << 32
+from acts_core.runtime.sequence_numbers import SequenceNumbers
 
 
 class StreamCounter:
@@ -15,15 +15,19 @@ class StreamCounter:
 
     Attributes
     ----------
-    received, lost : int
-        Since the start. A number that goes back is a source that began anew, not a loss.
+    received : int
+        Since the start.
     """
 
     def __init__(self) -> None:
         self.received = 0
-        self.lost = 0
-        self._next = -1
+        self._numbers = SequenceNumbers()
         self._latencies = array("f")
+
+    @property
+    def lost(self) -> int:
+        """Messages missing since the start; see `SequenceNumbers`."""
+        return self._numbers.lost
 
     def step(self, sequence: int, latency_s: float) -> None:
         """Count a message.
@@ -35,12 +39,8 @@ class StreamCounter:
         latency_s : float
             From its stamp to its reception [s].
         """
-        if self.received:
-            missing = (sequence - self._next) % _MODULUS
-            if missing < _MODULUS // 2:
-                self.lost += missing
         self.received += 1
-        self._next = sequence + 1
+        self._numbers.step(sequence)
         self._latencies.append(latency_s)
 
     def take_latencies(self) -> array[float]:

@@ -23,7 +23,7 @@ from std_msgs.msg import Header
 from acts_core.errors import ArrayError, PacketError
 from acts_core.frames import SampleFrame
 from acts_core.kernels import skip_extras
-from acts_core.runtime import LateFrames, RateLimit, Use, enter_realtime
+from acts_core.runtime import LateFrames, RateLimit, SequenceNumbers, Use, enter_realtime
 from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import Baseline, TactileSamples
 from acts_msgs.msg import Contact as ContactMessage
@@ -45,7 +45,6 @@ from acts_ros.messages import ContactFields, frame_of, stamp_ns_of, write_contac
 from acts_ros.parameters import declare, node_options
 
 _SUBSCRIBERS_PERIOD_S = 0.2
-_SEQUENCE_MODULUS = 2**32
 _NS_PER_S = 1_000_000_000
 
 _Part = ImagesPublisher | ContactsPublisher | Abilities | ObjectPublisher | RegionsPublisher
@@ -96,12 +95,11 @@ class ReconstructionNode(Node):
             self._regions = RegionsPublisher(self, regions, self._settings.regions_rate_hz)
 
         self._frames = 0
-        self._lost = 0
         self._untold = 0
         self._unused = 0
         self._late = LateFrames()
         self._rejected: Counter[str] = Counter()
-        self._last_sequence: int | None = None
+        self._numbers = SequenceNumbers()
         self._durations_s: deque[float] = deque(maxlen=1000)
         self._reported = (time.monotonic(), 0, 0, 0, 0)
 
@@ -174,8 +172,8 @@ class ReconstructionNode(Node):
             self._untold += use is not Use.PUBLISH
             if use is Use.NOTHING:
                 self._unused += 1
-                self._lost += self._missing_before(frame.sequence)
-                self._last_sequence = frame.sequence
+                self._follow(frame.sequence)
+                self._numbers.step(frame.sequence)
             else:
                 self._step(frame, stamp_ns, frame_id, is_told=use is Use.PUBLISH)
         self._late.use(now_ns - newest_ns)
@@ -191,7 +189,7 @@ class ReconstructionNode(Node):
                 f"{settings.rows} x {settings.cols}",
             )
             return
-        missing = self._missing_before(frame.sequence)
+        self._follow(frame.sequence)
         every = frame
         if self._baseline.is_set:
             every = frame._replace(counts=self._baseline.apply(frame.indices, frame.counts))
@@ -203,8 +201,7 @@ class ReconstructionNode(Node):
             self._reject("bad_frame", str(error))
             return
         self._frames += 1
-        self._lost += missing
-        self._last_sequence = frame.sequence
+        self._numbers.step(frame.sequence)
         if not is_told:
             return
         fields = ContactFields(stamp_ns, frame_id, frame.sequence, *contact)
@@ -252,21 +249,16 @@ class ReconstructionNode(Node):
             self._rejected["bad_baseline"] += 1
             self.get_logger().warning(f"baseline not used: {error}", throttle_duration_sec=5.0)
 
-    def _missing_before(self, sequence: int) -> int:
-        """Frames missing before this one; all are forgotten where its board counts from the start again."""
-        if self._last_sequence is None:
-            return 0
-        missing = (sequence - self._last_sequence - 1) % _SEQUENCE_MODULUS
-        # Half the range back is no gap.
-        if missing < _SEQUENCE_MODULUS // 2:
-            return missing
+    def _follow(self, sequence: int) -> None:
+        """Forget all frames where the board of the next one counts from the start again."""
+        if not self._numbers.goes_back(sequence):
+            return
         self._recovery.reset()
         self._abilities.reset()
         if self._objects is not None:
             self._objects.reset()
         if self._regions is not None:
             self._regions.reset()
-        return 0
 
     def _reject(self, kind: str, reason: str) -> None:
         self._rejected[kind] += 1
@@ -276,16 +268,16 @@ class ReconstructionNode(Node):
         now_s = time.monotonic()
         rejected = self._rejected.total()
         before_s, frames, rejected_before, lost_before, untold_before = self._reported
-        self._reported = (now_s, self._frames, rejected, self._lost, self._untold)
+        self._reported = (now_s, self._frames, rejected, self._numbers.lost, self._untold)
         new_frames, new_rejected = self._frames - frames, rejected - rejected_before
-        new_lost, new_untold = self._lost - lost_before, self._untold - untold_before
+        new_lost, new_untold = self._numbers.lost - lost_before, self._untold - untold_before
         rate_hz = new_frames / max(now_s - before_s, 1e-9)
         durations_s = list(self._durations_s)
         self._durations_s.clear()
         values = {
             "rate_hz": rate_hz,
             "frames": self._frames,
-            "lost": self._lost,
+            "lost": self._numbers.lost,
             "rejected.wrong_array_size": self._rejected["wrong_array_size"],
             "rejected.bad_frame": self._rejected["bad_frame"],
             "rejected.bad_stamp": self._rejected["bad_stamp"],
@@ -299,7 +291,8 @@ class ReconstructionNode(Node):
             return WARN, f"{new_rejected} messages dropped that do not fit, see the log", values
         if not new_frames:
             return WARN, "no samples", values
-        if new_lost:
+        # What came after all was counted before.
+        if new_lost > 0:
             return WARN, f"{new_lost} frames lost before they came here, {rate_hz:.0f} frames/s", values
         if new_untold:
             words = f"{new_untold} contacts left out because their frames came late, {rate_hz:.0f} frames/s"

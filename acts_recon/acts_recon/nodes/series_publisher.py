@@ -11,6 +11,7 @@ from array import array
 from rclpy.node import Node
 from std_msgs.msg import Header
 
+from acts_core.runtime import SequenceNumbers
 from acts_msgs.msg import Contact as ContactMessage
 from acts_msgs.msg import ContactSeries
 from acts_recon.contacts import Contact
@@ -18,7 +19,6 @@ from acts_ros import qos
 
 _LONGEST = 1024
 _NS_PER_S = 1_000_000_000
-_SEQUENCE_MODULUS = 1 << 32
 
 
 class SeriesPublisher:
@@ -39,7 +39,8 @@ class SeriesPublisher:
         self._delay = array("f")
         self._missing = array("I")
         self._newest = Contact()
-        self._sequence: int | None = None
+        self._sequence = 0
+        self._numbers = SequenceNumbers()
         self.is_wanted = False
         """Whether somebody listens."""
 
@@ -48,7 +49,7 @@ class SeriesPublisher:
         self.is_wanted = self._publisher.get_subscription_count() > 0
         if not self.is_wanted:
             self._clear()
-            self._sequence = None
+            self._numbers = SequenceNumbers()
 
     def add(self, stamp_ns: int, sequence: int, contact: Contact) -> None:
         """Keep a contact that has just been published.
@@ -66,7 +67,7 @@ class SeriesPublisher:
         self._stamps_ns.append(stamp_ns)
         self._force.append(contact.force_n)
         self._delay.append((time.time_ns() - stamp_ns) * 1e-9)
-        self._missing.append(self._missing_before(sequence))
+        self._missing.append(self._numbers.step(sequence))
         self._newest, self._sequence = contact, sequence
 
     def publish(self, header: Header) -> None:
@@ -75,7 +76,7 @@ class SeriesPublisher:
             return
         contact, message = self._newest, ContactSeries()
         newest: ContactMessage = message.newest
-        newest.header, newest.sequence, newest.in_contact = header, self._sequence or 0, contact.in_contact
+        newest.header, newest.sequence, newest.in_contact = header, self._sequence, contact.in_contact
         newest.centre_of_pressure.x, newest.centre_of_pressure.y = contact.x_m, contact.y_m
         newest.force, newest.peak, newest.area = contact.force_n, contact.peak_counts, contact.area_m2
         newest.active_taxels, newest.spread = contact.active_taxels, contact.spread_m
@@ -90,11 +91,6 @@ class SeriesPublisher:
         message.force, message.delay, message.missing = self._force, self._delay, self._missing
         self._publisher.publish(message)
         self._clear()
-
-    def _missing_before(self, sequence: int) -> int:
-        missing = 0 if self._sequence is None else (sequence - self._sequence - 1) % _SEQUENCE_MODULUS
-        # Half the range back is a board that began anew.
-        return missing if missing < _SEQUENCE_MODULUS // 2 else 0
 
     def _clear(self) -> None:
         self._stamps_ns.clear()

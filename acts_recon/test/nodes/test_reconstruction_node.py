@@ -232,6 +232,16 @@ def test_frames_lost_are_counted_over_the_wrap_and_not_over_a_restart(make_bench
     bench.diagnostics(lambda status, values: status.level == b"\x01" and status.message == "no samples")
 
 
+def test_frames_of_two_boards_that_mix_are_not_lost(make_bench: Callable[..., Bench]) -> None:
+    bench = make_bench(42)
+    indices = np.arange(10)
+    for step in range(20):
+        for first in (1000, 500_000):
+            bench.send(first + step, indices, indices)
+    bench.until(lambda: len(bench.received["contact"]) == 40)
+    bench.diagnostics(lambda status, values: values["frames"] == "40" and values["lost"] == "0")
+
+
 def test_the_viewer_image_keeps_its_rate_and_costs_nothing_unheard(make_bench: Callable[..., Bench]) -> None:
     bench = make_bench(43, image_rate_hz=0.1)
     indices = np.arange(10)

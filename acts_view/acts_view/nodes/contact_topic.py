@@ -9,13 +9,13 @@ import math
 from typing import Any
 
 from acts_core.errors import PacketError
+from acts_core.runtime import SequenceNumbers
 from acts_msgs.msg import Contact, ContactSeries
 from acts_ros import qos
 from acts_ros.messages import ContactFields, read_contact, seconds_of
 from acts_ros.polled import PolledSubscription, PollingNode
 from acts_view.skin.snapshot import Sample
 
-_SEQUENCE_MODULUS = 1 << 32
 # A stamp further from the clock than this is by another clock, as in a bag that is played.
 _SAME_CLOCK_S = 10.0
 # Of a series.
@@ -44,7 +44,7 @@ class ContactTopic:
         self._namespace = namespace
         self._series: PolledSubscription[ContactSeries] | None = None
         self._contact: PolledSubscription[Any] | None = None
-        self._sequence: int | None = None
+        self._numbers = SequenceNumbers()
         self.look()
 
     def look(self) -> None:
@@ -59,7 +59,7 @@ class ContactTopic:
         else:
             topic = f"{self._namespace}/contact"
             self._contact = self._node.create_raw_polled_subscription(Contact, topic, qos.STREAM)
-            self._sequence = None
+            self._numbers = SequenceNumbers()
 
     def take(self) -> Taken:
         """All that has come since the last call."""
@@ -108,17 +108,13 @@ class ContactTopic:
                 self._node.get_logger().warning(f"{self._namespace}: {error}", throttle_duration_sec=5.0)
                 continue
             latency_ms = _latency_ms((received_ns - newest.stamp_ns) * 1e-9)
-            samples.append(Sample(newest.stamp_ns * 1e-9, newest.force_n, latency_ms, self._lost(newest.sequence)))
+            samples.append(
+                Sample(newest.stamp_ns * 1e-9, newest.force_n, latency_ms, self._numbers.step(newest.sequence))
+            )
         if newest is None:
             return samples, None, None
         touch = (newest.x_m, newest.y_m, newest.force_n, newest.peak_counts, newest.area_m2)
         return samples, _finite(touch) if newest.in_contact else None, newest.stamp_ns * 1e-9
-
-    def _lost(self, sequence: int) -> int:
-        before, self._sequence = self._sequence, sequence
-        missing = 0 if before is None else (sequence - before - 1) % _SEQUENCE_MODULUS
-        # Half the range back is a board that began anew.
-        return missing if missing < _SEQUENCE_MODULUS // 2 else 0
 
 
 def _is_series(message: ContactSeries) -> bool:
