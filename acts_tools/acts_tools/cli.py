@@ -65,6 +65,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     words = list(sys.argv[1:] if argv is None else argv)
     # The first word that is not an option is the subcommand, because acts has no option with a value.
     selected = next((word for word in words if not word.startswith("-")), None)
+    if selected == "launch":
+        # argparse takes no words behind an option, such as name:=value behind --print; no option of launch has a value.
+        words.sort(key=lambda word: word.startswith("-"))
     try:
         check_shared_memory()
         parser, module = _build_parser(selected)

@@ -83,7 +83,7 @@ def test_its_launch_file_starts_ours_twice_with_parameters_of_their_own(workspac
         assert f"__ns:=/{side}" in skin
         assert re.search(rf"--set driver\.port=/dev/shm/acts-\w+/{side}/board ", skin)
     assert re.search(r"lib/my_touch/force .*__ns:=/left", printed)
-    with_boards = in_overlay(workspace, "acts launch my_touch two_skins.launch.xml sim:=false --own --print")
+    with_boards = in_overlay(workspace, "acts launch my_touch two_skins.launch.xml --own --print sim:=false")
     assert "virtual_board" not in with_boards
     assert with_boards.count("--set driver.port=params_file ") == 2
 

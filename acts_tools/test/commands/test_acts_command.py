@@ -110,14 +110,21 @@ def test_a_package_without_the_file_says_which_files_it_has(prefix: Prefix, caps
     assert "was found more than once" in capsys.readouterr().err
 
 
-def test_printing_shows_the_commands_with_their_parameters(prefix: Prefix, capsys: pytest.CaptureFixture[str]) -> None:
+@pytest.mark.parametrize(
+    "words",
+    [("--own", "--print", "fake", "it.launch.xml", "a:=7"), ("fake", "it.launch.xml", "--own", "--print", "a:=7")],
+    ids=["options first", "options in between"],
+)
+def test_printing_shows_the_commands_with_their_parameters(
+    words: tuple[str, ...], prefix: Prefix, capsys: pytest.CaptureFixture[str]
+) -> None:
     node = prefix.script("node", "#!/bin/sh\nexit 1\n")
     prefix.launch(
         "it.launch.xml",
         '<arg name="a" default="1"/><log message="a is $(var a)"/>'
         '<node pkg="fake" exec="node"><param name="p" value="$(var a)"/></node>',
     )
-    assert main(["launch", "--own", "--print", "fake", "it.launch.xml", "a:=7"]) == 0
+    assert main(["launch", *words]) == 0
     printed = capsys.readouterr()
     assert f"[node-1] {node} --ros-args --params-file /" in printed.out
     assert "        p: 7\n" in printed.out
