@@ -212,7 +212,10 @@ def test_busy_port_is_named(simulator: Simulator) -> None:
         (["--host", "127.0.1.21", "--q0", "0 0 0"], "q0_rad"),
         (["--host", "127.0.1.21", "--q0", "0 0 0 0 0 nan"], "q0_rad"),
         (["--host", "127.0.1.21", "--speed-limit-rad-s", "-1"], "speed_limit_rad_s"),
-        (["--host", "192.0.2.1"], "192.0.2.1"),
+        (
+            ["--host", "192.0.2.1"],
+            "This robot is simulated, and nothing is controlled at 192.0.2.1: for the real robot",
+        ),
         (["--host", "127.0.1.21", "--joint-ring", "/proc/nowhere/ring"], "/proc/nowhere"),
     ],
 )

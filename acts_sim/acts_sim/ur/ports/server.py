@@ -277,5 +277,8 @@ def _listen(host: str, port: Port) -> socket.socket:
         if isinstance(error, socket.gaierror):
             # The network may not be there yet.
             raise RobotError(f"{failure} Give an address of this machine, such as --host 127.0.0.2") from error
-        raise SettingsError(f"{failure} Give an address of this machine, such as --host 127.0.0.2") from error
+        raise SettingsError(
+            f"{failure} This robot is simulated, and nothing is controlled at {host}: for the real robot there give "
+            "sim:=false, for a simulated one an address of this machine, such as 127.0.0.2"
+        ) from error
     return listener
