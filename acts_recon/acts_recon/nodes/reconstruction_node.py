@@ -43,6 +43,7 @@ from acts_ros.executor import run
 from acts_ros.log import log_of
 from acts_ros.messages import ContactFields, frame_of, stamp_ns_of, write_contact
 from acts_ros.parameters import declare, node_options
+from acts_ros.polled import PolledSubscription
 
 _SUBSCRIBERS_PERIOD_S = 0.2
 _NS_PER_S = 1_000_000_000
@@ -112,7 +113,9 @@ class ReconstructionNode(Node):
         if self._settings.subtract_baseline:
             self.create_subscription(Baseline, "baseline", self._on_baseline, **qos.overridable(qos.LATCHED))
         if subscribes:
-            self.create_subscription(TactileSamples, "samples", self._on_samples, **qos.overridable(qos.STREAM))
+            self._waiting: PolledSubscription[TactileSamples] = PolledSubscription(
+                self.create_subscription(TactileSamples, "samples", self._on_samples, **qos.overridable(qos.STREAM))
+            )
         rows, cols = self._recovery.image.shape
         self.get_logger().info(
             f"ready: array of {self._settings.rows} x {self._settings.cols}, image of {rows} x {cols}"
@@ -145,12 +148,23 @@ class ReconstructionNode(Node):
         self._is_more_wanted = self._send_cop or any(part.is_wanted for part in offered)
 
     def _on_samples(self, samples: TactileSamples) -> None:
-        try:
-            stamp_ns = stamp_ns_of(samples)
-        except PacketError as error:
-            self._reject("bad_stamp", str(error))
-            return
-        self.take([(frame_of(samples), stamp_ns)], samples.header.frame_id)
+        # With those that have come meanwhile: one by one, all that waits would be as late as the queue is long.
+        waiting = self._waiting.take_all()
+        now_ns = time.time_ns()
+        # It came no later than the next, whose reception is known.
+        received = [(samples, waiting[0][1] if waiting else now_ns), *waiting]
+        frames, ages_ns = [], []
+        for message, received_ns in received:
+            try:
+                frames.append((frame_of(message), stamp_ns_of(message)))
+            except PacketError as error:
+                self._reject("bad_stamp", str(error))
+                continue
+            # How long it has waited here: its stamp may be of a recording that is played.
+            ages_ns.append(now_ns - received_ns)
+            frame_id = message.header.frame_id
+        if frames:
+            self._take(frames, ages_ns, frame_id)
 
     def take(self, frames: Sequence[tuple[SampleFrame, int]], frame_id: str) -> None:
         """Recover frames that have come together, and publish what is in them; always from the same thread.
@@ -165,10 +179,14 @@ class ReconstructionNode(Node):
         frame_id : str
             Frame of the skin.
         """
-        *older, (newest, newest_ns) = frames
         now_ns = time.time_ns()
-        for frame, stamp_ns in older:
-            use = self._late.use(now_ns - stamp_ns)
+        self._take(frames, [now_ns - stamp_ns for _, stamp_ns in frames], frame_id)
+
+    def _take(self, frames: Sequence[tuple[SampleFrame, int]], ages_ns: Sequence[int], frame_id: str) -> None:
+        """The same with the age of each frame [ns], however that is known."""
+        *older, (newest, newest_ns) = frames
+        for (frame, stamp_ns), age_ns in zip(older, ages_ns, strict=False):
+            use = self._late.use(age_ns)
             self._untold += use is not Use.PUBLISH
             if use is Use.NOTHING:
                 self._unused += 1
@@ -176,7 +194,7 @@ class ReconstructionNode(Node):
                 self._numbers.step(frame.sequence)
             else:
                 self._step(frame, stamp_ns, frame_id, is_told=use is Use.PUBLISH)
-        self._late.use(now_ns - newest_ns)
+        self._late.use(ages_ns[-1])
         self._step(newest, newest_ns, frame_id, is_told=True)
 
     def _step(self, frame: SampleFrame, stamp_ns: int, frame_id: str, *, is_told: bool) -> None:

@@ -80,3 +80,24 @@ def test_a_board_that_begins_anew_among_very_late_frames_is_noticed(make_bench: 
     bench.node.take([frame(0, 140, 105.0), frame(1, 180, 100.0), frame(2, 220, 95.0)], "plate")
     # Of the life before nothing is known any more, nor of what was left out.
     assert image[[100, 140, 180, 220]].tolist() == [0, 0, 0, 500]
+
+
+def test_of_messages_that_have_waited_the_newest_is_published_whatever_their_stamps(
+    make_bench: Callable[..., Bench],
+) -> None:
+    bench = make_bench(27)
+    cells = np.arange(10)
+    # The node stands still for longer than a frame may wait.
+    bench.executor.remove_node(bench.node)
+    for sequence in range(100):
+        bench.send(sequence, cells, cells)
+    until_s = time.monotonic() + 0.2
+    bench.until(lambda: time.monotonic() > until_s)
+    bench.executor.add_node(bench.node)
+    bench.contact(99)
+    assert [message.sequence for message in bench.received["contact"]] == [99]
+    bench.diagnostics(lambda _, values: (values["frames"], values["not_used"], values["lost"]) == ("1", "99", "0"))
+    # What is played from a recording is old, and has not waited.
+    for sequence in range(100, 103):
+        bench.send(sequence, cells, cells)
+        bench.contact(sequence)
