@@ -77,8 +77,12 @@ class Claim:
             raise ActsError(f"{path} is in use by {self._holder()}; end that program, or {_OTHER}") from error
         except OSError as error:
             raise ActsError(f"{self._path} cannot be locked ({error.strerror}); {_OTHER}") from error
-        os.ftruncate(self._fd, 0)
-        os.pwrite(self._fd, f"{os.getpid()}\n".encode(), 0)
+        try:
+            os.ftruncate(self._fd, 0)
+            os.pwrite(self._fd, f"{os.getpid()}\n".encode(), 0)
+        except OSError as error:
+            self.close()
+            raise ActsError(f"{self._path} cannot be written ({error.strerror}); {_OTHER}") from error
 
     def close(self) -> None:
         """Release it. May be called again."""

@@ -3,6 +3,7 @@
 
 """The folder of simulated processes: one user's alone, and each thing in it one process's alone."""
 
+import errno
 import os
 import subprocess
 import sys
@@ -109,3 +110,17 @@ def test_a_link_in_place_of_the_lock_is_not_followed(tmp_path: Path) -> None:
     with pytest.raises(ActsError, match="cannot be locked"):
         Claim(tmp_path / "field.ring")
     assert victim.read_text() == "kept"
+
+
+def test_a_full_folder_is_told_and_nothing_of_the_lock_stays(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(*_: object) -> int:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    with monkeypatch.context() as patched:
+        patched.setattr(os, "pwrite", full)
+        with pytest.raises(
+            ActsError, match=r"field.ring.lock cannot be written \(No space left on device\); .*run_dir:="
+        ):
+            Claim(tmp_path / "field.ring")
+    assert list(tmp_path.iterdir()) == []
+    Claim(tmp_path / "field.ring").close()
