@@ -49,18 +49,6 @@ def open_port(path: str, baud: int, lister: Lister = list_ports.comports) -> ser
 
 
 def explain(path: str, number: int | None, reason: str, lister: Lister = list_ports.comports) -> str:
-    """Words for a port that cannot be opened.
-
-    Parameters
-    ----------
-    path : str
-        The port.
-    number : int or None
-        errno of the failure, if there is one.
-    reason : str
-        What the operating system or the serial library said, used where `number` has no explanation of its own.
-    lister : callable
-        Lists the ports that are present.
-    """
+    """Words for a board's port that cannot be opened; see `acts_core.runtime.not_opened`."""
     rule = "install the udev rule of acts_driver (docs/driver.md) and plug the board in again"
     return not_opened(path, number, reason, what="board", present=ports_present(lister()), rule=rule)
