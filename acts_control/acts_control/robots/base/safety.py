@@ -27,7 +27,8 @@ class SafetyConfig:
     )
     touch_stop_after_s: float = setting(
         3.0,
-        "when touch stays missing for this long after that, motion ends: STOPPED; if it returns before, it goes on [s]",
+        "when touch stays missing for this long after that, motion ends: STOPPED; "
+        "if touch returns before, balancing goes on [s]",
         minimum=0.005,
         maximum=60.0,
     )
