@@ -12,7 +12,8 @@ from __future__ import annotations
 import ctypes
 import os
 import resource
-from collections.abc import Collection
+import time
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -27,6 +28,9 @@ NO_CORES = "none"
 """What a launch file gives where no cores are chosen; means the same as empty."""
 
 _TASKS = Path("/proc/self/task")
+
+# Longer than the kernel takes to put a new thread among the tasks.
+_START_OF_A_THREAD_S = 1e-3
 
 # Of sys/mman.h. On fault: pages are locked when they are touched, and not filled for it.
 _MCL_CURRENT, _MCL_FUTURE, _MCL_ONFAULT = 1, 2, 4
@@ -132,7 +136,7 @@ def enter_realtime(config: RealtimeConfig, who: str, log: LogCallback) -> None:
     done: list[str] = []
     problems: list[str] = []
     if config.realtime_priority:
-        problem = given_up() or _set_priority(config.realtime_priority, _threads())
+        problem = given_up() or _set_priority(config.realtime_priority)
         if problem:
             problems.append(problem)
             done.append("ordinary scheduler")
@@ -142,7 +146,7 @@ def enter_realtime(config: RealtimeConfig, who: str, log: LogCallback) -> None:
             if _lock_memory():
                 done.append("memory locked")
     if config.cores:
-        problem = _set_cores(config.cores, _threads())
+        problem = _set_cores(config.cores)
         if problem:
             problems.append(problem)
         else:
@@ -151,13 +155,23 @@ def enter_realtime(config: RealtimeConfig, who: str, log: LogCallback) -> None:
     log(level, f"{who}: " + ", ".join(done) + "".join(f"; {problem}" for problem in problems))
 
 
-def _threads() -> list[int]:
-    return [thread for thread in (int(path.name) for path in _TASKS.iterdir()) if thread != guard_thread()]
+def _threads() -> Iterator[int]:
+    """All of them but the guard, and those that they start until the last has been given."""
+    given = {guard_thread()}
+    pauses = 0
+    while pauses < 2:
+        new = {int(path.name) for path in _TASKS.iterdir()} - given
+        yield from new
+        given |= new
+        if not new:
+            # A thread has the scheduling of the one that starts it some time before it is among the tasks.
+            time.sleep(_START_OF_A_THREAD_S)
+            pauses += 1
 
 
-def _set_priority(priority: int, threads: list[int]) -> str:
+def _set_priority(priority: int) -> str:
     """Why it cannot be; empty where it is in force."""
-    for thread in threads:
+    for thread in _threads():
         try:
             os.sched_setscheduler(thread, os.SCHED_FIFO, os.sched_param(priority))
         except ProcessLookupError:
@@ -182,8 +196,8 @@ def _refusal(priority: int) -> str:
     )
 
 
-def _set_cores(cores: frozenset[int], threads: list[int]) -> str:
-    for thread in threads:
+def _set_cores(cores: frozenset[int]) -> str:
+    for thread in _threads():
         try:
             os.sched_setaffinity(thread, cores)
         except ProcessLookupError:

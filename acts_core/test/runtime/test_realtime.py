@@ -84,6 +84,33 @@ go.set()
     assert lines[3] == "fifo 12 fifo 12 fifo 12 fifo 13"
 
 
+@needs_realtime
+def test_threads_that_another_thread_starts_meanwhile_run_so_too() -> None:
+    finished = run("""
+def left_out():
+    go, some = threading.Event(), threading.Event()
+    threads = [threading.Thread(target=go.wait, daemon=True) for _ in range(30)]
+    def start_all():
+        for thread in threads:
+            thread.start()
+            some.set()
+    starter = threading.Thread(target=start_all)
+    starter.start()
+    some.wait()
+    enter_realtime(config, "reader", lambda _level, _sentence: None)
+    starter.join()
+    return sum(policy(thread.native_id) != "fifo" or len(os.sched_getaffinity(thread.native_id)) > 1
+               for thread in threads)
+for _ in range(50):
+    child = os.fork()
+    if child == 0:
+        os._exit(left_out())
+    _, status = os.waitpid(child, 0)
+    print(os.waitstatus_to_exitcode(status))
+""")
+    assert finished.stdout.split() == ["0"] * 50, finished
+
+
 def test_nothing_asked_is_nothing_said() -> None:
     finished = run("""
 enter_realtime(RealtimeConfig(), "reader", log)
