@@ -259,9 +259,9 @@ class UrRobot:
         try:
             code = self._process.wait(_KILL_TIMEOUT_S)
         except subprocess.TimeoutExpired:
-            return "the process of the connection does not answer any more"
+            return "the connection is lost: its process does not answer any more"
         how = signal.Signals(-code).name if code < 0 else f"exit code {code}"
-        return f"the process of the connection has ended ({how}); what ur_rtde said is above"
+        return f"the connection is lost: its process has ended ({how}); what ur_rtde said is above"
 
 
 # What refuses to stop something has nothing to stop.
