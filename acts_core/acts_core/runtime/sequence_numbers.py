@@ -29,7 +29,8 @@ class _Place(NamedTuple):
 class SequenceNumbers:
     """Counts what is missing in a stream whose messages are numbered, modulo 2^32.
 
-    A number that goes back is a source that began anew, not a loss. Where numbers jump ahead and then go on from before
+    A number that goes back is a source that began anew, not a loss; a 0 after larger ones always is, so that of two
+    sources the one that passes 2^32 counts as begun anew. Where numbers jump ahead and then go on from before
     the jump, nothing was lost there: two sources publish, or a message was overtaken.
 
     Attributes
