@@ -10,7 +10,7 @@ from pathlib import Path
 
 from rclpy.serialization import deserialize_message
 
-from acts_core.errors import RecordingError
+from acts_core.errors import PacketError, RecordingError
 from acts_core.frames import SampleFrame
 from acts_msgs.msg import TactileSamples
 from acts_ros.bags import require_rosbags
@@ -76,7 +76,7 @@ class BagRecording:
                 try:
                     yield frame_of(deserialize_message(data, TactileSamples))
                 # rclpy has no exception of its own for bytes that are no such message.
-                except (RuntimeError, ValueError) as error:
+                except (RuntimeError, ValueError, PacketError) as error:
                     raise RecordingError(
                         f"message {number} of {self._topic} in '{self._path}' cannot be read: {error}; was it recorded "
                         "with another version of acts_msgs?"

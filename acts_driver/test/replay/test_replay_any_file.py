@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import io
+import struct
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -131,3 +132,36 @@ def test_any_file_is_replayed_or_refused_by_name(
     except RecordingError as error:
         told = str(error)
     assert kind in told
+
+
+def test_a_bag_with_a_stamp_of_more_nanoseconds_than_a_second_has(
+    good: dict[str, tuple[bytes, dict[str, Any]]], tmp_path: Path
+) -> None:
+    data, _ = good["bag.mcap"]
+    # Of the sixth message: seconds and nanoseconds.
+    seconds, nanoseconds = divmod(1_000_000 * frame(5).board_us, 10**9)
+    stamp = struct.pack("<iI", seconds, nanoseconds)
+    assert data.count(stamp) == 1
+    path = tmp_path / "bag.mcap"
+    path.write_bytes(data.replace(stamp, struct.pack("<iI", seconds, 2 * 10**9)))
+    read = open_recording(ReplayOptions(path)).frames()
+    assert len(list(islice(read, 5))) == 5
+    with pytest.raises(RecordingError, match=r"message 5 of /plate/samples in '.*bag.mcap' .* a second has"):
+        next(read)
+
+
+def test_a_bag_whose_metadata_say_that_it_ends_before_it_begins(
+    good: dict[str, tuple[bytes, dict[str, Any]]], tmp_path: Path
+) -> None:
+    data, _ = good["bag.mcap"]
+    path = tmp_path / "bag.mcap"
+    path.write_bytes(data)
+    length_us = open_recording(ReplayOptions(path)).length_us
+    # As the recorder saw it, see write_bag.
+    first_ns, last_ns = (1_000_000 * frame(number).board_us + 5_000_000 for number in (0, FRAMES - 1))
+    span = struct.pack("<QQ", first_ns, last_ns)
+    # The statistics stand behind the chunks and their index.
+    before, found, after = data.rpartition(span)
+    assert found
+    path.write_bytes(before + struct.pack("<QQ", last_ns, first_ns) + after)
+    assert open_recording(ReplayOptions(path)).length_us == length_us == (last_ns - first_ns) // 1000

@@ -72,19 +72,20 @@ class Bag:
         ]
 
     def span_ns(self, topic: str) -> tuple[int, int]:
-        """Stamps of the first and the last message [ns]: of the bag where its metadata say it, else of the topic.
+        """Earliest and latest stamp [ns]: of the bag where its metadata say it and make sense, else of the topic.
 
         Raises
         ------
         RecordingError
             The bag is damaged.
         """
-        if isinstance(self._reader, BagReader):
+        if isinstance(self._reader, BagReader) and self._reader.start_time <= self._reader.end_time:
             return self._reader.start_time, self._reader.end_time
-        begin_ns = end_ns = 0
+        begin_ns = end_ns = None
         for _, stamp_ns, _ in self.messages([topic]):
-            begin_ns, end_ns = begin_ns or stamp_ns, stamp_ns
-        return begin_ns, end_ns
+            begin_ns = stamp_ns if begin_ns is None else min(begin_ns, stamp_ns)
+            end_ns = stamp_ns if end_ns is None else max(end_ns, stamp_ns)
+        return begin_ns or 0, end_ns or 0
 
     def messages(self, topics: Sequence[str], from_ns: int | None = None) -> Iterator[tuple[str, int, bytes]]:
         """Topic, stamp [ns] and serialised message, in the order of their stamps.
