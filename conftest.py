@@ -26,7 +26,9 @@ from hypothesis import HealthCheck, settings
 # long. Read where numpy is imported, which is later than here.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-settings.register_profile("acts", deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.register_profile("search", deadline=None, suppress_health_check=[HealthCheck.too_slow])
+# The same examples every time: what fails is then what was changed. See docs/development.md for how to look for others.
+settings.register_profile("acts", settings.get_profile("search"), derandomize=True)
 settings.load_profile("acts")
 
 # In the background, or under nohup, these are ignored, and the processes that tests send them to would inherit that.
