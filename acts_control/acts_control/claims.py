@@ -6,13 +6,21 @@
 from __future__ import annotations
 
 import errno
+import os
 import socket
 import struct
+import time
 
 from acts_core.errors import ActsError
 from acts_core.runtime import process_name
 
 _CREDENTIALS = struct.Struct("3i")
+_UNKNOWN = 0
+
+# What this process gave up may stay taken for a moment: a program that another thread is just starting has copies of
+# all descriptors until it begins.
+_COPIES_S = 0.5
+_RETRY_S = 0.01
 
 
 class ClaimedError(ActsError):
@@ -40,22 +48,29 @@ class Claim:
 
     def __init__(self, kind: str, name: str) -> None:
         address = b"\0acts/" + f"{kind}/{name}".encode()
-        self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
-        try:
-            self._socket.bind(address)
-            self._socket.listen()
-        except OSError as error:
-            self._socket.close()
-            if error.errno != errno.EADDRINUSE:
-                raise
-            raise ClaimedError(_holder(address)) from error
+        end_s = time.monotonic() + _COPIES_S
+        while True:
+            self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+            try:
+                self._socket.bind(address)
+                self._socket.listen()
+                return
+            except OSError as error:
+                self._socket.close()
+                if error.errno != errno.EADDRINUSE:
+                    raise
+                holder = _holder(address)
+                if holder not in (_UNKNOWN, os.getpid()) or time.monotonic() > end_s:
+                    raise ClaimedError(process_name(holder)) from error
+            time.sleep(_RETRY_S)
 
     def close(self) -> None:
         """Give it up. May be called again."""
         self._socket.close()
 
 
-def _holder(address: bytes) -> str:
+def _holder(address: bytes) -> int:
+    """The process that has it, or `_UNKNOWN`."""
     with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as question:
         question.setblocking(False)
         try:
@@ -63,6 +78,6 @@ def _holder(address: bytes) -> str:
             data = question.getsockopt(socket.SOL_SOCKET, socket.SO_PEERCRED, _CREDENTIALS.size)
         except OSError:
             # It has just gone, or does not answer.
-            return process_name(0)
+            return _UNKNOWN
         pid, _user, _group = _CREDENTIALS.unpack(data)
-        return process_name(pid)
+        return int(pid)

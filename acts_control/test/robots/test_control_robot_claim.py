@@ -3,8 +3,11 @@
 
 """One controller for a robot, among all the programs of a machine."""
 
+import os
+import socket
 import subprocess
 import sys
+import threading
 
 import pytest
 
@@ -12,6 +15,7 @@ from acts_control.robots.base import RobotClaim, RobotTakenError
 
 HOLDER = """
 import sys
+import threading
 from acts_control.robots.base import RobotClaim
 claim = RobotClaim("127.0.9.1")
 print("claimed", flush=True)
@@ -38,3 +42,23 @@ def test_a_robot_of_two_names_is_one() -> None:
         RobotClaim("127.0.0.1")
     claim.close()
     RobotClaim("127.0.0.1").close()
+
+
+def test_what_a_program_that_is_just_starting_still_holds_is_waited_for() -> None:
+    claim = RobotClaim("127.0.9.3")
+    reads, writes = os.pipe()
+    child = os.fork()
+    if child == 0:
+        # Between fork and exec it has copies of all descriptors.
+        os.close(writes)
+        os.read(reads, 1)
+        os._exit(0)
+    claim.close()
+    with pytest.raises(OSError, match="in use"), socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as other:
+        other.bind(b"\0acts/robot/127.0.9.3")
+    begins = threading.Timer(0.1, os.close, (writes,))
+    begins.start()
+    RobotClaim("127.0.9.3").close()
+    begins.join()
+    os.waitpid(child, 0)
+    os.close(reads)
