@@ -40,6 +40,8 @@ _HANGS_AFTER_S = 600.0
 _STDERR = pytest.StashKey[int]()
 _CORES = pytest.StashKey[TextIO | None]()
 
+_ROOT = Path(__file__).resolve().parent
+
 RECORDINGS = Path(os.environ.get("ACTS_RECORDINGS") or Path(__file__).resolve().parents[1] / "shared" / "data")
 
 
@@ -74,10 +76,19 @@ def pytest_configure(config: pytest.Config) -> None:
 
 @pytest.hookimpl(trylast=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Side by side, files of tests that run alone are first: later, all processes would wait for the longest test."""
-    if "PYTEST_XDIST_WORKER" in os.environ:
-        alone = {item.path for item in items if _is_alone(item)}
-        items.sort(key=lambda item: item.path not in alone)
+    """Side by side, mix what computes with what waits, which is much the same within a package.
+
+    The files of every package are spread over the whole run. Those with tests that run alone come first: later, all
+    processes would wait for the longest test.
+    """
+    if "PYTEST_XDIST_WORKER" not in os.environ:
+        return
+    files: dict[str, list[Path]] = {}
+    for path in dict.fromkeys(item.path for item in items):
+        files.setdefault(path.relative_to(_ROOT).parts[0], []).append(path)
+    places = {path: number / len(paths) for paths in files.values() for number, path in enumerate(paths)}
+    places.update({item.path: -1.0 for item in items if _is_alone(item)})
+    items.sort(key=lambda item: places[item.path])
 
 
 @pytest.hookimpl(wrapper=True)
