@@ -83,7 +83,8 @@ def _draw_tilt(axes: Any, recording: Recording) -> None:
             axes.plot(time_s, commanded[:, index], color=colour, lw=0.8, alpha=0.6, label=f"commanded about {axis}")
             axes.plot(time_s, measured[:, index], color=colour, lw=1.4, label=f"measured about {axis}")
         axes.set_xlim(time_s[0], time_s[-1])
-        axes.legend(loc="upper right", ncol=4, fontsize=8)
+        # Below the curves and not over them.
+        axes.figure.legend(handles=axes.get_lines(), loc="outside lower center", ncols=4, fontsize=9)
         start_s = recording.tilt_time_s[0]
         _mark_segments(axes, recording, start_s)
     axes.set(xlabel="time [s]", ylabel="tilt [deg]", title="tilt of the plate")
