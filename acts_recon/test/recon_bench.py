@@ -102,6 +102,17 @@ class Bench(Peers):
         self.until(lambda: self.node.count_subscribers("contact") == 1)
 
     def send(self, sequence: int, indices: NDArray, counts: NDArray, **fields: Any) -> None:
+        """Publish a frame, and wait until the node has taken or refused it: of several that wait, it may skip some."""
+        before = self._frames_taken
+        self.post(sequence, indices, counts, **fields)
+        self.until(lambda: self._frames_taken > before)
+
+    @property
+    def _frames_taken(self) -> int:
+        return self.node._frames + self.node._unused + sum(self.node._rejected.values())
+
+    def post(self, sequence: int, indices: NDArray, counts: NDArray, **fields: Any) -> None:
+        """Publish a frame."""
         message = TactileSamples(sequence=sequence, rows=32, cols=32, scheme=TactileSamples.SCHEME_ADAPTIVE)
         message.header.frame_id = "plate"
         message.header.stamp.sec = 100 + sequence % 1000

@@ -90,7 +90,7 @@ def test_of_messages_that_have_waited_the_newest_is_published_whatever_their_sta
     # The node stands still for longer than a frame may wait.
     bench.executor.remove_node(bench.node)
     for sequence in range(100):
-        bench.send(sequence, cells, cells)
+        bench.post(sequence, cells, cells)
     until_s = time.monotonic() + 0.2
     bench.until(lambda: time.monotonic() > until_s)
     bench.executor.add_node(bench.node)
