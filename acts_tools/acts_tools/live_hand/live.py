@@ -30,6 +30,11 @@ _SETTLED_S = 0.5
 _ANSWER_TIMEOUT_S = 10.0
 NAMESPACE = "/hand"
 
+
+class HandRefusalError(LaunchError):
+    """The hand does not do what it was asked for; the message has its reason."""
+
+
 STATES = {
     HandStatus.STATE_STOPPED: "stopped",
     HandStatus.STATE_OPEN: "open",
@@ -71,8 +76,8 @@ class LiveHand:
 
         Raises
         ------
-        LaunchError
-            When it refuses or does not reply.
+        HandRefusalError
+            When it refuses, or does not reply.
         """
         now_s = self._mark(mark)
         answer = self._collector.ask(name)
@@ -82,7 +87,7 @@ class LiveHand:
             rclpy.spin_once(self._collector, timeout_sec=0.05)
         result = answer.result() if answer.done() else None
         if result is None or not result.success:
-            raise LaunchError(f"the hand refuses to {name}: {result.message if result else 'it does not answer'}")
+            raise HandRefusalError(f"the hand refuses to {name}: {result.message if result else 'it does not answer'}")
         return now_s
 
     def until(self, condition: Callable[[], bool], timeout_s: float) -> bool:

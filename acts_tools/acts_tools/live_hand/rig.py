@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 import time
 from collections import deque
+from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,11 +22,12 @@ from acts_control.hand.reflexes import HandState
 from acts_core.errors import LaunchError
 from acts_core.skin import RegionContact
 from acts_sim.hand import HandTruth, HandWorldConfig, held_object
-from acts_tools.live_hand.live import LiveHand
+from acts_tools.live_hand.live import HandRefusalError, LiveHand
 from acts_tools.live_hand.recording import Array
 
 _BEHIND_S = 0.1
 _SILENCE_S = 10.0
+_PAUSE_S = 0.3
 _GRAVITY_M_S2 = 9.81
 
 
@@ -108,7 +110,9 @@ class LiveRig:
         self.supervisor.grasp()
         while self.run(end_s - self._time_s, self._has_closed) and self.state is HandState.STOPPED:
             # A delay of the machine of a tenth of a second stops the grasp; try again, as a person would.
-            self.supervisor.grasp()
+            self.run(_PAUSE_S)
+            with suppress(HandRefusalError):  # touch is late at this moment as well
+                self.supervisor.grasp()
         return self.state is HandState.HOLDING
 
     def object_m(self) -> NDArray[np.float64]:
