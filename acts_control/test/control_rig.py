@@ -53,16 +53,17 @@ class Process:
         environment = {**os.environ, "ROS_PYTHON_CHECK_FIELDS": "1"}
         if domain is not None:
             environment["ROS_DOMAIN_ID"] = str(domain)
-        # Files, not pipes: nobody reads them while the process runs. Closed in `stop`.
-        self.output = tempfile.TemporaryFile("w+")  # noqa: SIM115
+        # A file, not a pipe: nobody reads it while the process runs. Closed in `stop`.
+        self.output = tempfile.TemporaryFile()  # noqa: SIM115
         self.process = subprocess.Popen(
             command, env=environment, stdout=self.output, stderr=subprocess.STDOUT, text=True, start_new_session=True
         )
 
     def text(self) -> str:
         """Everything it has written."""
-        self.output.seek(0)
-        return self.output.read()
+        # Without a seek: that would move the place where the process goes on to write.
+        file = self.output.fileno()
+        return os.pread(file, os.fstat(file).st_size, 0).decode()
 
     def stop(self, number: signal.Signals = signal.SIGINT, timeout_s: float = 20.0) -> int:
         """Signal it once and wait; the exit code."""
@@ -97,8 +98,12 @@ class SimulatedRobot(Process):
         start = ", ".join(str(angle) for angle in q_rad)
         hooks = ["--hook-port", str(HOOK_PORT), "--unlock-after-s", "0"]
         super().__init__(sys.executable, "-m", "acts_sim.ur.main", "--host", host, "--q0", start, *hooks)
-        wait_for(lambda: "ready" in self.text() or self.process.poll() is not None, "the simulated robot")
-        assert self.process.poll() is None, self.text()
+        try:
+            wait_for(lambda: "ready" in self.text() or self.process.poll() is not None, "the simulated robot")
+            assert self.process.poll() is None
+        except AssertionError as error:
+            self.stop(signal.SIGKILL)
+            raise AssertionError(f"{error}: {self.text()!r}") from error
 
     def hook(self, line: str) -> str:
         """Do what a person at the robot could do."""

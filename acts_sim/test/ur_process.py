@@ -32,7 +32,7 @@ class Simulator:
         self.host = host
         self.arguments = arguments
         # A file, not a pipe: nobody reads it while the process runs. Closed in `stop`.
-        self.errors = tempfile.TemporaryFile("w+")  # noqa: SIM115
+        self.errors = tempfile.TemporaryFile()  # noqa: SIM115
         self.process = self._start()
 
     def _start(self) -> subprocess.Popen[str]:
@@ -50,8 +50,9 @@ class Simulator:
         return process
 
     def error_text(self) -> str:
-        self.errors.seek(0)
-        return self.errors.read()
+        # Without a seek: that would move the place where the process goes on to write.
+        file = self.errors.fileno()
+        return os.pread(file, os.fstat(file).st_size, 0).decode()
 
     def hook(self, line: str) -> str:
         with socket.create_connection((self.host, HOOK_PORT), timeout=10.0) as connection:
