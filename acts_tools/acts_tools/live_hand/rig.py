@@ -12,7 +12,6 @@ from __future__ import annotations
 import math
 import time
 from collections import deque
-from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
@@ -28,6 +27,7 @@ from acts_tools.live_hand.recording import Array
 _BEHIND_S = 0.1
 _SILENCE_S = 10.0
 _PAUSE_S = 0.3
+_REFUSED_S = 5.0
 _GRAVITY_M_S2 = 9.81
 
 
@@ -111,8 +111,7 @@ class LiveRig:
         while self.run(end_s - self._time_s, self._has_closed) and self.state is HandState.STOPPED:
             # A delay of the machine of a tenth of a second stops the grasp; try again, as a person would.
             self.run(_PAUSE_S)
-            with suppress(HandRefusalError):  # touch is late at this moment as well
-                self.supervisor.grasp()
+            self.supervisor.grasp()
         return self.state is HandState.HOLDING
 
     def object_m(self) -> NDArray[np.float64]:
@@ -162,9 +161,23 @@ class LiveSupervisor:
     rig: LiveRig
 
     def grasp(self) -> str:
-        """Start a grasp. Returns an empty reason, because a refusal raises an error."""
-        self.rig.ask("grasp")
-        return ""
+        """Start a grasp. Returns an empty reason, because a refusal that lasts raises an error.
+
+        Raises
+        ------
+        HandRefusalError
+            When the hand has refused for some seconds: touch may be late at one moment.
+        """
+        end_s = time.monotonic() + _REFUSED_S
+        while True:
+            try:
+                self.rig.ask("grasp")
+            except HandRefusalError:
+                if time.monotonic() > end_s:
+                    raise
+            else:
+                return ""
+            self.rig.run(_PAUSE_S)
 
 
 @dataclass(frozen=True)

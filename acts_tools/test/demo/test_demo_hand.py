@@ -13,10 +13,12 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from typing import cast
 
 import numpy as np
 import pytest
 
+import acts_tools.live_hand.rig
 from acts_core.skin import RegionContact, layout
 from acts_sim.hand import HandWorld, HandWorldConfig
 from acts_tools.cli import main
@@ -24,7 +26,9 @@ from acts_tools.demo.hand.act import Act
 from acts_tools.demo.hand.picture import draw
 from acts_tools.demo.hand.score import score, table
 from acts_tools.evaluate.hand.scenario import Outcome
+from acts_tools.live_hand.live import HandRefusalError
 from acts_tools.live_hand.recording import HandRecording, StatusSample
+from acts_tools.live_hand.rig import LiveRig, LiveSupervisor
 
 pytestmark = pytest.mark.slow
 
@@ -128,3 +132,28 @@ def test_an_act_is_played_by_real_processes_and_leaves_figures_and_a_picture(tmp
     assert results["latency_ms"]["median"] > 0
     assert results["cycle_ms"]["median"] > 0
     assert (tmp_path / "hand.png").read_bytes().startswith(b"\x89PNG")
+
+
+class RigOfLateTouch:
+    """A hand whose touch is late for some time: it refuses."""
+
+    def __init__(self, refusals: int) -> None:
+        self.refusals = refusals
+        self.asked = 0
+
+    def ask(self, name: str) -> None:
+        self.asked += 1
+        if self.asked <= self.refusals:
+            raise HandRefusalError(f"the hand refuses to {name}: no touch for 0.18 s")
+
+    def run(self, duration_s: float) -> None:
+        assert duration_s > 0.0
+
+
+def test_a_hand_whose_touch_is_late_at_one_moment_is_asked_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    rig = RigOfLateTouch(refusals=3)
+    LiveSupervisor(cast(LiveRig, rig)).grasp()
+    assert rig.asked == 4
+    monkeypatch.setattr(acts_tools.live_hand.rig, "_REFUSED_S", 0.0)
+    with pytest.raises(HandRefusalError, match="no touch for"):
+        LiveSupervisor(cast(LiveRig, RigOfLateTouch(refusals=10**9))).grasp()
