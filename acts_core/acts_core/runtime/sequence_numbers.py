@@ -29,8 +29,7 @@ class _Place(NamedTuple):
 class SequenceNumbers:
     """Counts what is missing in a stream whose messages are numbered, modulo 2^32.
 
-    A number that goes back is a source that began anew, not a loss; a 0 after larger ones always is, so that of two
-    sources the one that passes 2^32 counts as begun anew. Where numbers jump ahead and then go on from before
+    A number that goes back is a source that began anew, not a loss. Where numbers jump ahead and then go on from before
     the jump, nothing was lost there: two sources publish, or a message was overtaken.
 
     Attributes
@@ -83,12 +82,13 @@ class SequenceNumbers:
 
     def _place_before(self, sequence: int, missing: int) -> _Place | None:
         """The place that a number follows more closely than the last number."""
-        if sequence == 0 and missing >= _HALF:
-            # So begins who begins anew.
-            return None
+        # So begins who begins anew, unless it is what comes next at a place that another source jumped away from.
+        begins_anew = sequence == 0 and missing >= _HALF
         nearest, found = min(missing, _NEAR), None
         for place in self._places:
             ahead = (sequence - place.number - 1) % _MODULUS
+            if begins_anew and (ahead or 0 < place.missing <= _NEAR):
+                continue
             # What came after numbers that were missing is not among them.
             is_among = ahead < place.missing or not place.missing
             if ahead < nearest and is_among and self._received - place.received <= _REMEMBERED:
