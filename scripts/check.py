@@ -111,8 +111,8 @@ def side_by_side() -> list[str]:
     # More than cores: tests of the whole system wait more than they compute.
     processes = min(len(os.sched_getaffinity(0)) + 2, MAX_PROCESSES)
     options = ["--numprocesses", str(processes), "--dist", "loadfile"]
-    # In the order of pyproject.toml: files of few but long tests first. Without a restart the run ends where a process
-    # has crashed; with one it hangs (pytest-xdist 3.8).
+    # In the order of conftest.py. Without a restart the run ends where a process has crashed; with one it hangs
+    # (pytest-xdist 3.8).
     return [*options, "--no-loadscope-reorder", "--max-worker-restart", "0"]
 
 

@@ -102,7 +102,7 @@ class Bench(Peers):
         self.until(lambda: self.node.count_subscribers("contact") == 1)
 
     def send(self, sequence: int, indices: NDArray, counts: NDArray, **fields: Any) -> None:
-        """Publish a frame, and wait until the node has taken or refused it: of several that wait, it may skip some."""
+        """Publish a frame, and wait until the node has taken or refused it: it leaves out frames that wait for long."""
         before = self._frames_taken
         self.post(sequence, indices, counts, **fields)
         self.until(lambda: self._frames_taken > before)

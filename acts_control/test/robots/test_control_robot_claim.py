@@ -15,7 +15,6 @@ from acts_control.robots.base import RobotClaim, RobotTakenError
 
 HOLDER = """
 import sys
-import threading
 from acts_control.robots.base import RobotClaim
 claim = RobotClaim("127.0.9.1")
 print("claimed", flush=True)
