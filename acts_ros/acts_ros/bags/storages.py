@@ -8,6 +8,7 @@ from __future__ import annotations
 import heapq
 from collections.abc import Collection, Generator, Iterable
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 from rosbags.interfaces import Connection
@@ -81,15 +82,51 @@ class McapFileReader(McapReader):
 
 
 class SqliteFileReader(Sqlite3Reader):
-    """Reads a ``.db3`` file; names an encoding of a definition that cannot be read."""
+    """Reads a ``.db3`` file, whatever its path; refuses what rosbag2 does not write into one.
+
+    A column of SQLite takes values of any type, and rosbags would pass them on; a view may compute for ever.
+    """
+
+    def __init__(self, path: Any) -> None:
+        # rosbags makes an URI of it, in which these characters mean something else.
+        super().__init__(Path(str(path).replace("%", "%25").replace("?", "%3f").replace("#", "%23")))
+
+    def messages(
+        self, connections: Collection[Connection], start: int | None = None, stop: int | None = None
+    ) -> Generator[Message, None, None]:
+        """Topic, stamp [ns] and serialised message, in the order of the stamps."""
+        for connection, stamp_ns, data in super().messages(connections, start, stop):
+            if type(stamp_ns) is not int or type(data) is not bytes:
+                raise ReaderError(f"a message has the stamp {stamp_ns!r:.40} and is of {type(data).__name__}")
+            yield connection, stamp_ns, data
 
     def _open(self) -> None:
+        others = self._select("SELECT name FROM sqlite_master WHERE type NOT IN ('table', 'index')")
+        if others:
+            raise ReaderError(f"it holds {others[0]!r:.40}, which is neither a table nor an index")
+        if self._select("SELECT name FROM sqlite_master WHERE name = 'message_definitions'"):
+            unread = self._select(
+                "SELECT encoding FROM message_definitions "
+                "WHERE encoding NOT IN ('ros2msg', 'ros2idl') AND topic_type IN (SELECT type FROM topics)"
+            )
+            if unread:
+                raise ReaderError(
+                    f"it has a message definition in the encoding {unread[0]!r:.40}; `ros2 bag convert` to MCAP makes "
+                    "it readable"
+                )
         try:
             super()._open()
-        except KeyError as error:
-            raise ReaderError(
-                f"it has a message definition in the encoding {error}; `ros2 bag convert` to MCAP makes it readable"
-            ) from error
+        except (KeyError, TypeError, ValueError, IndexError, AttributeError) as error:
+            raise ReaderError(f"its tables hold something else than rosbag2 writes ({error})") from error
+        for one in self.connections:
+            if not all(isinstance(text, str) for text in (one.topic, one.msgtype, one.msgdef.data, one.digest)):
+                raise ReaderError(f"the topic {one.topic!r:.40} is not described by text")
+        if type(self.metadata.start_time) is not int or type(self.metadata.end_time) is not int:
+            raise ReaderError("the stamps of its messages are not whole numbers")
+
+    def _select(self, query: str) -> list[Any]:
+        assert self.dbconn is not None
+        return [value for (value,) in self.dbconn.execute(query)]
 
 
 class FolderReader(DirectoryReader):

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import struct
 from collections.abc import Iterable
@@ -94,15 +95,36 @@ def test_a_topic_whose_definition_the_recorder_did_not_find_does_not_spoil_the_o
         assert [data for _, _, data in bag.messages(["/word", "/other"])] == [message(1)]
 
 
-def test_in_sqlite_it_is_told_that_a_definition_cannot_be_read(tmp_path: Path) -> None:
+@pytest.mark.parametrize("name", ["run#1", "run?1", "100%41", "ä b"])
+def test_sqlite_files_are_read_whatever_the_name_of_their_folder(tmp_path: Path, name: str) -> None:
+    path = write(tmp_path / "bag", [1, 2], StoragePlugin.SQLITE3).rename(tmp_path / name)
+    assert read(path / "bag.db3")[0] == read(path)[0] == [(1, message(1)), (2, message(2))]
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (
+            "UPDATE message_definitions SET encoding = 'unknown'",
+            "a message definition in the encoding 'unknown'; `ros2 bag convert`",
+        ),
+        ("UPDATE messages SET data = 4000000000", "after 0 messages: a message has the stamp 1 and is of int"),
+        ("UPDATE messages SET timestamp = 1.5", "the stamps of its messages are not whole numbers"),
+        ("UPDATE messages SET timestamp = 'x'", "its tables hold something else than rosbag2 writes"),
+        ("UPDATE topics SET type = x'ff'", "the topic '/word' is not described by text"),
+        ("UPDATE topics SET offered_qos_profiles = '- a: 1'", "its tables hold something else than rosbag2 writes"),
+        ("DROP TABLE schema; CREATE VIEW schema AS SELECT 4 AS schema_version", "'schema', which is neither a table"),
+    ],
+)
+def test_sqlite_files_that_hold_something_else_are_refused(tmp_path: Path, change: str, said: str) -> None:
     import sqlite3
 
     path = write(tmp_path / "bag", [1], StoragePlugin.SQLITE3)
     with sqlite3.connect(path / "bag.db3") as base:
-        base.execute("UPDATE message_definitions SET encoding = 'unknown'")
+        base.executescript(change)
     base.close()
-    with pytest.raises(RecordingError, match=r"a message definition in the encoding 'unknown'; `ros2 bag convert`"):
-        read(path)
+    with pytest.raises(RecordingError, match=re.escape(said)):
+        read(path / "bag.db3")
 
 
 def idl_of(name: str) -> str:
