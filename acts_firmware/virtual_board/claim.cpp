@@ -11,12 +11,14 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <thread>
 
 #include "option_error.hpp"
 
@@ -30,6 +32,8 @@ constexpr const char* kOther =
     "give another folder: run_dir:=/dev/shm/NAME, or run_dir:=/tmp/NAME where that is full or read-only";
 constexpr mode_t kOwnerOnly = 0700;
 constexpr std::size_t kLongestCommand = 100;
+// Programs of a launch that was killed end shortly after it.
+constexpr auto kWait = std::chrono::seconds(1);
 
 template <typename Error = std::runtime_error>
 [[noreturn]] void refuse(const std::string& what) {
@@ -93,7 +97,7 @@ Claim::Claim(const std::string& path) : lock_path_(path + ".lock") {
   const fs::path parent = fs::path(path).parent_path();
   make_private(parent.empty() ? fs::path(".") : parent);
   if (!lock()) {
-    refuse(path + " is in use by " + holder() + "; end that program, or ");
+    refuse<OptionError>(path + " is in use by " + holder() + "; end that program, or ");
   }
   const std::string number = std::to_string(getpid()) + "\n";
   if (ftruncate(file_, 0) != 0 || pwrite(file_, number.data(), number.size(), 0) < 0) {
@@ -108,6 +112,7 @@ Claim::~Claim() {
 }
 
 bool Claim::lock() {
+  const auto end = std::chrono::steady_clock::now() + kWait;
   while (true) {
     file_ = open(lock_path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, S_IRUSR | S_IWUSR);
     if (file_ < 0) {
@@ -115,7 +120,11 @@ bool Claim::lock() {
     }
     if (flock(file_, LOCK_EX | LOCK_NB) != 0) {
       close(file_);
-      return false;
+      if (std::chrono::steady_clock::now() > end) {
+        return false;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      continue;
     }
     struct stat ours{};
     struct stat present{};

@@ -9,8 +9,8 @@
 namespace acts {
 
 // From the making on until the end, however the process ends. Makes the folder, for its user alone, where it is
-// missing. Throws std::runtime_error where another process has the file, which is named, or where the folder is a
-// symbolic link, belongs to somebody else, or anybody may write to it; like /tmp it may be.
+// missing. Throws OptionError where another process has the file, which is named, and still has it after a second, or
+// where the folder is a symbolic link, belongs to somebody else, or anybody may write to it; like /tmp it may be.
 class Claim {
  public:
   explicit Claim(const std::string& path);
@@ -19,7 +19,7 @@ class Claim {
   ~Claim();
 
  private:
-  // False where another process has it.
+  // False where another process has it, and keeps it.
   bool lock();
   std::string holder() const;
 

@@ -243,7 +243,7 @@ def refusal(link: Path, code: int) -> str:
 
 def test_a_link_in_use_is_refused_with_the_name_of_the_board_that_has_it(tmp_path: Path) -> None:
     with BoardProcess(tmp_path) as first:
-        said = refusal(first.link, 1)
+        said = refusal(first.link, 2)
         assert f"{first.link} is in use by process {first.process.pid} (" in said
         assert "virtual_board --link" in said
         assert "run_dir:=" in said

@@ -12,12 +12,15 @@ import fcntl
 import os
 import pwd
 import stat
+import time
 from contextlib import suppress
 from pathlib import Path
 
 from acts_core.errors import ActsError, SettingsError
 from acts_core.runtime import process_name
 
+# Programs of a launch that was killed end shortly after it.
+_WAIT_S = 1.0
 _OTHER = "give another folder: run_dir:=/dev/shm/NAME, or run_dir:=/tmp/NAME where that is full or read-only"
 
 
@@ -64,8 +67,11 @@ class Claim:
 
     Raises
     ------
+    SettingsError
+        Another process uses it, and still after `_WAIT_S` (the message names it); the folder is not allowed
+        (`make_private`).
     ActsError
-        Another process uses it (the message names it), or the folder is not allowed (`make_private`).
+        The lock cannot be made, as on a full disk.
     """
 
     def __init__(self, path: Path) -> None:
@@ -74,7 +80,7 @@ class Claim:
         try:
             self._fd = self._lock()
         except BlockingIOError as error:
-            raise ActsError(f"{path} is in use by {self._holder()}; end that program, or {_OTHER}") from error
+            raise SettingsError(f"{path} is in use by {self._holder()}; end that program, or {_OTHER}") from error
         except OSError as error:
             raise ActsError(f"{self._path} cannot be locked ({error.strerror}); {_OTHER}") from error
         try:
@@ -93,6 +99,7 @@ class Claim:
             self._fd = -1
 
     def _lock(self) -> int:
+        end_s = time.monotonic() + _WAIT_S
         while True:
             fd = os.open(self._path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW, 0o600)
             try:
@@ -100,11 +107,15 @@ class Claim:
                 if os.path.samestat(os.fstat(fd), self._path.lstat()):
                     return fd
             except FileNotFoundError:
-                pass
+                pass  # the previous owner has just removed it
+            except BlockingIOError:
+                if time.monotonic() > end_s:
+                    os.close(fd)
+                    raise
+                time.sleep(0.01)
             except BaseException:
                 os.close(fd)
                 raise
-            # The previous owner has just removed the lock file; try again with a new one.
             os.close(fd)
 
     def _holder(self) -> str:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from acts_core.errors import ActsError
+from acts_core.errors import ActsError, SettingsError
 from acts_sim.shared import Claim, default_run_dir, make_private
 
 HOLDER = """
@@ -81,7 +81,7 @@ def test_a_file_in_place_of_the_folder_is_refused(tmp_path: Path) -> None:
 def test_what_is_claimed_is_refused_to_others_by_the_holders_name_until_it_is_given_up(tmp_path: Path) -> None:
     ring = tmp_path / "field.ring"
     claim = Claim(ring)
-    with pytest.raises(ActsError, match=rf"{ring} is in use by process {os.getpid()} \(.*\); end that program"):
+    with pytest.raises(SettingsError, match=rf"{ring} is in use by process {os.getpid()} \(.*\); end that program"):
         Claim(ring)
     Claim(tmp_path / "joints.ring").close()
     claim.close()
@@ -100,6 +100,17 @@ def test_a_killed_process_has_no_claim_any_more(tmp_path: Path) -> None:
             Claim(ring)
         holder.kill()
         holder.wait()
+        Claim(ring).close()
+
+
+def test_a_program_that_is_just_ending_is_waited_for(tmp_path: Path) -> None:
+    ring = tmp_path / "field.ring"
+    command = [sys.executable, "-c", HOLDER, str(ring)]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as holder:
+        assert holder.stdin is not None
+        assert holder.stdout is not None
+        assert holder.stdout.readline() == b"claimed\n"
+        holder.stdin.close()
         Claim(ring).close()
 
 

@@ -17,7 +17,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
-from acts_core.errors import PacketError, RobotError, SettingsError
+from acts_core.errors import ActsError, PacketError, RobotError, SettingsError
 from acts_sim.ur import CYCLE_HZ
 
 LONGEST_STAY_S = 4.0
@@ -131,9 +131,9 @@ class Server:
     Raises
     ------
     RobotError
-        When a port is in use, or the name of `host` is not known.
+        When the name of `host` is not known.
     SettingsError
-        When `host` is no address of this machine.
+        When a port is in use, or `host` is no address of this machine.
     """
 
     def __init__(self, host: str, ports: list[Port], cycle: Callable[[int], None], log: Callable[[str], None]) -> None:
@@ -145,7 +145,7 @@ class Server:
         try:
             for port in ports:
                 self._listeners[_listen(host, port)] = port
-        except RobotError:
+        except ActsError:
             self.close()
             raise
 
@@ -271,7 +271,7 @@ def _listen(host: str, port: Port) -> socket.socket:
         listener.close()
         failure = f"cannot listen on {host} port {port.number} ({port.name}): {error}."
         if isinstance(error, OSError) and error.errno == errno.EADDRINUSE:
-            raise RobotError(
+            raise SettingsError(
                 f"{failure} Is another simulated robot running? Give a second one --host 127.0.0.2"
             ) from error
         if isinstance(error, socket.gaierror):
