@@ -77,7 +77,8 @@ def load_frames(path: Path, *, labels: bool = False, limit_bytes: int | None = N
     labels : bool
         Whether to read what each recording shows: text or numbers, as `label`.
     limit_bytes : int or None
-        How much the arrays may take unpacked; None for half of the memory of this machine.
+        How much the arrays may take unpacked, and half as much again while frames are converted; None for half of the
+        memory of this machine.
 
     Raises
     ------
@@ -91,7 +92,7 @@ def load_frames(path: Path, *, labels: bool = False, limit_bytes: int | None = N
     given = content.get("frames", content.get("image"))
     if given is None:
         raise RecordingError(f"{path}: no array `frames`; {needed}")
-    frames = _frames(path, given)
+    frames = _frames(path, given, limit_bytes)
     live = _live(path, content.get("live"), frames.shape)
     start, length = _recordings(path, content, len(frames))
     label: tuple[str, ...] = ()
@@ -109,9 +110,17 @@ def load_frames(path: Path, *, labels: bool = False, limit_bytes: int | None = N
     return FramesFile(frames, live, start, length, _rate_hz(path, content.get("rate_hz")), label)
 
 
-def _frames(path: Path, given: NDArray) -> NDArray[np.uint16]:
+def _frames(path: Path, given: NDArray, limit_bytes: int) -> NDArray[np.uint16]:
     if given.ndim != 3 or not given.size or given.dtype.kind not in "iuf":
         raise RecordingError(f"{path}: frames {given.shape}, {given.dtype}: needed are numbers (n, rows, cols)")
+    is_copied = given.dtype != np.uint16 or not given.flags.c_contiguous
+    both_bytes = given.nbytes + given.size * np.dtype(np.uint16).itemsize
+    # Half as much again as the file may hold: with the file's array, frames of one byte each take three times as much.
+    if is_copied and both_bytes > limit_bytes * 3 // 2:
+        raise RecordingError(
+            f"{path}: frames of {given.dtype} take {both_bytes / 1e6:.0f} MB while they become uint16; allowed are "
+            f"{limit_bytes * 1.5e-6:.0f} MB; save them as uint16, the last index running fastest"
+        )
     # Neither a comparison nor a copy of the whole: recordings may fill half of the memory. Written so that NaN fails.
     if not 0 <= given.min() <= given.max() <= COUNT_MAX:
         raise RecordingError(

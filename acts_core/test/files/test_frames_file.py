@@ -8,7 +8,7 @@ from __future__ import annotations
 import tracemalloc
 import warnings
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import pytest
@@ -64,6 +64,20 @@ def test_fractions_are_rounded_and_any_order_in_memory_is_read(tmp_path: Path) -
     file = loaded(tmp_path, frames=np.asfortranarray(FRAMES))
     assert file.frames.flags.c_contiguous
     np.testing.assert_array_equal(file.frames, FRAMES)
+
+
+@pytest.mark.parametrize(("kind", "order"), [(np.uint8, "C"), (np.float16, "C"), (np.uint16, "F")])
+def test_frames_that_would_fill_the_memory_while_they_are_converted_are_refused(
+    tmp_path: Path, kind: type, order: Literal["C", "F"]
+) -> None:
+    path = tmp_path / "f.npz"
+    frames = np.zeros((1000, 4, 5), dtype=kind, order=order)
+    np.savez(path, frames=frames)
+    with pytest.raises(RecordingError, match=r"take 0 MB while they become uint16; .*save them as uint16"):
+        load_frames(path, limit_bytes=frames.nbytes + 1000)
+    assert load_frames(path, limit_bytes=100_000).frames.shape == frames.shape
+    np.savez(path, frames=frames.astype(np.uint16, order="C"))
+    assert load_frames(path, limit_bytes=41_000).frames.shape == frames.shape
 
 
 @pytest.mark.parametrize("rate_hz", [31, 31.0, np.float32(31), [31], [[31.0]], np.uint64(31)])
