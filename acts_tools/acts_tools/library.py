@@ -16,6 +16,7 @@ from acts_core.files import load_frames, without_contact
 from acts_recon.objects import ImageClassifierConfig, build_object_library, save_object_library
 from acts_sim.pressing import OBJECTS, PressingArm, object_named
 from acts_tools.arguments import at_least_one, random_seed, refuse_unused, whole
+from acts_tools.large_files import tell_if_large
 from acts_tools.output_file import require_writable
 
 
@@ -66,6 +67,7 @@ def run(arguments: argparse.Namespace) -> int:
         frames, labels = PressingArm(objects, seed=arguments.seed).held_frames(arguments.presses)
         source = f"{arguments.presses} presses of {len(objects)} objects into the ACTS contact model"
     else:
+        tell_if_large(arguments.frames)
         recorded = load_frames(arguments.frames, labels=True)
         if not recorded.label:
             raise RecordingError(f"{arguments.frames}: has no label; needed is what each recording shows")

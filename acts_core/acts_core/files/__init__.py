@@ -8,7 +8,7 @@ In come paths; out come arrays, text, or sections of YAML with the line of each 
 
 from acts_core.files.frames_file import FramesFile, load_frames, without_contact
 from acts_core.files.model_file import ModelFile
-from acts_core.files.npz_file import UNPACKED_BYTES_MAX, half_of_memory_bytes, npz_names, read_npz
+from acts_core.files.npz_file import UNPACKED_BYTES_MAX, half_of_memory_bytes, npz_names, read_npz, unpacked_bytes
 from acts_core.files.regular_file import TEXT_BYTES_MAX, is_there, path_of, read_text, require_regular
 from acts_core.files.yaml_places import Section, is_number, read_yaml, shown
 
@@ -29,5 +29,6 @@ __all__ = [
     "read_yaml",
     "require_regular",
     "shown",
+    "unpacked_bytes",
     "without_contact",
 ]

@@ -103,3 +103,13 @@ def npz_names(path: Path) -> frozenset[str]:
             return frozenset(name.removesuffix(".npy") for name in archive.namelist())
     except (OSError, *_DAMAGED):
         return frozenset()
+
+
+def unpacked_bytes(path: Path) -> int:
+    """How much all arrays of an npz file take unpacked; 0 where it cannot be read, of which `read_npz` tells."""
+    try:
+        require_regular(path, error=ActsError)
+        with zipfile.ZipFile(path) as archive:
+            return sum(entry.file_size for entry in archive.infolist())
+    except (OSError, ActsError, *_DAMAGED):
+        return 0

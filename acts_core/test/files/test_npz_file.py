@@ -17,7 +17,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from acts_core.errors import ActsError, SettingsError
-from acts_core.files import read_npz
+from acts_core.files import read_npz, unpacked_bytes
 
 
 def archive() -> bytes:
@@ -53,6 +53,14 @@ def test_what_unpacks_to_more_than_is_allowed_is_not_unpacked(tmp_path: Path) ->
         read_npz(path, error=ActsError, limit_bytes=400_000)
     # Only what is asked for counts.
     assert read_npz(path, ("small",), error=ActsError, limit_bytes=1000).keys() == {"small"}
+
+
+def test_how_much_a_file_unpacks_to_is_known_without_unpacking_it(tmp_path: Path) -> None:
+    path = tmp_path / "x.npz"
+    np.savez_compressed(path, a=np.zeros(10**6, dtype=np.uint8))
+    assert 10**6 < unpacked_bytes(path) < 10**6 + 1000
+    os.mkfifo(tmp_path / "pipe")
+    assert unpacked_bytes(tmp_path / "pipe") == unpacked_bytes(tmp_path / "none") == 0
 
 
 @pytest.mark.parametrize(

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from acts_core.errors import RecordingError
 from acts_core.files import load_frames
 from acts_sim.pressing import ContactModel, ContactObject
+from acts_tools.large_files import tell_if_large
 
 
 @dataclass(frozen=True)
@@ -65,6 +66,7 @@ def recorded_frames(paths: Sequence[Path], topic: str = "") -> Source:
             frames, used = bag_frames(path, topic)
             description = f"{len(frames)} frames of {used} in {path.resolve().name}"
         else:
+            tell_if_large(path)
             frames = load_frames(path).frames
             description = f"{len(frames)} frames of {path.name}"
         if parts and frames.shape[1:] != parts[0].shape[1:]:

@@ -22,6 +22,7 @@ from acts_tools.evaluate import report
 from acts_tools.evaluate.gait import force_curve, walks
 from acts_tools.evaluate.gait.insoles import FoundSteps, InsoleRecording, find_steps, read_insoles
 from acts_tools.evaluate.images.options import add_seeds
+from acts_tools.large_files import tell_if_large
 from acts_tools.progress import Progress
 
 _RATES_HZ = (8.0, 30.0, 100.0, 1000.0)
@@ -98,6 +99,7 @@ def _run(arguments: argparse.Namespace) -> int:
 
 
 def _run_recorded(arguments: argparse.Namespace) -> int:
+    tell_if_large(arguments.frames)
     recordings = read_insoles(arguments.frames)
     about = {"frames_file": arguments.frames.name, "length_m": arguments.length_m, "width_m": arguments.width_m}
     results = report.Results(arguments.json, about)

@@ -21,6 +21,7 @@ from acts_tools.evaluate import report
 from acts_tools.evaluate.images import options
 from acts_tools.evaluate.images.recovery import Recording
 from acts_tools.evaluate.images.tasks import evaluate_all
+from acts_tools.large_files import tell_if_large
 from acts_tools.train import model_frames
 
 
@@ -70,6 +71,7 @@ def _recordings(arguments: argparse.Namespace) -> Sequence[Recording]:
         frames = model_frames(list(OBJECTS.values()), arguments.presses, seed=arguments.seed)
         live = np.ones(frames.shape[1:], dtype=bool)
         return [Recording(frame[None], 1.0, live) for frame in frames][:: arguments.every]
+    tell_if_large(arguments.frames)
     recorded = load_frames(arguments.frames)
     if recorded.rate_hz is None:
         raise RecordingError(f"{arguments.frames}: has no rate_hz; needed is how many frames were recorded per second")

@@ -18,6 +18,7 @@ from acts_tools.evaluate import report
 from acts_tools.evaluate.objects.classification import M_OVER_TIME, MS, Trials, run_trials
 from acts_tools.evaluate.objects.classification_recorded import run_recorded
 from acts_tools.evaluate.objects.classification_report import draw, table, times
+from acts_tools.large_files import tell_if_large
 from acts_tools.output_file import require_picture, require_writable
 from acts_tools.progress import Progress
 
@@ -78,6 +79,7 @@ def _run(arguments: argparse.Namespace) -> int:
         if arguments.picture:
             raise SettingsError(f"--picture {arguments.picture}: shows simulated presses and does not go with --frames")
         refuse_unused(arguments, "on recordings", *_OF_PRESSES)
+        tell_if_large(arguments.frames)
         recorded = load_frames(arguments.frames, labels=True)
         with Progress("recordings", 1) as progress:
             results = run_recorded(recorded, arguments.m or [55], progress.show)

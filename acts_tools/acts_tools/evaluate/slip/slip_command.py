@@ -26,6 +26,7 @@ from acts_core.settings import default_of, describe
 from acts_recon.slip import SlipConfig, SlipDetector
 from acts_tools.arguments import real
 from acts_tools.evaluate import report
+from acts_tools.large_files import tell_if_large
 from acts_tools.output_file import require_picture
 
 # A grip is steady where its force changes by less than this share of its largest, for this time before and after.
@@ -160,6 +161,7 @@ def _run(arguments: argparse.Namespace) -> int:
     results = report.Results(arguments.json, {"frames": str(arguments.frames)})
     require_picture(arguments.picture)
     config = SlipConfig(**{name: getattr(arguments, name) for name in describe(SlipConfig)})
+    tell_if_large(arguments.frames)
     recorded = load_frames(arguments.frames, labels=True)
     rate_hz = arguments.rate_hz or recorded.rate_hz
     if not rate_hz or not 0.0 < rate_hz < 1e6:
