@@ -129,6 +129,7 @@ class Bench:
         self.node = Node("bench", namespace="/plate", context=self.context)
         self._executor = SingleThreadedExecutor(context=self.context)
         self._executor.add_node(self.node)
+        self._added: list[Node] = []
         self.statuses: list[BalanceStatus] = []
         self.states: list[BallState] = []
         self.references: list[BallReference] = []
@@ -146,8 +147,9 @@ class Bench:
         self._thread = threading.Thread(target=self._spin, daemon=True)
 
     def add(self, node: Node) -> None:
-        """Spin another node too."""
+        """Spin another node too, and destroy it at the end, when nothing spins any more."""
         self._executor.add_node(node)
+        self._added.append(node)
 
     def start(self) -> None:
         """Begin to spin."""
@@ -203,7 +205,8 @@ class Bench:
             self._thread.join(10.0)
         self._executor.shutdown()
         rclpy.try_shutdown(context=self.context)
-        self.node.destroy_node()
+        for node in (*self._added, self.node):
+            node.destroy_node()
 
 
 class RollingBall:
