@@ -65,7 +65,7 @@ def publish_contacts(bench: Bench, sequences: list[int], age_ms: float = 20.0) -
 
 @pytest.mark.parametrize("bench", [60], indirect=True)
 def test_state_counts_and_latencies_of_a_thousand_contacts(bench: Bench) -> None:
-    node = start_state_node(bench)
+    start_state_node(bench)
     # Wraps at 2^32; three are missing, then ten.
     sequences = [
         s % 2**32 for s in range(2**32 - 500, 2**32 + 513) if s not in (2**32, *range(2**32 + 100, 2**32 + 112))
@@ -90,7 +90,7 @@ def test_state_counts_and_latencies_of_a_thousand_contacts(bench: Bench) -> None
 
 @pytest.mark.parametrize("bench", [61], indirect=True)
 def test_state_uses_the_tilt_and_tells_when_the_ball_is_gone(bench: Bench) -> None:
-    node = start_state_node(bench, "lost_after_s:=1.0", "publish_rate_hz:=1000.0", "lever_arm_m:=0.155")
+    start_state_node(bench, "lost_after_s:=1.0", "publish_rate_hz:=1000.0", "lever_arm_m:=0.155")
     tilts = bench.node.create_publisher(Vector3Stamped, "ball/tilt", STREAM)
     wait_for(lambda: tilts.get_subscription_count() == 1, "the node's subscription")
     publish_contacts(bench, list(range(100)))
