@@ -14,8 +14,10 @@ from collections.abc import Sequence
 
 from acts_core.kernels import skip_extras
 from acts_core.stop_signals import StopSignals
+from acts_core.wire import StreamDecoder
 from acts_driver.nodes.driver_node import DriverNode
 from acts_driver.settings import DriverSettings
+from acts_recon.frame_recovery import FrameRecovery
 from acts_recon.nodes.reconstruction_node import ReconstructionNode
 from acts_recon.settings import ReconstructionSettings
 from acts_ros.composition import parameters_from
@@ -23,6 +25,13 @@ from acts_ros.executor import run
 
 SETTINGS: dict[str, type] = {"driver": DriverSettings, "reconstruction": ReconstructionSettings}
 """The settings classes of the nodes, by name."""
+
+
+def prepare() -> None:
+    """Load what is compiled of driver and reconstruction, as with their default settings."""
+    skip_extras()
+    FrameRecovery(ReconstructionSettings())
+    StreamDecoder()
 
 
 def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:

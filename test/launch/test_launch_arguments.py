@@ -26,6 +26,7 @@ from acts_driver.protocols import PROTOCOLS
 from acts_driver.settings import DriverSettings
 from acts_recon.methods import METHODS
 from acts_ros.composition import IN_PARAMS_FILE
+from acts_ros.executables.standby import STANDBY_WORD
 from acts_sim.hand import HandWorldConfig
 from acts_tools.launch.evaluate import Plan, declarations, evaluate
 from acts_tools.launch.parser import parse_file
@@ -330,6 +331,18 @@ def test_what_a_simulated_skin_feels_moves_no_real_hand(launch: Callable[..., Pr
     assert not any(words[0].endswith(("/hand_world", "/virtual_board")) for words, _ in started)
     assert settings_of(started, "hand_reflexes")["port"] == "/dev/ttyUSB0"
     assert settings_of(started, "driver")["port"] == "/dev/ttyACM0"
+
+
+@pytest.mark.parametrize("name", ["tactile", "ball_balancing", "hand_reflexes"])
+def test_the_spare_process_is_the_same_again(launch: Callable[..., Printed], name: str) -> None:
+    file = TACTILE.with_name(f"{name}.launch.xml")
+    for standby, expected in (("true", 2), ("false", 1)):
+        started = launch(file, standby=standby, namespace="belly")
+        feeling = [process for process in started if process[0][0].endswith("/tactile")]
+        assert len(feeling) == expected
+        assert all(process == feeling[0] for process in feeling)
+        assert STANDBY_WORD in feeling[0][0]
+    assert not any(words[0].endswith("/tactile") for words, _ in launch(file, standby="true", composed="false"))
 
 
 @pytest.mark.parametrize("composed", ["true", "false"])

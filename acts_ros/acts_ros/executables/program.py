@@ -16,6 +16,7 @@ from acts_core.errors import REFUSED_EXIT_CODE, ActsError, exit_code
 from acts_core.shared_memory import check_shared_memory
 from acts_core.stop_signals import StopSignals
 from acts_ros.executables.refused import stay, take_stay_word
+from acts_ros.executables.standby import PREPARE_AFTER_S, Standby, say_ready, take_standby_word
 
 
 class Program:
@@ -26,7 +27,8 @@ class Program:
     module : str
         Name of the module, with a function ``main(signals: StopSignals) -> int``. If it has ``SETTINGS``, the settings
         class of each of its nodes by the node's name, ``--help`` prints its docstring and parameters; else ``main``
-        handles ``--help``.
+        handles ``--help``. If it has a function ``prepare()``, a spare process (`acts_ros.executables.standby`) calls
+        it before it waits: it does what ``main`` would otherwise need time for.
     """
 
     def __init__(self, module: str) -> None:
@@ -35,15 +37,16 @@ class Program:
     def __call__(self) -> int:
         """Run the program and return its exit code."""
         stays = take_stay_word(sys.argv)
-        code = self._run()
+        code = self._run(take_standby_word(sys.argv))
         if code == REFUSED_EXIT_CODE and stays:
             stay()
         return code
 
-    def _run(self) -> int:
+    def _run(self, standby: Standby | None) -> int:
         signals = StopSignals()
         try:
             with signals.interrupting():
+                is_spare = standby is not None and not standby.wait_for_turn(PREPARE_AFTER_S)
                 # The nodes' matrices are small: a second thread gains nothing, and busy-waits for a tenth of a second.
                 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
                 # Imported modules stay: searching them for garbage again and again takes a tenth of the start-up.
@@ -56,6 +59,11 @@ class Program:
                     help_page = import_module("acts_ros.executables.program_help")
                     print(help_page.program_help(Path(sys.argv[0]).name, module.__doc__ or "", module.SETTINGS))
                     return 0
+                if standby is not None and is_spare:
+                    if hasattr(module, "prepare"):
+                        module.prepare()
+                    say_ready()
+                    standby.wait_for_turn()
             return int(module.main(signals))
         except ActsError as error:
             print(f"error: {error}", file=sys.stderr, flush=True)

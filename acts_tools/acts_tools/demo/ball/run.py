@@ -183,6 +183,8 @@ def _run(seconds: float | None, out: Path, robot_ip: str, realtime_priority: int
             f"robot_ip:={robot_ip}",
             # Enough for a map of the pressure.
             "image_raw_rate_hz:=20",
+            # A crash is to be seen, not bridged.
+            "standby:=false",
             f"realtime_priority:={realtime_priority}",
         ]
         try:
