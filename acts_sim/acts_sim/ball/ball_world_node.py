@@ -78,31 +78,31 @@ class BallWorld(Node):
         self._steps = 0
         self._refused_reported = 0
         self._reported = (time.monotonic(), LoopStatistics())
-        field_ring = Path(settings.field_ring or default_run_dir() / "field.ring")
+        self._field_ring = Path(settings.field_ring or default_run_dir() / "field.ring")
         joint_ring = settings.joint_ring or str(default_run_dir() / "joints.ring")
-        with ExitStack() as undone:
-            # A signal may come while the world is compiled.
-            self._claim = undone.enter_context(closing(Claim(field_ring)))
-            self._world = World(settings)
-            self._joints = JointFollower(None if joint_ring == "none" else Path(joint_ring))
-            self._ring = TimedRingWriter(field_ring, settings.rows * settings.cols)
-            undone.pop_all()
-        self._loop = WorldLoop(self._world, self._joints, self._ring, self._publish, on_running=self._enter_realtime)
-        self._diagnostics = DiagnosticsReporter(self, str(field_ring), self._report)
-        self.get_logger().info(
-            f"ball of {settings.diameter_m * 1000:g} mm, {settings.mass_kg:.3f} kg; field in {field_ring}, "
-            f"joints from {joint_ring}"
-        )
+        self._joint_ring = None if joint_ring == "none" else Path(joint_ring)
+        # Compiles. What others see is made in `begin`: a signal may come in between.
+        self._world = World(settings)
+        self._joints = JointFollower(self._joint_ring)
+        self._undo = ExitStack()
+        self._diagnostics = DiagnosticsReporter(self, str(self._field_ring), self._report)
 
     def begin(self) -> None:
-        """Start the world."""
+        """Make the ring, and start the world."""
+        settings = self._settings
+        self._undo.enter_context(closing(Claim(self._field_ring)))
+        ring = self._undo.enter_context(TimedRingWriter(self._field_ring, settings.rows * settings.cols))
+        self._loop = WorldLoop(self._world, self._joints, ring, self._publish, on_running=self._enter_realtime)
+        self._undo.callback(self._loop.stop)
         self._loop.start()
+        self.get_logger().info(
+            f"ball of {settings.diameter_m * 1000:g} mm, {settings.mass_kg:.3f} kg; field in {self._field_ring}, "
+            f"joints from {self._joint_ring or 'none'}"
+        )
 
     def close(self) -> None:
         """Stop the world and remove its ring."""
-        self._loop.stop()
-        self._ring.close()
-        self._claim.close()
+        self._undo.close()
 
     def _enter_realtime(self) -> None:
         enter_realtime(self._settings, "ball_world", log_of(self))
