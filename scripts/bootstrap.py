@@ -314,6 +314,18 @@ def write_first_lines() -> None:
             script.write_bytes(line.encode() + b"\n" + rest)
 
 
+def open_lock() -> IO[str]:
+    """Open the file that set-ups of this checkout lock, in the folder they write to."""
+    try:
+        STATE.mkdir(parents=True, exist_ok=True)
+        return (STATE / "lock").open("w")
+    except OSError as error:
+        raise SetupError(
+            f"{STATE} cannot be written ({error.strerror}); the checkout belongs to user {ROOT.stat().st_uid}, you are "
+            f"user {os.getuid()}. Every command keeps it up to date: make a checkout of your own (git clone {ROOT})."
+        ) from None
+
+
 def acquire(lock: IO[str]) -> None:
     """Take the lock; say so where that takes longer than another command's look at what is up to date."""
     deadline_s = time.monotonic() + 2.0
@@ -340,9 +352,8 @@ def main() -> int:
         check_distribution()
         check_place(ROOT)
         check_machine()
-        STATE.mkdir(parents=True, exist_ok=True)
         # Two commands at once must not build into one another.
-        with (STATE / "lock").open("w") as lock:
+        with open_lock() as lock:
             acquire(lock)
             create_venv()
             write_environment()

@@ -21,7 +21,7 @@ BOOTSTRAP = Path(__file__).resolve().parent.parent.parent / "scripts" / "bootstr
 
 def tried(checkout: Path) -> subprocess.CompletedProcess[str]:
     """Run a copy of the set-up in a checkout of which there is nothing else."""
-    (checkout / "scripts").mkdir(parents=True)
+    (checkout / "scripts").mkdir(parents=True, exist_ok=True)
     script = shutil.copy(BOOTSTRAP, checkout / "scripts")
     return subprocess.run([sys.executable, script], capture_output=True, text=True, timeout=30)
 
@@ -47,6 +47,16 @@ def test_a_distribution_without_wheels_is_refused_first(tmp_path: Path, monkeypa
     assert done.returncode == 1
     assert "ROS=humble: kilted or jazzy can be set up here" in done.stderr
     assert not (tmp_path / "checkout" / ".acts").exists()
+
+
+def test_a_checkout_that_cannot_be_written_is_said(tmp_path: Path) -> None:
+    # As another user's or a read-only one, also for root.
+    (tmp_path / ".acts" / "lock").mkdir(parents=True)
+    done = tried(tmp_path)
+    assert done.returncode == 1
+    assert "Traceback" not in done.stderr
+    assert f"[setup] {tmp_path / '.acts'} cannot be written (Is a directory)" in done.stderr
+    assert f"git clone {tmp_path}" in done.stderr
 
 
 def test_run_without_a_program_says_what_it_is_for() -> None:
