@@ -68,9 +68,11 @@ class SampleFrame(NamedTuple):
 
     def once(self) -> SampleFrame:
         """The frame with the last sample of each taxel only, as recovery takes it."""
+        if self.scheme not in REPEATING:
+            return self
         m = len(self.indices)
         # What is no frame at all is for whoever takes it to refuse.
-        if not self.repeats or m == 0 or m != len(self.counts):
+        if m == 0 or m != len(self.counts):
             return self
         # The first in reverse order is the last.
         _, first = np.unique(self.indices[::-1], return_index=True)

@@ -66,6 +66,11 @@ class ClockFilter:
     where the host's jumps backwards, and where `host_was_set` tells of it. Other jumps look like a stall in transport:
     these count after `jump_confirm_s` without a backlog. A host that is too slow reads its backlog in large pieces, and
     what it reads is as old as it looks.
+
+    Attributes
+    ----------
+    delay_ns : int
+        Transport delay of the newest frame, beyond the shortest one [ns].
     """
 
     def __init__(self, config: ClockFilterConfig | None = None) -> None:
@@ -79,7 +84,7 @@ class ClockFilter:
         self._origin_board_ns = 0
         self._origin_delay_ns = 0
         self._late_since_ns: int | None = None
-        self._height_ns = 0
+        self.delay_ns = 0
         self._last_board_us = 0
         self._last_arrival_ns = 0
         self._last_stamp_ns: int | None = None
@@ -97,11 +102,6 @@ class ClockFilter:
             delay_us=self.delay_ns * 1e-3,
             resets=self._resets,
         )
-
-    @property
-    def delay_ns(self) -> int:
-        """Transport delay of the newest frame, beyond the shortest one [ns]."""
-        return max(self._height_ns, 0)
 
     def host_was_set(self) -> None:
         """Tell that the host's clock was set: the estimate begins anew with the next frame, and stamps follow it."""
@@ -172,15 +172,18 @@ class ClockFilter:
             return self._restart(board_us, arrival_ns)
         x_ns = board_us * 1000 - self._origin_board_ns
         y_ns = arrival_ns - board_us * 1000 - self._origin_delay_ns
-        self._height_ns = y_ns - self._envelope.at(x_ns)
-        if is_backlog and self._height_ns > self._jump_ns:
-            # Says nothing about the clocks, however long it lasts.
-            self._late_since_ns = None
-            return self._envelope
-        self._envelope.observe(x_ns, y_ns)
-        if self._height_ns < -self._jump_ns:
+        if is_backlog:
+            late_ns = y_ns - self._envelope.at(x_ns)
+            if late_ns > self._jump_ns:
+                # Says nothing about the clocks, however long it lasts.
+                self.delay_ns = late_ns
+                self._late_since_ns = None
+                return self._envelope
+        height_ns = self._envelope.observe(x_ns, y_ns)
+        self.delay_ns = height_ns if height_ns > 0 else 0
+        if height_ns < -self._jump_ns:
             return self._restart(board_us, arrival_ns)
-        if self._height_ns <= self._jump_ns:
+        if height_ns <= self._jump_ns:
             self._late_since_ns = None
         elif self._late_since_ns is None:
             self._late_since_ns = arrival_ns
@@ -193,7 +196,7 @@ class ClockFilter:
         self._origin_board_ns = board_us * 1000
         self._origin_delay_ns = arrival_ns - self._origin_board_ns
         self._late_since_ns = None
-        self._height_ns = 0
+        self.delay_ns = 0
         self._envelope = LowerEnvelope(
             int(config.window_s * _NS_PER_S), int(config.drift_from_s * _NS_PER_S), config.drift_max_ppm * 1e-6, (0, 0)
         )

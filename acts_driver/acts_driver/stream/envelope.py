@@ -50,9 +50,11 @@ class LowerEnvelope:
         """y of the line."""
         return self._y + int(self.slope * (x - self._x))
 
-    def observe(self, x: int, y: int) -> None:
-        """Update by a point."""
-        self._y += min(y - self.at(x), 0)
+    def observe(self, x: int, y: int) -> int:
+        """Update by a point; its height above the line as it was before."""
+        height = y - self.at(x)
+        if height < 0:
+            self._y += height
         if self._lowest is None or y - self._lowest[1] < self.slope * (x - self._lowest[0]):
             self._lowest = (x, y)
         if x - self._bin_start >= self._bin_width:
@@ -60,6 +62,7 @@ class LowerEnvelope:
             self._bin_start = x
             self._lowest = None
             self._fit()
+        return height
 
     def _fit(self) -> None:
         newest_x = self._bins[-1][0]

@@ -66,26 +66,28 @@ class FrameStream:
         """
         statistics = self.statistics
         new: list[SampleFrame] = []
+        board_us: list[int] = []
         restarted = False
         for frame in frames:
             restarts = statistics.restarts
             if statistics.observe(frame.sequence, frame.board_us, frame.overruns, arrival_ns):
                 restarted |= not new and statistics.restarts > restarts
                 new.append(frame)
+                board_us.append(frame.board_us)
         if not new:
             return []
         if self.has_board_clock:
             if self._host_clock.was_set():
                 self.clock.host_was_set()
-            stamps = self.clock.step_batch([frame.board_us for frame in new], arrival_ns, restarted=restarted)
+            stamps = self.clock.step_batch(board_us, arrival_ns, restarted=restarted)
             statistics.stamped(stamps[-1])
         else:
             stamps = [arrival_ns - (len(new) - 1 - number) for number in range(len(new))]
-        return [(frame, stamp) for frame, stamp in zip(new, stamps, strict=True) if self._fits(frame)]
-
-    def _fits(self, frame: SampleFrame) -> bool:
-        if frame.rows == self._rows and frame.cols == self._cols:
-            return True
-        self.wrong_size += 1
-        self.wrong_size_last = (frame.rows, frame.cols)
-        return False
+        accepted: list[tuple[SampleFrame, int]] = []
+        for frame, stamp_ns in zip(new, stamps, strict=True):
+            if frame.rows == self._rows and frame.cols == self._cols:
+                accepted.append((frame, stamp_ns))
+            else:
+                self.wrong_size += 1
+                self.wrong_size_last = (frame.rows, frame.cols)
+        return accepted

@@ -5,13 +5,15 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.kernels import kernel
 from acts_recon.images import FAR, force_of, taxel_variances
 
-RESULTS = 11
+RESULTS = 12
 """Numbers that `find_contact` writes."""
 
 _TINY_N = 1e-30
@@ -52,8 +54,7 @@ def find_contact(
         `acts_recon.images.uncertainty.slope_table`.
     pitch_m, pitch_y_m : float
     results : np.ndarray [shape=(RESULTS,), dtype=float64]
-        Written: x and y of the centre [m], force [N], peak [counts], pressed taxels, square of the spread [m^2]; then
-        variances of x and y [m^2], force [N^2], number of taxels and square of the spread [m^4]. All 0 without contact.
+        Written: the fields of `acts_recon.contacts.contact.Contact` after the first, in order. All 0 without contact.
     """
     total = by_col = by_row = by_col_square = by_row_square = peak = 0.0
     pressed = 0
@@ -88,10 +89,13 @@ def find_contact(
     results[1] = ((rows - 1) / 2 - mean_row) * pitch_y_m
     results[2] = total
     results[3] = peak
-    results[4] = pressed
-    results[5] = x_square + y_square
+    results[4] = pressed * pitch_m * pitch_y_m
+    results[5] = pressed
+    spread_square = x_square + y_square
+    results[6] = math.sqrt(spread_square)
     if sigma.shape[0] == 0:
         return
+    x_var = y_var = force_var = taxels_var = spread_square_var = 0.0
     for row in range(max(top - 1, 0), min(bottom + 2, rows)):
         for col in range(max(left - 1, 0), min(right + 2, cols)):
             t = row * cols + col
@@ -107,14 +111,17 @@ def find_contact(
             )
             x_away = ((col - mean_col) * pitch_m) ** 2
             y_away = ((row - mean_row) * pitch_y_m) ** 2
-            results[6] += square * x_away
-            results[7] += square * y_away
-            results[8] += square
-            results[9] += wrong
-            results[10] += square * (x_away + y_away - results[5]) ** 2
-    results[6] /= total * total
-    results[7] /= total * total
-    results[10] /= total * total
+            x_var += square * x_away
+            y_var += square * y_away
+            force_var += square
+            taxels_var += wrong
+            spread_square_var += square * (x_away + y_away - spread_square) ** 2
+    results[7] = math.sqrt(x_var) / total
+    results[8] = math.sqrt(y_var) / total
+    results[9] = math.sqrt(force_var)
+    results[10] = math.sqrt(taxels_var) * pitch_m * pitch_y_m
+    # As `acts_recon.images.uncertainty.root_deviation`.
+    results[11] = math.sqrt(spread_square + math.sqrt(spread_square_var) / total) - math.sqrt(spread_square)
 
 
 @kernel(inline="always")

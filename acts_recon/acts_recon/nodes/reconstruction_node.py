@@ -153,18 +153,15 @@ class ReconstructionNode(Node):
         now_ns = time.time_ns()
         # It came no later than the next, whose reception is known.
         received = [(samples, waiting[0][1] if waiting else now_ns), *waiting]
-        frames, ages_ns = [], []
+        frames = []
         for message, received_ns in received:
             try:
-                frames.append((frame_of(message), stamp_ns_of(message)))
+                # How long it has waited here: its stamp may be of a recording that is played.
+                frames.append((frame_of(message), stamp_ns_of(message), now_ns - received_ns, message.header.frame_id))
             except PacketError as error:
                 self._reject("bad_stamp", str(error))
-                continue
-            # How long it has waited here: its stamp may be of a recording that is played.
-            ages_ns.append(now_ns - received_ns)
-            frame_id = message.header.frame_id
-        if frames:
-            self._take(frames, ages_ns, frame_id)
+        for number, of_frame in enumerate(frames, start=1):
+            self._take(*of_frame, is_newest=number == len(frames))
 
     def take(self, frames: Sequence[tuple[SampleFrame, int]], frame_id: str) -> None:
         """Recover frames that have come together, and publish what is in them; always from the same thread.
@@ -180,22 +177,23 @@ class ReconstructionNode(Node):
             Frame of the skin.
         """
         now_ns = time.time_ns()
-        self._take(frames, [now_ns - stamp_ns for _, stamp_ns in frames], frame_id)
+        for number, (frame, stamp_ns) in enumerate(frames, start=1):
+            self._take(frame, stamp_ns, now_ns - stamp_ns, frame_id, is_newest=number == len(frames))
 
-    def _take(self, frames: Sequence[tuple[SampleFrame, int]], ages_ns: Sequence[int], frame_id: str) -> None:
-        """The same with the age of each frame [ns], however that is known."""
-        *older, (newest, newest_ns) = frames
-        for (frame, stamp_ns), age_ns in zip(older, ages_ns, strict=False):
-            use = self._late.use(age_ns)
-            self._untold += use is not Use.PUBLISH
-            if use is Use.NOTHING:
-                self._unused += 1
-                self._follow(frame.sequence)
-                self._numbers.step(frame.sequence)
-            else:
-                self._step(frame, stamp_ns, frame_id, is_told=use is Use.PUBLISH)
-        self._late.use(ages_ns[-1])
-        self._step(newest, newest_ns, frame_id, is_told=True)
+    def _take(self, frame: SampleFrame, stamp_ns: int, age_ns: int, frame_id: str, *, is_newest: bool) -> None:
+        """One of them, with its age [ns], however that is known."""
+        use = self._late.use(age_ns)
+        if use is Use.PUBLISH or is_newest:
+            self._step(frame, stamp_ns, frame_id, is_told=True)
+            return
+        self._untold += 1
+        if use is Use.RECOVER:
+            self._step(frame, stamp_ns, frame_id, is_told=False)
+            return
+        self._unused += 1
+        if self._numbers.goes_back(frame.sequence):
+            self._forget()
+        self._numbers.step(frame.sequence)
 
     def _step(self, frame: SampleFrame, stamp_ns: int, frame_id: str, *, is_told: bool) -> None:
         began_s = time.perf_counter()
@@ -207,7 +205,8 @@ class ReconstructionNode(Node):
                 f"{settings.rows} x {settings.cols}",
             )
             return
-        self._follow(frame.sequence)
+        if self._numbers.goes_back(frame.sequence):
+            self._forget()
         every = frame
         if self._baseline.is_set:
             every = frame._replace(counts=self._baseline.apply(frame.indices, frame.counts))
@@ -267,10 +266,8 @@ class ReconstructionNode(Node):
             self._rejected["bad_baseline"] += 1
             self.get_logger().warning(f"baseline not used: {error}", throttle_duration_sec=5.0)
 
-    def _follow(self, sequence: int) -> None:
-        """Forget all frames where the board of the next one counts from the start again."""
-        if not self._numbers.goes_back(sequence):
-            return
+    def _forget(self) -> None:
+        """Forget all frames: the board of the next one counts from the start again."""
         self._recovery.reset()
         self._abilities.reset()
         if self._objects is not None:

@@ -16,7 +16,7 @@ from acts_core.skin import ForceResponse, MeasuredForceResponse, force_table
 from acts_recon.contacts import Contact, contact_kernels
 from acts_recon.contacts.blobs import find_blobs
 from acts_recon.contacts.contact import NO_CONTACT, find_contact
-from acts_recon.images import borders_of, root_deviation, slope_table
+from acts_recon.images import borders_of, slope_table
 
 pytestmark = pytest.mark.slow
 
@@ -58,9 +58,7 @@ def assert_kernel_equals_twin(
     sigma: NDArray[np.float32] | None = None,
     noise_counts: float = 2.0,
 ) -> None:
-    x_m, y_m, force_n, peak, pressed, spread_square, *variances = by_kernel(
-        image, GEOMETRY, touch_counts, sigma, noise_counts
-    )
+    found = Contact(True, *by_kernel(image, GEOMETRY, touch_counts, sigma, noise_counts))  # type: ignore[arg-type]
     contact = find_contact(
         image,
         GEOMETRY,
@@ -70,18 +68,18 @@ def assert_kernel_equals_twin(
         noise_counts=noise_counts,
         err_together=3.0,
     )
-    assert pressed == contact.active_taxels
-    assert peak == contact.peak_counts
-    assert force_n == pytest.approx(contact.force_n, rel=1e-6)
-    assert x_m == pytest.approx(contact.x_m, abs=1e-7)
-    assert y_m == pytest.approx(contact.y_m, abs=1e-7)
-    assert math.sqrt(spread_square) == pytest.approx(contact.spread_m, abs=1e-6)
-    x_var, y_var, force_var, taxels_var, spread_square_var = variances
-    assert math.sqrt(x_var) == pytest.approx(contact.x_sd_m, rel=1e-4, abs=1e-8)
-    assert math.sqrt(y_var) == pytest.approx(contact.y_sd_m, rel=1e-4, abs=1e-8)
-    assert math.sqrt(force_var) == pytest.approx(contact.force_sd_n, rel=1e-4, abs=1e-8)
-    assert math.sqrt(taxels_var) * GEOMETRY.taxel_area_m2 == pytest.approx(contact.area_sd_m2, rel=1e-4, abs=1e-9)
-    assert root_deviation(spread_square, spread_square_var) == pytest.approx(contact.spread_sd_m, rel=1e-3, abs=1e-6)
+    assert found.active_taxels == contact.active_taxels
+    assert found.peak_counts == contact.peak_counts
+    assert found.area_m2 == pytest.approx(contact.area_m2)
+    assert found.force_n == pytest.approx(contact.force_n, rel=1e-6)
+    assert found.x_m == pytest.approx(contact.x_m, abs=1e-7)
+    assert found.y_m == pytest.approx(contact.y_m, abs=1e-7)
+    assert found.spread_m == pytest.approx(contact.spread_m, abs=1e-6)
+    assert found.x_sd_m == pytest.approx(contact.x_sd_m, rel=1e-4, abs=1e-8)
+    assert found.y_sd_m == pytest.approx(contact.y_sd_m, rel=1e-4, abs=1e-8)
+    assert found.force_sd_n == pytest.approx(contact.force_sd_n, rel=1e-4, abs=1e-8)
+    assert found.area_sd_m2 == pytest.approx(contact.area_sd_m2, rel=1e-4, abs=1e-9)
+    assert found.spread_sd_m == pytest.approx(contact.spread_sd_m, rel=1e-3, abs=1e-6)
 
 
 def test_nothing_pressed_is_all_zero() -> None:

@@ -19,6 +19,7 @@ from acts_core.errors import PacketError
 
 _NS_PER_S = 1_000_000_000
 _ORDERS = {b"\x00\x00": ">", b"\x00\x01": "<"}
+_LITTLE_ENDIAN = b"\x00\x01\x00\x00"
 ENCAPSULATION_BYTES = 4
 """Length of the encapsulation [bytes]; offsets are counted from its end."""
 _STAMP = "iII"
@@ -27,7 +28,7 @@ _STAMP_BYTES = struct.calcsize(f"<{_STAMP}")
 _STAMPS = {order: struct.Struct(order + _STAMP) for order in _ORDERS.values()}
 # Of acts_msgs/Contact, after frame_id: each field's `struct` format and size [bytes].
 _CONTACT_FIELDS = [(kind, struct.calcsize(f"<{kind}")) for kind in "I?dddfffHfdddfff"]
-# Cached layouts: one for each length of frame_id.
+# Cached layouts: one for each frame_id, or length of it.
 _LAYOUTS_KEPT = 64
 
 
@@ -73,10 +74,12 @@ def write_contact(contact: ContactFields) -> bytes:
         When a number is beyond what its field holds.
     """
     stamp_ns, frame_id, sequence, in_contact, x_m, y_m, *numbers, x_sd_m, y_sd_m, force_sd, area_sd, spread_sd = contact
-    head = header_bytes(stamp_ns, frame_id)
+    layout, name = _whole_contact(frame_id)
+    sec, nanosec = divmod(stamp_ns, _NS_PER_S)
+    stamp = _LITTLE_ENDIAN, sec, nanosec, len(name), name
     try:
-        return head + _contact("<", len(head) - ENCAPSULATION_BYTES).pack(
-            sequence, in_contact, x_m, y_m, 0.0, *numbers, x_sd_m, y_sd_m, 0.0, force_sd, area_sd, spread_sd
+        return layout.pack(
+            *stamp, sequence, in_contact, x_m, y_m, 0.0, *numbers, x_sd_m, y_sd_m, 0.0, force_sd, area_sd, spread_sd
         )
     except (struct.error, OverflowError) as error:
         raise PacketError(f"{contact} does not fit the message: {error}") from error
@@ -113,7 +116,7 @@ def header_bytes(stamp_ns: int, frame_id: str) -> bytes:
     name = frame_id.encode()
     sec, nanosec = divmod(stamp_ns, _NS_PER_S)
     try:
-        return b"\x00\x01\x00\x00" + _STAMPS["<"].pack(sec, nanosec, len(name) + 1) + name + b"\x00"
+        return _LITTLE_ENDIAN + _STAMPS["<"].pack(sec, nanosec, len(name) + 1) + name + b"\x00"
     except struct.error as error:
         raise PacketError(f"stamp of {stamp_ns} ns does not fit the message: {error}") from error
 
@@ -171,3 +174,11 @@ def padded(at: int, fields: Sequence[tuple[str, int]]) -> tuple[str, int]:
 def _contact(order: str, at: int) -> struct.Struct:
     """Layout of the fields after a header that ends at offset `at`."""
     return struct.Struct(order + padded(at, _CONTACT_FIELDS)[0])
+
+
+@lru_cache(_LAYOUTS_KEPT)
+def _whole_contact(frame_id: str) -> tuple[struct.Struct, bytes]:
+    """Layout of a whole message, little-endian, and the bytes of its frame_id with their terminating zero."""
+    name = frame_id.encode() + b"\x00"
+    fields, _ = padded(_STAMP_BYTES + len(name), _CONTACT_FIELDS)
+    return struct.Struct(f"<{ENCAPSULATION_BYTES}s{_STAMP}{len(name)}s{fields}"), name
