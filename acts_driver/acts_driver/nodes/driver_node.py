@@ -205,7 +205,7 @@ class DriverNode(LifecycleNode):
         if self._reported is None:
             return True, "frames: not judged yet, reading has just begun"
         reported_s, level, message = self._reported
-        return level != ERROR, f"frames, {time.monotonic() - reported_s:.1f} s ago: {message}"
+        return level != ERROR, f"reported {time.monotonic() - reported_s:.1f} s ago: {message}"
 
     def _make_report(self) -> Report:
         if self.intake is not None:

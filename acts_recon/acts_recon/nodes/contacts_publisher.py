@@ -18,16 +18,18 @@ from visualization_msgs.msg import Marker, MarkerArray
 from acts_core.array import ArrayGeometry
 from acts_core.runtime import RateLimit
 from acts_core.skin import ForceResponse, MeasuredForceResponse
-from acts_msgs.msg import Contacts, TrackedContact
-from acts_recon.contacts import MAX_BLOBS, BlobConfig, BlobTracker, TrackedBlob
+from acts_msgs.msg import Contacts
+from acts_recon.contacts import BlobConfig, BlobTracker, TrackedBlob
 from acts_recon.images import Borders
 from acts_ros import qos
+from acts_ros.messages import ContactsFields, TrackedFields, write_contacts
 
 # Within 4 ms a contact that slides at 1 m/s moves by a taxel.
 _VIEWED_RATE_HZ = 250.0
 _MARKER_LIFETIME_S = 0.2
 _MARKER_HEIGHT_M = 0.004
 _MAX_ID = 2**31
+_NS_PER_S = 1_000_000_000
 
 
 class ContactsPublisher:
@@ -61,9 +63,6 @@ class ContactsPublisher:
         self._view_publisher = node.create_publisher(Contacts, "view/contacts", **qos.overridable(qos.VIEW))
         self._marker_publisher = node.create_publisher(MarkerArray, "contacts_view", **qos.overridable(qos.VIEW))
         self._viewed_limit = RateLimit(_VIEWED_RATE_HZ)
-        # Filled anew for every frame: making messages costs more than sending them.
-        self._message = Contacts()
-        self._entries = [TrackedContact() for _ in range(MAX_BLOBS)]
         self._send = False
         self.viewed: list[str] = []
         """Topics for viewers that somebody listens to."""
@@ -107,43 +106,16 @@ class ContactsPublisher:
         stamp = header.stamp
         found = self._tracker.step(image, stamp.sec + 1e-9 * stamp.nanosec, sigma)
         if self._send or to_view:
-            message = self._message
-            message.header = header
-            message.sequence = sequence
-            message.dropped = self._tracker.dropped
-            for blob, entry in zip(found, self._entries, strict=False):
-                _fill(entry, blob)
-            message.contacts = self._entries[: len(found)]
+            contacts = [TrackedFields(*blob) for blob in found]
+            stamp_ns = stamp.sec * _NS_PER_S + stamp.nanosec
+            data = write_contacts(ContactsFields(stamp_ns, header.frame_id, sequence, contacts, self._tracker.dropped))
             if self._send:
-                self._publisher.publish(message)
+                self._publisher.publish(data)
             if to_view:
-                self._view_publisher.publish(message)
+                self._view_publisher.publish(data)
         if to_mark:
             markers = [marker for blob in found for marker in _markers(header, blob)]
             self._marker_publisher.publish(MarkerArray(markers=markers))
-
-
-def _fill(entry: TrackedContact, blob: TrackedBlob) -> None:
-    entry.number = blob.number
-    entry.merged = blob.merged
-    entry.age = blob.age_s
-    entry.position.x = blob.x_m
-    entry.position.y = blob.y_m
-    entry.velocity.x = blob.vx_m_s
-    entry.velocity.y = blob.vy_m_s
-    entry.force = blob.force_n
-    entry.peak = blob.peak_counts
-    entry.area = blob.area_m2
-    entry.active_taxels = blob.active_taxels
-    entry.spread = blob.spread_m
-    entry.orientation = blob.angle_rad
-    entry.position_sigma.x = blob.x_sd_m
-    entry.position_sigma.y = blob.y_sd_m
-    entry.velocity_sigma.x = blob.vx_sd_m_s
-    entry.velocity_sigma.y = blob.vy_sd_m_s
-    entry.force_sigma = blob.force_sd_n
-    entry.area_sigma = blob.area_sd_m2
-    entry.spread_sigma = blob.spread_sd_m
 
 
 def _markers(header: Header, blob: TrackedBlob) -> list[Marker]:

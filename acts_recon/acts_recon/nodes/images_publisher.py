@@ -6,13 +6,11 @@
 from __future__ import annotations
 
 import time
-from array import array
 from collections.abc import Collection
 
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from sensor_msgs.msg import Image
-from std_msgs.msg import Header
 
 from acts_core.runtime import RateLimit
 from acts_recon.contacts import Contact
@@ -22,6 +20,7 @@ from acts_recon.nodes.age_publisher import AgePublisher
 from acts_recon.nodes.series_publisher import SeriesPublisher
 from acts_recon.settings import ReconstructionConfig
 from acts_ros import qos
+from acts_ros.messages import ImageFields, write_image
 
 
 class ImagesPublisher:
@@ -47,14 +46,8 @@ class ImagesPublisher:
         self._view_publisher = node.create_publisher(Image, "image", **qos.overridable(qos.VIEW))
         self._view_raw_publisher = node.create_publisher(Image, "view/image_raw", **qos.overridable(qos.VIEW))
         self._view_confidence_publisher = node.create_publisher(Image, "view/confidence", **qos.overridable(qos.VIEW))
-        # Filled anew for every frame: making messages costs more than sending them.
-        rows, cols = recovery.image.shape
-        self._raw = _empty_image(rows, cols, "mono16", 2)
-        self._sureness = _empty_image(rows, cols, "mono8", 1)
-        self._ages = AgePublisher(node, rows, cols)
+        self._ages = AgePublisher(node)
         self._series = SeriesPublisher(node)
-        scale = settings.image_scale
-        self._view = _empty_image(rows * scale, cols * scale, "rgb8", 3)
         self._raw_limit = RateLimit(settings.image_raw_rate_hz)
         self.viewed: list[str] = []
         """Topics for viewers that somebody listens to."""
@@ -82,18 +75,18 @@ class ImagesPublisher:
         self.is_wanted = self._send_raw or self._send_confidence or bool(self.viewed)
 
     def publish(
-        self, header: Header, sequence: int, stamp_ns: int, duration_s: float, contact: Contact, due: Collection[str]
+        self, stamp_ns: int, frame_id: str, sequence: int, duration_s: float, contact: Contact, due: Collection[str]
     ) -> None:
         """Publish what is wanted and due.
 
         Parameters
         ----------
-        header : Header
-            Of the frame.
+        stamp_ns : int
+            End of the frame's last measurement [ns].
+        frame_id : str
+            Frame of the skin.
         sequence : int
             The frame's number.
-        stamp_ns : int
-            The header's stamp [ns].
         duration_s : float
             How long the frame's measurements took [s].
         contact : Contact
@@ -104,43 +97,37 @@ class ImagesPublisher:
         if self._series.is_wanted:
             self._series.add(stamp_ns, sequence, contact)
         if self._send_raw and self._raw_limit.due(time.monotonic()):
-            self._publish_raw(self._raw_publisher, header)
+            self._publish_raw(self._raw_publisher, stamp_ns, frame_id)
         if self._send_confidence:
-            self._publish_confidence(self._confidence_publisher, header)
+            self._publish_confidence(self._confidence_publisher, stamp_ns, frame_id)
         if "view/image_raw" in due:
-            self._publish_raw(self._view_raw_publisher, header)
+            self._publish_raw(self._view_raw_publisher, stamp_ns, frame_id)
         if "view/confidence" in due:
-            self._publish_confidence(self._view_confidence_publisher, header)
+            self._publish_confidence(self._view_confidence_publisher, stamp_ns, frame_id)
         if "view/age" in due:
-            self._ages.publish(header, self._recovery, duration_s)
+            self._ages.publish(stamp_ns, frame_id, self._recovery, duration_s)
         if "view/contact_series" in due:
-            self._series.publish(header)
+            self._series.publish(frame_id)
         if "image" in due:
-            self._publish_view(header)
+            self._publish_view(stamp_ns, frame_id)
 
-    def _publish_raw(self, publisher: Publisher, header: Header) -> None:
-        self._raw.header = header
-        self._raw.data = array("B", mono16(self._recovery.image))
-        publisher.publish(self._raw)
+    def _publish_raw(self, publisher: Publisher, stamp_ns: int, frame_id: str) -> None:
+        rows, cols = self._recovery.image.shape
+        pixels = mono16(self._recovery.image)
+        image = ImageFields(stamp_ns, frame_id, rows, cols, "mono16", False, 2 * cols, pixels)
+        publisher.publish(write_image(image))
 
-    def _publish_confidence(self, publisher: Publisher, header: Header) -> None:
+    def _publish_confidence(self, publisher: Publisher, stamp_ns: int, frame_id: str) -> None:
         confidence = self._recovery.confidence()
         if confidence is None:
             return
-        self._sureness.header = header
-        self._sureness.data = array("B", confidence.tobytes())
-        publisher.publish(self._sureness)
+        rows, cols = confidence.shape
+        image = ImageFields(stamp_ns, frame_id, rows, cols, "mono8", False, cols, confidence.tobytes())
+        publisher.publish(write_image(image))
 
-    def _publish_view(self, header: Header) -> None:
-        self._view.header = header
-        pixels = rgb8(
-            self._recovery.image,
-            scale=self._settings.image_scale,
-            full_scale_counts=self._settings.image_full_scale_counts,
-        )
-        self._view.data = array("B", pixels)
-        self._view_publisher.publish(self._view)
-
-
-def _empty_image(height: int, width: int, encoding: str, bytes_per_pixel: int) -> Image:
-    return Image(height=height, width=width, encoding=encoding, is_bigendian=0, step=width * bytes_per_pixel)
+    def _publish_view(self, stamp_ns: int, frame_id: str) -> None:
+        scale = self._settings.image_scale
+        rows, cols = (scale * side for side in self._recovery.image.shape)
+        pixels = rgb8(self._recovery.image, scale=scale, full_scale_counts=self._settings.image_full_scale_counts)
+        image = ImageFields(stamp_ns, frame_id, rows, cols, "rgb8", False, 3 * cols, pixels)
+        self._view_publisher.publish(write_image(image))

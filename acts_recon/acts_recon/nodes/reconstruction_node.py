@@ -242,7 +242,7 @@ class ReconstructionNode(Node):
         if self._regions is not None:
             self._regions.publish(stamp_ns, frame_id, frame.sequence, self._recovery)
         due = self._viewed if self._viewed and self._view_limit.due(time.monotonic()) else ()
-        self._images.publish(header, frame.sequence, stamp_ns, duration_s, contact, due)
+        self._images.publish(stamp_ns, frame_id, frame.sequence, duration_s, contact, due)
         self._contacts.publish(header, frame.sequence, self._recovery.image, self._recovery.sigma, due)
         self._abilities.publish(header, frame, every, end_s)
         if self._objects is not None:

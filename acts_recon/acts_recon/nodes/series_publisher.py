@@ -6,16 +6,15 @@
 from __future__ import annotations
 
 import time
-from array import array
 
+import numpy as np
 from rclpy.node import Node
-from std_msgs.msg import Header
 
 from acts_core.runtime import SequenceNumbers
-from acts_msgs.msg import Contact as ContactMessage
 from acts_msgs.msg import ContactSeries
 from acts_recon.contacts import Contact
 from acts_ros import qos
+from acts_ros.messages import ContactFields, SeriesFields, write_series
 
 _LONGEST = 1024
 _NS_PER_S = 1_000_000_000
@@ -35,9 +34,9 @@ class SeriesPublisher:
     def __init__(self, node: Node) -> None:
         self._publisher = node.create_publisher(ContactSeries, "view/contact_series", **qos.overridable(qos.VIEW))
         self._stamps_ns: list[int] = []
-        self._force = array("f")
-        self._delay = array("f")
-        self._missing = array("I")
+        self._force_n: list[float] = []
+        self._delay_s: list[float] = []
+        self._missing: list[int] = []
         self._newest = Contact()
         self._sequence = 0
         self._numbers = SequenceNumbers()
@@ -65,33 +64,22 @@ class SeriesPublisher:
         if len(self._stamps_ns) == _LONGEST:
             self._clear()
         self._stamps_ns.append(stamp_ns)
-        self._force.append(contact.force_n)
-        self._delay.append((time.time_ns() - stamp_ns) * 1e-9)
+        self._force_n.append(contact.force_n)
+        self._delay_s.append((time.time_ns() - stamp_ns) * 1e-9)
         self._missing.append(self._numbers.step(sequence))
         self._newest, self._sequence = contact, sequence
 
-    def publish(self, header: Header) -> None:
-        """Publish what was kept; `header` is that of the newest."""
+    def publish(self, frame_id: str) -> None:
+        """Publish what was kept, on a skin of this frame."""
         if not self._stamps_ns:
             return
-        contact, message = self._newest, ContactSeries()
-        newest: ContactMessage = message.newest
-        newest.header, newest.sequence, newest.in_contact = header, self._sequence, contact.in_contact
-        newest.centre_of_pressure.x, newest.centre_of_pressure.y = contact.x_m, contact.y_m
-        newest.force, newest.peak, newest.area = contact.force_n, contact.peak_counts, contact.area_m2
-        newest.active_taxels, newest.spread = contact.active_taxels, contact.spread_m
-        newest.centre_of_pressure_sigma.x, newest.centre_of_pressure_sigma.y = contact.x_sd_m, contact.y_sd_m
-        newest.force_sigma, newest.area_sigma, newest.spread_sigma = (
-            contact.force_sd_n,
-            contact.area_sd_m2,
-            contact.spread_sd_m,
-        )
-        last_ns = self._stamps_ns[-1]
-        message.age = array("f", [(last_ns - stamp_ns) / _NS_PER_S for stamp_ns in self._stamps_ns])
-        message.force, message.delay, message.missing = self._force, self._delay, self._missing
-        self._publisher.publish(message)
+        newest_ns = self._stamps_ns[-1]
+        age_s = (newest_ns - np.array(self._stamps_ns, np.int64)) / _NS_PER_S
+        columns = (np.array(column, np.float32) for column in (age_s, self._force_n, self._delay_s))
+        newest = ContactFields(newest_ns, frame_id, self._sequence, *self._newest)
+        self._publisher.publish(write_series(SeriesFields(newest, *columns, np.array(self._missing, np.uint32))))
         self._clear()
 
     def _clear(self) -> None:
-        self._stamps_ns.clear()
-        self._force, self._delay, self._missing = array("f"), array("f"), array("I")
+        for column in (self._stamps_ns, self._force_n, self._delay_s, self._missing):
+            column.clear()

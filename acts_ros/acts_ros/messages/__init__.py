@@ -7,6 +7,16 @@ In come frames, contacts and regions; out come messages or their bytes, and back
 """
 
 from acts_ros.messages.cdr import ContactFields, header_of, read_contact, write_contact
+from acts_ros.messages.contacts_cdr import (
+    ContactsFields,
+    SeriesFields,
+    TrackedFields,
+    read_contacts,
+    read_series,
+    write_contacts,
+    write_series,
+)
+from acts_ros.messages.image_cdr import ImageFields, read_image, write_image
 from acts_ros.messages.regions_cdr import RegionsFields, read_regions, write_regions
 from acts_ros.messages.sample_messages import SamplesMessage, frame_of, stamp_ns_of
 from acts_ros.messages.skin_frame import check_frame_id, skin_frame
@@ -14,16 +24,26 @@ from acts_ros.messages.stamps import seconds_of
 
 __all__ = [
     "ContactFields",
+    "ContactsFields",
+    "ImageFields",
     "RegionsFields",
     "SamplesMessage",
+    "SeriesFields",
+    "TrackedFields",
     "check_frame_id",
     "frame_of",
     "header_of",
     "read_contact",
+    "read_contacts",
+    "read_image",
     "read_regions",
+    "read_series",
     "seconds_of",
     "skin_frame",
     "stamp_ns_of",
     "write_contact",
+    "write_contacts",
+    "write_image",
     "write_regions",
+    "write_series",
 ]

@@ -12,7 +12,7 @@ from acts_core.errors import PacketError
 from acts_core.runtime import SequenceNumbers
 from acts_msgs.msg import Contact, ContactSeries
 from acts_ros import qos
-from acts_ros.messages import ContactFields, read_contact, seconds_of
+from acts_ros.messages import ContactFields, SeriesFields, read_contact, read_series
 from acts_ros.polled import PolledSubscription, PollingNode
 from acts_view.skin.snapshot import Sample
 
@@ -42,7 +42,7 @@ class ContactTopic:
     def __init__(self, node: PollingNode, namespace: str) -> None:
         self._node = node
         self._namespace = namespace
-        self._series: PolledSubscription[ContactSeries] | None = None
+        self._series: PolledSubscription[bytes] | None = None
         self._contact: PolledSubscription[Any] | None = None
         self._numbers = SequenceNumbers()
         self.look()
@@ -55,7 +55,7 @@ class ContactTopic:
         self.close()
         if is_series:
             topic = f"{self._namespace}/view/contact_series"
-            self._series = self._node.create_polled_subscription(ContactSeries, topic, qos.VIEW)
+            self._series = self._node.create_raw_polled_subscription(ContactSeries, topic, qos.VIEW)
         else:
             topic = f"{self._namespace}/contact"
             self._contact = self._node.create_raw_polled_subscription(Contact, topic, qos.STREAM)
@@ -77,26 +77,23 @@ class ContactTopic:
 
     def _take_series(self) -> Taken:
         samples: list[Sample] = []
-        newest: Contact | None = None
-        for series, _ in self._series.take_all() if self._series is not None else []:
-            if not _is_series(series):
+        newest: ContactFields | None = None
+        for data, _ in self._series.take_all() if self._series is not None else []:
+            try:
+                series = _checked(read_series(data))
+            except PacketError as error:
                 self._node.get_logger().warning(
-                    f"{self._namespace}/view/contact_series: no series of contacts", throttle_duration_sec=5.0
+                    f"{self._namespace}/view/contact_series: {error}", throttle_duration_sec=5.0
                 )
                 continue
             newest = series.newest
-            last_s = seconds_of(newest.header.stamp)
+            last_s = newest.stamp_ns * 1e-9
+            columns = (column.tolist() for column in (series.age_s, series.force_n, series.delay_s, series.missing))
             samples += [
                 Sample(last_s - age_s, force_n, _latency_ms(delay_s), missing)
-                for age_s, force_n, delay_s, missing in zip(
-                    series.age, series.force, series.delay, series.missing, strict=True
-                )
+                for age_s, force_n, delay_s, missing in zip(*columns, strict=True)
             ]
-        if newest is None:
-            return samples, None, None
-        place = newest.centre_of_pressure
-        touch = (place.x, place.y, newest.force, newest.peak, newest.area)
-        return samples, _finite(touch) if newest.in_contact else None, seconds_of(newest.header.stamp)
+        return _taken(samples, newest)
 
     def _take_contacts(self) -> Taken:
         samples = []
@@ -111,16 +108,22 @@ class ContactTopic:
             samples.append(
                 Sample(newest.stamp_ns * 1e-9, newest.force_n, latency_ms, self._numbers.step(newest.sequence))
             )
-        if newest is None:
-            return samples, None, None
-        touch = (newest.x_m, newest.y_m, newest.force_n, newest.peak_counts, newest.area_m2)
-        return samples, _finite(touch) if newest.in_contact else None, newest.stamp_ns * 1e-9
+        return _taken(samples, newest)
 
 
-def _is_series(message: ContactSeries) -> bool:
-    """Whether the arrays belong together: anybody in the domain can send any."""
-    lengths = {len(message.age), len(message.force), len(message.delay), len(message.missing)}
-    return len(lengths) == 1 and max(lengths) <= _LONGEST and all(0.0 <= age_s <= _OLDEST_S for age_s in message.age)
+def _taken(samples: list[Sample], newest: ContactFields | None) -> Taken:
+    if newest is None:
+        return samples, None, None
+    touch = (newest.x_m, newest.y_m, newest.force_n, newest.peak_counts, newest.area_m2)
+    return samples, _finite(touch) if newest.in_contact else None, newest.stamp_ns * 1e-9
+
+
+def _checked(series: SeriesFields) -> SeriesFields:
+    """The same, or `PacketError` where the columns do not belong together: anybody in the domain can send any."""
+    lengths = {len(column) for column in series[1:]}
+    if len(lengths) != 1 or max(lengths) > _LONGEST or not ((series.age_s >= 0) & (series.age_s <= _OLDEST_S)).all():
+        raise PacketError("no series of contacts")
+    return series
 
 
 def _latency_ms(delay_s: float) -> float:

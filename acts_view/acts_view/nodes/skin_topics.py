@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +18,14 @@ from acts_core.array import MAX_SIDE
 from acts_core.errors import PacketError
 from acts_msgs.msg import BalanceStatus, BallReference, BallState, Contacts, HandStatus, RegionContacts
 from acts_ros import qos
-from acts_ros.messages import read_regions
+from acts_ros.messages import (
+    ContactsFields,
+    ImageFields,
+    RegionsFields,
+    read_contacts,
+    read_image,
+    read_regions,
+)
 from acts_ros.polled import PolledSubscription, PollingNode
 from acts_view.nodes.contact_topic import ContactTopic
 from acts_view.nodes.outline_topic import OutlineTopic
@@ -32,6 +39,8 @@ from acts_view.nodes.robot_states import (
     joint_angles,
 )
 from acts_view.skin.snapshot import CONTACT_COLUMNS, Frame, RegionState, Sample
+
+R = TypeVar("R")
 
 _PIXELS = {"mono16": "u2", "mono8": "u1", "32FC1": "f4"}
 _ROBOT: dict[str, tuple[type, Callable[[Any], dict[str, Any]], str]] = {
@@ -60,6 +69,7 @@ class SkinTopics:
         self._node = node
         self._namespace = namespace
         self._polled: dict[str, PolledSubscription[Any]] = {}
+        self._silent: set[str] = set()
         self._frame = Frame()
         self._contact = ContactTopic(node, namespace)
         self._polled["regions"] = node.create_raw_polled_subscription(
@@ -77,6 +87,10 @@ class SkinTopics:
         self._choose("confidence", Image)
         self._choose("age", Image)
         self._choose("contacts", Contacts)
+        # Each question whether something has come takes the process some 30 us; most skins are no hand and no plate.
+        self._silent = {
+            what for what, polled in self._polled.items() if not self._node.count_publishers(polled.topic_name)
+        }
         # What a controller has said is no longer so when it is gone.
         old = self._frame
         self._frame = replace(
@@ -95,8 +109,8 @@ class SkinTopics:
     def take(self) -> tuple[Frame, list[Sample]] | None:
         """The newest of everything and all of the 1 kHz stream since the last call; None where nothing came."""
         samples, touch, stamp_s = self._contact.take()
-        images = {name: self._newest(name) for name in ("image_raw", "confidence", "age")}
-        contacts, regions = (self._newest(name) for name in ("contacts", "regions"))
+        images = {name: self._newest_read(name, read_image) for name in ("image_raw", "confidence", "age")}
+        contacts, regions = self._newest_read("contacts", read_contacts), self._newest_read("regions", read_regions)
         robot = {topic: self._newest(topic) for topic in _ROBOT}
         if not samples and all(one is None for one in (*images.values(), contacts, regions, *robot.values())):
             return None
@@ -114,7 +128,7 @@ class SkinTopics:
             contacts=table,
             outlines=() if self._outlines is None else self._outlines.take(),
             touch=touch if samples else old.touch,
-            regions=old.regions if regions is None else _regions(regions, old.regions),
+            regions=old.regions if regions is None else _regions(regions),
             hand=old.hand | _told(robot, "hand"),
             ball=old.ball | _told(robot, "ball"),
         )
@@ -135,40 +149,55 @@ class SkinTopics:
             return
         if present is not None:
             self._node.destroy_polled_subscription(present)
-        self._polled[what] = self._node.create_polled_subscription(kind, topic, profile, depth=1)
+        self._polled[what] = self._node.create_raw_polled_subscription(kind, topic, profile, depth=1)
 
     def _newest(self, what: str) -> Any:
+        """The newest message of a topic; None where none has come, or, at the last look, nobody published it."""
+        if what in self._silent:
+            return None
         taken = self._polled[what].take_all()
         return taken[-1][0] if taken else None
 
+    def _newest_read(self, what: str, read: Callable[[bytes], R]) -> R | None:
+        """The same of a topic whose messages stay bytes until here; None also for what is no such message."""
+        data = self._newest(what)
+        if data is None:
+            return None
+        try:
+            return read(data)
+        except PacketError as error:
+            self._node.get_logger().warning(f"{self._namespace}, {what}: {error}", throttle_duration_sec=5.0)
+            return None
 
-def _pixels(message: Image | None, encoding: str) -> NDArray[Any] | None:
+
+def _pixels(image: ImageFields | None, encoding: str) -> NDArray[Any] | None:
     """The pixels of an image of counts, confidence or ages; None for any other."""
-    if message is None or message.encoding != encoding:
+    if image is None or image.encoding != encoding:
         return None
-    if not (1 <= message.width <= MAX_SIDE and 1 <= message.height <= MAX_SIDE):
+    if not (1 <= image.width <= MAX_SIDE and 1 <= image.height <= MAX_SIDE):
         return None
-    kind = np.dtype(_PIXELS[encoding]).newbyteorder(">" if message.is_bigendian else "<")
-    if message.step != message.width * kind.itemsize or len(message.data) != message.step * message.height:
+    kind = np.dtype(_PIXELS[encoding]).newbyteorder(">" if image.is_bigendian else "<")
+    if image.step != image.width * kind.itemsize or len(image.data) != image.step * image.height:
         return None
-    return np.frombuffer(message.data, kind).reshape(message.height, message.width).astype(_PIXELS[encoding])
+    return np.frombuffer(image.data, kind).reshape(image.height, image.width).astype(_PIXELS[encoding])
 
 
-def _table(message: Contacts) -> tuple[NDArray[np.uint32], NDArray[np.float32]]:
+def _table(fields: ContactsFields) -> tuple[NDArray[np.uint32], NDArray[np.float32]]:
+    shown = fields.contacts[:SHOWN]
     rows = [
         (
-            one.position.x,
-            one.position.y,
-            one.force,
-            one.peak,
-            one.area,
-            one.spread,
-            math.hypot(one.velocity.x, one.velocity.y),
-            one.age,
+            one.x_m,
+            one.y_m,
+            one.force_n,
+            one.peak_counts,
+            one.area_m2,
+            one.spread_m,
+            math.hypot(one.vx_m_s, one.vy_m_s),
+            one.age_s,
         )
-        for one in message.contacts[:SHOWN]
+        for one in shown
     ]
-    numbers = np.array([one.number for one in message.contacts[:SHOWN]], np.uint32)
+    numbers = np.array([one.number for one in shown], np.uint32)
     return numbers, np.array(rows, np.float32).reshape(-1, len(CONTACT_COLUMNS))
 
 
@@ -181,13 +210,9 @@ def _told(robot: dict[str, Any], place: str) -> dict[str, Any]:
     return told
 
 
-def _regions(data: bytes, old: Any) -> Any:
-    try:
-        regions = read_regions(data).regions
-    except PacketError:
-        return old
+def _regions(fields: RegionsFields) -> list[RegionState]:
     return [
         RegionState(one.name[:TEXT], one.force_n, one.slip_m, one.slipping)
-        for one in regions[:SHOWN]
+        for one in fields.regions[:SHOWN]
         if math.isfinite(one.force_n) and math.isfinite(one.slip_m)
     ]

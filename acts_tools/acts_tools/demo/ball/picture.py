@@ -95,5 +95,6 @@ def _mark_segments(axes: Any, recording: Recording, start_s: float) -> None:
     for time_s, name in zip(recording.reference.time_s, recording.segments, strict=True):
         if name != before and name != "move":
             axes.axvline(time_s - start_s, color="0.7", lw=0.8)
-            axes.annotate(f" {name}", (time_s - start_s, 0.03), xycoords=("data", "axes fraction"), fontsize=9)
+            place = {"xycoords": ("data", "axes fraction"), "xytext": (4, 5), "textcoords": "offset points"}
+            axes.annotate(name, (time_s - start_s, 0.0), fontsize=9, **place)
         before = name
