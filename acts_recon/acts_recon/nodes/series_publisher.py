@@ -75,9 +75,14 @@ class SeriesPublisher:
             return
         newest_ns = self._stamps_ns[-1]
         age_s = (newest_ns - np.array(self._stamps_ns, np.int64)) / _NS_PER_S
-        columns = (np.array(column, np.float32) for column in (age_s, self._force_n, self._delay_s))
-        newest = ContactFields(newest_ns, frame_id, self._sequence, *self._newest)
-        self._publisher.publish(write_series(SeriesFields(newest, *columns, np.array(self._missing, np.uint32))))
+        series = SeriesFields(
+            newest=ContactFields(newest_ns, frame_id, self._sequence, *self._newest),
+            age_s=age_s.astype(np.float32),
+            force_n=np.array(self._force_n, np.float32),
+            delay_s=np.array(self._delay_s, np.float32),
+            missing=np.array(self._missing, np.uint32),
+        )
+        self._publisher.publish(write_series(series))
         self._clear()
 
     def _clear(self) -> None:

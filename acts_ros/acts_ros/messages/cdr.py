@@ -114,8 +114,8 @@ def contact_parts(data: bytes) -> tuple[ContactFields, str, int]:
         )
     except struct.error as error:
         raise PacketError(f"contact of {len(data)} bytes cannot be read: {error}") from error
-    contact = ContactFields(
-        stamp_ns, frame_id, sequence, in_contact, x_m, y_m, *numbers, x_sd_m, y_sd_m, force_sd, area_sd, spread_sd
+    contact = ContactFields._make(
+        (stamp_ns, frame_id, sequence, in_contact, x_m, y_m, *numbers, x_sd_m, y_sd_m, force_sd, area_sd, spread_sd)
     )
     return contact, order, at + layout.size
 

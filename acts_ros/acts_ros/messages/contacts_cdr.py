@@ -126,7 +126,7 @@ def read_contacts(data: bytes) -> ContactsFields:
             number, merged, age, x, y, _, vx, vy, _, *numbers = layout.unpack_from(data, ENCAPSULATION_BYTES + at)
             *numbers, x_sd, y_sd, _, vx_sd, vy_sd, _, force_sd, area_sd, spread_sd = numbers
             deviations = x_sd, y_sd, vx_sd, vy_sd, force_sd, area_sd, spread_sd
-            contacts.append(TrackedFields(number, merged, age, x, y, vx, vy, *numbers, *deviations))
+            contacts.append(TrackedFields._make((number, merged, age, x, y, vx, vy, *numbers, *deviations)))
             at += layout.size
         (dropped,) = struct.unpack_from(f"{order}H", data, ENCAPSULATION_BYTES + at + -at % 2)
     except struct.error as error:
