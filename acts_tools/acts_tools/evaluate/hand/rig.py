@@ -33,7 +33,6 @@ from acts_sim.hand import STEP_S, HandWorld, HandWorldConfig
 from acts_tools.evaluate.images.board_sampler import BoardSampler
 
 _CURRENT_BASED_POSITION = 5
-_NOISE_COUNTS = 1.5
 _FRAMES = 2
 """Frames of the board in each step of the world: 1000 per second."""
 _MAX_SPEED_RAD_S = 12.0
@@ -55,6 +54,8 @@ class RigOptions:
         Settings of the board, as in config/params/hand_reflexes.yaml.
     touch_counts : float
         A taxel above it is pressed.
+    noise_counts : float
+        Standard deviation of a measurement: of the board's, and as the reconstruction takes it [counts].
     slip : SlipConfig
         Thresholds of slip.
     settings : mapping
@@ -67,6 +68,7 @@ class RigOptions:
         default_factory=lambda: SamplingConfig(scheme="tracking", m=55, threshold_counts=20, search_share=0.4)
     )
     touch_counts: float = 8.0
+    noise_counts: float = 1.5
     slip: SlipConfig = field(default_factory=lambda: SlipConfig(slip_distance_taxels=0.05, slip_sigmas=4.0))
     settings: Mapping[str, Any] = field(default_factory=dict)
 
@@ -98,13 +100,12 @@ class HandRig:
         config = _configured(SupervisorConfig, options.settings)
         self.supervisor = HandSupervisor(_KINEMATICS, self.reflexes, config)
         self.supervisor.restart(recovered=False)
-        response = ForceResponse()
-        self._finder = Regions(self.world.layout, response, options.touch_counts, _NOISE_COUNTS, options.slip)
-        layout = self.world.layout
+        layout, noise_counts = self.world.layout, options.noise_counts
+        self._finder = Regions(layout, ForceResponse(), options.touch_counts, noise_counts, options.slip)
         self._board = BoardSampler(
-            replace(options.sampling, seed=world.seed + 1), _NOISE_COUNTS, skin_map=SkinMap.of(layout)
+            replace(options.sampling, seed=world.seed + 1), noise_counts, skin_map=SkinMap.of(layout)
         )
-        self._fusion = FusionEstimator(layout.geometry(), FusionConfig(noise_counts=_NOISE_COUNTS), layout)
+        self._fusion = FusionEstimator(layout.geometry(), FusionConfig(noise_counts=noise_counts), layout)
         self._counts = self._matrix()
         self._period_s = 1.0 / options.rate_hz
         self._due_s = self._last_s = 0.0
