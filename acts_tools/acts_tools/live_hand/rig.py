@@ -4,7 +4,8 @@
 """The rig of `acts evaluate hand` over the real interfaces: like `HandRig`, but with a running launch.
 
 It is slightly behind the present, so that all data of its time have arrived: truth from a ring, status and regions
-from topics.
+from topics. It begins with an open hand, as `HandRig` does: until the node has found the motors they have no torque,
+and in most poses fingers sink towards where a grasp would find them.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_control.hand.description import LEAP_RIGHT
 from acts_control.hand.reflexes import HandState
 from acts_core.errors import LaunchError
 from acts_core.skin import RegionContact
@@ -28,6 +30,10 @@ _BEHIND_S = 0.1
 _SILENCE_S = 10.0
 _PAUSE_S = 0.3
 _REFUSED_S = 5.0
+_OPEN_RAD = np.array(LEAP_RIGHT.postures["open"])
+# Fingers that gravity pulls at stay short of their goals.
+_NEARLY_OPEN_RAD = 0.05
+_OPENING_S = 2.0
 _GRAVITY_M_S2 = 9.81
 
 
@@ -61,6 +67,7 @@ class LiveRig:
         self.supervisor = LiveSupervisor(self)
         self.reflexes = {name: LiveReflex(self, name) for name in self._recording.statuses[-1].events}
         self.step()
+        self._open()
 
     @property
     def time_s(self) -> float:
@@ -107,11 +114,11 @@ class LiveRig:
     def grasp(self, timeout_s: float = 10.0) -> bool:
         """Close the hand; return whether it then holds something."""
         end_s = self._time_s + timeout_s
-        self.supervisor.grasp()
+        self._begin_grasp()
         while self.run(end_s - self._time_s, self._has_closed) and self.state is HandState.STOPPED:
             # A delay of the machine of a tenth of a second stops the grasp; try again, as a person would.
             self.run(_PAUSE_S)
-            self.supervisor.grasp()
+            self._begin_grasp()
         return self.state is HandState.HOLDING
 
     def object_m(self) -> NDArray[np.float64]:
@@ -134,6 +141,15 @@ class LiveRig:
         """What is true at the moment that is told."""
         assert self._row is not None
         return HandTruth.from_row(self._row, self._recording.patches)
+
+    def _open(self) -> None:
+        self.supervisor.release()
+        self.run(_OPENING_S, lambda: bool(np.abs(self.truth().q_rad - _OPEN_RAD).max() < _NEARLY_OPEN_RAD))
+
+    def _begin_grasp(self) -> None:
+        self.supervisor.grasp()
+        # Until the status says so, it has the state from before, which may be that of a hand that gripped nothing.
+        self.run(_PAUSE_S, lambda: self.state is HandState.CLOSING)
 
     def _has_closed(self) -> bool:
         status = self._recording.statuses[self._statuses]
@@ -168,10 +184,17 @@ class LiveSupervisor:
         HandRefusalError
             When the hand has refused for some seconds: touch may be late at one moment.
         """
+        return self._ask("grasp")
+
+    def release(self) -> str:
+        """Start to open the hand; see `grasp`."""
+        return self._ask("release")
+
+    def _ask(self, name: str) -> str:
         end_s = time.monotonic() + _REFUSED_S
         while True:
             try:
-                self.rig.ask("grasp")
+                self.rig.ask(name)
             except HandRefusalError:
                 if time.monotonic() > end_s:
                     raise

@@ -56,7 +56,8 @@ class Act:
     @property
     def begin_s(self) -> float:
         """Time at which the hand began to close [s]."""
-        return self.recording.marks[0][0] if self.recording.marks else self.recording.truth_between()[0][0]
+        grasps = [time_s for time_s, name in self.recording.marks if name == "grasp"]
+        return grasps[0] if grasps else self.recording.truth_between()[0][0]
 
     def moment(self, time_s: float) -> Moment | None:
         """State at a time, or up to 0.1 s before or after it; None where there is none."""

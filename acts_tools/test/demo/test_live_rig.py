@@ -1,0 +1,81 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""The rig over the real interfaces begins as the rig in one process does: with an open hand, and then it closes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import cast
+
+import numpy as np
+import pytest
+
+from acts_control.hand.description import LEAP_RIGHT
+from acts_control.hand.reflexes import HandState
+from acts_core.skin import layout
+from acts_sim.hand import COLUMN, HandWorldConfig, row_width
+from acts_tools.live_hand.live import LiveHand
+from acts_tools.live_hand.recording import HandRecording, StatusSample
+from acts_tools.live_hand.rig import LiveRig
+
+STEP_S = 0.002
+OPEN_RAD = np.array(LEAP_RIGHT.postures["open"])
+SUNK_RAD = np.where([name.endswith("mcp_side") for name in LEAP_RIGHT.names], 0.6, 0.0)
+
+
+class SunkHand:
+    """A hand whose fingers sank before its motors had torque; what it is asked for begins a little later."""
+
+    def __init__(self, ends_in: HandState) -> None:
+        patches = tuple(patch.name for patch in layout("leap_right").patches)
+        self.recording = HandRecording(patches=patches)
+        self.asked: list[str] = []
+        self.q_rad = self.q_when_asked_to_grasp = SUNK_RAD.copy()
+        self.time_s = 100.0
+        self._ends_in = ends_in
+        self._to_come: list[tuple[float, HandState]] = []
+        self._tell(HandState.STOPPED)
+
+    def ask(self, name: str, _mark: str = "") -> float:
+        self.asked.append(name)
+        if name == "release":
+            self._to_come = [(self.time_s + 0.02, HandState.OPEN)]
+        else:
+            self.q_when_asked_to_grasp = self.q_rad.copy()
+            self._to_come = [(self.time_s + 0.02, HandState.CLOSING), (self.time_s + 0.4, self._ends_in)]
+        return self.time_s
+
+    def until(self, condition: Callable[[], bool], _timeout_s: float) -> bool:
+        while not condition():
+            self._pass()
+        return True
+
+    def _pass(self) -> None:
+        row = np.zeros(row_width(len(self.recording.patches)))
+        self.time_s += STEP_S
+        while self._to_come and self._to_come[0][0] <= self.time_s:
+            self._tell(self._to_come.pop(0)[1])
+        if self.recording.statuses[-1].state == HandState.OPEN:
+            self.q_rad += np.clip(OPEN_RAD - self.q_rad, -3.0 * STEP_S, 3.0 * STEP_S)
+        row[COLUMN["q_rad"]] = self.q_rad
+        row[COLUMN["object_quaternion"]] = 1.0, 0.0, 0.0, 0.0
+        row[COLUMN["tip_patch"]] = -1.0
+        self.recording.truth_times.append(np.array([self.time_s]))
+        self.recording.truth_rows.append(row[np.newaxis])
+
+    def _tell(self, state: HandState) -> None:
+        self.recording.statuses.append(StatusSample(self.time_s, int(state), "made", (), {"slip": 0}))
+
+
+@pytest.mark.parametrize("ends_in", [HandState.HOLDING, HandState.OPEN])
+def test_a_hand_that_sank_is_open_before_it_grasps(ends_in: HandState) -> None:
+    hand = SunkHand(ends_in)
+    rig = LiveRig(cast(LiveHand, hand), HandWorldConfig(object="cylinder", object_held=True))
+    assert np.abs(np.array(rig.truth().q_rad) - OPEN_RAD).max() < 0.06
+    assert hand.asked == ["release"]
+    # The status says OPEN for a moment after the grasp was asked for: that is not its end.
+    assert rig.grasp() is (ends_in is HandState.HOLDING)
+    assert rig.state is ends_in
+    assert hand.asked == ["release", "grasp"]
+    assert np.abs(hand.q_when_asked_to_grasp - OPEN_RAD).max() < 0.06
