@@ -12,7 +12,7 @@ import numpy as np
 
 from acts_core.errors import SettingsError
 from acts_sim.dynamixel import MOTOR_FAULTS, do_to_motor
-from acts_sim.hand.tip import BLUNT_RADIUS_M, SHARP_RADIUS_M
+from acts_sim.hand.tip import BLUNT_RADIUS_M, LARGEST_RADIUS_M, SHARP_RADIUS_M
 from acts_sim.hand.world import HandWorld
 
 _MM = 1e-3
@@ -121,7 +121,7 @@ def _poke(world: HandWorld, words: list[str]) -> None:
         raise SettingsError(f"{words[0]!r}: allowed is one of {', '.join(names)}")
     (patch,) = (one for one in world.layout.patches if one.name == words[0])
     known = {"sharp": SHARP_RADIUS_M, "blunt": BLUNT_RADIUS_M}
-    radius_m = known.get(words[1]) or _number(words, 1, 0.0, 18.0, 0.2) * _MM
+    radius_m = known.get(words[1]) or _number(words, 1, 0.0, LARGEST_RADIUS_M / _MM, 0.2) * _MM
     speed, travel = _number(words, 2, 50.0, 500.0, 0.1), _number(words, 3, 10.0, 50.0, 0.0)
     row = _number(words, 4, (patch.rows - 1) / 2, patch.rows - 1, 0.0)
     col = _number(words, 5, (patch.cols - 1) / 2, patch.cols - 1, 0.0)

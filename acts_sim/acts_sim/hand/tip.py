@@ -22,6 +22,9 @@ BLUNT_RADIUS_M = 0.008
 
 _ROD_M = 0.04  # as in the model
 
+LARGEST_RADIUS_M = _ROD_M / 2
+"""Radius with which the rod is a ball [m]."""
+
 
 class Tip:
     """Moves the tip and measures its depth in the skin.

@@ -48,6 +48,18 @@ def test_the_other_hand_moves_by_20_mm_and_turns_by_20_degrees() -> None:
     assert end.object_held
 
 
+@pytest.mark.parametrize("radius_mm", [0.2, 20.0])
+def test_a_tip_of_any_allowed_radius_is_felt(radius_mm: float) -> None:
+    world = HandWorld(HandWorldConfig(object="none"))
+    carry_out(world, f"poke palm {radius_mm} 100 2")
+    assert run(world, 0.07).patches["palm"].tip_force_n > 0.0
+
+
+def test_a_tip_that_is_thicker_than_its_rod_is_long_is_refused(any_world: HandWorld) -> None:
+    with pytest.raises(SettingsError, match=r"'20\.1': allowed is a number from 0\.2 to 20"):
+        carry_out(any_world, "poke palm 20.1")
+
+
 def test_what_is_let_go_falls_out_of_an_open_hand_and_can_be_put_back() -> None:
     world = HandWorld(HandWorldConfig(pose="palm_down", object_held=True))
     assert not run(world, 0.2).object_lost

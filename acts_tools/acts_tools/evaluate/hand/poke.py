@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from acts_control.hand.description import LEAP_RIGHT
-from acts_sim.hand import BLUNT_RADIUS_M, SHARP_RADIUS_M, HandWorldConfig
+from acts_sim.hand import BLUNT_RADIUS_M, LARGEST_RADIUS_M, SHARP_RADIUS_M, HandWorldConfig
 from acts_tools.evaluate.hand.scenario import Outcome, Run
 
 _SPEED_M_S = 0.05
@@ -36,7 +36,7 @@ def sharp(one: Run) -> Outcome:
 
 def blunt(one: Run) -> Outcome:
     """A round end of 8 to 20 mm: no reflex may act, neither for it nor for the cylinder."""
-    outcome = _poke(one, float(one.draw().uniform(BLUNT_RADIUS_M, 0.020)))
+    outcome = _poke(one, float(one.draw().uniform(BLUNT_RADIUS_M, LARGEST_RADIUS_M)))
     # Also before the end touches, because the cylinder is blunt as well.
     outcome.ok = outcome.details.get("alarms", 1) == 0
     return outcome
