@@ -17,11 +17,11 @@ from acts_sim.hand.world import STEP_S, HandWorld, HandWorldConfig
 
 __all__ = [
     "BLUNT_RADIUS_M",
-    "LARGEST_RADIUS_M",
     "BOX",
     "CAPSULE",
     "COLUMN",
     "CYLINDER",
+    "LARGEST_RADIUS_M",
     "PALM",
     "PATCHES_FROM",
     "PATCH_COLUMNS",
