@@ -4,13 +4,15 @@
 """The skin: where its taxels lie, and the force response of a taxel.
 
 In come layout files and measured force responses; out come `Layout`, `SkinPatch` and `ForceResponse`, of which all
-other packages learn where a taxel lies and what it reads. `RegionContact` is what a patch of a skin feels.
+other packages learn where a taxel lies and what it reads. `RegionContact` is what a patch of a skin feels,
+`TrackedBlob` a contact that is followed from image to image.
 """
 
 from acts_core.skin.force import ForceResponse, MeasuredForceResponse, force_table
 from acts_core.skin.layouts import LAYOUTS, NO_PATCH, Layout, layout, layout_path
 from acts_core.skin.region_contact import RegionContact, Vector
 from acts_core.skin.skin_patch import SkinPatch
+from acts_core.skin.tracked_blob import TrackedBlob
 
 __all__ = [
     "LAYOUTS",
@@ -20,6 +22,7 @@ __all__ = [
     "MeasuredForceResponse",
     "RegionContact",
     "SkinPatch",
+    "TrackedBlob",
     "Vector",
     "force_table",
     "layout",

@@ -7,9 +7,10 @@ In comes an image with the uncertainty of its taxels; out come places, forces an
 the tracks of the contacts from frame to frame.
 """
 
+from acts_core.skin import TrackedBlob
 from acts_recon.contacts.blob_kernels import MAX_BLOBS
 from acts_recon.contacts.blob_tracker import BlobTracker
-from acts_recon.contacts.blobs import BlobConfig, TrackedBlob
+from acts_recon.contacts.blobs import BlobConfig
 from acts_recon.contacts.contact import Contact
 from acts_recon.contacts.contact_finder import ContactFinder
 

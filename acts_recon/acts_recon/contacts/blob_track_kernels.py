@@ -55,7 +55,7 @@ FOUND = np.dtype(
         ("spread_sd_m", "f8"),
     ]
 )
-"""What `follow` says of each contact: the fields of `acts_recon.contacts.blobs.TrackedBlob`."""
+"""What `follow` says of each contact: the fields of `acts_core.skin.TrackedBlob`."""
 
 # A pair without overlap is no further apart than this plus three standard deviations of the prediction, and no further
 # than it gets at this speed.

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
-from acts_core.skin import ForceResponse, MeasuredForceResponse
+from acts_core.skin import ForceResponse, MeasuredForceResponse, TrackedBlob
 from acts_recon.contacts.blob_motion_kernels import (
     ACCELERATION_M_S2,
     FIRST_SPEED_M_S,
@@ -26,7 +26,7 @@ from acts_recon.contacts.blob_motion_kernels import (
 )
 from acts_recon.contacts.blob_track_kernels import FASTEST_M_S, GATE_TAXELS, LEAST_SHARE, direction
 from acts_recon.contacts.blob_tracks import MAX_TRACKS
-from acts_recon.contacts.blobs import Blob, BlobConfig, TrackedBlob, find_blobs
+from acts_recon.contacts.blobs import Blob, BlobConfig, find_blobs
 from acts_recon.images import Borders, root_deviation
 
 Vector = NDArray[np.float64]

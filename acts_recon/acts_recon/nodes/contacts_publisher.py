@@ -22,7 +22,7 @@ from acts_msgs.msg import Contacts
 from acts_recon.contacts import BlobConfig, BlobTracker, TrackedBlob
 from acts_recon.images import Borders
 from acts_ros import qos
-from acts_ros.messages import ContactsFields, TrackedFields, write_contacts
+from acts_ros.messages import ContactsFields, write_contacts
 
 # Within 4 ms a contact that slides at 1 m/s moves by a taxel.
 _VIEWED_RATE_HZ = 250.0
@@ -106,9 +106,8 @@ class ContactsPublisher:
         stamp = header.stamp
         found = self._tracker.step(image, stamp.sec + 1e-9 * stamp.nanosec, sigma)
         if self._send or to_view:
-            contacts = [TrackedFields(*blob) for blob in found]
             stamp_ns = stamp.sec * _NS_PER_S + stamp.nanosec
-            data = write_contacts(ContactsFields(stamp_ns, header.frame_id, sequence, contacts, self._tracker.dropped))
+            data = write_contacts(ContactsFields(stamp_ns, header.frame_id, sequence, found, self._tracker.dropped))
             if self._send:
                 self._publisher.publish(data)
             if to_view:

@@ -10,7 +10,6 @@ from acts_ros.messages.cdr import ContactFields, header_of, read_contact, write_
 from acts_ros.messages.contacts_cdr import (
     ContactsFields,
     SeriesFields,
-    TrackedFields,
     read_contacts,
     read_series,
     write_contacts,
@@ -29,7 +28,6 @@ __all__ = [
     "RegionsFields",
     "SamplesMessage",
     "SeriesFields",
-    "TrackedFields",
     "check_frame_id",
     "frame_of",
     "header_of",

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import PacketError
+from acts_core.skin import TrackedBlob
 from acts_ros.messages.cdr import (
     ENCAPSULATION_BYTES,
     ContactFields,
@@ -24,48 +25,23 @@ from acts_ros.messages.cdr import (
     write_contact,
 )
 
-# Of acts_msgs/TrackedContact: each field's `struct` format and size [bytes].
+# Of acts_msgs/TrackedContact, which has the fields of `TrackedBlob`: each field's `struct` format and size [bytes].
 _FIELDS = [(kind, struct.calcsize(f"<{kind}")) for kind in "IBfddddddfffHffddddddfff"]
 _COUNTS = {order: struct.Struct(f"{order}II") for order in "<>"}
 _LENGTHS = {order: struct.Struct(f"{order}I") for order in "<>"}
 _LAYOUTS_KEPT = 256
 
 
-class TrackedFields(NamedTuple):
-    """acts_msgs/TrackedContact, in the order and the units of its fields.
+class ContactsFields(NamedTuple):
+    """acts_msgs/Contacts, in the order of its fields.
 
     Places, velocities and their deviations have 64 bits in the message, all other numbers with a fraction 32.
     """
 
-    number: int
-    merged: int
-    age_s: float
-    x_m: float
-    y_m: float
-    vx_m_s: float
-    vy_m_s: float
-    force_n: float
-    peak_counts: float
-    area_m2: float
-    active_taxels: int
-    spread_m: float
-    angle_rad: float
-    x_sd_m: float
-    y_sd_m: float
-    vx_sd_m_s: float
-    vy_sd_m_s: float
-    force_sd_n: float
-    area_sd_m2: float
-    spread_sd_m: float
-
-
-class ContactsFields(NamedTuple):
-    """acts_msgs/Contacts, in the order of its fields."""
-
     stamp_ns: int
     frame_id: str
     sequence: int
-    contacts: Sequence[TrackedFields]
+    contacts: Sequence[TrackedBlob]
     dropped: int
 
 
@@ -126,7 +102,7 @@ def read_contacts(data: bytes) -> ContactsFields:
             number, merged, age, x, y, _, vx, vy, _, *numbers = layout.unpack_from(data, ENCAPSULATION_BYTES + at)
             *numbers, x_sd, y_sd, _, vx_sd, vy_sd, _, force_sd, area_sd, spread_sd = numbers
             deviations = x_sd, y_sd, vx_sd, vy_sd, force_sd, area_sd, spread_sd
-            contacts.append(TrackedFields._make((number, merged, age, x, y, vx, vy, *numbers, *deviations)))
+            contacts.append(TrackedBlob._make((number, merged, age, x, y, vx, vy, *numbers, *deviations)))
             at += layout.size
         (dropped,) = struct.unpack_from(f"{order}H", data, ENCAPSULATION_BYTES + at + -at % 2)
     except struct.error as error:

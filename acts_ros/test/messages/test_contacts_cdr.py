@@ -13,12 +13,12 @@ from hypothesis import strategies as st
 from rclpy.serialization import deserialize_message, serialize_message
 
 from acts_core.errors import PacketError
+from acts_core.skin import TrackedBlob
 from acts_msgs.msg import Contact, Contacts, ContactSeries, TrackedContact
 from acts_ros.messages import (
     ContactFields,
     ContactsFields,
     SeriesFields,
-    TrackedFields,
     read_contact,
     read_contacts,
     read_series,
@@ -36,7 +36,7 @@ DOUBLES = st.floats()
 # Of the largest ones rclpy says that they do not fit.
 SINGLES = st.floats(width=32).filter(lambda value: not 3.4e38 < abs(value) < math.inf)
 TRACKED = st.builds(
-    TrackedFields,
+    TrackedBlob,
     NUMBERS,
     st.integers(0, 255),
     SINGLES,
@@ -69,7 +69,7 @@ def contacts_message(contacts: ContactsFields) -> Contacts:
     return message
 
 
-def tracked_message(tracked: TrackedFields) -> TrackedContact:
+def tracked_message(tracked: TrackedBlob) -> TrackedContact:
     message = TrackedContact(number=tracked.number, merged=tracked.merged, age=tracked.age_s)
     message.position.x, message.position.y = tracked.x_m, tracked.y_m
     message.velocity.x, message.velocity.y = tracked.vx_m_s, tracked.vy_m_s
@@ -147,7 +147,7 @@ def test_any_bytes_are_read_or_refused(data: bytes) -> None:
 
 @pytest.mark.parametrize("change", [{"number": -1}, {"force_n": 1e39}, {"active_taxels": 70000}, {"merged": 256}])
 def test_numbers_beyond_their_field_are_refused(change: dict[str, float]) -> None:
-    tracked = TrackedFields(1, 0, *[0.0] * 8, 3, *[0.0] * 9)._replace(**change)  # type: ignore[arg-type]
+    tracked = TrackedBlob(1, 0, *[0.0] * 8, 3, *[0.0] * 9)._replace(**change)  # type: ignore[arg-type]
     with pytest.raises(PacketError, match="does not fit the message"):
         write_contacts(ContactsFields(0, "", 0, [tracked], 0))
 
