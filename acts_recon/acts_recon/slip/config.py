@@ -26,6 +26,12 @@ class SlipConfig:
     slip_sigmas: float = setting(
         5.0, "motion of fewer standard deviations than this is no slip", minimum=1.0, maximum=100.0
     )
+    slip_together_share: float = setting(
+        1.0,
+        "share of these three limits that suffices where two patches of a skin move at once",
+        minimum=0.1,
+        maximum=1.0,
+    )
     slip_max_gain: float = setting(
         1.6,
         "no slip is reported while the force changes by a larger factor within the window",

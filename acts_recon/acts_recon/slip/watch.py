@@ -174,26 +174,37 @@ class SlipWatch:
         self._time_s = time_s
         kernels.update(time_s, values, ages, self._memory)
         kernels.watch(time_s, self._bounds, counts, self._memory, self._tuning, self._results)
-        return [self._slip(p, numbers) for p, numbers in enumerate(self._results.tolist())]
+        results = self._results.tolist()
+        shares = [self._share_of_limits(p, numbers) for p, numbers in enumerate(results)]
+        # Two patches that move at once confirm each other.
+        together = self.config.slip_together_share
+        needed = together if sum(share >= together for share in shares) > 1 else 1.0
+        return [self._slip(p, numbers, shares[p] >= needed) for p, numbers in enumerate(results)]
 
-    def _slip(self, patch: int, numbers: list[float]) -> Slip:
-        has_motion, cols, rows, sd_taxels, gain, growth, elapsed_s, cut = numbers
+    def _share_of_limits(self, patch: int, numbers: list[float]) -> float:
+        """Motion relative to the limit that it is farthest below; 0 where it cannot be told."""
+        has_motion, cols, rows, sd_taxels, gain, _, _, cut = numbers
+        config = self.config
+        if not has_motion or not 1.0 / config.slip_max_gain <= gain <= config.slip_max_gain:
+            return 0.0
+        pitch_m, row_pitch_m = self._pitches_m[patch]
+        taxels, metres = math.hypot(cols, rows), math.hypot(cols * pitch_m, rows * row_pitch_m)
+        if not taxels >= config.slip_cut_taxels * cut * abs(math.log(gain)):
+            return 0.0
+        sigmas = taxels / sd_taxels if sd_taxels > 0.0 else math.inf
+        return min(taxels / config.slip_distance_taxels, metres / config.slip_distance_m, sigmas / config.slip_sigmas)
+
+    def _slip(self, patch: int, numbers: list[float], slips: bool) -> Slip:
+        has_motion, cols, rows, sd_taxels, gain, growth, elapsed_s, _ = numbers
         if not has_motion:
             return NO_SLIP if self._time_s - self._told_s[patch] > self.config.slip_hold_s else Slip(True)
         motion = Motion(cols, rows, sd_taxels, gain, growth)
-        pitch_m, row_pitch_m = self._pitches_m[patch]
-        taxels, metres = motion.distance_taxels, math.hypot(cols * pitch_m, rows * row_pitch_m)
-        config = self.config
-        if (
-            taxels >= config.slip_distance_taxels
-            and metres >= config.slip_distance_m
-            and taxels >= config.slip_sigmas * sd_taxels
-            and 1.0 / config.slip_max_gain <= gain <= config.slip_max_gain
-            and taxels >= config.slip_cut_taxels * cut * abs(math.log(gain))
-        ):
+        if slips:
             self._told_s[patch] = self._time_s
-            return Slip(True, motion, elapsed_s, taxels, metres)
-        return Slip(self._time_s - self._told_s[patch] <= config.slip_hold_s, motion, elapsed_s)
+            pitch_m, row_pitch_m = self._pitches_m[patch]
+            metres = math.hypot(cols * pitch_m, rows * row_pitch_m)
+            return Slip(True, motion, elapsed_s, motion.distance_taxels, metres)
+        return Slip(self._time_s - self._told_s[patch] <= self.config.slip_hold_s, motion, elapsed_s)
 
     def _warm_up(self) -> None:
         """Compile, or load from the cache, what the first image would otherwise wait seconds for."""

@@ -101,6 +101,27 @@ def test_a_contact_that_the_border_cuts_grows_without_slipping_and_slips_where_i
     assert told(2.0, lambda k: press(8.0 - 0.01 * max(k - 100, 0), 1.0, 1.5))
 
 
+def test_two_patches_that_move_at_once_confirm_each_other() -> None:
+    patches = [SkinPatch(f"patch_{k}", 0, 8, 8 * k, 8 * k + 8, pitch_m=0.003, row_pitch_m=0.003) for k in range(2)]
+    rows, cols = np.indices((8, 8))
+
+    def told(moved_m: tuple[float, float], share: float) -> list[bool]:
+        watch = SlipWatch(8, 16, patches, SlipConfig(slip_together_share=share))
+        for k in range(100):
+            at = [3.4 + one / 0.003 * k / 100 for one in moved_m]
+            parts = [600 * np.exp(-((rows - 3.4) ** 2 + (cols - col) ** 2) / 4.5) for col in at]
+            image = np.hstack(parts).astype(np.float32)
+            slips = watch.step(k * 1e-3, image, np.array([part.sum() for part in parts]))
+        return [slip.slipping for slip in slips]
+
+    # In the 50 ms that are compared they move by half of this; 0.21 mm, 0.07 of a taxel, are slip of one alone.
+    assert told((0.0003, 0.0003), share=0.5) == [True, True]
+    assert told((0.0003, 0.0003), share=1.0) == [False, False]
+    assert told((0.0003, 0.0), share=0.5) == [False, False]
+    assert told((0.0003, 0.0006), share=1.0) == [False, True]
+    assert told((0.0003, 0.0006), share=0.5) == [True, True]
+
+
 def by_numpy(time_s: float, memory: kernels.Memory, pressed: float, max_lag_s: float) -> tuple[NDArray, float]:
     """The reference implementation: the image at the last measurement of a pressed taxel, and that moment."""
     moment_s = max(memory.last_s[memory.last > pressed].min(initial=time_s), time_s - max_lag_s)
