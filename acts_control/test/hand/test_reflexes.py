@@ -167,6 +167,14 @@ def test_the_finger_at_a_tip_opens_at_once_and_the_others_keep_what_they_have() 
     assert reflex.events == 1
 
 
+def test_what_lifts_off_is_no_tip() -> None:
+    reflex = SharpAvoidance(SharpAvoidanceConfig())
+    for force_n in (0.8, 0.6, 0.4, 0.3, 0.2):
+        assert reflex.step(sensed(region("index_distal", force_n, 1, sharpness=10.0))) is None
+    assert reflex.step(sensed(region("index_distal", 0.19, 1, sharpness=10.0))) is None
+    assert reflex.step(sensed(region("index_distal", 0.19, 1, sharpness=10.0))) is not None
+
+
 def test_a_finger_opens_so_far_and_no_farther() -> None:
     reflex = SharpAvoidance(SharpAvoidanceConfig(sharp_open_rad=0.2, sharp_touches=1))
     reflex.step(sensed(tip_in("index_distal")))

@@ -15,6 +15,9 @@ import numpy as np
 from acts_control.hand.reflexes.base import HandState, Reflex, Sensed, Wish
 from acts_core.settings import setting, validate
 
+# A region that feels less than this share of the force of the cycle before is being let go.
+_KEPT_SHARE = 0.9
+
 
 @dataclass(frozen=True)
 class SharpAvoidanceConfig:
@@ -54,6 +57,8 @@ class SharpAvoidanceState:
     ----------
     touches : dict
         How many times in succession each region has felt a tip.
+    force_n : dict
+        What each region felt in the cycle before [N].
     until_s : dict
         Until when each finger stays away; the palm is the empty name.
     from_rad : dict
@@ -61,6 +66,7 @@ class SharpAvoidanceState:
     """
 
     touches: dict[str, int] = field(default_factory=dict)
+    force_n: dict[str, float] = field(default_factory=dict)
     until_s: dict[str, float] = field(default_factory=dict)
     from_rad: dict[str, np.ndarray] = field(default_factory=dict)
 
@@ -101,7 +107,9 @@ class SharpAvoidance(Reflex):
     def _look(self, sensed: Sensed) -> None:
         state, config = self.state, self.config
         for name, region in sensed.regions.items():
-            is_sharp = region.sharpness > config.sharp_min_sharpness
+            before_n, state.force_n[name] = state.force_n.get(name, 0.0), region.force_n
+            # A tip that goes in presses more and more; an image of what lifts off can look like one.
+            is_sharp = region.sharpness > config.sharp_min_sharpness and region.force_n >= _KEPT_SHARE * before_n
             state.touches[name] = state.touches.get(name, 0) + 1 if is_sharp else 0
             if state.touches[name] < config.sharp_touches:
                 continue
