@@ -40,15 +40,16 @@ class SeriesPublisher:
         self._newest = Contact()
         self._sequence = 0
         self._numbers = SequenceNumbers()
+        self._begins_anew = False
         self.is_wanted = False
         """Whether somebody listens."""
 
     def look_for_subscribers(self) -> None:
         """To be called now and then."""
-        self.is_wanted = self._publisher.get_subscription_count() > 0
-        if not self.is_wanted:
-            self._clear()
-            self._numbers = SequenceNumbers()
+        is_wanted = self._publisher.get_subscription_count() > 0
+        # What is kept belongs to the thread that adds to it.
+        self._begins_anew = self._begins_anew or (is_wanted and not self.is_wanted)
+        self.is_wanted = is_wanted
 
     def add(self, stamp_ns: int, sequence: int, contact: Contact) -> None:
         """Keep a contact that has just been published.
@@ -61,6 +62,10 @@ class SeriesPublisher:
             The frame's number.
         contact : Contact
         """
+        if self._begins_anew:
+            self._begins_anew = False
+            self._numbers = SequenceNumbers()
+            self._clear()
         if len(self._stamps_ns) == _LONGEST:
             self._clear()
         self._stamps_ns.append(stamp_ns)
