@@ -144,12 +144,13 @@ class LiveRig:
 
     def _open(self) -> None:
         self.supervisor.release()
-        self.run(_OPENING_S, lambda: bool(np.abs(self.truth().q_rad - _OPEN_RAD).max() < _NEARLY_OPEN_RAD))
+        if not self.run(_OPENING_S, lambda: bool(np.abs(self.truth().q_rad - _OPEN_RAD).max() < _NEARLY_OPEN_RAD)):
+            raise LaunchError(f"the simulated hand did not open within {_OPENING_S:g} s")
 
     def _begin_grasp(self) -> None:
         self.supervisor.grasp()
         # Until the status says so, it has the state from before, which may be that of a hand that gripped nothing.
-        self.run(_PAUSE_S, lambda: self.state is HandState.CLOSING)
+        self.run(_REFUSED_S, lambda: self.state is HandState.CLOSING)
 
     def _has_closed(self) -> bool:
         status = self._recording.statuses[self._statuses]

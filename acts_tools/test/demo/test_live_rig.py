@@ -32,7 +32,8 @@ class SunkHand:
         self.recording = HandRecording(patches=patches)
         self.asked: list[str] = []
         self.q_rad = self.q_when_asked_to_grasp = SUNK_RAD.copy()
-        self.time_s = 100.0
+        # Before any time that the machine runs: what is told is old enough to be read at once.
+        self.time_s = -100.0
         self._ends_in = ends_in
         self._to_come: list[tuple[float, HandState]] = []
         self._tell(HandState.STOPPED)
