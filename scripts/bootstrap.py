@@ -320,9 +320,12 @@ def open_lock() -> IO[str]:
         STATE.mkdir(parents=True, exist_ok=True)
         return (STATE / "lock").open("w")
     except OSError as error:
+        owner, own = ROOT.stat().st_uid, os.getuid()
+        advice = "free the disk, or make the folder writable"
+        if owner != own:
+            advice = f"it belongs to user {owner}, you are user {own}: make a checkout of your own (git clone {ROOT})"
         raise SetupError(
-            f"{STATE} cannot be written ({error.strerror}); the checkout belongs to user {ROOT.stat().st_uid}, you are "
-            f"user {os.getuid()}. Every command keeps it up to date: make a checkout of your own (git clone {ROOT})."
+            f"{STATE} cannot be written ({error.strerror}), and every command keeps it up to date; {advice}"
         ) from None
 
 
