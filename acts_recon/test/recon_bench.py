@@ -98,8 +98,11 @@ class Bench(Peers):
             on_failure.pop_all()
         self.publisher = self.peer.create_publisher(TactileSamples, "samples", qos.STREAM)
         self.listen(Contact, "contact", qos.STREAM)
+        # From the start: of some things only one report tells.
+        self.listen(DiagnosticArray, "/diagnostics", 10)
         self.until(lambda: self.publisher.get_subscription_count() == 1)
         self.until(lambda: self.node.count_subscribers("contact") == 1)
+        self.until(lambda: self.node.count_subscribers("/diagnostics") == 1)
 
     def send(self, sequence: int, indices: NDArray, counts: NDArray, **fields: Any) -> None:
         """Publish a frame, and wait until the node has taken or refused it: it leaves out frames that wait for long."""
@@ -135,9 +138,7 @@ class Bench(Peers):
         return next(message for message in self.received["contact"] if message.sequence == sequence)
 
     def diagnostics(self, condition: Callable[[Any, dict[str, str]], bool]) -> None:
-        """Wait for a status of the node for which the condition holds."""
-        if "/diagnostics" not in self.received:
-            self.listen(DiagnosticArray, "/diagnostics", 10)
+        """Wait until a status of the node, from its start on, fulfils the condition."""
 
         def holds() -> bool:
             statuses = [status for message in self.received["/diagnostics"] for status in message.status]

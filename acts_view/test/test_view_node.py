@@ -21,6 +21,7 @@ from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.publisher import Publisher
+from rclpy.qos import QoSProfile
 from sensor_msgs.msg import Image, JointState
 from spinning import Spinning
 from test_view_codec import decode
@@ -246,6 +247,33 @@ def test_contacts_that_come_many_in_a_message_are_all_plotted(bench: Bench) -> N
     assert (history[:, 3].min(), history[:, 4].max()) == (1.0, 2.0)
     np.testing.assert_allclose([history[:, 5].min(), history[:, 6].max()], [1.0, 2.0], rtol=1e-6)
     np.testing.assert_allclose(bench.headers["frame"]["touch"][2:4], [2.0, 300.0])
+
+
+@pytest.mark.parametrize(
+    ("topic", "kind", "profile"),
+    [
+        ("view/image_raw", Image, qos.VIEW),
+        ("view/contacts", Contacts, qos.VIEW),
+        ("regions", RegionContacts, qos.STREAM),
+    ],
+)
+def test_bytes_that_are_no_message_are_told_and_the_page_goes_on(
+    bench: Bench, capfd: pytest.CaptureFixture[str], topic: str, kind: type, profile: QoSProfile
+) -> None:
+    told = ""
+
+    def is_told() -> bool:
+        nonlocal told
+        told += capfd.readouterr().err
+        return f", {topic.removeprefix('view/')}: " in told
+
+    with bench.connect() as client:
+        bench.until(lambda: "frame" in bench.headers, client, lambda: bench.press(1.0))
+        # Published only now: a page that is open finds topics that come later.
+        publisher = bench.skin.create_publisher(kind, topic, profile)
+        bench.until(is_told, client, lambda: publisher.publish(b"\xff" * 9))
+        bench.headers.clear()
+        bench.until(lambda: bench.headers.get("frame", {}).get("touch") is not None, client, lambda: bench.press(2.0))
 
 
 def test_what_cannot_be_is_left_out_and_the_page_goes_on(bench: Bench, caplog: pytest.LogCaptureFixture) -> None:

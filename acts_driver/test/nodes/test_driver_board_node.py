@@ -114,12 +114,18 @@ def test_a_query_tells_that_no_usable_frames_come(rig: BoardRig, tmp_path: Path)
     with PtyBoard(tmp_path) as board:
         rig.start_driver(port=board.path, protocol="raster_ascii", rows=2, cols=3)
         rig.wait_until_active()
-        board.write(b"1,2,3,4,5,6\n" * 20)
-        rig.status_until(lambda status: "malformed" in status["message"], "the report")
-        succeeded, reason = rig.query()
+        answers: list[tuple[bool, str]] = []
+
+        def is_told() -> bool:
+            # Of those of the last report: after it, without more of them, there is nothing any more.
+            board.write(b"1,2,3,4,5,6\n" * 20)
+            answers.append(rig.query())
+            return "malformed packets, last: " in answers[-1][1]
+
+        rig.spin_until(is_told, "the report")
+        succeeded, reason = answers[-1]
         assert not succeeded
         assert "no frames from" in reason
-        assert "malformed packets, last: " in reason
         rig.driver.close()
 
 

@@ -3,6 +3,7 @@
 
 """The node over real DDS: samples, drops, diagnostics, life cycle, parameters. ROS_DOMAIN_IDs 23 and 149."""
 
+import math
 import threading
 import time
 from collections.abc import Iterator
@@ -17,6 +18,7 @@ from pty_board import PtyBoard, frame
 from acts_core.errors import REFUSED_EXIT_CODE
 from acts_core.frames import SampleFrame
 from acts_core.wire import encode_frame
+from acts_driver.nodes import report as report_module
 
 pytestmark = pytest.mark.slow
 
@@ -96,7 +98,11 @@ def test_frames_of_many_sizes_do_not_fill_the_log(board: PtyBoard, rig: Rig, cap
     assert 1 <= told < 10
 
 
-def test_a_report_names_both_sizes_and_falls_back_to_fine(board: PtyBoard, rig: Rig) -> None:
+def test_a_report_names_both_sizes_and_falls_back_to_fine(
+    board: PtyBoard, rig: Rig, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # A busy machine may read them late, which would be told before all else.
+    monkeypatch.setattr(report_module, "_LATE_US", math.inf)
     driver = rig.start_driver(port=board.path)
     rig.wait_until_active()
     # Reports are made by hand here: their timer asks at a time of its own.
@@ -134,8 +140,8 @@ def test_unplugged_and_plugged_in_again(board: PtyBoard, rig: Rig) -> None:
     board.write_frames(frame(0))
     rig.spin_until(lambda: rig.samples, "the first message")
     board.unplug()
-    status = rig.status_until(lambda status: status["level"] == "2", "the loss")
-    assert "is not there" in status["message"] or "was lost" in status["message"]
+    words = ("is not there", "was lost")
+    rig.status_until(lambda s: s["level"] == "2" and any(word in s["message"] for word in words), "the loss")
     board.plug_in()
     rig.spin_until(lambda: rig.driver.intake.reader.connected, "the port")
     # This board says nothing, and its frames wait until that is certain.
