@@ -41,7 +41,7 @@ def find_contact(
     image : np.ndarray [shape=(rows * cols,), dtype=float32]
         Counts, 0 to 1023.
     sigma : np.ndarray [shape=(rows * cols,) or (0,), dtype=float32]
-        Standard deviations of the taxels [counts]; empty where not known, the variances are then 0.
+        Standard deviations of the taxels [counts]; empty where not known, those of the contact are then 0.
     bounds : np.ndarray [shape=(rows * cols, 4), dtype=int32]
         See `acts_recon.images.borders.Borders`.
     cols : int
