@@ -168,21 +168,25 @@ class DriverNode(LifecycleNode):
 
     def _publish(self, frames: list[tuple[SampleFrame, int]], results: list[tuple[BoardResult, int]]) -> None:
         """Publish what may be used; on the reader's thread."""
-        self._baseline.observe(frames)
-        if not self.active:
-            return
+        is_active = self.active
         try:
             # There are none where the board has sent results only.
-            if frames:
+            if frames and is_active:
                 for consume in self.consumers:
                     consume(frames, self._frame_id)
         finally:
             # What goes wrong in another node of the process is told by the reader, and keeps nothing back.
-            if self._publisher.get_subscription_count():
-                for frame, stamp_ns in frames:
-                    self._publisher.publish(self._message.fill(frame, stamp_ns))
-            for result, stamp_ns in results:
-                self._topics.publish(result, stamp_ns)
+            if is_active:
+                self._publish_messages(frames, results)
+            # Last, because nothing of this frame waits for it.
+            self._baseline.observe(frames)
+
+    def _publish_messages(self, frames: list[tuple[SampleFrame, int]], results: list[tuple[BoardResult, int]]) -> None:
+        if self._publisher.get_subscription_count():
+            for frame, stamp_ns in frames:
+                self._publisher.publish(self._message.fill(frame, stamp_ns))
+        for result, stamp_ns in results:
+            self._topics.publish(result, stamp_ns)
 
     def _on_changed_parameters(self, settings: DriverSettings) -> str:
         """Tell the board, or take them for when there is one; why it cannot be, or nothing."""
