@@ -28,7 +28,7 @@ class SlipConfig:
     )
     slip_together_share: float = setting(
         1.0,
-        "share of these three limits that suffices where two patches of a skin move at once",
+        "share of slip_distance_m, slip_distance_taxels and slip_sigmas that suffices where two patches move at once",
         minimum=0.1,
         maximum=1.0,
     )
