@@ -23,3 +23,15 @@ def test_slip_is_told_soon_and_never_in_a_hold(tmp_path: Path, capsys: pytest.Ca
     assert max(entry["delay_ms"]) < 15.0
     assert entry["false_holding"] == 0
     assert "| 128 |" in capsys.readouterr().out
+
+
+def test_limits_can_be_set(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    output = tmp_path / "out.json"
+    words = ["--m", "128", "--seeds", "1", "--hold-s", "0.1", "--set", "slip_distance_m=0.02", "--json", str(output)]
+    assert main(["evaluate", "slip-sampled", *words]) == 0
+    report = json.loads(output.read_text())
+    assert report["slip"]["slip_distance_m"] == 0.02
+    # Nothing moves so far.
+    assert set(report["results"][0]["delay_ms"]) == {None}
+    assert main(["evaluate", "slip-sampled", "--set", "slip_sigma=4"]) != 0
+    assert "slip_sigmas" in capsys.readouterr().err

@@ -12,17 +12,21 @@ from __future__ import annotations
 
 import argparse
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.errors import SettingsError
 from acts_core.sampling import SamplingConfig
+from acts_core.settings import describe, from_text, unknown_key_message
 from acts_core.skin import ForceResponse, Layout, SkinPatch, layout
 from acts_recon.fusion import FusionConfig, FusionEstimator
 from acts_recon.regions import Regions
+from acts_recon.slip import SlipConfig
 from acts_tools.arguments import at_least_one, real, taxels
 from acts_tools.evaluate import report
 from acts_tools.evaluate.images.board_sampler import BoardSampler
@@ -58,6 +62,13 @@ def add_parser(commands: Any) -> None:
     )
     parser.add_argument(
         "--hold-s", type=real(0.0), default=60.0, metavar="T", help="time of the hold (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        help="set a limit of slip (docs/reference.md, reconstruction: slip_...)",
     )
     parser.add_argument("--json", type=Path, metavar="OUT", help="also write the results to a JSON file")
     parser.set_defaults(evaluate=_run)
@@ -115,13 +126,13 @@ def _press(shape: str, patch: SkinPatch, at: Array, move: Array, radius_m: float
 
 
 def told(
-    skin: Layout, m: int, seed: int, seconds: float, picture_at: Callable[[float], Array]
+    skin: Layout, m: int, seed: int, seconds: float, picture_at: Callable[[float], Array], slip: SlipConfig
 ) -> list[tuple[float, int]]:
     """Time [s] and patch of every start of slip."""
     config = SamplingConfig(scheme="tracking", m=m, threshold_counts=50, seed=seed + 1)
     sampler = BoardSampler(config, _NOISE_COUNTS)
     fusion = FusionEstimator(skin.geometry(), FusionConfig(noise_counts=_NOISE_COUNTS), skin)
-    regions = Regions(skin, ForceResponse(), noise_counts=_NOISE_COUNTS)
+    regions = Regions(skin, ForceResponse(), noise_counts=_NOISE_COUNTS, slip=slip)
     found: list[tuple[float, int]] = []
     slipping = [False] * len(skin.patches)
     before = np.rint(skin.matrix(picture_at(0.0))).astype(np.uint16)
@@ -138,21 +149,37 @@ def told(
     return found
 
 
-def _delay_ms(skin: Skin, m: int, seed: int, way_m: Callable[[float], float], noticed_s: float) -> tuple[float, int]:
+def _delay_ms(
+    skin: Skin, m: int, seed: int, way_m: Callable[[float], float], noticed_s: float, slip: SlipConfig
+) -> tuple[float, int]:
     """Delay after 0.2 mm [ms], inf for never; and number of detections without motion."""
     begin_s = 0.3 + seed * _FRAME_S
 
     def picture_at(time_s: float) -> Array:
         return skin.at(time_s, way_m(max(time_s - begin_s, 0.0)))
 
-    found = told(skin.layout, m, seed, begin_s + noticed_s + 0.05, picture_at)
+    found = told(skin.layout, m, seed, begin_s + noticed_s + 0.05, picture_at, slip)
     times_s = [time_s for time_s, patch in found if patch == skin.moving and time_s > begin_s]
     delay_s = times_s[0] - begin_s - noticed_s if times_s else math.inf
     return 1e3 * delay_s, len(found) - len(times_s)
 
 
+def _slip_config(words: Sequence[str]) -> SlipConfig:
+    """The limits of slip with those of ``--set``; SettingsError for one that there is not."""
+    given: dict[str, Any] = {}
+    for word in words:
+        name, _, text = word.partition("=")
+        if name not in describe(SlipConfig):
+            raise SettingsError(unknown_key_message(name, list(describe(SlipConfig)), "limits of slip"))
+        given[name] = from_text(SlipConfig, name, text)
+    return SlipConfig(**given)
+
+
 def _run(arguments: argparse.Namespace) -> int:
-    results = report.Results(arguments.json, {"layout": arguments.layout, "hold_s": arguments.hold_s})
+    slip = _slip_config(arguments.set)
+    results = report.Results(
+        arguments.json, {"layout": arguments.layout, "hold_s": arguments.hold_s, "slip": asdict(slip)}
+    )
     skin = layout(arguments.layout, 32, 32)
     print(
         "| M | detected after 0.2 mm: median, last [ms] | false slips while closing | in the hold |\n|---|---|---|---|"
@@ -167,12 +194,14 @@ def _run(arguments: argparse.Namespace) -> int:
             for shape in _SHAPES:
                 pressed = Skin(skin, shape, seed)
                 for way_m, noticed_s in motions:
-                    delay_ms, wrong = _delay_ms(pressed, m, seed, way_m, noticed_s)
+                    delay_ms, wrong = _delay_ms(pressed, m, seed, way_m, noticed_s, slip)
                     delays_ms.append(delay_ms)
                     closing += wrong
-        found = told(skin, m, 0, 0.5 + arguments.hold_s, Skin(skin, "soft", 0).at)
+        found = told(skin, m, 0, 0.5 + arguments.hold_s, Skin(skin, "soft", 0).at, slip)
         holding = sum(time_s > 0.5 for time_s, _ in found)
         median_ms, last_ms = float(np.median(delays_ms)), max(delays_ms)
         print(f"| {m} | {median_ms:.0f}, {last_ms:.0f} of {len(delays_ms)} | {closing} | {holding} |", flush=True)
-        results.add({"m": m, "delay_ms": delays_ms, "false_closing": closing, "false_holding": holding})
+        # JSON knows no infinity: null where slip was never reported.
+        known_ms = [delay_ms if math.isfinite(delay_ms) else None for delay_ms in delays_ms]
+        results.add({"m": m, "delay_ms": known_ms, "false_closing": closing, "false_holding": holding})
     return 0
