@@ -70,7 +70,7 @@ class RigOptions:
     touch_counts: float = 8.0
     noise_counts: float = 1.5
     slip: SlipConfig = field(
-        default_factory=lambda: SlipConfig(slip_distance_taxels=0.05, slip_sigmas=4.0, slip_together_share=0.5)
+        default_factory=lambda: SlipConfig(slip_distance_taxels=0.03, slip_sigmas=4.0, slip_together_share=0.7)
     )
     settings: Mapping[str, Any] = field(default_factory=dict)
 
