@@ -189,7 +189,8 @@ class SlipWatch:
             return 0.0
         pitch_m, row_pitch_m = self._pitches_m[patch]
         taxels, metres = math.hypot(cols, rows), math.hypot(cols * pitch_m, rows * row_pitch_m)
-        if not taxels >= config.slip_cut_taxels * cut * abs(math.log(gain)):
+        # Written so that it holds for no NaN.
+        if not (taxels >= config.slip_cut_taxels * cut * abs(math.log(gain)) and sd_taxels >= 0.0):
             return 0.0
         sigmas = taxels / sd_taxels if sd_taxels > 0.0 else math.inf
         return min(taxels / config.slip_distance_taxels, metres / config.slip_distance_m, sigmas / config.slip_sigmas)
