@@ -104,6 +104,7 @@ def test_a_board_is_read_over_serial(run: Run, tmp_path: Path, protocol: str) ->
             # On a busy machine a second may be too short to find the press.
             for _ in range(TRIES):
                 said = run("read_board.py", str(tmp_path / "board"), "--seconds", "1.2", *words).splitlines()[-1]
+                assert "frames, 0 packets damaged" in said
                 if "touched at" in said:
                     break
         finally:
