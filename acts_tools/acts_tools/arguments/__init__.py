@@ -1,12 +1,14 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What people type after a command: numbers within a range, and options that have no effect beside others.
+"""What people type after a command: numbers within a range, settings by name, and options that have no
+effect beside others.
 
 Words come in; numbers that can be used go out, or an error that says what is allowed.
 """
 
 from acts_tools.arguments.numbers import at_least_one, random_seed, real, taxels, whole
+from acts_tools.arguments.settings import given_settings
 from acts_tools.arguments.unused import refuse_unused
 
-__all__ = ["at_least_one", "random_seed", "real", "refuse_unused", "taxels", "whole"]
+__all__ = ["at_least_one", "given_settings", "random_seed", "real", "refuse_unused", "taxels", "whole"]

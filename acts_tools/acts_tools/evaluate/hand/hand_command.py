@@ -15,7 +15,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from acts_core.errors import LaunchError, SettingsError
-from acts_core.settings import SettingValue, describe, from_text, unknown_key_message
+from acts_core.settings import SettingValue
+from acts_tools.arguments import given_settings
 from acts_tools.evaluate import report
 from acts_tools.evaluate.shares import wilson
 
@@ -113,12 +114,7 @@ def _settings(words: Sequence[str], also: Sequence[str]) -> dict[str, SettingVal
     from acts_control.hand.reflexes import make_reflexes, with_reflexes
 
     kind = with_reflexes(SupervisorConfig)
-    given = {}
-    for word in words:
-        name, _, text = word.partition("=")
-        if name not in describe(kind):
-            raise SettingsError(unknown_key_message(name, list(describe(kind)), "settings of the hand"))
-        given[name] = from_text(kind, name, text)
+    given = given_settings(kind, words, "settings of the hand")
     make_reflexes(" ".join(also), kind(**given))
     return given
 

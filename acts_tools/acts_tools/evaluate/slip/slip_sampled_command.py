@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import argparse
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -20,14 +20,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_core.errors import SettingsError
 from acts_core.sampling import SamplingConfig
-from acts_core.settings import describe, from_text, unknown_key_message
 from acts_core.skin import ForceResponse, Layout, SkinPatch, layout
 from acts_recon.fusion import FusionConfig, FusionEstimator
 from acts_recon.regions import Regions
 from acts_recon.slip import SlipConfig
-from acts_tools.arguments import at_least_one, real, taxels
+from acts_tools.arguments import at_least_one, given_settings, real, taxels
 from acts_tools.evaluate import report
 from acts_tools.evaluate.images.board_sampler import BoardSampler
 
@@ -164,19 +162,8 @@ def _delay_ms(
     return 1e3 * delay_s, len(found) - len(times_s)
 
 
-def _slip_config(words: Sequence[str]) -> SlipConfig:
-    """The limits of slip with those of ``--set``; SettingsError for one that there is not."""
-    given: dict[str, Any] = {}
-    for word in words:
-        name, _, text = word.partition("=")
-        if name not in describe(SlipConfig):
-            raise SettingsError(unknown_key_message(name, list(describe(SlipConfig)), "limits of slip"))
-        given[name] = from_text(SlipConfig, name, text)
-    return SlipConfig(**given)
-
-
 def _run(arguments: argparse.Namespace) -> int:
-    slip = _slip_config(arguments.set)
+    slip = SlipConfig(**given_settings(SlipConfig, arguments.set, "limits of slip"))
     results = report.Results(
         arguments.json, {"layout": arguments.layout, "hold_s": arguments.hold_s, "slip": asdict(slip)}
     )

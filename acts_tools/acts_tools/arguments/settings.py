@@ -1,0 +1,38 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Settings given as words ``NAME=VALUE``."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from acts_core.errors import SettingsError
+from acts_core.settings import describe, from_text, unknown_key_message
+
+
+def given_settings(settings_class: type, words: Sequence[str], where: str) -> dict[str, Any]:
+    """Read settings of a class; the last of a name counts.
+
+    Parameters
+    ----------
+    settings_class : type
+        Dataclass of settings.
+    words : sequence of str
+        Each ``NAME=VALUE``.
+    where : str
+        What the settings are of, for the message, such as "settings of the hand".
+
+    Raises
+    ------
+    SettingsError
+        For a name that there is not, or a value out of range.
+    """
+    given: dict[str, Any] = {}
+    for word in words:
+        name, _, text = word.partition("=")
+        if name not in describe(settings_class):
+            raise SettingsError(unknown_key_message(name, list(describe(settings_class)), where))
+        given[name] = from_text(settings_class, name, text)
+    return given
