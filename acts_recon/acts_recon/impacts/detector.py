@@ -195,11 +195,13 @@ class ImpactDetector:
         nearest, nearest_m = None, math.inf
         for touch in self._touches:
             distance_m = math.hypot(blob.x_m - touch.x_m, blob.y_m - touch.y_m)
-            # Of a large contact the centre may be far away.
-            reach_m = max(self.config.impact_join_m, touch.reach_m)
-            if touch.patch == patch and distance_m <= reach_m and distance_m < nearest_m:
+            if touch.patch == patch and distance_m <= self._reach_m(touch) and distance_m < nearest_m:
                 nearest, nearest_m = touch, distance_m
         return nearest
+
+    def _reach_m(self, touch: Touch) -> float:
+        """How far from its centre a touch may be met [m]: of a large contact the centre may be far away."""
+        return max(self.config.impact_join_m, touch.reach_m)
 
     def _begun(self, touch: Touch) -> Impact:
         onset_s, onset_sd_s = touch.onset(self._untouched_before(touch))
@@ -247,7 +249,12 @@ class ImpactDetector:
         """Whether a touch that is not felt any more has become one with another: the skin there is still pressed."""
         row, col = self._place(touch.x_m, touch.y_m)
         around = image[max(row - 1, 0) : row + 2, max(col - 1, 0) : col + 2]
-        others = (other for other in self._touches if other.patch == touch.patch)
+        others = (
+            other
+            for other in self._touches
+            if other.patch == touch.patch
+            and math.dist((other.x_m, other.y_m), (touch.x_m, touch.y_m)) <= self._reach_m(other)
+        )
         return bool(around.max() > self._touch_counts) and any(other.last_s > touch.last_s for other in others)
 
     def _over(self, touch: Touch, period_s: float, *, stays: bool = False) -> Impact:

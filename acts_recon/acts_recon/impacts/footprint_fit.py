@@ -148,8 +148,10 @@ def fit_footprint(
     Returns
     -------
     Footprint or None
-        None where there are too few samples to tell.
+        None where there are too few samples to tell, or all are of one row or column.
     """
+    if min(np.ptp(x_m), np.ptp(y_m)) <= 0:
+        return None
     pressed = force_n > 0
     if np.unique(taxel[pressed]).size < _LEAST_TAXELS or np.ptp(time_s[pressed]) <= 0:
         return None

@@ -114,6 +114,8 @@ class RecentSamples:
             Standard deviation of the sideways spread of pressure in the foam [m].
         """
         geometry = self._geometry
+        if not self._frames:  # of images that say nothing of single samples
+            return None
         time_s, counts = (np.concatenate([one[k] for one in self._frames]) for k in (1, 3))
         taxel = np.concatenate([one[2] for one in self._frames])
         around = np.hypot(self._x_m - x_m, self._y_m - y_m) <= _AROUND_TAXELS * max(

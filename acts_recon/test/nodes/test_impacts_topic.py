@@ -71,6 +71,24 @@ def test_the_node_tells_a_touch_when_it_begins_and_when_it_is_over(make_bench: C
     assert np.isfinite([*over.time, *over.force, *over.path_x, *over.path_y]).all()
 
 
+def test_a_long_press_of_images_without_times_is_told(make_bench: Callable[..., Bench]) -> None:
+    """The method per_frame knows no time of a sample, so that the beginning is not followed back."""
+    bench = make_bench(208, method="per_frame")
+    impacts = bench.node._abilities.impacts
+    assert impacts is not None
+    bench.listen(Impact, "impacts", qos.STREAM)
+    bench.until(lambda: impacts.is_wanted)
+
+    press = bump(GEOMETRY, 15.0, 12.0)
+    for sequence in range(100):
+        image = press if 10 <= sequence < 80 else np.zeros((32, 32))
+        bench.send(sequence, EVERYWHERE, image, **fields_of(sequence))
+    told = bench.received["impacts"]
+    bench.until(lambda: len(told) >= 2)
+    assert [(one.is_over, one.kind) for one in told] == [(False, Impact.UNKNOWN), (True, Impact.TAP)]
+    assert told[1].duration == pytest.approx(0.070, abs=0.003)
+
+
 def test_without_the_parameter_there_is_no_topic(make_bench: Callable[..., Bench]) -> None:
     bench = make_bench(208, impacts=False)
     assert "/plate/impacts" not in dict(bench.node.get_topic_names_and_types())

@@ -1,0 +1,111 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Each touch that has begun is over once, whatever the images are of."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from acts_core.array import ArrayGeometry
+from acts_core.sampling import Sampler, SamplingConfig
+from acts_recon.impacts import UNKNOWN_DIRECTION_SD_RAD, Impact, ImpactDetector, Kind
+from acts_recon.settings import ReconstructionSettings
+
+Array = NDArray[np.float64]
+
+SAMPLE_S = 18e-6
+
+
+def bump(rows: int, cols: int, row: float, col: float, width: float) -> Array:
+    """A round contact of 1 at its middle."""
+    at_row, at_col = np.indices((rows, cols))
+    bumped: Array = np.exp(-((at_row - row) ** 2 + (at_col - col) ** 2) / (2 * width**2))
+    return bumped
+
+
+def told_of(
+    settings: ReconstructionSettings, sampling: SamplingConfig, pressure: Callable[[float], Array], seconds: float
+) -> list[Impact]:
+    """What is told of a skin that is sampled taxel by taxel."""
+    rng = np.random.default_rng(1)
+    recovery = settings.recovery()
+    detector = settings.impact_detector(recovery)
+    sampler = Sampler(sampling)
+    frame_s = (sampling.m + 1) * SAMPLE_S
+    told: list[Impact] = []
+    for begin_s in np.arange(0.0, seconds, frame_s):
+        next_s = float(begin_s)
+
+        def measure(row: int, col: int) -> int:
+            nonlocal next_s
+            next_s += SAMPLE_S
+            return int(np.clip(round(float(pressure(next_s)[row, col] + 2 * rng.standard_normal())), 0, 1023))
+
+        indices, counts = sampler.frame(measure)
+        end_s = 100.0 + begin_s + frame_s
+        recovery.step(indices, counts, end_s, sampling.m * SAMPLE_S)
+        told += detector.step(
+            end_s, sampling.m * SAMPLE_S, recovery.image, recovery.sigma, recovery.age_s, recovery.measured
+        )
+    return told
+
+
+@pytest.mark.parametrize("scheme", ["tracking", "adaptive"])
+@pytest.mark.parametrize("m", [55, 128])
+def test_a_bounce_beside_a_body_that_rests_is_over(scheme: str, m: int) -> None:
+    """It stood among those that are a part of another: its taxels read pressed for a moment, as the other does."""
+    ball = 700 * bump(32, 32, 10, 8, 2.0)
+    body = 400 * bump(32, 32, 10, 22, 1.5)
+    onset_s, contact_s = 0.2, 0.008
+
+    def pressure(time_s: float) -> Array:
+        since_s = time_s - onset_s
+        return body + (ball * math.sin(math.pi * since_s / contact_s) if 0 < since_s < contact_s else 0.0)
+
+    settings = ReconstructionSettings(touch_counts=25)
+    told = told_of(settings, SamplingConfig(scheme, 32, 32, m, threshold_counts=25), pressure, 0.3)
+    x_m = float(ArrayGeometry().x_m(8))
+    balls = [one for one in told if abs(one.x_m - x_m) < 0.02 and one.onset_s > 100.15]
+    assert [one.is_over for one in balls] == [False, True]
+    assert (balls[1].number, balls[1].kind) == (balls[0].number, Kind.IMPACT)
+    assert balls[1].onset_s == pytest.approx(100.0 + onset_s, abs=0.0015)
+
+
+@pytest.mark.parametrize(("rows", "cols"), [(1, 32), (32, 1)])
+def test_on_a_single_row_of_taxels_no_direction_is_known(rows: int, cols: int) -> None:
+    middle = (rows - 1) / 2, (cols - 1) / 2
+
+    def pressure(time_s: float) -> Array:
+        share = (time_s - 0.05) / 0.008
+        if not 0 < share < 1:
+            return np.zeros((rows, cols))
+        row, col = (at + 2.4 * share * (size > 1) for at, size in zip(middle, (rows, cols), strict=True))
+        return 700 * math.sin(math.pi * share) * bump(rows, cols, row, col, 2.5)
+
+    settings = ReconstructionSettings(rows=rows, cols=cols, touch_counts=25)
+    begun, over = told_of(settings, SamplingConfig("raster", rows, cols, 32), pressure, 0.1)
+    assert (begun.is_over, over.is_over, over.kind) == (False, True, Kind.IMPACT)
+    assert (over.velocity_m_s, over.velocity_sd_m_s) == ((0.0, 0.0), (0.0, 0.0))
+    assert over.direction_sd_rad == UNKNOWN_DIRECTION_SD_RAD
+    assert over.peak_n > 0
+    assert np.isfinite([*over.time_s, *over.force_n, *over.path_x_m, *over.path_y_m]).all()
+
+
+def test_a_long_touch_in_images_alone_is_told() -> None:
+    """Without single samples a touch is not followed back to before its first frame."""
+    detector = ImpactDetector(ArrayGeometry())
+    told: list[Impact] = []
+    for number in range(300):
+        image = np.zeros((32, 32), dtype=np.float32)
+        if 50 <= number < 200:
+            image[10:14, 10:14] = 300
+        told += detector.step(100.0 + number * 1e-3, 1e-3, image)
+    assert [(one.is_over, one.kind) for one in told] == [(False, Kind.UNKNOWN), (True, Kind.TAP)]
+    assert told[1].onset_s == pytest.approx(100.050, abs=0.0015)
+    assert told[1].duration_s == pytest.approx(0.150, abs=0.003)
