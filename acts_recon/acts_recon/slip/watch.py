@@ -26,6 +26,7 @@ from acts_recon.slip.motion import RIDGE, SMALLEST_SIDE, Motion
 
 # Images kept of each patch, at least a window's worth at any rate.
 _KEPT = 64
+_LONGEST_PAUSE_S = 0.5
 
 
 class Slip(NamedTuple):
@@ -145,13 +146,15 @@ class SlipWatch:
         Parameters
         ----------
         time_s : float
-            Its time, later than that of the one before; after one that is not, everything begins anew [s].
+            Its time, later than that of the one before; after one that is not, or half a second and more after the one
+            before, everything begins anew [s].
         values : np.ndarray [shape=(rows, cols), dtype=float32]
             Last measurement of every taxel, counts above the baseline, finite; not kept.
         counts : np.ndarray [shape=(patches,), dtype=float64]
             Sum of the counts on each patch: whether anything presses.
         age_s : np.ndarray [shape=(rows, cols), dtype=float32], optional
-            How long ago that was [s], inf: never; without it all were measured now.
+            How long ago that was [s], inf: never; without it all were measured now. A patch is watched once each of its
+            taxels has been measured.
 
         Returns
         -------
@@ -169,7 +172,7 @@ class SlipWatch:
                 raise ArrayError(
                     f"an image of shape {given.shape}, {given.dtype}: needed is {self._shape}, float32 (counts)"
                 )
-        if not time_s > self._time_s:
+        if not 0.0 < time_s - self._time_s <= _LONGEST_PAUSE_S:
             self.reset()
         self._time_s = time_s
         kernels.update(time_s, values, ages, self._memory)

@@ -67,12 +67,14 @@ class Tuning(NamedTuple):
 
 @kernel
 def update(time_s: float, values: NDArray[np.float32], age_s: NDArray[np.float32], memory: Memory) -> None:
-    """Update the last two measurements by what was measured since the last call."""
+    """Update the last two measurements by what was measured since the last call; forget those of an infinite age."""
     last, before, last_s, before_s = memory.last, memory.before, memory.last_s, memory.before_s
     for row in range(values.shape[0]):
         for col in range(values.shape[1]):
             measured_s = time_s - np.float64(age_s[row, col])
-            if measured_s > last_s[row, col] + _SAME_TIME_S:
+            if measured_s == -np.inf:
+                last_s[row, col] = before_s[row, col] = -np.inf
+            elif measured_s > last_s[row, col] + _SAME_TIME_S:
                 before[row, col], before_s[row, col] = last[row, col], last_s[row, col]
                 last[row, col], last_s[row, col] = values[row, col], measured_s
 
@@ -103,6 +105,16 @@ def _bring_to_one_moment(
 
 
 @kernel
+def _is_known(last_s: NDArray[np.float64], top: int, end: int, left: int, right: int) -> bool:
+    """Whether each taxel of a patch has been measured."""
+    for row in range(top, end):
+        for col in range(left, right):
+            if last_s[row, col] == -np.inf:
+                return False
+    return True
+
+
+@kernel
 def watch(
     time_s: float,
     bounds: NDArray[np.int64],
@@ -118,7 +130,8 @@ def watch(
     time_s : float
         Of what `take` was given last.
     bounds : np.ndarray [shape=(patches, 4), dtype=int64]
-        First and end row, first and end column of every patch, at least 3 by 3.
+        First and end row, first and end column of every patch, at least 3 by 3. While a taxel of a patch has not been
+        measured, nothing is estimated there: it would look as if the contact grew to one side.
     counts : np.ndarray [shape=(patches,), dtype=float64]
         Sum over each patch; with fewer than `min_counts` nothing is estimated, and the patch's past is forgotten.
     memory : Memory
@@ -130,11 +143,11 @@ def watch(
     past, past_s, newest = memory.past, memory.past_s, memory.newest
     kept = past.shape[0]
     for p in range(bounds.shape[0]):
-        if not counts[p] >= tuning.min_counts:
+        top, end, left, right = bounds[p]
+        if not (counts[p] >= tuning.min_counts and _is_known(memory.last_s, top, end, left, right)):
             past_s[p] = -np.inf
             results[p] = 0.0
             continue
-        top, end, left, right = bounds[p]
         moment_s = _bring_to_one_moment(time_s, top, end, left, right, memory, tuning)
         youngest_s = past_s[p, newest[p]]
         if not moment_s > youngest_s:

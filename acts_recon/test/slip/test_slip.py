@@ -164,3 +164,11 @@ def test_after_a_step_back_of_time_it_begins_anew() -> None:
         detector.step(k * 1e-3, press(3.4, 3.7))
     assert detector.step(0.0, press(3.4, 5.7)).motion is None
     assert not detector.step(0.001, press(3.4, 5.7)).slipping
+
+
+def test_after_a_pause_it_begins_anew() -> None:
+    detector = SlipDetector(SIDE, SIDE, PITCH_M)
+    for k in range(100):
+        detector.step(k * 1e-3, press(3.4, 3.7))
+    assert detector.step(0.7, press(3.4, 5.7)).motion is None
+    assert not detector.step(0.701, press(3.4, 5.7)).slipping
