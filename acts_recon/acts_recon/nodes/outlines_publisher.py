@@ -81,7 +81,9 @@ class OutlinesPublisher:
         recovery : Recovery
             Holds the image.
         """
-        if not (self.is_wanted and (self._tracer.is_fast or self._limit.due(time.monotonic()))):
+        if not self.is_wanted:
+            return
+        if not self._limit.due(time.monotonic()) and self._tracer.skip(end_s, recovery.image):
             return
         for outline in self._tracer.step(indices, counts, end_s, duration_s, recovery.image):
             self._publisher.publish(_message(header, sequence, end_s, outline))

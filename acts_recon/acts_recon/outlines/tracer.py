@@ -25,6 +25,8 @@ MOST_OUTLINES = 16
 """In one frame; of the largest contacts."""
 
 _LONGEST_PAUSE_S = 0.5
+# What is pressed further from the contacts of the last look is new, or has moved fast [taxels].
+_BESIDE = 2
 _LEAST_TAXELS = 3
 # A reading above so many standard deviations is of a pressed taxel.
 _NOISE = 4.0
@@ -98,16 +100,40 @@ class OutlineTracer:
         self._tracks: list[_Track] = []
         self._next_number = 1
         self._before_s: float | None = None
-
-    @property
-    def is_fast(self) -> bool:
-        """Whether a contact is so young that its outline changes from frame to frame, or there was none at all."""
-        return not self._tracks or any(track.edge is not None for track in self._tracks)
+        self._known = np.zeros(self._shape, dtype=np.bool_)
 
     def reset(self) -> None:
         """Forget all contacts; numbers go on."""
         self._tracks.clear()
         self._before_s = None
+
+    def skip(self, end_s: float, image: NDArray[np.float32]) -> bool:
+        """Pass over a frame that shows only contacts whose outlines hardly change from frame to frame.
+
+        Parameters
+        ----------
+        end_s, image
+            As of `step`.
+
+        Returns
+        -------
+        bool
+            False where the frame is one for `step`: a contact is young, one has begun, ended or moved fast, or there was
+            none.
+        """
+        if not self._tracks or not self._follows(end_s):
+            return False
+        pressed = image > self._touch_counts
+        if any(track.edge is not None or not pressed[track.mask].any() for track in self._tracks):
+            return False
+        if (pressed & ~self._known).any():
+            return False
+        self._before_s = end_s
+        return True
+
+    def _follows(self, end_s: float) -> bool:
+        """Whether a time lies soon after that of the frame before."""
+        return self._before_s is None or 0.0 < end_s - self._before_s <= _LONGEST_PAUSE_S
 
     def step(
         self,
@@ -140,7 +166,7 @@ class OutlineTracer:
         if image.shape != self._shape:
             raise ArrayError(f"image {image.shape}: needed is {self._shape}")
         places, placed_counts = self._samples.of(indices, counts)
-        if self._before_s is not None and not 0.0 < end_s - self._before_s <= _LONGEST_PAUSE_S:
+        if not self._follows(end_s):
             self.reset()
         self._before_s = end_s
         if not (image > self._touch_counts).any():
@@ -170,6 +196,7 @@ class OutlineTracer:
         return tuple(sorted(found, key=lambda outline: outline.number))
 
     def _labels(self, image: NDArray[np.float32]) -> tuple[NDArray[np.intp], int]:
+        """The number of the contact of each taxel, 0: none, and how many there are."""
         from scipy import ndimage
 
         pressed = image > self._touch_counts
@@ -181,6 +208,7 @@ class OutlineTracer:
                 own, count = ndimage.label(pressed[there], structure=np.ones((3, 3)))
                 labels[there] = np.where(own > 0, own + number, 0)
                 number += int(count)
+        self._known = ndimage.maximum_filter(pressed, size=2 * _BESIDE + 1)
         return labels, number
 
     def _match(self, labels: NDArray[np.intp], number: int, time_s: float) -> list[tuple[int, _Track]]:

@@ -48,6 +48,21 @@ def test_the_node_tells_outlines_while_somebody_listens(make_bench: Callable[...
     assert last.perimeter**2 >= 4 * np.pi * last.area
 
 
+def test_a_short_touch_beside_an_old_contact_is_told_at_any_rate(make_bench: Callable[..., Bench]) -> None:
+    bench = make_bench(21, outlines_rate_hz=0.1)
+    outlines = bench.node._abilities.outlines
+    assert outlines is not None
+    bench.listen(Outline, "outlines", qos.STREAM)
+    bench.until(lambda: outlines.is_wanted)
+    old, touch = bump(GEOMETRY, 8.0, 8.0), bump(GEOMETRY, 24.0, 24.0)
+    for sequence in range(240):
+        bench.take(sequence, old + touch if 200 <= sequence < 208 else old)
+    told = bench.received["outlines"]
+    bench.until(lambda: sum(one.number == 2 for one in told) >= 8)
+    assert {one.number for one in told} == {1, 2}
+    assert sum(one.number == 1 and 100 <= one.sequence < 200 for one in told) <= 1
+
+
 def test_without_the_parameter_there_is_no_topic(make_bench: Callable[..., Bench]) -> None:
     bench = make_bench(21, outlines=False)
     assert "/plate/outlines" not in dict(bench.node.get_topic_names_and_types())

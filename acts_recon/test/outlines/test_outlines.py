@@ -148,6 +148,29 @@ def test_a_contact_keeps_its_number_and_two_have_two() -> None:
         OutlinesConfig(outlines_level=2.0)
 
 
+def test_frames_are_skipped_while_contacts_are_old_and_lie_still() -> None:
+    tracer = OutlineTracer(GEOMETRY)
+    old, new, moved = disc(8, 8, 3), disc(8, 8, 3) + disc(24, 24, 3), disc(8, 14, 3)
+    nothing = np.zeros_like(old)
+
+    def skips(counts: NDArray[np.uint16], end_s: float) -> bool:
+        return tracer.skip(end_s, counts.astype(np.float32))
+
+    assert not skips(nothing, 10.0)
+    for k in range(100):
+        traced(tracer, old, 10.001 + 1e-3 * k)
+    end_s = 10.1
+    assert not any(skips(counts, end_s + 1e-3) for counts in (new, moved, nothing))
+    for k in range(2000):
+        assert skips(old, end_s + 1e-3 * (k + 1))
+    # Seconds after the last look it is the same contact.
+    assert [one.number for one in traced(tracer, new, end_s + 2.001)] == [1, 2]
+    assert not skips(new, end_s + 2.002)
+    # After a pause it is another.
+    assert not skips(old, end_s + 4.0)
+    assert [one.number for one in traced(tracer, old, end_s + 4.0)] == [3]
+
+
 def test_no_outline_reaches_over_a_border() -> None:
     glove = layout("glove", 32, 32)
     geometry = glove.geometry()
