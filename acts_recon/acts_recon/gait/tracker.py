@@ -64,7 +64,12 @@ class GaitTracker:
         if loads is not None:
             self._feet[1 - foot].least_span = _LEAST_OF_OTHER * loads.span
         if told:
-            self._steps[foot].extend(told)
+            kept = self._steps[foot]
+            if kept and told[0].strike_s < kept[-1].strike_s:
+                # The clock was set back, or a recording began anew.
+                for steps in self._steps:
+                    steps.clear()
+            kept.extend(told)
             oldest_s = told[-1].toe_off_s - self._config.summary_s
             for steps in self._steps:
                 while steps and steps[0].toe_off_s < oldest_s:

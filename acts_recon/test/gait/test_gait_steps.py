@@ -187,6 +187,19 @@ def test_a_foot_without_steps_leaves_the_other_its_own(other: str) -> None:
     assert gait.asymmetry("stance_s") is None
 
 
+def test_a_recording_that_begins_anew_leaves_nothing_of_the_run_before() -> None:
+    tracker, time_s = GaitTracker(), times_s(100.0, 20.0)
+    left, right = walked(time_s).tolist(), walked(time_s, FIRST_S + STRIDE_S / 2).tolist()
+    runs = []
+    for begin_s in (1000.0, 900.0, 900.0):
+        for at_s, *forces in zip((begin_s + time_s).tolist(), left, right, strict=True):
+            for foot, force in enumerate(forces):
+                tracker.step(foot, at_s, force)
+        runs.append(tracker.gait())
+    assert [[foot.steps for foot in gait.feet] for gait in runs] == [[16, 16]] * 3
+    assert [gait.cadence_per_min for gait in runs] == pytest.approx([100.0] * 3, rel=0.01)
+
+
 def test_the_gait_is_of_the_last_time() -> None:
     tracker, time_s = GaitTracker(GaitConfig(summary_s=5.0)), times_s(100.0, 30.0)
     for at_s, value in zip(time_s.tolist(), walked(time_s).tolist(), strict=True):
