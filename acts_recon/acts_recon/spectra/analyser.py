@@ -25,6 +25,8 @@ _LONGEST_PAUSE_S = 0.5
 _LEAST_SHARE = 0.5
 _LEAST_NOISE_COUNTS = 0.3  # of a reading in whole counts
 _LEAST_SLOPE_N = 1e-7  # a count, where a measured response is flat
+# A window is looked at in so many parts: whether the contact was there.
+_PARTS = 20
 # The strongest of a contact; a palm is a thousand.
 _MOST_TAXELS = 64
 # Of the values of a spectrum every second is told: a tone is as wide as eight.
@@ -162,11 +164,15 @@ class SpectrumAnalyser:
         return labels.ravel()
 
     def _of(self, window: _Window, places: NDArray[np.intp], mean: Array) -> Spectrum | None:
-        """The spectrum of what presses these taxels; None where that is no force."""
+        """The spectrum of what presses these taxels; None where that is no force, or not for half of the window."""
         places = places[np.argsort(-mean[places], kind="stable")][:_MOST_TAXELS]
         slot_of = np.full(self._geometry.size, -1, dtype=np.intp)
         slot_of[places] = np.arange(places.size)
         mine = slot_of[window.places] >= 0
+        begin_s, end_s = self._pressed(window, (mean > self._touch_counts)[window.places] & mine)
+        mine &= (window.time_s >= begin_s) & (window.time_s <= end_s)
+        if end_s - begin_s < _LEAST_SHARE * self.config.spectra_window_s or not mine.any():
+            return None
         whole = np.clip(np.rint(mean[places]), 0, self._slope_n.size - 1).astype(np.intp)
         time_s = window.time_s[mine]
         x_m = np.asarray(self._geometry.x_m(places % self._geometry.cols))
@@ -195,6 +201,24 @@ class SpectrumAnalyser:
             amplitude_n=tones.amplitude_n()[::_TOLD_EVERY],
             peaks=tones.peaks(self.config.spectra_lowest_hz, self.config.spectra_peaks),
         )
+
+    def _pressed(self, window: _Window, mine: NDArray[np.bool_]) -> tuple[float, float]:
+        """From when to when a contact was there for longest; `mine`: the samples of its pressed taxels.
+
+        A force that begins or ends within the window would be taken for tones: where it does, the part in which it rises
+        or falls is left out, too.
+        """
+        first_s, last_s = float(window.time_s[0]), float(window.time_s[-1])
+        edges_s = np.linspace(first_s, last_s, _PARTS + 1)
+        part = np.clip(np.searchsorted(edges_s, window.time_s[mine], side="right") - 1, 0, _PARTS - 1)
+        is_above = window.counts[mine] > self._touch_counts
+        # Where nothing was measured nothing is known.
+        measured, pressed = np.bincount(part, minlength=_PARTS), np.bincount(part[is_above], minlength=_PARTS)
+        free = np.flatnonzero((measured > 0) & (pressed == 0))
+        ends = np.concatenate(([-2], free, [_PARTS + 1]))
+        longest = int(np.diff(ends).argmax())
+        begin, end = int(ends[longest]) + 2, int(ends[longest + 1]) - 1
+        return float(edges_s[begin]), float(edges_s[max(begin, end)])
 
 
 def _in_one(frames: tuple[PlacedFrame, ...]) -> _Window:

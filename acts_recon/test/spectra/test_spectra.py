@@ -104,6 +104,30 @@ def test_there_is_no_spectrum_before_half_of_the_window_and_after_a_jump_of_the_
     assert analyser.spectra() == ()
 
 
+@pytest.mark.parametrize("before_s", [0.0, 0.15, 0.35])
+@pytest.mark.parametrize("after_s", [0.0, 0.15, 0.35])
+def test_a_press_that_begins_or_ends_within_the_window_has_no_tones_of_its_own(before_s: float, after_s: float) -> None:
+    analyser = SpectrumAnalyser(GEOMETRY, RESPONSE, noise_counts=2.0)
+    first_s, end_s = 1.7e9, 1.7e9
+    for seconds, tones, force_n in (
+        (before_s, {}, 0.0),
+        (1.0 - before_s - after_s, {87.3: 0.3}, 3.0),
+        (after_s, {}, 0.0),
+    ):
+        frames = round(seconds / FRAME_S)
+        hear(analyser, tones, force_n=force_n, first_s=end_s, frames=frames)
+        end_s += frames * FRAME_S
+    spectra = analyser.spectra()
+    if before_s + after_s > 0.45:
+        assert spectra == ()
+    else:
+        (spectrum,) = spectra
+        assert [peak.frequency_hz for peak in spectrum.peaks] == pytest.approx([87.3], abs=0.1)
+        assert spectrum.peaks[0].amplitude_n == pytest.approx(0.3, rel=0.05)
+        assert spectrum.force_n == pytest.approx(3.0, rel=0.05)
+        assert first_s + before_s - 0.01 < spectrum.begin_s < spectrum.end_s < first_s + 1.01 - after_s
+
+
 @pytest.mark.parametrize("of", ["contacts", "patches"])
 def test_no_contact_reaches_over_a_border_and_a_patch_is_one_if_asked_for(of: str) -> None:
     glove = layout("glove", 32, 32)
