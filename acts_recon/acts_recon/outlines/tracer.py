@@ -118,8 +118,8 @@ class OutlineTracer:
         Returns
         -------
         bool
-            False where the frame is one for `step`: a contact is young, one has begun, ended or moved fast, or there was
-            none.
+            False where the frame is one for `step`: a contact is young, one has begun, ended or moved fast, or there
+            was none.
         """
         if not self._tracks or not self._follows(end_s):
             return False

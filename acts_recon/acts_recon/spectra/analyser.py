@@ -164,7 +164,7 @@ class SpectrumAnalyser:
         return labels.ravel()
 
     def _of(self, window: _Window, places: NDArray[np.intp], mean: Array) -> Spectrum | None:
-        """The spectrum of what presses these taxels; None where that is no force, or not for half of the window."""
+        """The spectrum of what presses these taxels; None where there is no force for half of the window."""
         places = places[np.argsort(-mean[places], kind="stable")][:_MOST_TAXELS]
         slot_of = np.full(self._geometry.size, -1, dtype=np.intp)
         slot_of[places] = np.arange(places.size)
@@ -205,8 +205,8 @@ class SpectrumAnalyser:
     def _pressed(self, window: _Window, mine: NDArray[np.bool_]) -> tuple[float, float]:
         """From when to when a contact was there for longest; `mine`: the samples of its pressed taxels.
 
-        A force that begins or ends within the window would be taken for tones: where it does, the part in which it rises
-        or falls is left out, too.
+        A force that begins or ends within the window would be taken for tones: where it does, the part in which it
+        rises or falls is left out, too.
         """
         first_s, last_s = float(window.time_s[0]), float(window.time_s[-1])
         edges_s = np.linspace(first_s, last_s, _PARTS + 1)
