@@ -38,8 +38,12 @@ def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) 
         words = list(sys.argv if args is None else args)[1:]
         own, ros_words = _split(words)
         options = _parser().parse_args(own)
+        skins_file = read_skins(options.skins_file)
+        if _TRUTHS[options.merge]:
+            # Here as well as in the node that merges: no skin is to start where that one refuses the file.
+            skins_file.in_base(options.base_frame)
         plan = SkinProcesses(
-            read_skins(options.skins_file),
+            skins_file,
             simulated=_TRUTHS[options.sim],
             run_dir=options.run_dir.absolute(),
             namespace=_namespace(ros_words),
@@ -71,6 +75,8 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--skins-file", type=Path, required=True, help="YAML file that describes the skins")
     parser.add_argument("--sim", choices=_TRUTHS, default="true", help="whether boards are simulated")
     parser.add_argument("--run-dir", type=Path, default=default_run_dir(), help="folder for files of simulated boards")
+    parser.add_argument("--merge", choices=_TRUTHS, default="false", help="whether the contacts are merged as well")
+    parser.add_argument("--base-frame", default="none", help="frame of the merged contacts; none: that of the file")
     return parser
 
 

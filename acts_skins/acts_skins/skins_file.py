@@ -36,6 +36,14 @@ _NODES_OF: dict[str, tuple[str, ...]] = {
 }
 """Parameters with a key of their own, and the nodes that get them."""
 
+_PATHS_OF: dict[str, tuple[str, ...]] = {
+    "driver": ("calibration_file", "model"),
+    "reconstruction": ("dictionary", "force_response", "object_library"),
+}
+"""Further parameters of the two nodes that are paths of files."""
+
+_NO_FILE = ("", "none")
+
 # As in the params file of tactile.launch.xml; the defaults of a board are for the paper's scheme.
 _DEFAULTS: dict[str, Any] = {"scheme": "tracking", "m": 55, "threshold_counts": 60}
 
@@ -105,8 +113,12 @@ class SkinsFile:
         """Pose of every frame of the file: its further frames, then the skins."""
         return {**self.frames, **{skin.name: skin.pose for skin in self.skins}}
 
+    def merged_in(self, base_frame: str = "") -> str:
+        """Frame of the merged contacts: `base_frame`, or that of the file where it is empty or none."""
+        return self.base_frame if base_frame in ("", "none") else base_frame
+
     def in_base(self, base_frame: str = "") -> dict[str, Transform]:
-        """Transform from each skin to `base_frame`, or to that of the file.
+        """Transform from each skin to the frame of the merged contacts, see `merged_in`.
 
         Raises
         ------
@@ -117,9 +129,9 @@ class SkinsFile:
         placed = {}
         for skin in self.skins:
             try:
-                placed[skin.name] = tree.between(base_frame or self.base_frame, skin.name)
+                placed[skin.name] = tree.between(self.merged_in(base_frame), skin.name)
             except SettingsError as error:
-                raise skin.section.error(str(error), "pose") from None
+                raise skin.section.error(f"{error}, or merge:=false", "pose") from None
         return placed
 
 
@@ -198,7 +210,15 @@ def _skin(name: str, section: Section) -> Skin:
 def _file(section: Section, key: str) -> Path | None:
     """A path; relative ones start at the file's folder."""
     text = section.text(key)
-    return None if text is None else section.path.absolute().parent / path_of(text, error=SettingsError)
+    return None if text is None else _beside(section, key, text)
+
+
+def _beside(section: Section, key: str, text: str) -> Path:
+    """The path that a key names, with ``~`` resolved; relative ones start at the file's folder."""
+    try:
+        return section.path.absolute().parent / path_of(text, error=SettingsError)
+    except SettingsError as error:
+        raise section.error(f"{key} = {error}", key) from None
 
 
 def _layout(section: Section) -> str:
@@ -225,7 +245,13 @@ def _parameters(section: Section, node: str) -> dict[str, Any]:
     }
     if own.get("layout") is not None:
         own["layout"] = _layout(section)
-    return {**{key: value for key, value in own.items() if value is not None}, **further.values}
+    # What is no text is refused with the other parameters, by their settings class.
+    files = {
+        key: str(_beside(further, key, text))
+        for key in _PATHS_OF[node]
+        if isinstance(text := further.values.get(key), str) and text not in _NO_FILE
+    }
+    return {**{key: value for key, value in own.items() if value is not None}, **further.values, **files}
 
 
 def _pose(section: Section) -> Pose:

@@ -177,6 +177,24 @@ def test_a_wrong_file_is_told_in_one_line_before_anything_starts(tmp_path: Path)
         assert skins.output.count("\n") == 1
 
 
+@pytest.mark.parametrize(
+    ("change", "words", "fixed_to"),
+    [
+        (("{parent: base_link}", "{parent: torsoo}"), (), "torsoo, and base_link to base_link"),
+        (("", ""), ("--base-frame=torso",), "base_link, and torso to torso"),
+    ],
+)
+def test_where_contacts_are_merged_a_skin_that_cannot_be_placed_keeps_all_from_starting(
+    tmp_path: Path, change: tuple[str, str], words: tuple[str, ...], fixed_to: str
+) -> None:
+    path = skins_yaml(tmp_path, TWO.replace(*change))
+    with running(tmp_path, path, 162, "--merge", "true", *words) as skins:
+        assert skins.process.wait(DEADLINE_S) == REFUSED_EXIT_CODE
+        assert skins.output.startswith(f"error: {path}:3: skin left: the frame left is fixed to {fixed_to}: ")
+        assert skins.output.count("\n") == 1
+    assert not (tmp_path / "run").exists()
+
+
 def test_a_folder_in_which_other_skins_are_simulated_is_refused_with_who_has_it(tmp_path: Path) -> None:
     with (
         contextlib.closing(Claim(tmp_path / "run" / "skins")),

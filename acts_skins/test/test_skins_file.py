@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -16,8 +17,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from acts_core.errors import SettingsError
-from acts_core.settings import from_text
+from acts_core.settings import default_of, describe, from_text
 from acts_driver.settings import DriverSettings
+from acts_recon.settings import ReconstructionSettings
 from acts_skins.skins_file import SkinsFile, read_skins
 from acts_skins.tactile_parameters import tactile_parameters
 
@@ -105,9 +107,48 @@ def test_a_replay_is_found_beside_the_file(tmp_path: Path) -> None:
     assert tactile_parameters(skin, "unused").driver.replay == str(tmp_path / "touch.npz")
 
 
+def files_of(settings_class: type) -> list[str]:
+    """Parameters that are paths of files by their description, except those with a key of their own."""
+    return [
+        name
+        for name, info in describe(settings_class).items()
+        if isinstance(default_of(settings_class, name), str)
+        and name not in ("port", "replay", "layout")
+        and re.search(r"file\b|\bpath\b|npz", info.description)
+    ]
+
+
+@pytest.mark.parametrize("given", ["sub/one.npz", "../one.npz", "/one.npz", "~/one.npz"])
+def test_files_of_the_two_nodes_are_found_beside_the_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, given: str
+) -> None:
+    monkeypatch.setenv("HOME", str(tmp_path / "home"))
+    found = {"driver": files_of(DriverSettings), "reconstruction": files_of(ReconstructionSettings)}
+    assert {"calibration_file", "model"} <= set(found["driver"])
+    assert {"force_response", "object_library", "dictionary"} <= set(found["reconstruction"])
+    own = dict.fromkeys(found["driver"], given)
+    further = dict.fromkeys(found["reconstruction"], given)
+    (skin,) = read(tmp_path, of_skin(f"driver: {own}", f"reconstruction: {further | {'method': 'per_frame'}}")).skins
+    parameters = tactile_parameters(skin, "auto")
+    expected = tmp_path / given.replace("~", "home")
+    for node, names in found.items():
+        for name in names:
+            assert getattr(getattr(parameters, node), name) == str(expected), name
+            assert f"{node}.{name}={expected}" in parameters.words
+
+
+@pytest.mark.parametrize("word", ["", "none"])
+def test_no_file_stays_none(tmp_path: Path, word: str) -> None:
+    (skin,) = read(tmp_path, of_skin(f"driver: {{calibration_file: '{word}', model: '{word}'}}")).skins
+    driver = tactile_parameters(skin, "auto").driver
+    assert (driver.calibration_file, driver.model) == (word, word)
+
+
 @pytest.mark.parametrize(
     ("lines", "words"),
     [
+        (["replay: ~nobody_at_all/x"], ["skins.yaml:4: skin left: replay = ~nobody_at_all/x: "]),
+        (["driver:", "  model: ~nobody_at_all/x"], ["skins.yaml:5: skin left: driver: model = ~nobody_at_all/x: "]),
         (["prot: x"], ["skins.yaml:4: skin left:", "unknown key 'prot'", "did you mean 'port'?"]),
         (["port: 5"], ["skins.yaml:4: skin left:", "port = 5", "put it in quotes"]),
         (["port: auto", "replay: x"], ["skins.yaml:5:", "port and replay"]),

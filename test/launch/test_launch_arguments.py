@@ -198,6 +198,14 @@ def test_only_with_sim_is_the_robot_held_to_be_a_simulated_one(launch: Callable[
             assert re.findall(r"loopback_only=(\w+)", words) == [expected]
 
 
+def test_what_runs_the_skins_knows_where_they_are_merged(launch: Callable[..., Printed]) -> None:
+    file = TACTILE.with_name("skins.launch.xml")
+    for merge in ("true", "false"):
+        (words, _), *_ = launch(file, merge=merge, base_frame="chest")
+        assert words[0].endswith("/skins")
+        assert f"--merge {merge} --base-frame=chest" in " ".join(words)
+
+
 # What is simulated reads no params file.
 OF_SIMULATED_ALONE = ("object",)
 # Of every file that takes a params file; the simulated board takes none.

@@ -67,7 +67,7 @@ class SkinContactsNode(PollingNode):
         if not settings.skins_file:
             raise SettingsError("skins_file is missing: the YAML file that describes the skins (docs/skins.md)")
         skins_file = read_skins(Path(settings.skins_file))
-        base_frame = settings.base_frame if settings.base_frame not in ("", "none") else skins_file.base_frame
+        base_frame = skins_file.merged_in(settings.base_frame)
         self._base_frame = base_frame
         self._links = {skin.name: skin.pose.parent for skin in skins_file.skins}
         self._placements = {name: Placement(pose) for name, pose in skins_file.in_base(base_frame).items()}
