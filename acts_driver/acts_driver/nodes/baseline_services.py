@@ -93,7 +93,8 @@ class BaselineServices:
             self._publish(baseline)
             self._node.get_logger().info(f"baseline of {int(baseline.valid.sum())} taxels from {path}")
         elif path is not None:
-            self._node.get_logger().info(f"no baseline yet: {path} is not there, the service ~/calibrate writes it")
+            service = self._node.resolve_service_name("~/calibrate")
+            self._node.get_logger().info(f"no baseline yet: {path} is not there, the service {service} writes it")
 
     def observe(self, frames: Sequence[tuple[SampleFrame, int]]) -> None:
         """Update the baseline by frames with their stamps [ns], on the reader's thread."""

@@ -117,6 +117,15 @@ def close_port(rig: Rig) -> None:
     rig.driver.trigger_cleanup()
 
 
+def test_where_there_is_no_baseline_yet_the_log_names_the_service_as_it_is_called(
+    rig: Rig, stream: Stream, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    start(rig, stream, tmp_path / "skin.npz")
+    service = "/plate/driver/calibrate"
+    rig.spin_until(lambda: service in dict(rig.listener.get_service_names_and_types()), "the service")
+    assert f"{tmp_path}/skin.npz is not there, the service {service} writes it" in capfd.readouterr().err
+
+
 def test_calibrate_and_tare(rig: Rig, stream: Stream, tmp_path: Path) -> None:
     path = tmp_path / "skin.npz"
     baselines = start(rig, stream, path)
