@@ -49,4 +49,4 @@ format:
 clean:
 	@running=$$(grep -Fsl "$(CURDIR)/.acts/" /proc/[0-9]*/maps | tr -dc '0-9\n' | tr '\n' ' '); \
 	if [ -n "$$running" ]; then echo "not cleaned: end what runs from here first (ps $$running)" >&2; exit 1; fi
-	rm -rf .acts build install log out
+	rm -rf .acts build install log out acts_*/build acts_*/*.egg-info .mypy_cache .ruff_cache .pytest_cache

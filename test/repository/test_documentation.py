@@ -13,6 +13,8 @@ from pathlib import Path
 
 import pytest
 
+from acts_tools.export.command import FORMATS
+
 ROOT = Path(__file__).resolve().parent.parent.parent
 PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md")])
 INDEX = ROOT / "docs" / "README.md"
@@ -79,6 +81,29 @@ def test_links_into_pages_lead_to_a_heading(page: Path) -> None:
     for target, anchor in re.findall(r"\]\((?!https?:)([^)#]*\.md)?#([^)]+)\)", page.read_text()):
         other = page.parent / target if target else page
         assert anchor in headings(other), f"{page.name} links to {target}#{anchor}"
+
+
+@pytest.mark.skipif(shutil.which("git") is None, reason="needs git")
+def test_what_the_commands_of_the_pages_write_is_no_change_of_the_checkout(tmp_path: Path) -> None:
+    text = "\n".join(page.read_text() for page in PAGES)
+    written = set(re.findall(r"acts (?:\S+ )*?(?:-o|--out|--json|--picture) ([a-z0-9_./]+)", text))
+    # Without -o: named after bag and format.
+    written |= {
+        f"{bag}.npz" if kind == "npz" else f"{bag}_{kind}"
+        for bag in re.findall(r"acts export (\w+) --to \w+ +#", text)
+        for kind in FORMATS
+    }
+    assert {"touch", "touch_csv", "touch.npz", "objects.npz", "out/one.json"} <= written
+    shutil.copy(ROOT / ".gitignore", tmp_path)
+    subprocess.run(["git", "init", "--quiet", tmp_path], check=True, timeout=60)
+    ignored = subprocess.run(
+        ["git", "-C", tmp_path, "check-ignore", "--stdin"],
+        input="\n".join(written),
+        capture_output=True,
+        text=True,
+        timeout=60,
+    ).stdout.split()
+    assert [name for name in sorted(written - set(ignored)) if not (ROOT / name).exists()] == []
 
 
 EXAMPLES = [

@@ -120,3 +120,23 @@ def test_nothing_is_removed_under_what_runs(tmp_path: Path) -> None:
     assert library.exists()
     assert subprocess.run(clean, capture_output=True, text=True, timeout=30).returncode == 0
     assert not library.parent.exists()
+
+
+def test_what_was_built_or_cached_is_removed_and_nothing_else(tmp_path: Path) -> None:
+    shutil.copy(BOOTSTRAP.parent.parent / "Makefile", tmp_path)
+    # Second what pip leaves in a checkout that is installed without ROS, third what linters and pytest do.
+    made = [
+        *(".acts/venv/file", "build/file", "install/file", "log/file", "out/ball_balancing.png"),
+        *("acts_core/build/lib/file", "acts_core/acts_core.egg-info/PKG-INFO", "acts_recon/build/file"),
+        *(".mypy_cache/file", ".ruff_cache/file", ".pytest_cache/file"),
+    ]
+    kept = [
+        *("acts_core/acts_core/array.py", "acts_core/test/build/file", "acts_core/setup.py"),
+        *("touch/touch_0.mcap", "touch.npz", "recordings/plate/touch.mcap", "objects.npz", "builds/touch.mcap"),
+    ]
+    for name in (*made, *kept):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).touch()
+    subprocess.run(["make", "-C", str(tmp_path), "clean"], check=True, capture_output=True, timeout=30)
+    left = {path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*") if path.is_file()}
+    assert left == {"Makefile", *kept}
