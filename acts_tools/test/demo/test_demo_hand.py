@@ -79,21 +79,45 @@ def test_figures_are_those_of_the_outcome_and_what_fails_is_told() -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "worked", "failed"),
+    ("name", "worked", "missed", "failed"),
     [
-        ("slip", Outcome(kept=True, noticed_ms=30.0, offset_mm=0.6), Outcome(kept=True, offset_mm=3.1)),
-        ("sharp", Outcome(kept=True, noticed_ms=52.0, stopped_ms=2.0), Outcome(kept=True, noticed_ms=101.0)),
+        (
+            "slip",
+            Outcome(kept=True, noticed_ms=30.0, offset_mm=0.6),
+            "slip noticed after 0.2 mm of motion: 30.0 ms, asked <= 15",
+            Outcome(kept=True, offset_mm=3.1),
+        ),
+        (
+            "slip",
+            Outcome(kept=True, offset_mm=0.6),
+            "slip noticed after 0.2 mm of motion: -, asked <= 15",
+            Outcome(kept=True, offset_mm=3.1),
+        ),
+        (
+            "sharp",
+            Outcome(kept=True, noticed_ms=52.0, stopped_ms=2.0, penetration_mm=3.4),
+            "finger opens after contact with the tip: 54.0 ms, asked <= 20; tip in the skin: 3.4 mm, asked < 2",
+            Outcome(kept=True, noticed_ms=101.0),
+        ),
         (
             "sphere",
-            Outcome(offset_mm=7.0, details={"begin_mm": 20.0, "tips": ["index", "ring"]}),
+            Outcome(kept=True, offset_mm=7.0, details={"begin_mm": 20.0, "tips": ["index", "ring"]}),
+            "and at the end: 7.0 mm, asked <= 5",
             Outcome(offset_mm=7.0, details={"begin_mm": 20.0, "tips": ["index"]}),
+        ),
+        (
+            "sphere",
+            Outcome(kept=False, offset_mm=2.0, details={"begin_mm": 20.0, "tips": ["index", "ring"]}),
+            "kept: False, asked True",
+            Outcome(offset_mm=20.0, details={"begin_mm": 20.0, "tips": ["index", "ring"]}),
         ),
     ],
 )
-def test_an_act_may_work_and_miss_what_is_asked(name: str, worked: Outcome, failed: Outcome) -> None:
+def test_an_act_may_work_and_miss_what_is_asked(name: str, worked: Outcome, missed: str, failed: Outcome) -> None:
     results = score([act_of(worked, name)])
     assert (results["ok"], results["works"], results["failures"]) == (False, True, [])
-    assert "result: works\n  worked, not as well as asked: " in table(results, [act_of(worked, name)])
+    line = f"result: works\n  worked, not as well as asked: a cylinder is loaded ({missed})"
+    assert table(results, [act_of(worked, name)]).endswith(line)
     results = score([act_of(worked, name), act_of(failed, name)])
     assert (results["works"], len(results["failures"]), len(results["missed"])) == (False, 1, 1)
 
