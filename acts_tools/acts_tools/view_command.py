@@ -95,6 +95,8 @@ def _show_local(arguments: argparse.Namespace, signals: StopSignals) -> int:
         from acts_view.local.sources import BoardSource, LocalSource, open_recorded
         from acts_view.settings import ViewSettings
 
+    # Refused as by the node, and before a long recording is read.
+    settings = ViewSettings(host=arguments.host, port=arguments.port)
     source: LocalSource
     if arguments.board:
         rows, cols = arguments.size
@@ -102,7 +104,7 @@ def _show_local(arguments: argparse.Namespace, signals: StopSignals) -> int:
             port=arguments.board, baud=arguments.baud, protocol=arguments.protocol, rows=rows, cols=cols
         )
         name = f"/{arguments.skins[0].strip('/')}" if arguments.skins else "/board"
-        record_dir = Path(ViewSettings().record_dir) if arguments.control else None
+        record_dir = Path(settings.record_dir) if arguments.control else None
         source = BoardSource(
             name, driver, arguments.layout, log, with_outlines=arguments.outlines, record_dir=record_dir
         )
@@ -110,4 +112,4 @@ def _show_local(arguments: argparse.Namespace, signals: StopSignals) -> int:
         source, name = open_recorded(
             arguments.bag or arguments.npz, arguments.skins, arguments.layout, with_outlines=arguments.outlines
         )
-    return show(source, name, host=arguments.host, port=arguments.port, signals=signals)
+    return show(source, name, host=settings.host, port=settings.port, signals=signals)

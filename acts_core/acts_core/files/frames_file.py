@@ -85,7 +85,10 @@ def load_frames(path: Path, *, labels: bool = False, limit_bytes: int | None = N
     RecordingError
         When it cannot be read or its arrays do not fit together.
     """
-    needed = "needed is an npz file with an array `frames` (n, rows, cols), or what `acts export BAG --to npz` writes"
+    needed = (
+        "needed is an npz file with an array `frames` (n, rows, cols), or what "
+        "`acts export BAG --to npz --rate 100` writes"
+    )
     names = ["frames", "image", "live", "start", "length", "rate_hz", *(["label"] if labels else [])]
     limit_bytes = half_of_memory_bytes() if limit_bytes is None else limit_bytes
     content = read_npz(path, names, error=RecordingError, hint=needed, limit_bytes=limit_bytes)

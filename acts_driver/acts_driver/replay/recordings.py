@@ -290,7 +290,8 @@ def _rate_of(content: FramesFile, given_hz: float, path: Path) -> float:
     rate_hz = given_hz or content.rate_hz
     if rate_hz is None:
         raise RecordingError(
-            f"{path}: rate_hz is missing; add it to the file, or set the parameter replay_frames_hz: frames per second"
+            f"{path}: rate_hz is missing, the number of frames per second; add it to the file, or export the bag again "
+            "with --rate 100; for a driver, its parameter replay_frames_hz says it as well"
         )
     if not _RATE_MIN_HZ <= rate_hz <= _RATE_MAX_HZ:
         raise RecordingError(f"{path}: {rate_hz:g} frames per second; {_RATES}")

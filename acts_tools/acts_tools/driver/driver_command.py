@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from acts_core.errors import BoardError, SettingsError
 from acts_core.names import full_name
-from acts_core.settings import default_of
+from acts_core.settings import checked, default_of, describe
 
 if TYPE_CHECKING:
     from rclpy.client import Client
@@ -50,7 +50,15 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Call the driver and print its reply; return 1 if it refuses."""
+    """Call the driver and print its reply; return the exit code.
+
+    Raises
+    ------
+    BoardError
+        The driver refuses, or does not answer.
+    SettingsError
+        The command line is none that the driver could be asked.
+    """
     is_set = arguments.what == "set"
     if bool(arguments.values) != is_set:
         raise SettingsError("`acts driver set` takes parameters, such as m=128; the others take none")
@@ -70,6 +78,9 @@ def run(arguments: argparse.Namespace) -> int:
     else:
         response = _call(Trigger, f"{node}/{_SERVICES[arguments.what]}", Trigger.Request())
         succeeded, words = response.success, response.message
+    # What a query gives is a report, of a board that is not well too.
+    if not succeeded and arguments.what != "query":
+        raise BoardError(words)
     print(words, file=sys.stdout if succeeded else sys.stderr)
     return 0 if succeeded else 1
 
@@ -80,7 +91,7 @@ def parameters_of(words: list[str]) -> dict[str, Any]:
     Raises
     ------
     SettingsError
-        There is no such parameter, or the value has another type.
+        There is no such parameter, or the value has another type or is out of range.
     """
     from acts_driver.board import BOARD_PARAMETERS, BoardParameters
 
@@ -89,13 +100,16 @@ def parameters_of(words: list[str]) -> dict[str, Any]:
         name, is_given, text = word.partition("=")
         if not is_given or name not in BOARD_PARAMETERS:
             raise SettingsError(f"{word}: needed is NAME=VALUE with one of {', '.join(BOARD_PARAMETERS)}")
-        kind: Any = type(default_of(BoardParameters, name))
+        default = default_of(BoardParameters, name)
+        kind: Any = type(default)
         try:
-            values[name] = _absolute(text) if name == "model" else kind(text)
+            value = _absolute(text) if name == "model" else kind(text)
         except ValueError:
             raise SettingsError(
                 f"{word}: needed is a {'whole number' if kind is int else 'number'} for {name}"
             ) from None
+        # ROS would refuse a number out of range before the driver sees it, without saying what the parameter is.
+        values[name] = checked(name, value, default, describe(BoardParameters)[name])
     return values
 
 

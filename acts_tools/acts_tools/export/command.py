@@ -38,7 +38,7 @@ def add_parser(subparsers: Any) -> None:
         "--output",
         type=Path,
         metavar="PATH",
-        help="folder (npz: file) to make (name of the first bag and format)",
+        help="folder to make, or with --to npz a file that ends in .npz (name of the first bag and format)",
     )
     parser.add_argument("--skin", default="", metavar="NAMESPACE", help="skin to export, if there are several")
     parser.add_argument(
@@ -60,7 +60,7 @@ def run(arguments: argparse.Namespace) -> int:
     Raises
     ------
     RecordingError
-        A bag cannot be read, or the output exists already.
+        A bag cannot be read, or the output exists already or has no name of its kind.
     """
     kind, bags = arguments.kind, arguments.bags
     rate_hz = _LEROBOT_HZ if arguments.rate is None and kind == "lerobot" else arguments.rate or 0.0
@@ -74,6 +74,9 @@ def run(arguments: argparse.Namespace) -> int:
     output = arguments.output or _default_output(bags[0], kind)
     if output.exists():
         raise RecordingError(f"'{output}' exists already and is not overwritten: choose another with -o")
+    # What reads a recording tells an npz file by its name.
+    if kind == "npz" and output.suffix != ".npz":
+        raise RecordingError(f"'{output}': no name of an npz file; allowed are names that end in .npz")
     # Imported here, because they are slow to import and an invalid command line does not need them.
     from acts_tools.export.lerobot import LeRobotWriter
     from acts_tools.export.recording import Choice, open_recording

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import os
+import re
 import subprocess
 import sys
 import threading
@@ -61,10 +62,13 @@ def test_a_driver_is_asked_and_told(driver: None, capsys: pytest.CaptureFixture[
     assert "board 77, firmware 0.1.0" in text
     assert "tracking, M = 128" in text
     assert main(["driver", "-n", "hand", "set", "scheme=uniform", "m=57"]) == 1
-    assert "no uniform grid" in capsys.readouterr().err
+    assert re.match("error: .*no uniform grid", capsys.readouterr().err)
+    assert main(["driver", "-n", "hand", "set", "m=2000"]) == 1
+    assert capsys.readouterr().err.startswith("error: m = 2000: an array of 32 x 32 has 1024 taxels")
     # Whether it may depends on how much of the skin has been seen; it answers either way.
-    assert main(["driver", "-n", "hand", "tare"]) in (0, 1)
-    assert "".join(capsys.readouterr())
+    refused = main(["driver", "-n", "hand", "tare"])
+    told = capsys.readouterr()
+    assert told.err.startswith("error: ") if refused else told.out.startswith("tared ")
 
 
 def test_parameters_have_the_types_they_are_declared_with() -> None:
@@ -72,6 +76,15 @@ def test_parameters_have_the_types_they_are_declared_with() -> None:
     assert found == {"m": 64, "rate_cap_hz": 500.0, "scheme": "tracking", "model": ""}
     assert type(found["rate_cap_hz"]) is float
     assert parameters_of(["model=a.npz"]) == {"model": str(Path.cwd() / "a.npz")}
+    for word, told in (
+        ("m=5000", "m = 5000: allowed is 0 to 4096 (taxels measured per frame"),
+        ("m=-1", "m = -1: allowed is 0 to 4096"),
+        ("rate_cap_hz=nan", "rate_cap_hz = nan: allowed is a finite number, 0 to 1e+06"),
+        (f"seed={2**63}", f"seed = {2**63}: allowed is -1 to {2**63 - 1}"),
+        ("scheme=foo", "scheme = 'foo': allowed is one of empty, adaptive,"),
+    ):
+        with pytest.raises(SettingsError, match=re.escape(told)):
+            parameters_of([word])
     for word in ("m", "m=many", "port=auto"):
         with pytest.raises(SettingsError, match="needed is"):
             parameters_of([word])

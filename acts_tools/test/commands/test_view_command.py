@@ -17,6 +17,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from websockets import Origin
 from websockets.sync.client import connect
@@ -148,3 +149,14 @@ def test_protocol_and_speed_of_a_board_are_those_of_the_driver(words: tuple[str,
     assert process.returncode != 0
     assert told in output
     assert "Traceback" not in output
+
+
+@pytest.mark.parametrize("source", ["--board", "--npz"])
+def test_a_port_that_cannot_be_is_refused_without_a_graph_too(source: str, tmp_path: Path) -> None:
+    np.savez(tmp_path / "frames.npz", frames=np.zeros((9, 32, 32), np.uint16), rate_hz=100.0)
+    shown = "/dev/null" if source == "--board" else str(tmp_path / "frames.npz")
+    with start(source, shown, "--port", "99999") as process:
+        output, _ = process.communicate(timeout=DEADLINE_S)
+    assert process.returncode == 1
+    assert output.startswith("error: port = 99999: allowed is 0 to 65535"), output
+    assert output.count("\n") == 1

@@ -23,6 +23,8 @@ from std_msgs.msg import Header
 
 from acts_core.errors import RecordingError
 from acts_core.files import load_frames
+from acts_driver.replay import ReplayOptions
+from acts_driver.replay import open_recording as open_samples
 from acts_msgs.msg import Baseline, Contact, Contacts, TactileSamples, TrackedContact
 from acts_recon.settings import ReconstructionSettings
 from acts_ros.bags.message_types import Definitions
@@ -227,9 +229,19 @@ def test_without_pyarrow_it_is_said_how_to_install_it(
 def test_what_cannot_be_exported_is_refused(
     options: list[str], message: str, bag: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert main(["export", str(bag), *options, "--to", "npz", "-o", str(tmp_path / "out")]) == 1
+    assert main(["export", str(bag), *options, "--to", "npz", "-o", str(tmp_path / "out.npz")]) == 1
     assert message in capsys.readouterr().err
-    assert not (tmp_path / "out").exists()
+    assert not (tmp_path / "out.npz").exists()
+
+
+@pytest.mark.parametrize("name", ["out", "out.NPZ", "new/out.csv"])
+def test_an_npz_file_has_a_name_by_which_it_is_read_again(
+    name: str, bag: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    before = sorted(tmp_path.iterdir())
+    assert main(["export", str(bag), "--to", "npz", "-o", str(tmp_path / name)]) == 1
+    assert f"{name}': no name of an npz file; allowed are names that end in .npz" in capsys.readouterr().err
+    assert sorted(tmp_path.iterdir()) == before
 
 
 def test_what_was_exported_at_a_rate_can_be_evaluated(bag: Path, tmp_path: Path) -> None:
@@ -238,6 +250,20 @@ def test_what_was_exported_at_a_rate_can_be_evaluated(bag: Path, tmp_path: Path)
     recorded = load_frames(out)
     assert recorded.rate_hz == 100.0
     assert np.array_equal(recorded.frames, [pressed(n) for n in (2, 3, 4)])
+    assert len(list(open_samples(ReplayOptions(out)).frames())) > 0
+
+
+def test_what_was_exported_without_a_rate_says_how_to_be_of_use(
+    bag: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "touch.npz"
+    assert main(["export", str(bag), "--to", "npz", "-o", str(out)]) == 0
+    assert main(["evaluate", "recovery", "--frames", str(out)]) == 1
+    told = capsys.readouterr().err
+    assert "has no rate_hz" in told
+    assert "export the bag again with --rate 100" in told
+    with pytest.raises(RecordingError, match="export the bag again with --rate 100"):
+        open_samples(ReplayOptions(out))
 
 
 def test_nothing_is_overwritten_and_several_skins_ask_for_a_choice(
@@ -246,9 +272,9 @@ def test_nothing_is_overwritten_and_several_skins_ask_for_a_choice(
     path = write_bag(tmp_path / "b", *((f"/{name}/image_raw", image(1, pressed(0))) for name in ("foot", "plate")))
     assert main(["export", str(path), "--to", "npz", "-o", str(path)]) == 1
     assert "exists already" in capsys.readouterr().err
-    assert main(["export", str(path), "--to", "npz", "-o", str(tmp_path / "n")]) == 1
+    assert main(["export", str(path), "--to", "npz", "-o", str(tmp_path / "n.npz")]) == 1
     assert "skins /foot, /plate: choose one with --skin" in capsys.readouterr().err
-    assert main(["export", str(path), "--to", "npz", "-o", str(tmp_path / "n"), "--skin", "foot"]) == 0
+    assert main(["export", str(path), "--to", "npz", "-o", str(tmp_path / "n.npz"), "--skin", "foot"]) == 0
 
 
 def test_lerobot_rate_is_a_whole_number(bag: Path, capsys: pytest.CaptureFixture[str]) -> None:

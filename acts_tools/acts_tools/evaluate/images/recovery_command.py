@@ -74,7 +74,10 @@ def _recordings(arguments: argparse.Namespace) -> Sequence[Recording]:
     tell_if_large(arguments.frames)
     recorded = load_frames(arguments.frames)
     if recorded.rate_hz is None:
-        raise RecordingError(f"{arguments.frames}: has no rate_hz; needed is how many frames were recorded per second")
+        raise RecordingError(
+            f"{arguments.frames}: has no rate_hz; needed is how many frames were recorded per second: add it to the "
+            "file, or export the bag again with --rate 100"
+        )
     rate_hz = recorded.rate_hz
     if arguments.peaks:
         return [Recording(frame[None], rate_hz, recorded.live) for frame in recorded.peak_frames()][:: arguments.every]
