@@ -21,6 +21,7 @@ CHECKS: tuple[Callable[[Machine], Finding], ...] = (
     scheduling.rtprio_limit,
     scheduling.locked_memory,
     scheduling.realtime_share,
+    scheduling.kernel_workers,
     memory.shared_memory,
     memory.abandoned,
     memory.swap,

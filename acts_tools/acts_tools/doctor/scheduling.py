@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import os
 import resource
 
 from acts_tools.doctor.finding import Finding, Level, unknown
@@ -15,6 +16,7 @@ _CAP_IPC_LOCK = 14
 _LIMITS_FILE = "/etc/security/limits.d/99-realtime.conf"
 _JOIN = "sudo groupadd --force realtime && sudo usermod -a -G realtime $USER"
 _DEFAULT_SHARE_US = 950_000
+_REALTIME_POLICIES = (str(os.SCHED_FIFO), str(os.SCHED_RR))
 
 
 def rtprio_limit(machine: Machine) -> Finding:
@@ -98,6 +100,25 @@ def realtime_share(machine: Machine) -> Finding:
         return Finding(name, Level.NOTE, text, mend, for_realtime=True)
     text = f"{100 * share_us / period_us:.0f} % of a core, the rest is left to others"
     return Finding(name, Level.OK, text, for_realtime=True)
+
+
+def kernel_workers(machine: Machine) -> Finding:
+    """Check whether the kernel's threads that hand on what a serial port received run before ordinary programs."""
+    name = "kernel workers"
+    stats = [machine.text(str(path.relative_to(machine.root))) or "" for path in machine.found("proc/[0-9]*/stat")]
+    # The second field is the name in brackets, the 41st the scheduling policy (proc_pid_stat(5)).
+    policies = [stat.rpartition(")")[2].split()[38] for stat in stats if "(kworker/u" in stat]
+    if not policies:
+        return unknown(name, "the threads kworker/u* in /proc")
+    if all(policy in _REALTIME_POLICIES for policy in policies):
+        return Finding(name, Level.OK, "in real time: what a serial port received is handed on at once")
+    return Finding(
+        name,
+        Level.NOTE,
+        "ordinary threads hand on what a serial port received: on a busy machine late by some ms, whatever "
+        "realtime_priority is",
+        "for id in $(pgrep kworker/u); do sudo chrt -f -p 1 $id; done     # again now and then: others come",
+    )
 
 
 def _limits(item: str) -> str:

@@ -25,6 +25,8 @@ NO_LIMIT = (resource.RLIM_INFINITY, resource.RLIM_INFINITY)
 GOOD = {
     "proc/version": "Linux version 6.8.1 #1 SMP PREEMPT_RT Tue Apr 30",
     "sys/kernel/realtime": "1",
+    "proc/48/stat": f"48 (kworker/u8:0-events_unbound) I 2 {'0 ' * 35}1 1 0",
+    "proc/49/stat": f"49 (cat) S 2 {'0 ' * 35}0 0 0",
     "proc/self/status": "Name:\tpython3\nCapEff:\t0000000000000000\nCpus_allowed_list:\t0-3\n",
     "proc/self/cgroup": "0::/user.slice",
     "sys/fs/cgroup/user.slice/cpu.max": "max 100000",
@@ -127,6 +129,14 @@ CASES = [
         "kernel", NOTE, "not PREEMPT_RT", "realtime-kernel",
         {"sys/kernel/realtime": None, "proc/version": "Linux version 6.8.0 #1 SMP PREEMPT_DYNAMIC"},
     ),
+    Case(
+        "kernel workers",
+        NOTE,
+        "late by some ms, whatever realtime_priority is",
+        "chrt -f -p 1",
+        {"proc/50/stat": f"50 (kworker/u9:1) I 2 {'0 ' * 35}0 0 0"},
+    ),
+    Case("kernel workers", UNKNOWN, "kworker/u", "", {"proc/48/stat": None}),
     Case("kernel", UNKNOWN, "/proc/version", "", {"sys/kernel/realtime": None, "proc/version": None}),
     Case(
         "rtprio limit", NOTE, "no effect", "rtprio 99", machine={"limit": limits(rtprio=(0, 0))}, for_realtime=True,
