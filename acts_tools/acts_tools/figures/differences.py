@@ -9,8 +9,9 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from acts_tools.figures.sheet import PUBLISHED, Panel
+from acts_tools.figures.sheet import PUBLISHED, Curve, Panel
 
 
 def differences(panels: Sequence[Panel]) -> list[dict[str, Any]]:
@@ -20,8 +21,9 @@ def differences(panels: Sequence[Panel]) -> list[dict[str, Any]]:
     -------
     list of dict
         `panel`, `published`, `curve`: titles and labels; `points`: how many of the published points lie in the range of
-        the curve; `mean_relative`, `largest_relative`: of the absolute differences there, the curve between its points
-        linear, relative to the published value; `mean_absolute`, `mean`: of the absolute and the signed difference.
+        the curve, or the two ends of the range that both have where less than two do; `mean_relative`,
+        `largest_relative`: of the absolute differences there, both linear between their points, relative to the
+        published value; `mean_absolute`, `mean`: of the absolute and the signed difference.
     """
     found = []
     for panel in panels:
@@ -30,12 +32,16 @@ def differences(panels: Sequence[Panel]) -> list[dict[str, Any]]:
             if published.by != PUBLISHED or published.beside not in curves:
                 continue
             curve = curves[published.beside]
-            order = np.argsort(curve.x)
             x, y = np.array(published.x), np.array(published.y)
-            inside = (x >= min(curve.x)) & (x <= max(curve.x)) & (y != 0)
+            first, last = max(min(curve.x), x.min()), min(max(curve.x), x.max())
+            inside = (x >= first) & (x <= last) & (y != 0)
+            if inside.sum() < 2 and first < last:
+                ends = np.array([first, last])
+                x, y = ends, _at(ends, published)
+                inside = y != 0
             if not inside.any():
                 continue
-            there = np.interp(x[inside], np.array(curve.x)[order], np.array(curve.y)[order])
+            there = _at(x[inside], curve)
             relative = np.abs(there - y[inside]) / np.abs(y[inside])
             found.append(
                 {
@@ -50,3 +56,9 @@ def differences(panels: Sequence[Panel]) -> list[dict[str, Any]]:
                 }
             )
     return found
+
+
+def _at(x: NDArray[np.float64], curve: Curve) -> NDArray[np.float64]:
+    """Values of a curve, linear between its points."""
+    order = np.argsort(curve.x)
+    return np.interp(x, np.array(curve.x)[order], np.array(curve.y)[order])

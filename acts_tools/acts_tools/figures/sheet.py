@@ -149,7 +149,7 @@ def with_curves(panels: Sequence[Panel], more: dict[str, list[Curve]]) -> list[P
 
 
 def to_json(panels: Sequence[Panel]) -> list[dict[str, Any]]:
-    """Panels as plain numbers; what has its default is left out."""
+    """Panels as plain numbers; what is empty is left out where that is its default."""
     return [_filled(asdict(panel)) for panel in panels]
 
 
@@ -159,13 +159,17 @@ def from_json(entries: Sequence[dict[str, Any]]) -> list[Panel]:
         Panel(
             **{
                 **entry,
-                "curves": [Curve(**curve) for curve in entry.get("curves", [])],
+                "curves": [Curve(**{"label": "", **curve}) for curve in entry.get("curves", [])],
                 "picture": Picture(**entry["picture"]) if "picture" in entry else None,
                 "contours": Contours(**entry["contours"]) if "contours" in entry else None,
             }
         )
         for entry in entries
     ]
+
+
+# What has no default.
+_NEEDED = ("title", "label", "x", "y", "values", "levels")
 
 
 def _filled(entry: dict[str, Any]) -> dict[str, Any]:
@@ -175,7 +179,7 @@ def _filled(entry: dict[str, Any]) -> dict[str, Any]:
             kept[name] = [_filled(curve) for curve in value]
         elif isinstance(value, dict):
             kept[name] = _filled(value)
-        elif value not in (None, "", [], False):
+        elif name in _NEEDED or not (value is None or value is False or value in ("", [])):
             kept[name] = value
     return kept
 

@@ -15,7 +15,9 @@ from typing import Any
 import pytest
 
 from acts_tools.cli import main
+from acts_tools.figures.differences import differences
 from acts_tools.figures.registry import FIGURES
+from acts_tools.figures.sheet import PUBLISHED, SAME, Contours, Curve, Panel, Picture, from_json, to_json
 
 PNG = b"\x89PNG\r\n\x1a\n"
 
@@ -46,6 +48,8 @@ def test_a_figure_is_made_of_finite_numbers(name: str, folder: Path, monkeypatch
     assert made["command"] == f"acts figures {name} --seed 1 --fast"
     assert (made["seed"], made["fast"], made["published"]) == (1, True, False)
     assert made["panels"]
+    # What is kept is enough to draw it again.
+    assert to_json(from_json(made["panels"])) == made["panels"]
     for panel in made["panels"]:
         values = list(numbers([panel.get("curves", []), panel.get("picture", {}), panel.get("contours", {})]))
         assert values, panel["title"]
@@ -83,6 +87,24 @@ def test_a_figure_is_not_measured_again(tmp_path: Path, capsys: pytest.CaptureFi
         assert main([*words, *more]) == 0
         told.append("as measured before" in capsys.readouterr().out)
     assert told == [False, True, False, False, False]
+
+
+def test_panels_are_the_same_when_they_are_read_again() -> None:
+    panels = [
+        Panel("empty words and zeros", curves=[Curve("", [1.0], [0.0]), Curve("none", [], [])], y_min=0.0, y_max=0.0),
+        Panel("upside down", picture=Picture([[0.0]], bottom=0.0, top=32.0, lowest=0.0)),
+        Panel("lines", contours=Contours([], [], [], [0.0]), equal=True),
+    ]
+    assert from_json(json.loads(json.dumps(to_json(panels)))) == panels
+
+
+def test_lines_of_two_points_are_compared_at_both_ends_of_what_they_share() -> None:
+    ours = Curve("line", [2.0, 12.0], [0.2, 1.2], by=SAME)
+    panel = Panel("sizes", curves=[ours, Curve("published", [0.0, 10.0], [0.5, 1.5], by=PUBLISHED, beside="line")])
+    (found,) = differences([panel])
+    # 0.7 and 1.5 are published at 2 and 10, where ours is 0.2 and 1.0.
+    assert (found["points"], found["mean"]) == (2, pytest.approx(-0.5))
+    assert found["largest_relative"] == pytest.approx(0.5 / 0.7)
 
 
 def test_unknown_figures_and_folders_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
