@@ -8,6 +8,7 @@ To add one, write a module with ``FIGURES`` (see `acts_tools.figures.figure.Figu
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 from acts_core.errors import SettingsError
@@ -40,7 +41,7 @@ FIGURES: dict[str, Figure] = {figure.name: figure for module in _MODULES for fig
 
 
 def figures_named(names: Sequence[str]) -> list[Figure]:
-    """Figures by name, upper or lower case; all for no name.
+    """Figures by name, upper or lower case, as 6A-C several of one number; all for no name.
 
     Raises
     ------
@@ -48,7 +49,19 @@ def figures_named(names: Sequence[str]) -> list[Figure]:
         When there is none of a name.
     """
     known = {name.lower(): figure for name, figure in FIGURES.items()}
+    found: list[Figure] = []
     for name in names:
-        if name.lower() not in known:
+        parts = [name.lower()] if name.lower() in known else _parts(name.lower())
+        if not parts or any(part not in known for part in parts):
             raise SettingsError(f"figure {name!r}: allowed are {', '.join(FIGURES)}")
-    return [known[name.lower()] for name in names] if names else list(FIGURES.values())
+        found += [known[part] for part in parts]
+    return found or list(FIGURES.values())
+
+
+def _parts(name: str) -> list[str]:
+    """6a, 6b, 6c of 6a-c; nothing of another name."""
+    several = re.fullmatch(r"(\d+)([a-z])-([a-z])", name)
+    if several is None:
+        return []
+    number, first, last = several.groups()
+    return [f"{number}{chr(letter)}" for letter in range(ord(first), ord(last) + 1)]

@@ -14,9 +14,10 @@ from typing import Any
 
 import pytest
 
+from acts_core.errors import SettingsError
 from acts_tools.cli import main
 from acts_tools.figures.differences import differences
-from acts_tools.figures.registry import FIGURES
+from acts_tools.figures.registry import FIGURES, figures_named
 from acts_tools.figures.sheet import PUBLISHED, SAME, Contours, Curve, Panel, Picture, from_json, to_json
 
 PNG = b"\x89PNG\r\n\x1a\n"
@@ -105,6 +106,15 @@ def test_lines_of_two_points_are_compared_at_both_ends_of_what_they_share() -> N
     # 0.7 and 1.5 are published at 2 and 10, where ours is 0.2 and 1.0.
     assert (found["points"], found["mean"]) == (2, pytest.approx(-0.5))
     assert found["largest_relative"] == pytest.approx(0.5 / 0.7)
+
+
+def test_figures_of_one_number_have_a_name_together() -> None:
+    words = {"6A-C": ["6A", "6B", "6C"], "5f-g": ["5F", "5G"], "8B-G": ["8B-G"], "S7-1": ["S7-1"]}
+    assert {word: [figure.name for figure in figures_named([word])] for word in words} == words
+    assert len(figures_named([])) == len(FIGURES)
+    for word in ("6A-Z", "6C-A", "7-8"):
+        with pytest.raises(SettingsError, match="allowed are 4D"):
+            figures_named([word])
 
 
 def test_unknown_figures_and_folders_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -54,7 +54,7 @@ def add_parser(commands: Any) -> None:
         "--recordings",
         type=Path,
         metavar="FOLDER",
-        help="write the first of each scene here, SCENE.npy for `virtual_board --recording`",
+        help="write the first of each scene here, less the offsets, SCENE.npy for `virtual_board --recording`",
     )
     add_scene_arguments(parser, 25, "of each scene")
     parser.set_defaults(evaluate=_run)
@@ -107,9 +107,11 @@ def _run(arguments: argparse.Namespace) -> int:
 
 
 def _write(folder: Path, name: str, shown: WornScene) -> None:
+    # A board that repeats a scene is never untouched for as long as a calibration takes.
+    counts = np.maximum(shown.frames, shown.frames[0]) - shown.frames[0]
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        np.save(folder / f"{name}.npy", shown.frames)
+        np.save(folder / f"{name}.npy", counts)
     except OSError as error:
         raise RecordingError(f"--recordings {folder}: cannot be written ({error.strerror})") from error
 
