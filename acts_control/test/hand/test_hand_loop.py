@@ -12,7 +12,7 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -26,6 +26,7 @@ from std_srvs.srv import Trigger
 from test_dynamixel_hand import DEADLINE_S, TIMEOUT_MS, Bus
 
 from acts_control.hand.control import HandLoop, HandLoopConfig, HandPhase
+from acts_control.hand.control.loop import Behaviour
 from acts_control.hand.description import LEAP_RIGHT
 from acts_control.hand.motors import HandError, HandReading
 
@@ -47,14 +48,16 @@ def bus(tmp_path: Path) -> Iterator[Bus]:
 class Running:
     """A loop on the bus, and what it has logged."""
 
-    def __init__(self, bus: Bus, motor_watchdog_s: float = 0.0, **settings: float) -> None:
+    def __init__(
+        self, bus: Bus, motor_watchdog_s: float = 0.0, behaviour: Behaviour | None = None, **settings: float
+    ) -> None:
         self.log: list[tuple[str, str]] = []
         self.may_go_on = threading.Event()
         self.may_go_on.set()
         # The motors' own watchdog is off: a loaded machine holds a loop up for longer.
         hand = bus.hand(motor_watchdog_s=motor_watchdog_s)
         config = HandLoopConfig(silence_s=2.0, connect_retry_s=0.05, **settings)
-        self.loop = HandLoop(LEAP_RIGHT, hand, config, lambda *told: self.log.append(told), self._on_reading)
+        self.loop = HandLoop(LEAP_RIGHT, hand, config, lambda *told: self.log.append(told), self._on_reading, behaviour)
         self.loop.launch()
 
     def _on_reading(self, _reading: HandReading) -> None:
@@ -187,6 +190,97 @@ def test_a_motor_that_falls_silent_is_waited_for_and_named(bus: Bus, running: Ru
     assert running.loop.status.unanswered >= 1
     bus.command("find 14")
     running.until_phase(HandPhase.ENABLED)
+
+
+def test_where_one_motor_is_silent_the_others_are_switched_off(bus: Bus) -> None:
+    running = Running(bus)
+    try:
+        running.until_phase(HandPhase.ENABLED)
+        bus.command("lose 14")
+        running.until_phase(HandPhase.CONNECTING)
+        running.until(lambda: [motor["torque_enable"] for motor in bus.motors()].count(1) == 1)
+    finally:
+        running.loop.close()
+    told = [sentence for level, sentence in running.log if level == "error"]
+    assert "not all motors could be switched off: motors 14 (" in told[-1]
+
+
+def test_torque_that_comes_on_for_a_part_of_the_motors_is_switched_off_again(bus: Bus, running: Running) -> None:
+    running.until_phase(HandPhase.ENABLED)
+    running.loop.release()
+    running.until_phase(HandPhase.RELEASED)
+    # On the loop's thread everything stops as soon as a motor is silent: here between two of its steps.
+    running.may_go_on.clear()
+    running.loop.enable()
+    bus.command("lose 15")
+    running.may_go_on.set()
+    running.until_phase(HandPhase.CONNECTING)
+    running.until(lambda: torques(bus) == {0})
+
+
+def test_an_answer_without_its_data_is_asked_for_again(running: Running, monkeypatch: pytest.MonkeyPatch) -> None:
+    running.until_phase(HandPhase.ENABLED)
+    running.loop.release()
+    running.until_phase(HandPhase.RELEASED)
+    packets = running.loop._bus._packets  # type: ignore[attr-defined]
+    read, broken = packets.read4ByteTxRx, [7, 7]
+
+    def broken_twice(port: object, motor_id: int, address: int) -> object:
+        if motor_id in broken:
+            broken.remove(motor_id)
+            # Beyond its table a motor answers with an error alone, which the library takes for data.
+            address = 5000
+        return read(port, motor_id, address)
+
+    monkeypatch.setattr(packets, "read4ByteTxRx", broken_twice)
+    running.loop.enable()
+    running.until_phase(HandPhase.ENABLED)
+    assert broken == []
+
+
+def test_what_was_commanded_long_ago_is_not_resumed_with_another_joint(running: Running) -> None:
+    running.until_phase(HandPhase.ENABLED)
+    running.loop.command({"ring_pip": 1.8})
+    running.until(lambda: running.loop.status.reason == "moving as commanded")
+    running.until(lambda: running.loop.status.reason == "holding")
+    stood_rad = running.loop.status.goal_rad[10]
+    with pytest.raises(HandError, match="without a joint"):
+        running.loop.command({})
+    running.loop.command({"index_pip": 0.2})
+    running.until(lambda: running.loop.status.goal_rad[2] == pytest.approx(0.2))
+    assert running.loop.status.goal_rad[10] == stood_rad
+
+
+class Moved:
+    """A behaviour that does nothing but remember how it was started."""
+
+    def __init__(self) -> None:
+        self.restarts: list[bool] = []
+
+    def restart(self, *, recovered: bool) -> None:
+        self.restarts.append(recovered)
+
+    def step(self, reading: HandReading, goal_rad: Sequence[float], now_s: float, dt_s: float) -> Sequence[float]:
+        return goal_rad
+
+    def sent(self, began_s: float, sent_s: float) -> None:
+        pass
+
+
+def test_a_hand_that_was_given_up_begins_anew_when_it_is_enabled(bus: Bus) -> None:
+    moved = Moved()
+    running = Running(bus, behaviour=moved)
+    try:
+        for number in (1, 2):
+            running.until_phase(HandPhase.ENABLED)
+            bus.command("overload 6")
+            running.until(lambda number=number: len(moved.restarts) > number or not running.loop._enabled)
+        running.until_phase(HandPhase.GIVEN_UP)
+        running.loop.enable()
+        running.until_phase(HandPhase.ENABLED)
+        assert moved.restarts == [False, True, False]
+    finally:
+        running.loop.close()
 
 
 @contextmanager

@@ -176,6 +176,23 @@ def test_after_a_failed_motor_what_was_held_is_gripped_anew() -> None:
     assert hand.step(GRIPPED) is HandState.STOPPED
 
 
+def test_after_a_failed_motor_without_touch_the_hand_stops() -> None:
+    hand = a_holding_hand()
+    assert hand.step(None, steps=100) is HandState.HOLDING
+    hand.supervisor.restart(recovered=True)
+    assert hand.step(None, steps=2) is HandState.STOPPED
+    goal = hand.goal.copy()
+    assert hand.step([], steps=50) is HandState.STOPPED
+    assert np.array_equal(hand.goal, goal)
+
+
+def test_what_was_asked_for_before_the_hand_was_lost_is_not_done_when_it_is_back() -> None:
+    hand = a_hand()
+    assert hand.supervisor.grasp() == ""
+    hand.supervisor.restart(recovered=False)
+    assert hand.step([], steps=50) is HandState.STOPPED
+
+
 def test_patches_that_the_hand_does_not_have_are_left_out() -> None:
     hand = a_hand()
     hand.step([region("index_distal", 0.1)._replace(name="little_distal", slipping=True)])

@@ -152,6 +152,7 @@ class HandLoop:
         self._target: dict[int, float] = {}
         self._commanded_s = -1e9
         self._enabled = config.autostart
+        self._is_on = False  # whether the torque of a motor may be on
         self._closing = threading.Event()
         self._faults: list[deque[float]] = [deque(maxlen=config.max_faults) for _ in hand.joints]
         self._thread = threading.Thread(target=self._run, name="hand_loop", daemon=True)
@@ -172,18 +173,23 @@ class HandLoop:
         Raises
         ------
         HandError
-            For a name that the hand does not have or an angle that is not finite; nothing is changed then.
+            For no name, one that the hand does not have, or an angle that is not finite; nothing is changed then.
         """
+        if not angles_rad:
+            raise HandError(f"a command without a joint; the hand's joints are {', '.join(self._index)}")
         unknown = next((name for name in angles_rad if name not in self._index), None)
         if unknown is not None:
             raise HandError(f"the hand has no joint {unknown[:64]!r}; its joints are {', '.join(self._index)}")
         broken = [f"{name} = {angle}" for name, angle in angles_rad.items() if not isfinite(angle)]
         if broken:
             raise HandError(f"{', '.join(broken)}: angles have to be finite")
+        now_s = time.monotonic()
         with self._lock:
+            if now_s - self._commanded_s > self._config.command_stale_after_s:
+                self._target.clear()
             for name, angle in angles_rad.items():
                 self._target[self._index[name]] = self._hand.joints[self._index[name]].clipped(angle)
-            self._commanded_s = time.monotonic()
+            self._commanded_s = now_s
 
     def enable(self) -> str:
         """Switch the torque on, now or as soon as the hand is connected; why that cannot be, or nothing."""
@@ -210,6 +216,8 @@ class HandLoop:
                 self._run_once()
                 self._closing.wait(self._config.connect_retry_s)
         finally:
+            if self._is_on:
+                self._switch_off_at_last()
             self._bus.close()
 
     def _run_once(self) -> None:
@@ -225,7 +233,7 @@ class HandLoop:
             self._log("error", f"{error}; connecting anew")
             self._set(HandPhase.CONNECTING, str(error), reading=None)
         except Exception:
-            # The thread ends with it; the motors' own watchdog stops them, and `enable` says that nothing runs.
+            # The thread ends with it, when the motors have been switched off; `enable` says that nothing runs.
             self._set(HandPhase.GIVEN_UP, "the hand's loop failed", reading=None)
             raise
         finally:
@@ -245,6 +253,7 @@ class HandLoop:
                 self._set(HandPhase.CONNECTING, told, reading=None)
                 self._closing.wait(self._config.connect_retry_s)
                 continue
+            self._is_on = False
             self._set(HandPhase.RELEASED, "connected")
             return
 
@@ -266,6 +275,8 @@ class HandLoop:
                 self._count(cycles=1, late=int(dt_s > 1.5 * period_s))
                 try:
                     reading = self._bus.read()
+                    if not all(map(isfinite, reading.q_rad)):
+                        raise HandError(f"the motors answered with angles that are not finite: {reading.q_rad}")
                 except HandLostError:
                     raise
                 except HandError:
@@ -289,13 +300,14 @@ class HandLoop:
         phase = self.status.phase
         if not self._enabled:
             if phase in (HandPhase.ENABLED, HandPhase.RECOVERING):
-                self._bus.release()
+                self._release()
                 self._set(HandPhase.RELEASED, "released by request")
             return []
         if reading.is_stopped and phase is HandPhase.ENABLED:
             self._log("warning", "the motors' watchdog has stopped them: this process stood still; the hand goes on")
             phase = HandPhase.RECOVERING
         if phase is not HandPhase.ENABLED:
+            self._is_on = True
             self._bus.enable()
             with self._lock:
                 self._target.clear()  # what was wanted before is old
@@ -341,14 +353,16 @@ class HandLoop:
             name = self._hand.joints[k].name
             self._faults[k].append(now_s)
             if self._gave_up():
-                self._bus.release()
+                # First, so that it stays given up where the motors do not answer to the rest.
                 self._enabled = False
                 reason = f"{name}: {fault}, {self._config.max_faults} times within a minute; ~/enable to go on"
                 self._log("error", reason)
+                self._release()
                 self._set(HandPhase.GIVEN_UP, reason)
                 return
             self._log("error", f"{name}: {fault}; its motor is started anew")
-            self._set(HandPhase.RECOVERING, f"{name}: {fault}")
+            was_on = self.status.phase in (HandPhase.ENABLED, HandPhase.RECOVERING)
+            self._set(HandPhase.RECOVERING if was_on else HandPhase.RELEASED, f"{name}: {fault}")
             self._bus.recover(k)
             self._count(recovered=1)
 
@@ -362,10 +376,21 @@ class HandLoop:
         if not self._closing.is_set():
             return
         try:
-            self._bus.release()
+            self._release()
             self._set(HandPhase.RELEASED, "shutting down")
         except HandError as error:
             self._log("error", f"{error}: the motors' own watchdog stops them")
+
+    def _release(self) -> None:
+        self._bus.release()
+        self._is_on = False
+
+    def _switch_off_at_last(self) -> None:
+        """Connect once more, which switches off each motor that answers."""
+        try:
+            self._bus.connect()
+        except HandError as error:
+            self._log("error", f"the loop ends, and not all motors could be switched off: {error}")
 
     def _set(self, phase: HandPhase, reason: str, **changes: object) -> None:
         self.status = replace(self.status, phase=phase, reason=reason, **changes)  # type: ignore[arg-type]

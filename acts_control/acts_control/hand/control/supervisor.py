@@ -147,6 +147,7 @@ class HandSupervisor:
         if recovered and self._state in (HandState.CLOSING, HandState.HOLDING, HandState.AVOIDING):
             self._wanted = self._wanted or "grasp"
         else:
+            self._wanted = None  # what was asked for before the hand was lost is old
             self._become(HandState.STOPPED, "goals stand where the joints are")
         self.status = replace(self.status, state=self._state, reason=self._reason)
 
@@ -200,7 +201,7 @@ class HandSupervisor:
         q, goal = np.array(reading.q_rad), np.array(goal_rad)
         self._obey()
         is_stale = now_s - self._touch_s > self._config.touch_stale_after_s
-        if is_stale and not self._was_stale:
+        if is_stale and (not self._was_stale or self._state is HandState.CLOSING):
             self._lose_touch()
         elif self._was_stale and not is_stale:
             self._find_touch()

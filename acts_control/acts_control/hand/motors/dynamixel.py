@@ -109,6 +109,7 @@ class DynamixelHand:
         ------
         HandError
             When the port cannot be opened, or a motor is missing (all of them are named), of another kind, or refuses.
+            Where some are missing the torque of the others is off.
         """
         self._open()
         try:
@@ -133,14 +134,20 @@ class DynamixelHand:
         return told
 
     def enable(self) -> None:
-        """Switch the torque on; every joint holds where it is."""
+        """Switch the torque on; every joint holds where it is. Where that fails half-way, it is switched off again."""
         watchdog = math.ceil(self._config.motor_watchdog_s / _WATCHDOG_UNIT_S)
-        self._each(_WATCHDOG, 1, 0)
-        for joint in self._hand.joints:
-            position = self._read_register(joint, _POSITION, 4)
-            self._write_register(joint, _GOAL_POSITION, 4, position)
-            self._write_register(joint, _TORQUE, 1, 1)
-        self._each(_WATCHDOG, 1, watchdog)
+        try:
+            for joint in self._hand.joints:
+                self._write_register(joint, _WATCHDOG, 1, 0)
+                position = self._read_register(joint, _POSITION, 4)
+                self._write_register(joint, _GOAL_POSITION, 4, position)
+                self._write_register(joint, _TORQUE, 1, 1)
+                # Of each at once: what comes in between leaves none on without it.
+                self._write_register(joint, _WATCHDOG, 1, watchdog)
+        except HandError:
+            with suppress(HandError):
+                self.release()
+            raise
 
     def release(self) -> None:
         """Switch the torque off, also where some motors do not answer.
@@ -294,7 +301,7 @@ class DynamixelHand:
                 raise HandError(f"{self._config.port} cannot be claimed ({error.strerror})") from error
 
     def _find_all(self) -> None:
-        missing = []
+        missing, found = [], []
         for joint in self._hand.joints:
             try:
                 model = self._ping(joint)
@@ -306,7 +313,12 @@ class DynamixelHand:
             if model not in _MODELS:
                 kinds = " and ".join(f"{number} ({name})" for number, name in _MODELS.items())
                 raise HandError(f"motor {_name(joint)} is of model {model}; known are {kinds}")
+            found.append(joint)
         if missing:
+            for joint in found:
+                # Their torque may be on, with nobody who commands them.
+                with suppress(HandError):
+                    self._write_register(joint, _TORQUE, 1, 0)
             raise HandError(
                 f"motors {', '.join(missing)} do not answer at {self._config.port} with {self._config.baud} baud; "
                 f"check the power, the cables in front of the first of them, and their IDs"
@@ -365,7 +377,10 @@ class DynamixelHand:
         """The value that a motor answers with; it is asked again where no answer comes."""
         for _ in range(_TRIES):
             with self._using_port():
-                value, result, error = call()
+                try:
+                    value, result, error = call()
+                except IndexError:  # an error without the data that were asked for
+                    value, result, error = 0, self._sdk.COMM_RX_CORRUPT, 0
             if result == self._sdk.COMM_SUCCESS:
                 break
         else:
