@@ -238,6 +238,24 @@ def test_an_answer_without_its_data_is_asked_for_again(running: Running, monkeyp
     assert broken == []
 
 
+def test_a_motor_whose_power_was_gone_for_a_moment_is_set_up_again(
+    bus: Bus, running: Running, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    running.until_phase(HandPhase.ENABLED)
+    hand, read, off = running.loop._bus, running.loop._bus.read, [2]
+
+    def without_power() -> HandReading:
+        if off:
+            # Its registers are those of a motor that has just started, as after a reboot.
+            hand._packets.reboot(hand._port, off.pop())  # type: ignore[attr-defined]
+        return read()
+
+    monkeypatch.setattr(hand, "read", without_power)
+    running.until(lambda: running.loop.status.recovered == 1 and running.loop.status.phase is HandPhase.ENABLED)
+    assert any("index_pip: torque is off" in sentence for _, sentence in running.log)
+    assert torques(bus) == {1}
+
+
 def test_what_was_commanded_long_ago_is_not_resumed_with_another_joint(running: Running) -> None:
     running.until_phase(HandPhase.ENABLED)
     running.loop.command({"ring_pip": 1.8})

@@ -36,12 +36,13 @@ _MODELS = {1240: "XC330-M288", 1200: "XL330-M288"}
 _CURRENT_BASED_POSITION = 5
 _WATCHDOG_UNIT_S = 0.02
 _WATCHDOG_EXPIRED = 255
+_LONGEST_WATCHDOG = 127
 
 _TICKS_PER_RAD = 4096 / (2.0 * math.pi)
 _RAD_S_PER_UNIT = 0.229 * 2.0 * math.pi / 60.0
 
 # Current (2), speed (4) and position (4) follow one another in the control table.
-_GATHERED = (*range(_CURRENT, _CURRENT + 10), _HARDWARE_ERROR, _TEMPERATURE, _WATCHDOG)
+_GATHERED = (*range(_CURRENT, _CURRENT + 10), _HARDWARE_ERROR, _TEMPERATURE, _WATCHDOG, _TORQUE)
 
 # In a status packet's error number: look at the hardware error.
 _ALERT = 0x80
@@ -96,6 +97,7 @@ class DynamixelHand:
         self._packets: Any = None
         self._state: Any = None
         self._claim: Claim | None = None
+        self._is_on = False  # whether the torque of all motors was switched on
 
     def connect(self) -> list[str]:
         """Open the port, find all motors, set them up with the torque off.
@@ -111,6 +113,7 @@ class DynamixelHand:
             When the port cannot be opened, or a motor is missing (all of them are named), of another kind, or refuses.
             Where some are missing the torque of the others is off.
         """
+        self._is_on = False
         self._open()
         try:
             self._find_all()
@@ -142,12 +145,14 @@ class DynamixelHand:
                 position = self._read_register(joint, _POSITION, 4)
                 self._write_register(joint, _GOAL_POSITION, 4, position)
                 self._write_register(joint, _TORQUE, 1, 1)
-                # Of each at once: what comes in between leaves none on without it.
-                self._write_register(joint, _WATCHDOG, 1, watchdog)
+                # What comes in between, such as a cable torn off, leaves no motor on without a watchdog.
+                self._write_register(joint, _WATCHDOG, 1, _LONGEST_WATCHDOG if watchdog else 0)
+            self._each(_WATCHDOG, 1, watchdog)
         except HandError:
             with suppress(HandError):
                 self.release()
             raise
+        self._is_on = True
 
     def release(self) -> None:
         """Switch the torque off, also where some motors do not answer.
@@ -157,6 +162,7 @@ class DynamixelHand:
         HandError
             Naming the motors that did not say that they have done so.
         """
+        self._is_on = False
         silent = []
         for joint in self._hand.joints:
             try:
@@ -195,9 +201,13 @@ class DynamixelHand:
             tuple(one.direction * k * _RAD_S_PER_UNIT for one, k in zip(joints, speeds, strict=True)),
             tuple(float(one.direction * k) for one, k in zip(joints, currents, strict=True)),
             tuple(row[11] for _, row in rows),
-            tuple(_fault(row[10]) for _, row in rows),
+            tuple(_fault(row[10]) or self._reset(row[13]) for _, row in rows),
             any(row[12] == _WATCHDOG_EXPIRED for _, row in rows),
         )
+
+    def _reset(self, torque: int) -> str:
+        """What is told of a motor without torque that should have it: one whose power was gone for a moment."""
+        return "torque is off, as after a loss of power" if self._is_on and not torque else ""
 
     def command(self, q_rad: Sequence[float]) -> None:
         """Send every joint to an angle, by one sync write that nobody answers.
@@ -228,6 +238,7 @@ class DynamixelHand:
         HandError
             When it does not come back within two seconds.
         """
+        self._is_on = False
         motor = self._hand.joints[joint]
         self._ask(motor, lambda: (0, *self._packets.reboot(self._port, motor.motor_id)))
         deadline_s = time.monotonic() + _REBOOT_TIMEOUT_S
