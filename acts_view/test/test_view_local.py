@@ -24,14 +24,14 @@ from acts_core.errors import ViewRequestError
 from acts_core.frames import SampleFrame, Scheme
 from acts_core.stop_signals import StopSignals
 from acts_driver.replay import ReplayOptions, open_recording
-from acts_msgs.msg import TactileSamples
+from acts_msgs.msg import Baseline, TactileSamples
 from acts_recon.settings import ReconstructionSettings
 from acts_ros.bags.message_types import Definitions
 from acts_ros.bags.writing import BagWriter
 from acts_view.local.local_skin import LocalSkin
 from acts_view.local.playback import Playback
 from acts_view.local.show import show
-from acts_view.local.sources import LocalSource, open_recorded
+from acts_view.local.sources import LocalSource, RecordedSource, open_recorded
 from acts_view.web.requests import Request, read_request
 
 pytestmark = pytest.mark.slow
@@ -132,6 +132,61 @@ def test_a_bag_whose_recorder_was_killed_is_shown_and_said_to_be_one(tmp_path: P
     source.stop()
     assert diagnosis["level"] == 1
     assert "was never closed" in diagnosis["message"]
+
+
+def write_bag(path: Path, baselines: dict[int, list[int]]) -> Path:
+    """Frames of 4 x 4 taxels, one a second, 300 counts everywhere; and baselines of so many or less, by their time."""
+    bag, definitions = BagWriter(path), Definitions()
+    samples, base = (
+        bag.add_topic(f"/plate/{name}", kind, *definitions.describe(kind), [])
+        for name, kind in (("samples", "acts_msgs/msg/TactileSamples"), ("baseline", "acts_msgs/msg/Baseline"))
+    )
+    for time_s, counts in baselines.items():
+        size = len(counts)
+        message = Baseline(rows=size // 4, cols=4, source=Baseline.SOURCE_TARE)
+        message.baseline, message.noise, message.valid = [float(one) for one in counts], [2.0] * size, [True] * size
+        message.header.stamp.sec = time_s
+        bag.write(base, serialize_message(message))
+    for time_s in range(10, 15):
+        frame = TactileSamples(rows=4, cols=4, sequence=time_s, indices=list(range(16)), counts=[300] * 16)
+        frame.header.stamp.sec = time_s
+        bag.write(samples, serialize_message(frame))
+    bag.close()
+    return path
+
+
+def highest_at(source: RecordedSource, time_s: float) -> int:
+    """The largest count of the image there, played on this thread."""
+    source.skin.reset()
+    source._take(list(itertools.islice(source.recording.frames(), round(time_s - 9))))
+    taken = source.skin.newest()
+    assert taken is not None
+    assert taken[0].image is not None
+    return int(taken[0].image.max())
+
+
+def test_the_baseline_of_a_bag_is_subtracted_as_it_was_at_the_time(tmp_path: Path) -> None:
+    # The first is that of before the recording; from 13 s on half of it is left.
+    path = write_bag(tmp_path / "bag", {5: [300] * 16, 13: [150] * 16})
+    source, _ = open_recorded(path, [], "square")
+    assert highest_at(source, 12) < 30
+    assert highest_at(source, 14) == pytest.approx(150, abs=30)
+    assert highest_at(source, 11) < 30
+
+
+def test_a_bag_without_a_baseline_is_shown_as_it_was_measured(tmp_path: Path) -> None:
+    source, _ = open_recorded(write_bag(tmp_path / "bag", {}), [], "square")
+    assert highest_at(source, 14) == pytest.approx(300, abs=30)
+
+
+def test_a_baseline_that_does_not_fit_is_told(tmp_path: Path) -> None:
+    source, _ = open_recorded(write_bag(tmp_path / "bag", {5: [300] * 8}), [], "square")
+    assert highest_at(source, 14) == pytest.approx(300, abs=30)
+    source.start(lambda: None)
+    (diagnosis,) = source.status()["diagnostics"]
+    source.stop()
+    assert diagnosis["level"] == 1
+    assert "/plate/baseline could be read: a baseline of 2 x 4" in diagnosis["message"]
 
 
 @pytest.mark.parametrize("kind", ["full frames", "samples"])

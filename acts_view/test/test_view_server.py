@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import errno
+import gc
 import http.client
 import socket
 import time
@@ -43,6 +44,12 @@ class Bench:
         self.url = f"ws://127.0.0.1:{self.server.address.port}/stream"
         self.origin = self.server.address.url.rstrip("/")
         self._numbers = count()
+        self._is_closed = False
+
+    def close(self) -> None:
+        if not self._is_closed:
+            self._is_closed = True
+            self.server.close()
 
     def connect(self, **options: object) -> ClientConnection:
         return connect(self.url, **{"origin": self.origin, "compression": None, **options})  # type: ignore[arg-type]
@@ -65,7 +72,7 @@ class Bench:
 def bench() -> Iterator[Bench]:
     made = Bench()
     yield made
-    made.server.close()
+    made.close()
 
 
 def test_files_are_served_and_nothing_else(bench: Bench) -> None:
@@ -149,6 +156,83 @@ def test_a_stalled_client_holds_nobody_up_and_is_dropped(bench: Bench) -> None:
         show_and_read()
         stalled.close_socket()
     assert f"took nothing for {SEND_LIMIT_S:g} s" in bench.log[0]
+
+
+def slow_line(bench: Bench, path: str) -> socket.socket:
+    """The socket of a page whose line carries little at a time, after its handshake."""
+    own = socket.socket()
+    own.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 65536)
+    own.settimeout(DEADLINE_S)
+    port = bench.server.address.port
+    own.connect(("127.0.0.1", port))
+    lines = (
+        f"GET {path} HTTP/1.1", f"Host: 127.0.0.1:{port}", f"Origin: {bench.origin}", "Upgrade: websocket",
+        "Connection: Upgrade", "Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==", "Sec-WebSocket-Version: 13", "", "",
+    )  # fmt: skip
+    own.sendall("\r\n".join(lines).encode())
+    answer = b""
+    while not answer.endswith(b"\r\n\r\n"):
+        answer += own.recv(1)
+    assert b" 101 " in answer.partition(b"\r\n")[0]
+    return own
+
+
+def read_slowly(bench: Bench, own: socket.socket, bytes_min: int, meanwhile: Callable[[], object]) -> float:
+    """Read so much, a kilobyte a millisecond at most; how long it took [s]."""
+    began_s, got = time.monotonic(), 0
+
+    def read() -> None:
+        nonlocal got
+        piece = own.recv(1024)
+        assert piece, f"closed after {got} bytes: {bench.log}"
+        got += len(piece)
+        meanwhile()
+
+    bench.until(lambda: got >= bytes_min, read)
+    return time.monotonic() - began_s
+
+
+def test_a_page_on_a_slow_line_is_not_dropped_while_it_takes_something(bench: Bench) -> None:
+    own = slow_line(bench, "/stream")
+    bench.until(lambda: bench.pages == [1])
+    large = Frame(stamp_s=999.0, image=np.zeros((1000, 1000), np.uint16))
+    bench.server.show_frame("/large", large, [])
+    # All the while there is something that waits.
+    assert read_slowly(bench, own, 1_500_000, lambda: bench.show(1)) > 3 * SEND_LIMIT_S
+    own.close()
+    assert bench.log == []
+
+
+def test_a_server_ends_quietly_beside_a_page_that_takes_nothing(
+    bench: Bench, caplog: pytest.LogCaptureFixture, capfd: pytest.CaptureFixture[str]
+) -> None:
+    own = slow_line(bench, "/stream")
+    bench.until(lambda: bench.pages == [1])
+    bench.server.show_frame("/large", Frame(stamp_s=999.0, image=np.zeros((1000, 1000), np.uint16)), [])
+    bench.until(lambda: all(one.connection.transport.get_write_buffer_size() > 0 for one in bench.server._clients))
+    bench.close()
+    gc.collect()
+    own.close()
+    assert bench.pages == [1, 0]
+    assert [record.getMessage() for record in caplog.records] == []
+    assert capfd.readouterr().err == ""
+
+
+def test_a_recording_is_sent_over_a_slow_line(bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    size = 12_000_000
+    file = tmp_path / "x.mcap"
+    file.write_bytes(bytes(size))
+    monkeypatch.setattr(bench.server, "_find_file", lambda _name: file)
+    own = slow_line(bench, "/recordings/x.mcap")
+    # More than the system would keep by itself.
+    assert read_slowly(bench, own, 2_000_000, lambda: None) > 3 * SEND_LIMIT_S
+    got = 2_000_000
+    while got < size:
+        piece = own.recv(65536)
+        assert piece, bench.log
+        got += len(piece)
+    own.close()
+    assert bench.log == []
 
 
 def test_an_address_that_is_taken_is_told(bench: Bench) -> None:

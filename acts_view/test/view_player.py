@@ -9,7 +9,7 @@ import csv
 import threading
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -74,6 +74,8 @@ class Player:
         for name in names:
             self.server.show_shape(name, shape or SkinShape())
         self._names = names
+        self.status: dict[str, Any] = {}
+        """What each status says besides."""
         self._stopped = threading.Event()
         self._thread = threading.Thread(target=self._play, daemon=True)
         self._thread.start()
@@ -86,7 +88,7 @@ class Player:
             for name in self._names:
                 self.server.show_frame(*pressed(name, begin_s + number * 0.033))
             if number % 30 == 0:
-                self.server.show_status({"skins": list(self._names), "diagnostics": [node]})
+                self.server.show_status({"skins": list(self._names), "diagnostics": [node], **self.status})
             number += 1
 
     def close(self) -> None:

@@ -6,14 +6,16 @@
 from __future__ import annotations
 
 import time
+from bisect import bisect_right
 from collections.abc import Callable, Mapping, Sequence
+from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 from acts_core.errors import ActsError, SettingsError, ViewRequestError
 from acts_core.frames import SampleFrame
 from acts_core.sampling import SamplingConfig
-from acts_driver.baseline import BaselineTracker
+from acts_driver.baseline import Baseline, BaselineTracker
 from acts_driver.nodes.intake import Intake
 from acts_driver.replay import ReplayOptions, SeekableRecording, open_recording
 from acts_driver.settings import DriverSettings
@@ -77,6 +79,8 @@ class RecordedSource:
         As `acts_core.skin.layouts.layout` takes it.
     with_outlines : bool
         See `LocalSkin`.
+    read_baselines : callable, optional
+        Gives, for rows and columns, the recorded baselines by their time, and why there are no more of them.
 
     Raises
     ------
@@ -87,7 +91,13 @@ class RecordedSource:
     """
 
     def __init__(
-        self, name: str, recording: SeekableRecording, layout: str = "square", *, with_outlines: bool = False
+        self,
+        name: str,
+        recording: SeekableRecording,
+        layout: str = "square",
+        *,
+        with_outlines: bool = False,
+        read_baselines: Callable[[int, int], tuple[Sequence[Baseline], str]] = lambda _rows, _cols: ((), ""),
     ) -> None:
         first = next(recording.frames())
         settings = ReconstructionSettings(rows=first.rows, cols=first.cols, layout=layout)
@@ -96,6 +106,9 @@ class RecordedSource:
         self._zero_us = first.board_us
         self._begin_ns = time.time_ns()
         self.recording = recording
+        self._baselines, self._baseline_problem = read_baselines(first.rows, first.cols)
+        self._baseline_times_us = [one.time_ns // _NS_PER_US for one in self._baselines]
+        self._subtracted = -1
         self._playback: Playback | None = None
 
     def start(self, on_jump: Callable[[], None]) -> None:
@@ -120,8 +133,9 @@ class RecordedSource:
         level, message = (2, state.problem) if state.problem else (0, "playing" if state.is_playing else "held")
         # Of a bag whose recorder was killed.
         note = getattr(self.recording, "note", None)
-        if note and not level:
-            level, message = 1, f"{message}; {note}"
+        for words in (note, self._baseline_problem):
+            if words and level < 2:
+                level, message = 1, f"{message}; {words}"
         if self.skin.rejected:
             level, message = 1, f"{message}; {self.skin.rejected} frames do not fit: {self.skin.problem}"
         return {
@@ -153,8 +167,16 @@ class RecordedSource:
         return None
 
     def _take(self, frames: list[SampleFrame]) -> None:
-        stamped = [(one, self._begin_ns + _NS_PER_US * (one.board_us - self._zero_us)) for one in frames]
-        self.skin.take(stamped, None)
+        for number, group in groupby(frames, self._baseline_of):
+            if number != self._subtracted:
+                self._subtracted = number
+                self.skin.set_baseline(self._baselines[number])
+            self.skin.take([(one, self._begin_ns + _NS_PER_US * (one.board_us - self._zero_us)) for one in group], None)
+
+    def _baseline_of(self, frame: SampleFrame) -> int:
+        """Number of the newest baseline at a frame's time, before the first one that; -1 without any."""
+        newest = bisect_right(self._baseline_times_us, frame.board_us) - 1
+        return max(newest, 0) if self._baselines else -1
 
 
 class BoardSource:
@@ -297,7 +319,17 @@ def open_recorded(
     )
     recording = open_recording(options)
     found = str(getattr(recording, "topic", "")).removesuffix("/samples")
-    return RecordedSource(path.name, recording, layout, with_outlines=with_outlines), found or f"/{path.stem}"
+
+    def read(rows: int, cols: int) -> tuple[Sequence[Baseline], str]:
+        if not found:
+            return (), ""
+        # Late: an npz file needs nothing of ROS.
+        from acts_view.local.bag_baselines import read_baselines
+
+        return read_baselines(path, f"{found}/baseline", rows, cols)
+
+    source = RecordedSource(path.name, recording, layout, with_outlines=with_outlines, read_baselines=read)
+    return source, found or f"/{path.stem}"
 
 
 def _diagnosis(name: str, level: int, message: str, values: Mapping[str, object]) -> dict[str, Any]:

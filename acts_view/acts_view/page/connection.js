@@ -8,9 +8,18 @@ import { decode } from "./codec.js";
 const SILENT_MS = 4000; // the server says something every second
 const AGAIN_MS = [300, 600, 1200, 2400];
 
+async function isServed() {
+  try {
+    return (await fetch("index.html", { method: "HEAD", signal: AbortSignal.timeout(SILENT_MS) })).ok;
+  } catch {
+    return false;
+  }
+}
+
 /**
- * Calls onMessage(message) and onState("connecting" | "live" | "gone"); every "live" begins anew. Returns send(object),
- * which tells whether there was somebody to send to.
+ * Calls onMessage(message) and onState("connecting" | "live" | "gone" | "refused"); every "live" begins anew; "refused":
+ * there is a server, but it takes no socket of this page. Returns send(object), which tells whether there was somebody
+ * to send to.
  */
 export function connect(onMessage, onState) {
   let tries = 0;
@@ -24,13 +33,15 @@ export function connect(onMessage, onState) {
     const socket = new WebSocket(url);
     socket.binaryType = "arraybuffer";
     let isOver = false;
-    const over = () => {
+    let wasOpen = false;
+    const over = async (isClosed = false) => {
       if (isOver) return;
       isOver = true;
       present = null;
       clearTimeout(watchdog);
       socket.close();
-      onState("gone");
+      // A browser does not tell why there is no socket; a page that is served tells that there is a server.
+      onState(isClosed && !wasOpen && (await isServed()) ? "refused" : "gone");
       setTimeout(open, AGAIN_MS[Math.min(tries, AGAIN_MS.length - 1)]);
       tries += 1;
     };
@@ -41,6 +52,7 @@ export function connect(onMessage, onState) {
     heard();
     socket.onopen = () => {
       tries = 0;
+      wasOpen = true;
       present = socket;
       onState("live");
       heard();
@@ -50,7 +62,7 @@ export function connect(onMessage, onState) {
       heard();
       onMessage(decode(event.data));
     };
-    socket.onclose = over;
+    socket.onclose = () => over(true);
   }
 
   onState("connecting");

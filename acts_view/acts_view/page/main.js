@@ -13,7 +13,7 @@ import { answered, forgetAll, useConnection } from "./requests.js";
 import { next, onChange, set, settings } from "./settings.js";
 
 const TICK_MS = 50;
-const STATES = { connecting: "connecting", live: "connected", gone: "server gone, trying again" };
+const STATES = { connecting: "connecting", live: "connected", gone: "server gone, trying again", refused: "the server refuses this page: does the address have its token, or are 32 pages open?" };
 const KEYS = { s: "scale", n: "unit", m: "colours", i: "smooth", c: "contacts", o: "outlines", u: "unsure", t: "measured", d: "theme" };
 const ZOOMS = { "+": (plots) => plots.zoom(0.5), "=": (plots) => plots.zoom(0.5), "-": (plots) => plots.zoom(2), 0: (plots) => plots.reset(), "<": (plots) => plots.move(-0.5), ">": (plots) => plots.move(0.5) };
 
@@ -35,6 +35,7 @@ function panel(name) {
     byId("skins").dataset.count = panels.size;
     byId("empty").hidden = true;
     made.redraw();
+    if (isHeld) made.hold(true);
   }
   return panels.get(name);
 }
@@ -58,7 +59,7 @@ function onState(state) {
   pill.dataset.state = state;
   pill.textContent = STATES[state];
   document.body.dataset.connection = state;
-  if (state === "gone") forgetAll();
+  if (state === "gone" || state === "refused") forgetAll();
   if (state === "live") for (const one of panels.values()) one.forget();
 }
 
@@ -77,11 +78,19 @@ function show() {
   for (const one of panels.values()) one.redraw();
 }
 
-for (const name of ["scale", "unit", "colours", "window"]) byId(name).onchange = (event) => set(name, event.target.value);
+for (const name of ["scale", "unit", "colours", "window"]) {
+  byId(name).onchange = (event) => {
+    set(name, event.target.value);
+    // The next key is one of the page again.
+    event.target.blur();
+  };
+}
 for (const name of ["smooth", "contacts", "outlines", "unsure", "measured", "theme"]) byId(name).onclick = () => next(name);
 byId("pause").onclick = () => hold(!isHeld);
 document.addEventListener("keydown", (event) => {
-  if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest("select, input")) return;
+  if (event.ctrlKey || event.metaKey || event.altKey) return;
+  // What is typed there is theirs; a slider has arrows, Home, End and the page keys, and none of these is ours.
+  if (event.target.closest("select, input:not([type=range])")) return;
   if (event.key in KEYS) next(KEYS[event.key]);
   else if (event.key in ZOOMS) for (const one of panels.values()) ZOOMS[event.key](one.plots);
   // On a button it presses that.

@@ -16,6 +16,7 @@ export class Recording {
     this.list = element.querySelector("ul");
     this.isOn = false;
     this.key = "";
+    this.note = "";
     this.button.onclick = () => this.#toggle();
   }
 
@@ -27,8 +28,11 @@ export class Recording {
     this.button.textContent = recording.on ? "Stop recording" : "Record";
     this.button.setAttribute("aria-pressed", String(recording.on));
     if (recording.on) {
+      this.note = "";
       this.#tell(`${recording.name}: ${recording.elapsed_s.toFixed(0)} s, ${megabytes(recording.bytes)}, ${recording.messages} messages, ${recording.lost} lost`);
-    } else if (recording.note) {
+    } else if (recording.note !== this.note) {
+      // Once: what a button was answered since then is newer.
+      this.note = recording.note;
       this.#tell(recording.note);
     }
     const key = JSON.stringify(recording.files);

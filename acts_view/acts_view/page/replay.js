@@ -41,7 +41,9 @@ export class Replay {
     this.isPlaying = replay.playing;
     this.element.querySelector(".name").textContent = replay.name;
     this.button.textContent = replay.playing ? "Hold" : "Play";
-    this.slider.max = replay.length_s;
+    // Of whole steps: a slider stops at the last one that is not above its end.
+    const step_s = Number(this.slider.step);
+    this.slider.max = Math.ceil(replay.length_s / step_s) * step_s;
     this.length_s = replay.length_s;
     if (performance.now() - this.moved_ms < SETTLE_MS) return;
     this.slider.value = replay.position_s;

@@ -10,6 +10,7 @@ import socket
 import threading
 import time
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
 from http import HTTPStatus
@@ -82,12 +83,14 @@ class Address:
 class _Client:
     """A page.
 
-    `stalled_s`: since when it has not taken what it was sent; `unanswered`: requests that are.
+    `stalled_s`: since when it has taken nothing of what it was sent; `waiting_bytes`: what it had still to take at
+    the last look; `unanswered`: requests that are.
     """
 
     connection: ServerConnection
     reader: Reader
     stalled_s: float | None = None
+    waiting_bytes: int = 0
     unanswered: int = 0
 
 
@@ -195,8 +198,12 @@ class ViewServer:
         try:
             await asyncio.wait_for(self._server.wait_closed(), 1.0)
         except asyncio.TimeoutError:
-            for connection in list(self._server.connections):
+            # Not the library's `connections`: those that take leave already are none of them.
+            for connection in list(self._present):
                 connection.transport.abort()
+            # Their tasks end by that, or the loop would complain of them.
+            with suppress(asyncio.TimeoutError):
+                await asyncio.wait_for(self._server.wait_closed(), 1.0)
         await self._loop.shutdown_default_executor()
 
     def _end_loop(self) -> None:
@@ -256,6 +263,7 @@ class ViewServer:
         """Send a file in pieces, as the client takes them; it is whole where the socket is closed normally."""
         file = self._file(path)
         assert file is not None
+        _bound_send_buffer(connection)
         self._downloads += 1
         try:
             with file.open("rb") as stream:
@@ -273,8 +281,7 @@ class ViewServer:
             self._downloads -= 1
 
     async def _stream(self, connection: ServerConnection) -> None:
-        own = connection.transport.get_extra_info("socket")
-        own.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, _SEND_BUFFER_BYTES)
+        _bound_send_buffer(connection)
         client = _Client(connection, self._display.reader())
         self._clients.add(client)
         self._on_clients(len(self._clients))
@@ -331,7 +338,11 @@ class ViewServer:
     def _send_to(self, client: _Client) -> None:
         """Send what is new, where the client has taken what came before; if not, it gets then what is newest."""
         transport = client.connection.transport
-        if not transport.get_write_buffer_size():
+        waiting_bytes = transport.get_write_buffer_size()
+        if waiting_bytes < client.waiting_bytes:
+            client.stalled_s = None  # slow, but it takes something
+        client.waiting_bytes = waiting_bytes
+        if not waiting_bytes:
             client.stalled_s = None
             for message in client.reader.news():
                 # To await `send` costs a task for each; whether the client takes it is seen the next time.
@@ -343,6 +354,12 @@ class ViewServer:
             self._log("warning", f"a page took nothing for {self._send_limit_s:g} s and was dropped; it will reconnect")
             # No handshake: it would wait behind what the client does not take.
             transport.abort()
+
+
+def _bound_send_buffer(connection: ServerConnection) -> None:
+    """Let the system keep little of what is sent: so it is soon seen what the client takes."""
+    own = connection.transport.get_extra_info("socket")
+    own.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, _SEND_BUFFER_BYTES)
 
 
 def _one(request: Request, name: str) -> str | None:

@@ -7,13 +7,14 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
 from view_browser import expect, needs_browser
-from view_player import COL, ROW, Player, saved, saved_table
+from view_player import COL, ROW, Player, pressed, saved, saved_table
 
 from acts_view.skin.snapshot import SkinShape
 
@@ -207,6 +208,45 @@ def test_keys_act_wherever_the_last_click_was(play: Callable[..., Player], open_
     page.focus("canvas.marks")
     page.keyboard.press(" ")
     expect(page.locator(".skin .pill")).to_have_text("paused")
+
+
+def test_keys_act_after_a_choice_in_the_toolbar(play: Callable[..., Player], open_page: Callable[..., Page]) -> None:
+    page = open_page(play())
+    page.focus("#colours")
+    page.select_option("#colours", "cividis")
+    page.keyboard.press("s")
+    expect(page.locator("#scale")).to_have_value("adaptive")
+    page.keyboard.press(" ")
+    expect(page.locator(".skin .pill")).to_have_text("paused")
+    # A list that has the focus and was not used has its keys for itself.
+    page.focus("#window")
+    page.keyboard.press("i")
+    expect(page.locator("#smooth")).to_have_attribute("aria-pressed", "false")
+
+
+def test_a_pause_holds_the_figures_and_a_skin_that_appears_in_it(
+    play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    player = play()
+    page = open_page(player)
+    expect(page.locator("[data-number=rate]")).to_have_text("1000")
+    beside = open_page(player)
+    page.click("#pause")
+    _, frame, (sample, *_) = pressed("/plate", time.time())
+    player.server.show_frame("/plate", frame, [replace(sample, lost=7)])
+    player.server.show_shape("/late", SkinShape())
+    player.server.show_frame(*pressed("/late", time.time()))
+    for shown in (page, beside):
+        expect(shown.locator("[data-skin='/late'] .pill")).to_have_text("paused" if shown is page else "live")
+    expect(beside.locator("[data-skin='/plate'] [data-number=lost]")).to_have_text("7")
+    # A part of the plots is of the same moment, and so are the figures.
+    page.keyboard.press("+")
+    assert page.inner_text("[data-skin='/plate'] [data-number=lost]") == "0"
+    assert page.inner_text("[data-skin='/late'] [data-number=peak]") == "–"
+    page.click("#pause")
+    player.server.show_frame(*pressed("/late", time.time()))
+    expect(page.locator("[data-skin='/plate'] [data-number=lost]")).to_have_text("7")
+    expect(page.locator("[data-skin='/late'] [data-number=peak]")).to_have_text("800")
 
 
 def test_without_a_skin_it_tells_how_to_start_one(play: Callable[..., Player], open_page: Callable[..., Page]) -> None:

@@ -10,8 +10,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
 import pytest
-from test_view_local import Shown, write_frames
+from test_view_local import Shown, until, write_frames
 from view_browser import expect, needs_browser
 
 from acts_core.errors import ViewRequestError
@@ -44,10 +45,38 @@ def test_a_recording_is_held_and_one_can_go_anywhere_in_it(tmp_path: Path, open_
         expect(peak).to_have_text(re.compile("^[89]..$"))
         slider.fill("0")
         expect(peak).to_have_text(re.compile("^[23]..$"))
+        # The slider still has the focus.
+        page.keyboard.press("s")
+        expect(page.locator("#scale")).to_have_value("adaptive")
+        page.keyboard.press(" ")
+        expect(button).to_have_text("Hold")
+        page.keyboard.press(" ")
+        expect(button).to_have_text("Play")
         page.focus("canvas.marks")
         page.keyboard.press(" ")
         expect(button).to_have_text("Hold")
         page.wait_for_selector(".skin .pill[data-state=live]")
+    finally:
+        shown.close()
+
+
+def test_the_slider_reaches_the_end_of_a_recording(tmp_path: Path, open_page: Callable[..., Page]) -> None:
+    path = tmp_path / "one.npz"
+    # 4.995 s: no multiple of the slider's step.
+    count = 1000
+    np.savez(path, indices=np.tile(np.arange(3), (count, 1)), counts=np.ones((count, 3), int), rate_hz=200.0)
+    source, name = open_recorded(path, [], "square")
+    length_s = source.recording.length_us * 1e-6
+    assert length_s == pytest.approx(4.995)
+    shown = Shown(source, name)
+    try:
+        page = open_page(shown)
+        page.click("#replay button")
+        expect(page.locator("#replay button")).to_have_text("Play")
+        slider = page.locator("#replay input")
+        slider.press("End")
+        assert float(slider.input_value()) >= length_s
+        until(lambda: bool(source.status()["replay"]["position_s"] == pytest.approx(length_s)))
     finally:
         shown.close()
 

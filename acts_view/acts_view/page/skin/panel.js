@@ -162,9 +162,10 @@ export class Panel {
   #showNumbers() {
     const { touch } = this.message;
     const [x_m, y_m, force_n, peak, area_m2] = touch ?? [];
-    const [, frames] = this.history.sums(FRAMES, 1);
-    const [, lost] = this.history.sums(LOST, 60);
-    const [, latencies] = this.history.extremes(LATENCY, 1, 1);
+    const history = this.plots.held ?? this.history;
+    const [, frames] = history.sums(FRAMES, 1);
+    const [, lost] = history.sums(LOST, 60);
+    const [, latencies] = history.extremes(LATENCY, 1, 1);
     const values = {
       force: touch ? force_n.toFixed(2) : "0.00",
       x: touch ? (1000 * x_m).toFixed(1) : "–",

@@ -27,7 +27,10 @@ export class SkinView {
     const follow = (event) => this.#point(this.#taxelAt(event));
     this.above.addEventListener("pointermove", follow);
     this.above.addEventListener("pointerdown", follow);
-    this.above.addEventListener("pointerleave", () => this.#point(null));
+    this.above.addEventListener("pointerleave", (event) => {
+      // A finger leaves when it is lifted: what was tapped stays, or nobody could read it.
+      if (event.pointerType !== "touch") this.#point(null);
+    });
     this.above.addEventListener("blur", () => this.#point(null));
     this.above.addEventListener("keydown", (event) => this.#key(event));
     new ResizeObserver(() => this.draw()).observe(element);

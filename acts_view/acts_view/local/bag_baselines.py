@@ -1,0 +1,69 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""What the taxels of a recorded skin read untouched, out of its bag."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from rclpy.serialization import deserialize_message
+
+from acts_core.errors import ArrayError, RecordingError
+from acts_driver.baseline import Baseline
+from acts_driver.baseline.baseline import BaselineSource
+from acts_msgs.msg import Baseline as BaselineMessage
+from acts_ros.bags.reading import open_bag
+
+_TYPE = "acts_msgs/msg/Baseline"
+_NS_PER_S = 1_000_000_000
+
+
+def read_baselines(path: Path, topic: str, rows: int, cols: int) -> tuple[list[Baseline], str]:
+    """The baselines on a topic of a bag by their time, and why there are no more of them.
+
+    Parameters
+    ----------
+    path : Path
+        Of the bag.
+    topic : str
+        Full name; without one of type acts_msgs/Baseline there are none, and nothing is wrong.
+    rows, cols : int
+        Size of the array.
+
+    Returns
+    -------
+    baselines : list of Baseline
+    problem : str
+        For a person; empty where all could be read.
+    """
+    found: list[Baseline] = []
+    try:
+        with open_bag(path) as bag:
+            if bag.topics().get(topic) != _TYPE:
+                return [], ""
+            bag.check_definition(topic)
+            for _, _, data in bag.messages([topic]):
+                found.append(_parsed(data, rows, cols))
+    # rclpy has no exception of its own for bytes that are no such message.
+    except (RecordingError, ArrayError, RuntimeError, ValueError) as error:
+        return _in_order(found), f"not all of {topic} could be read: {error}"
+    return _in_order(found), ""
+
+
+def _in_order(baselines: list[Baseline]) -> list[Baseline]:
+    return sorted(baselines, key=lambda one: one.time_ns)
+
+
+def _parsed(data: bytes, rows: int, cols: int) -> Baseline:
+    message = deserialize_message(data, BaselineMessage)
+    if (message.rows, message.cols) != (rows, cols):
+        raise ArrayError(f"a baseline of {message.rows} x {message.cols} taxels; the frames have {rows} x {cols}")
+    return Baseline(
+        counts=np.asarray(message.baseline, dtype=np.float32).reshape(rows, cols),
+        noise_counts=np.asarray(message.noise, dtype=np.float32).reshape(rows, cols),
+        valid=np.asarray(message.valid, dtype=np.bool_).reshape(rows, cols),
+        source=BaselineSource.FILE,
+        time_ns=message.header.stamp.sec * _NS_PER_S + message.header.stamp.nanosec,
+    )
