@@ -6,8 +6,8 @@
 In come frames; out comes the `Baseline`, which the reconstruction subtracts. Kernels take one frame at a time.
 """
 
-from acts_driver.baseline.baseline import Baseline
+from acts_driver.baseline.baseline import Baseline, BaselineSource
 from acts_driver.baseline.baseline_parameters import BaselineParameters
 from acts_driver.baseline.baseline_tracker import BaselineConfig, BaselineTracker
 
-__all__ = ["Baseline", "BaselineConfig", "BaselineParameters", "BaselineTracker"]
+__all__ = ["Baseline", "BaselineConfig", "BaselineParameters", "BaselineSource", "BaselineTracker"]

@@ -11,8 +11,7 @@ import numpy as np
 from rclpy.serialization import deserialize_message
 
 from acts_core.errors import ArrayError, RecordingError
-from acts_driver.baseline import Baseline
-from acts_driver.baseline.baseline import BaselineSource
+from acts_driver.baseline import Baseline, BaselineSource
 from acts_msgs.msg import Baseline as BaselineMessage
 from acts_ros.bags.reading import open_bag
 
