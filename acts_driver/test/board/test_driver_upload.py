@@ -75,7 +75,12 @@ def test_frames_and_reports_go_on_during_an_upload(tmp_path: Path, rig: Rig, cap
         assert all("holds no model" not in status["message"] for status in rig.statuses)
         assert len(rig.samples) > n_before + 5
         numbers = np.array([message.sequence for message in rig.samples])
-        assert (np.diff(numbers) == 1).all()
+        assert (np.diff(numbers) >= 1).all()
+        missing = int((np.diff(numbers) - 1).sum())
+        # A machine that stands still makes the board drop frames, and the driver throw old ones away; both say so.
+        rig.status_until(
+            lambda status: int(status["overruns"]) + int(status["discarded"]) >= missing, f"the reason of {missing} lost"
+        )
         assert status_of(rig).problem == ""
         assert "holds no model" not in capfd.readouterr().err, "a model on its way is none that is missing"
 
