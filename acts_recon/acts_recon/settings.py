@@ -15,7 +15,7 @@ from acts_core.settings import Changeable, default_of, describe, part_of, refuse
 from acts_core.skin import LAYOUTS, ForceResponse, Layout, MeasuredForceResponse, layout, layout_path
 from acts_recon.classifiers import AUTO, CLASSIFIERS, ObjectRecogniser, classifier_named
 from acts_recon.contacts import BlobConfig
-from acts_recon.fusion import FusionConfig
+from acts_recon.fusion import ASSUMED_NOISE_COUNTS, FusionConfig
 from acts_recon.impacts import ImpactConfig, ImpactDetector
 from acts_recon.methods import METHODS, Recovery, SkinSetup
 from acts_recon.objects import load_object_library
@@ -62,7 +62,8 @@ class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig, ImpactCo
     )
     noise_counts: float = setting(
         default_of(FusionConfig, "noise_counts"),
-        "standard deviation of a reading about the truth, for fusion where the topic baseline does not say it [counts]",
+        "standard deviation of a reading about the truth where the topic baseline does not say it [counts]; 0: not known, "
+        "then untouched skin is shown as what it reads in the mean",
         minimum=0.0,
         maximum=100.0,
     )
@@ -260,7 +261,7 @@ class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig, ImpactCo
             hysteresis_counts=self.contacts_hysteresis_counts,
             bridge_s=self.contacts_bridge_s,
             memory_s=self.contacts_memory_s,
-            noise_counts=self.noise_counts,
+            noise_counts=self.noise_counts or ASSUMED_NOISE_COUNTS,
         )
 
     def impact_detector(self, recovery: Recovery) -> ImpactDetector:
@@ -283,7 +284,7 @@ class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig, ImpactCo
         """
         skin = recovery.skin
         return SpectrumAnalyser(
-            skin.geometry, skin.response, float(self.touch_counts), self.noise_counts, self, skin.layout
+            skin.geometry, skin.response, float(self.touch_counts), skin.assumed_noise_counts, self, skin.layout
         )
 
     def outline_tracer(self, recovery: Recovery) -> OutlineTracer:
@@ -296,7 +297,7 @@ class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig, ImpactCo
         """
         skin = recovery.skin
         return OutlineTracer(
-            skin.geometry, skin.response, float(self.touch_counts), self.noise_counts, self, skin.layout
+            skin.geometry, skin.response, float(self.touch_counts), skin.assumed_noise_counts, self, skin.layout
         )
 
     def regions(self, recovery: Recovery) -> Regions | None:
@@ -310,8 +311,8 @@ class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig, ImpactCo
         arranged = self.arranged()
         if len(arranged.patches) == 1 and not arranged.patches[0].link:
             return None
-        # Noise of 0 would let anything be slip.
-        noise_counts = max(self.noise_counts, _LEAST_NOISE_COUNTS)
+        # With next to no noise anything would be slip.
+        noise_counts = max(recovery.skin.assumed_noise_counts, _LEAST_NOISE_COUNTS)
         return Regions(
             arranged, recovery.response, self.touch_counts, noise_counts, self, self.regions_slip_rate_hz, self
         )

@@ -79,7 +79,8 @@ def test_frames_and_reports_go_on_during_an_upload(tmp_path: Path, rig: Rig, cap
         missing = int((np.diff(numbers) - 1).sum())
         # A machine that stands still makes the board drop frames, and the driver throw old ones away; both say so.
         rig.status_until(
-            lambda status: int(status["overruns"]) + int(status["discarded"]) >= missing, f"the reason of {missing} lost"
+            lambda status: int(status["overruns"]) + int(status["discarded"]) >= missing,
+            f"the reason of {missing} lost",
         )
         assert status_of(rig).problem == ""
         assert "holds no model" not in capfd.readouterr().err, "a model on its way is none that is missing"

@@ -7,6 +7,6 @@ In come samples, frame after frame; out come the image and the standard deviatio
 reference implementation in double precision are tested against one another.
 """
 
-from acts_recon.fusion.fusion import FusionConfig, FusionEstimator
+from acts_recon.fusion.fusion import ASSUMED_NOISE_COUNTS, FusionConfig, FusionEstimator
 
-__all__ = ["FusionConfig", "FusionEstimator"]
+__all__ = ["ASSUMED_NOISE_COUNTS", "FusionConfig", "FusionEstimator"]

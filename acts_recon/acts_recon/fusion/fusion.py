@@ -26,18 +26,20 @@ instead of a covariance matrix. One frame takes five steps:
    last values. A slope is trusted as far as earlier slopes came true, and what it predicts counts as one more such
    prediction, which comes true over times well below `UNPROVEN_S` and fails over longer ones: a slope that nothing
    but samples beside has confirmed is not followed past the end of an impact, nor a tap that holds. At
-   `horizon_s` the slope is forgotten, and what it added stays as far as it was trusted. Readings of untouched skin are
-   shown as 0, since the noise of a thousand taxels would pull the centre of pressure to the middle. What untouched skin
-   reads is learnt, see below.
+   `horizon_s` the slope is forgotten, and what it added stays as far as it was trusted. In place of
+   the noise of untouched skin its mean is shown, since the noise of a thousand taxels would pull the centre of pressure
+   to and fro. What untouched skin reads is learnt, see below.
 5. **Uncertainty.** ``sigma^2 = noise^2 + s q t^2 + ...``, where t is the taxel's age and q its process noise: the
    exponential average of ``(innovation^2 - 2 noise^2) / t^2``. The factor s is innovation-based adaptive noise. It
    follows the normalised innovation squared, slowly over frames and at once within a frame.
 
-**Noise.** It begins as calibrated for every taxel (`FusionEstimator.set_noise`). While running, each tile sums up its
+**Noise.** It begins as calibrated for every taxel (`FusionEstimator.set_noise`), or as the settings say. While running, each tile sums up its
 low readings, which are those of taxels with none beside that reads more than 4.6 standard deviations. A low reading is
-shown as 0 if, lately in its tile, 0 was about as good a prediction of the next reading as the last one, and if the
-readings changed no more than the noise of fast measured taxels explains. A light steady pressure fails the first, slow
-changes of the skin the second. So on a skin with little noise readings of one count are shown.
+noise if, lately in its tile, 0 was about as good a prediction of the next reading as the last one, and if the readings
+changed no more than the noise of fast measured taxels explains. A light steady pressure fails the first, slow changes
+of the skin the second. So on a skin with little noise readings of one count are shown. Noise of
+a known size is shown as 0, though it reads more in the mean: no reading is below 0. Where nobody has told the noise, it
+is taken for `ASSUMED_NOISE_COUNTS` at first, and the mean of the tile's low readings is shown: it may be what is there.
 
 `fusion_kernels` does the work; `fusion_reference` is the reference implementation, in double precision.
 """
@@ -59,14 +61,17 @@ from acts_recon.fusion.fusion_kernels import fuse
 from acts_recon.fusion.fusion_state import LEAST_NOISE_COUNTS, Tuning, expect_noise, forget, new_memory, state_of
 from acts_recon.images import PlacedSamples, borders_of, check_untouched
 
+ASSUMED_NOISE_COUNTS = 2.0
+"""Standard deviation of a reading where nobody has told it [counts]."""
+
 
 @dataclass(frozen=True)
 class FusionConfig:
     """Settings of the fusion of samples over time."""
 
     noise_counts: float = setting(
-        2.0,
-        "standard deviation of a reading about the truth, where it is not calibrated [counts]",
+        0.0,
+        "standard deviation of a reading about the truth, where it is not calibrated [counts]; 0: not known",
         minimum=0.0,
         maximum=100.0,
     )
@@ -126,8 +131,9 @@ class FusionEstimator:
         self._samples = PlacedSamples(geometry, layout)
         self._places = np.arange(geometry.size) if layout is None else layout.places.astype(np.intp)
         self.borders = borders_of(geometry.rows, geometry.cols, layout)
-        self._memory = new_memory(geometry.rows, geometry.cols, self.borders, self.config.noise_counts)
+        self._memory = new_memory(geometry.rows, geometry.cols, self.borders)
         self._state = state_of(self._memory)
+        self.set_noise(np.zeros(self._places.size, dtype=np.float32), np.zeros(self._places.size, dtype=np.bool_))
         self._confidence = np.zeros(geometry.size, dtype=np.uint8)
         self._end_s: float | None = None
         shape = (geometry.rows, geometry.cols)
@@ -152,7 +158,7 @@ class FusionEstimator:
     def set_noise(self, noise_counts: NDArray[np.float32], valid: NDArray[np.bool_]) -> None:
         """Take over the calibrated noise of the taxels; what was learnt of it while running is forgotten.
 
-        The same noise once more changes nothing.
+        Untouched skin whose noise is known is shown as 0. The same noise once more changes nothing.
 
         Parameters
         ----------
@@ -167,11 +173,15 @@ class FusionEstimator:
             See `check_untouched`.
         """
         check_untouched("noise", noise_counts, valid, self._places.size)
-        noise = np.full(self.geometry.size, self.config.noise_counts, dtype=np.float32)
+        assumed = self.config.noise_counts or ASSUMED_NOISE_COUNTS
+        noise = np.full(self.geometry.size, assumed, dtype=np.float32)
         noise[self._places[valid]] = noise_counts[valid]
         noise = np.maximum(noise, np.float32(LEAST_NOISE_COUNTS))
-        if not np.array_equal(noise, self._state.noise):
-            self._state.noise[:] = noise
+        unknown = np.full_like(noise, 0.0 if self.config.noise_counts else 1.0)
+        unknown[self._places[valid]] = 0.0
+        state = self._state
+        if not (np.array_equal(noise, state.noise) and np.array_equal(unknown, state.unknown)):
+            state.noise[:], state.unknown[:] = noise, unknown
             expect_noise(self._memory)
 
     def step(

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from acts_core.array import COUNT_MAX
 from acts_core.kernels import kernel
 from acts_recon.fusion.fusion_motion_kernels import FASTMATH
-from acts_recon.fusion.fusion_state import IS_NOISE, QUIET, TRUST, UNKNOWN_COUNTS, State, Tuning
+from acts_recon.fusion.fusion_state import IS_NOISE, QUIET, RESTING, TRUST, UNKNOWN_COUNTS, State, Tuning
 
 # Lower limit of the process noise: what an untouched taxel may drift [counts/s].
 IDLE_COUNTS_PER_S = 20.0
@@ -80,8 +80,8 @@ def _maximum_filter(state: State, values: NDArray[np.float32], cols: int) -> NDA
 
 @kernel(fastmath=FASTMATH, inline="always")
 def show(state: State, cols: int, tuning: Tuning) -> None:
-    """Image of the estimates as far as they are trusted; 0 where readings are low, with none beside, and are noise."""
-    above, quiet, tile_of = state.total, state.weight, state.tile_of
+    """Image of the estimates as far as they are trusted; where readings are noise, what untouched skin reads."""
+    above, quiet, resting, tile_of = state.total, state.weight, state.before, state.tile_of
     image, value, age, low, fresh = state.image, state.value, state.age, state.low, state.fresh
     rate, estimate, learnt = state.rate, state.estimate, state.learnt
     product, square, slope_square = state.product, state.square, state.slope_square
@@ -90,6 +90,7 @@ def show(state: State, cols: int, tuning: Tuning) -> None:
         usual = state.noise[i] * learnt[t, QUIET]
         above[i] = value[i] - usual
         quiet[i] = usual if learnt[t, IS_NOISE] > _F(0) else _F(-1)
+        resting[i] = state.unknown[i] * learnt[t, RESTING]
     around = _maximum_filter(state, above, cols)
     least, quiet_s, horizon = _F(LEAST_CHANGE_COUNTS), _F(tuning.quiet_s), _F(tuning.horizon_s)
     slope, fade, velocity = state.slope, state.fade, state.velocity
@@ -126,7 +127,7 @@ def show(state: State, cols: int, tuning: Tuning) -> None:
     for i in range(image.shape[0]):
         low[i] = around[i] <= _F(0)
         is_settled = (image[i] <= quiet[i]) | ((age[i] < quiet_s) & (quiet[i] >= _F(0)))
-        image[i] = _F(0) if low[i] & is_settled & (not fresh[i]) else image[i]
+        image[i] = resting[i] if low[i] & is_settled & (not fresh[i]) else image[i]
         above[i], quiet[i] = _F(0), _F(0)
 
 

@@ -25,13 +25,16 @@ from acts_recon.fusion.fusion_state import (
     CLIPPED_CHANGE,
     EXPECTED,
     IS_NOISE,
+    NUMBER,
     PRODUCT,
     QUIET,
     QUIET_SIGMAS,
     READINGS,
+    RESTING,
     SQUARE,
     SUMS,
     TILE,
+    TOTAL,
     TRUST,
     Memory,
     State,
@@ -186,6 +189,8 @@ def _learn(
             learnt[tile, READINGS] += count * count
             learnt[tile, CHANGES] += change * change
             learnt[tile, EXPECTED] += noise * noise
+            learnt[tile, TOTAL] += count
+            learnt[tile, NUMBER] += _F(1)
         state.innovation[k], state.since[k] = innovation, since
     for p in range(noise_excess.shape[0]):
         step = min(max(_F(NOISE_STEP) * noise_excess[p], -_F(NOISE_STEP_LIMIT)), _F(NOISE_STEP_LIMIT))
@@ -202,6 +207,8 @@ def _learn(
             learnt[t, TRUST] = trust(learnt[t, PRODUCT], learnt[t, SQUARE])
             is_noise = learnt[t, READINGS] < _F(ZERO_MARGIN) * changes and changes < limit * expected
             learnt[t, IS_NOISE] = _F(1) if is_noise else _F(0)
+            number = learnt[t, NUMBER]
+            learnt[t, RESTING] = learnt[t, TOTAL] / number if number > TINY else _F(0)
 
 
 @kernel(fastmath=FASTMATH, inline="always")

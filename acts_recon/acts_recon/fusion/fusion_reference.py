@@ -63,13 +63,16 @@ class FusionReference:
     rows, cols : int
     tuning : Tuning
     noise : np.ndarray [shape=(rows, cols)] or float
-        Calibrated standard deviation of a reading [counts].
+        Standard deviation of a reading [counts].
+    is_known : bool, optional
+        Whether that is known, not assumed.
     """
 
-    def __init__(self, rows: int, cols: int, tuning: Tuning, noise: Floats | float) -> None:
+    def __init__(self, rows: int, cols: int, tuning: Tuning, noise: Floats | float, *, is_known: bool = False) -> None:
         shape = (rows, cols)
         tiles = (-(-rows // TILE), -(-cols // TILE))
         self._tuning = tuning
+        self._is_known = is_known
         self._tile_of = np.ix_(np.arange(rows) // TILE, np.arange(cols) // TILE)
         self.noise = np.maximum(np.broadcast_to(np.asarray(noise, dtype=np.float64), shape), LEAST_NOISE_COUNTS)
         taxels = self._by_tile(np.ones(shape))
@@ -77,6 +80,7 @@ class FusionReference:
         self.readings = PRIOR_SAMPLES * 0.5 * variance
         self.changes = PRIOR_SAMPLES * CLIPPED_CHANGE * variance
         self.expected = PRIOR_SAMPLES * variance
+        self.low_total, self.low_number = np.zeros(tiles), np.zeros(tiles)
         self.quiet_sigmas = np.full(tiles, QUIET_SIGMAS)
         self.is_noise = np.ones(tiles, dtype=bool)
         self.log_noise = 0.0
@@ -214,6 +218,8 @@ class FusionReference:
             (self.readings, y**2, low),
             (self.changes, change**2, low),
             (self.expected, noise**2, low),
+            (self.low_total, y, low),
+            (self.low_number, np.ones_like(y), low),
         ):
             np.add.at(sums, tile, np.where(where, terms, 0))
             sums *= np.exp(-period_s / NOISE_MEMORY_S)
@@ -335,7 +341,11 @@ class FusionReference:
         self.image = np.clip(self.value + np.where(is_change, change, 0), 0, COUNT_MAX)
         self.image = np.floor(self.image + 0.5)
         is_settled = (self.image <= quiet) | (self.age < tuning.quiet_s)
-        self.image[self.low & ~self.fresh & self.is_noise[self._tile_of] & is_settled] = 0
+        resting: Floats = np.zeros_like(self.low_total)
+        if not self._is_known:
+            np.divide(self.low_total, self.low_number, out=resting, where=self.low_number > 1e-20)
+        is_noise = self.low & ~self.fresh & self.is_noise[self._tile_of] & is_settled
+        self.image = np.where(is_noise, resting[self._tile_of], self.image)
 
     def _update_sigma(self) -> None:
         tuning = self._tuning

@@ -24,9 +24,9 @@ UNKNOWN_COUNTS = 300.0
 LEAST_NOISE_COUNTS = 0.29
 """Smallest standard deviation of a reading: whole counts are rounded, ``1 / sqrt(12)``."""
 
-SUMS = 5
-LEARNT_COLUMNS = SUMS + 3
-PRODUCT, SQUARE, READINGS, CHANGES, EXPECTED, QUIET, TRUST, IS_NOISE = range(LEARNT_COLUMNS)
+SUMS = 7
+LEARNT_COLUMNS = SUMS + 4
+PRODUCT, SQUARE, READINGS, CHANGES, EXPECTED, TOTAL, NUMBER, QUIET, TRUST, IS_NOISE, RESTING = range(LEARNT_COLUMNS)
 """Columns of `State.learnt`; the first `SUMS` are sums that fade."""
 
 CLIPPED_CHANGE = 0.68
@@ -62,6 +62,8 @@ class State(NamedTuple):
         What motion, slopes and innovations beside predict [counts]; of fresh taxels what was measured.
     noise : np.ndarray [shape=(taxels,), dtype=float32]
         Calibrated standard deviation of a reading [counts].
+    unknown : np.ndarray [shape=(taxels,), dtype=float32]
+        1 where the noise is only assumed, else 0.
     value, slope, age : np.ndarray [shape=(taxels,), dtype=float32]
         Last measurement [counts], how fast it changed [counts/s], and how long it has been [s]; inf: never.
     process_noise : np.ndarray [shape=(taxels,), dtype=float32]
@@ -79,9 +81,10 @@ class State(NamedTuple):
         slope alone predicted [counts^2], where a taxel was measured within the horizon.
     learnt : np.ndarray [shape=(tiles + 1, LEARNT_COLUMNS), dtype=float32]
         Fading sums of each tile [counts^2]: the same two of taxels not measured for longer, and of low readings their
-        squares, squares of their changes, and calibrated variances. From them: what untouched taxels may read, in
-        standard deviations of their calibrated noise; the share of predictions that came true; 1 where 0 is better
-        than low readings, else 0. The last row is of places without skin.
+        squares, squares of their changes, calibrated variances, the readings themselves [counts], and their number.
+        From them: what untouched taxels may read, in standard deviations of their calibrated noise; the share of
+        predictions that came true; 1 where the mean is better than low readings, else 0; that mean [counts]. The last
+        row is of places without skin.
     log_noise : np.ndarray [shape=(patches,), dtype=float32]
         Logarithm of the noise variance of fast measured taxels over the calibrated one.
     tile_of : np.ndarray [shape=(taxels,), dtype=uint16]
@@ -114,6 +117,7 @@ class State(NamedTuple):
     fade: NDArray[np.float32]
     estimate: NDArray[np.float32]
     noise: NDArray[np.float32]
+    unknown: NDArray[np.float32]
     fresh: NDArray[np.bool_]
     low: NDArray[np.bool_]
     product: NDArray[np.float32]
@@ -151,7 +155,7 @@ class Memory(NamedTuple):
 
     Attributes
     ----------
-    taxels : np.ndarray [shape=(22, taxels), dtype=float32]
+    taxels : np.ndarray [shape=(23, taxels), dtype=float32]
     flags : np.ndarray [shape=(2, taxels), dtype=bool]
     tiles : np.ndarray [shape=(2, tiles + 1, 6), dtype=float32]
     velocity : np.ndarray [shape=(tiles + 1, 3), dtype=float32]
@@ -172,12 +176,12 @@ class Memory(NamedTuple):
     owners: NDArray[np.uint16]
 
 
-def new_memory(rows: int, cols: int, borders: Borders, noise_counts: float) -> Memory:
-    """Allocate the memory of an array that was never measured."""
+def new_memory(rows: int, cols: int, borders: Borders) -> Memory:
+    """Allocate the memory of an array that was never measured; its noise is still to be set."""
     patches = _with_tiles(borders.rectangles)
     tiles = int((patches[:, 5] * patches[:, 6]).sum())
     memory = Memory(
-        taxels=np.zeros((22, rows * cols), dtype=np.float32),
+        taxels=np.zeros((23, rows * cols), dtype=np.float32),
         flags=np.zeros((2, rows * cols), dtype=np.bool_),
         tiles=np.zeros((2, tiles + 1, 6), dtype=np.float32),
         velocity=np.zeros((tiles + 1, 3), dtype=np.float32),
@@ -186,9 +190,7 @@ def new_memory(rows: int, cols: int, borders: Borders, noise_counts: float) -> M
         patches=patches,
         owners=np.stack((borders.rectangle_of.ravel(), _tile_of(rows, cols, patches, tiles))).astype(np.uint16),
     )
-    state_of(memory).noise.fill(max(noise_counts, LEAST_NOISE_COUNTS))
     forget(memory)
-    expect_noise(memory)
     return memory
 
 
@@ -201,6 +203,7 @@ def expect_noise(memory: Memory) -> None:
     # Readings below 0 are 0, so that their mean square is half of the variance.
     for column, share in ((READINGS, 0.5), (CHANGES, CLIPPED_CHANGE), (EXPECTED, 1.0)):
         memory.learnt[:, column] = PRIOR_SAMPLES * share * variance
+    memory.learnt[:, [TOTAL, NUMBER, RESTING]] = 0.0
     memory.learnt[:, QUIET] = QUIET_SIGMAS
     memory.learnt[:, IS_NOISE] = 1.0
     state.log_noise.fill(0.0)
@@ -236,6 +239,7 @@ def state_of(memory: Memory) -> State:
         fade=taxels[6],
         estimate=taxels[16],
         noise=taxels[21],
+        unknown=taxels[22],
         fresh=memory.flags[0],
         low=memory.flags[1],
         product=taxels[17],

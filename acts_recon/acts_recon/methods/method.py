@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
 from acts_core.skin import ForceResponse, Layout, MeasuredForceResponse
-from acts_recon.fusion import FusionConfig
+from acts_recon.fusion import ASSUMED_NOISE_COUNTS, FusionConfig
 from acts_recon.images import PlacedSamples
 
 
@@ -33,7 +33,7 @@ class SkinSetup:
     touch_counts : int
         A taxel above it is pressed.
     noise_counts : float
-        Standard deviation of a reading about the truth [counts].
+        Standard deviation of a reading about the truth [counts]; 0: not known.
     """
 
     geometry: ArrayGeometry
@@ -41,6 +41,11 @@ class SkinSetup:
     response: ForceResponse | MeasuredForceResponse = field(default_factory=ForceResponse)
     touch_counts: int = 60
     noise_counts: float = FusionConfig().noise_counts
+
+    @property
+    def assumed_noise_counts(self) -> float:
+        """`noise_counts`, or what is assumed where that is not known [counts]."""
+        return self.noise_counts or ASSUMED_NOISE_COUNTS
 
     def placed_samples(self) -> PlacedSamples:
         """What checks frames and tells where in the picture their samples lie."""

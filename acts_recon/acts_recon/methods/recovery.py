@@ -48,7 +48,7 @@ class Recovery:
         self.measured = method.measured
         self._flat = method.image.ravel(), None if method.sigma is None else method.sigma.ravel()
         self._finder = ContactFinder(
-            skin.geometry, skin.response, float(skin.touch_counts), skin.noise_counts, borders=self.borders
+            skin.geometry, skin.response, float(skin.touch_counts), skin.assumed_noise_counts, borders=self.borders
         )
 
     def reset(self) -> None:

@@ -13,7 +13,7 @@ from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError
 from acts_core.sampling import Sampler, SamplingConfig, measure_in
 from acts_core.skin import layout
-from acts_recon.fusion import FusionConfig, FusionEstimator
+from acts_recon.fusion import ASSUMED_NOISE_COUNTS, FusionConfig, FusionEstimator
 from acts_recon.fusion.fusion_reference import FusionReference
 
 pytestmark = pytest.mark.slow
@@ -24,15 +24,23 @@ Field = Callable[[float], NDArray[np.integer]]
 class Scores:
     """Mean errors of images, of the fusion and of last values, over frames after `settled_s`.
 
-    The truth is `field`, whole counts; every sample has `noise_counts` of normal noise more.
+    The truth is `field`, whole counts; every sample has `noise_counts` of normal noise more. The fusion is told
+    `told_counts`, 0: nothing.
     """
 
     def __init__(
-        self, field: Field, *, frames: int, noise_counts: float = 0.0, settled_s: float = 0.3, m: int = 55
+        self,
+        field: Field,
+        *,
+        frames: int,
+        noise_counts: float = 0.0,
+        told_counts: float = 0.0,
+        settled_s: float = 0.3,
+        m: int = 55,
     ) -> None:
         rows, cols = field(0.0).shape
         sampler = Sampler(SamplingConfig("tracking", rows, cols, m, threshold_counts=15))
-        self.estimator = FusionEstimator(ArrayGeometry(rows, cols))
+        self.estimator = FusionEstimator(ArrayGeometry(rows, cols), FusionConfig(noise_counts=told_counts))
         rng = np.random.default_rng(7)
         last = np.zeros((rows, cols))
         errors, centres = [], []
@@ -83,14 +91,27 @@ def test_light_pressures_on_a_quiet_mat_are_kept(shape: tuple[int, int], flicker
 
 @pytest.mark.parametrize("noise_counts", [1.0, 3.0, 6.0])
 def test_readings_of_untouched_noisy_skin_are_0_whatever_its_noise(noise_counts: float) -> None:
-    """The setting says 2 counts: the rest was learnt."""
+    """The setting says 2 counts: the rest is learnt."""
     r, c = np.indices((32, 32))
     bump = np.rint(400 * np.exp(-((r - 9) ** 2 + (c - 20) ** 2) / 8)).astype(np.int64)
-    scores = Scores(lambda _: bump, frames=900, noise_counts=noise_counts)
+    scores = Scores(lambda _: bump, frames=900, noise_counts=noise_counts, told_counts=2.0)
     untouched = scores.estimator.image[bump == 0]
     assert np.mean(untouched > 0) < 0.15  # of the measured values nearly a half
     assert scores.centre < 0.3 * scores.last_centre
     assert scores.error < 0.8 * scores.last_error
+
+
+@pytest.mark.parametrize("shape", [(16, 16), (32, 32), (64, 64)])
+@pytest.mark.parametrize("noise_counts", [1.0, 4.0])
+def test_what_skin_of_unknown_noise_reads_untouched_is_kept(shape: tuple[int, int], noise_counts: float) -> None:
+    """No reading is below 0, so that noise adds to each in the mean: a recording's own centre is drawn to the middle."""
+    r, c = np.indices(shape)
+    bump = 400 * np.exp(-((r - 0.3 * shape[0]) ** 2 + (c - 0.6 * shape[1]) ** 2) / 8)
+    rng = np.random.default_rng(3)
+    recording = np.rint(bump + np.abs(noise_counts * rng.standard_normal((1000, *shape)))).astype(np.int64)
+    scores = Scores(lambda time_s: recording[round(1000 * time_s)], frames=1000)
+    assert scores.centre < 1.05 * scores.last_centre
+    assert scores.error < 1.05 * scores.last_error
 
 
 def test_noise_is_calibrated_taxel_by_taxel() -> None:
@@ -143,13 +164,16 @@ def test_what_was_learnt_of_the_noise_outlasts_a_reset() -> None:
     assert np.array_equal(estimator._state.log_noise, learnt)
 
 
-def test_kernels_equal_the_reference_while_noise_is_learnt() -> None:
+@pytest.mark.parametrize("is_known", [True, False])
+def test_kernels_equal_the_reference_while_noise_is_learnt(is_known: bool) -> None:
     geometry = ArrayGeometry(12, 20)
     rng = np.random.default_rng(2)
     noise = rng.uniform(0.5, 6.0, geometry.size).astype(np.float32)
     estimator = FusionEstimator(geometry)
-    estimator.set_noise(noise, np.ones(geometry.size, dtype=np.bool_))
-    reference = FusionReference(12, 20, estimator.config.tuning, noise.reshape(12, 20))
+    if is_known:
+        estimator.set_noise(noise, np.ones(geometry.size, dtype=np.bool_))
+    told = noise.reshape(12, 20) if is_known else ASSUMED_NOISE_COUNTS
+    reference = FusionReference(12, 20, estimator.config.tuning, told, is_known=is_known)
     r, c = np.indices((12, 20))
     differing = 0
     for k in range(1, 300):
@@ -164,9 +188,8 @@ def test_kernels_equal_the_reference_while_noise_is_learnt() -> None:
     # Rounding, and thresholds that single and double precision meet on different sides.
     assert differing < 300 * geometry.size / 1000
     assert estimator._state.log_noise[0] == pytest.approx(reference.log_noise, abs=0.02)
-    assert estimator._state.learnt[:-1, 2:5].reshape(3, 5, 3) == pytest.approx(
-        np.dstack((reference.readings, reference.changes, reference.expected)), rel=0.02, abs=1.0
-    )
+    learnt = (reference.readings, reference.changes, reference.expected, reference.low_total, reference.low_number)
+    assert estimator._state.learnt[:-1, 2:7].reshape(3, 5, 5) == pytest.approx(np.dstack(learnt), rel=0.02, abs=1.0)
 
 
 def test_a_reading_that_can_be_noise_is_not_carried_on() -> None:
