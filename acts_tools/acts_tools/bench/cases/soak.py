@@ -37,7 +37,7 @@ GROWTH_MAX_MB_PER_H = 10.0
 JUDGED_S = 300.0
 _SETTLE_S = 3.0
 _MB = 1e6
-_COUNTERS = ("frames", "lost", "overruns", "crc_errors", "malformed", "repeated", "restarts", "reconnects")
+_COUNTERS = ("frames", "lost", "overruns", "discarded", "crc_errors", "malformed", "repeated", "restarts", "reconnects")
 _NAMES = {"median": "stamp to reception, median", "p99": "    99 % within", "p99_9": "    99.9 % within"}
 
 
@@ -117,6 +117,7 @@ def measure(workbench: Workbench) -> Result:
         Figure("frames_read", "    read by the driver", added["frames"]),
         Figure("frames_lost", "    lost before the driver", added["lost"]),
         Figure("overruns", "        of them dropped by the board, as it says", added["overruns"]),
+        Figure("discarded", "        of them thrown away by a driver that was too late", added["discarded"]),
         Figure("received", "messages received by this process", received),
         Figure("not_received", "    numbers missing between them", missed),
         Figure("damaged", "damaged packets", added["crc_errors"] + added["malformed"]),
@@ -141,8 +142,9 @@ def problems(added: dict[str, int], memory: Memory, seconds: float) -> list[str]
         Duration of the measurement [s].
     """
     found = []
-    if added["lost"] > added["overruns"]:
-        found.append(f"{added['lost'] - added['overruns']} frames were lost between board and driver")
+    unexplained = added["lost"] - added["overruns"] - added["discarded"]
+    if unexplained > 0:
+        found.append(f"{unexplained} frames were lost between board and driver")
     for name in ("crc_errors", "malformed", "repeated", "restarts", "reconnects"):
         if added[name]:
             found.append(f"the driver counted {added[name]} {name} on an undisturbed line")
