@@ -73,9 +73,25 @@ def test_times_of_a_frame_keep_their_milliseconds() -> None:
     history = np.zeros((3, 7))
     history[:, 0] = begin_s + np.array([0.0, 0.008, 59.992])
     header, read = decode(encode_frame("/plate", Frame(stamp_s=begin_s), history, life=2))
-    np.testing.assert_allclose(header["base_s"] + read["history"][:, 0].astype(float), history[:, 0], atol=1e-5)
+    np.testing.assert_allclose(
+        header["base_s"] + read["history"][:, 0].astype(float), history[:, 0], rtol=0.0, atol=1e-5
+    )
     assert (header["skin"], header["life"], header["touch"]) == ("/plate", 2, None)
     assert "image" not in read
+
+
+@pytest.mark.parametrize("jump_s", [4 * 3600.0, 400 * 86400.0])
+def test_a_clock_that_was_set_forward_leaves_the_times_after_it_their_milliseconds(jump_s: float) -> None:
+    times_s = 1_700_000_000.0 + 0.008 * np.arange(7500)
+    times_s[3000:] += jump_s
+    history = np.zeros((len(times_s), 7))
+    history[:, 0] = times_s
+    header, read = decode(encode_frame("/plate", Frame(), history, life=0))
+    told_s = header["base_s"] + read["history"][:, 0].astype(float)
+    np.testing.assert_allclose(told_s[3000:], times_s[3000:], rtol=0.0, atol=1e-5)
+    # What is before it is out of every plot, and stays in its order.
+    assert (np.diff(told_s) >= 0).all()
+    np.testing.assert_allclose(told_s[:3000], times_s[:3000], rtol=0.0, atol=1e-6 * jump_s)
 
 
 @pytest.mark.parametrize("name", LAYOUTS)

@@ -28,6 +28,7 @@ from acts_msgs.msg import Baseline, TactileSamples
 from acts_recon.settings import ReconstructionSettings
 from acts_ros.bags.message_types import Definitions
 from acts_ros.bags.writing import BagWriter
+from acts_view.local import playback as playback_module
 from acts_view.local.local_skin import LocalSkin
 from acts_view.local.playback import Playback
 from acts_view.local.show import show
@@ -117,6 +118,35 @@ def test_a_held_recording_shows_where_one_goes_and_goes_on_from_there(played: Pl
     until(lambda: played.numbers[-1] == 0)
 
 
+def test_a_recording_that_is_read_slower_than_it_plays_is_shown_as_it_is_read(monkeypatch: pytest.MonkeyPatch) -> None:
+    slow_us = 4000.0
+    read_us = itertools.count(step=slow_us)
+    late_us = 0.0
+
+    class Slow(Counted):
+        """Each frame, of a millisecond, takes four to read."""
+
+        def frames(self, from_us: int = 0) -> Iterator[SampleFrame]:
+            nonlocal late_us
+            for one in super().frames(from_us):
+                late_us = next(read_us)
+                yield one
+
+    handed_on: list[tuple[float, list[int]]] = []
+    now_us = playback_module._now_us
+    monkeypatch.setattr(playback_module, "_now_us", lambda: now_us() + late_us)
+    playback = Playback(
+        Slow(), lambda frames: handed_on.append((late_us, [one.sequence for one in frames])), lambda: None
+    )
+    playback.start()
+    until(lambda: not playback.state.is_playing)
+    playback.stop()
+    assert [number for _, numbers in handed_on for number in numbers] == list(range(1000))
+    # Never without a picture for as long as half a second, of the four that it takes.
+    times_us = [time_us for time_us, _ in handed_on]
+    assert max(np.diff(times_us)) < 500_000
+
+
 def test_a_bag_whose_recorder_was_killed_is_shown_and_said_to_be_one(tmp_path: Path) -> None:
     bag, kind = BagWriter(tmp_path / "bag"), "acts_msgs/msg/TactileSamples"
     topic = bag.add_topic("/plate/samples", kind, *Definitions().describe(kind), [])
@@ -134,11 +164,11 @@ def test_a_bag_whose_recorder_was_killed_is_shown_and_said_to_be_one(tmp_path: P
     assert "was never closed" in diagnosis["message"]
 
 
-def write_bag(path: Path, baselines: dict[int, list[int]]) -> Path:
+def write_bag(path: Path, baselines: dict[int, list[int]], skin: str = "/plate") -> Path:
     """Frames of 4 x 4 taxels, one a second, 300 counts everywhere; and baselines of so many or less, by their time."""
     bag, definitions = BagWriter(path), Definitions()
     samples, base = (
-        bag.add_topic(f"/plate/{name}", kind, *definitions.describe(kind), [])
+        bag.add_topic(f"{skin}/{name}", kind, *definitions.describe(kind), [])
         for name, kind in (("samples", "acts_msgs/msg/TactileSamples"), ("baseline", "acts_msgs/msg/Baseline"))
     )
     for time_s, counts in baselines.items():
@@ -172,6 +202,16 @@ def test_the_baseline_of_a_bag_is_subtracted_as_it_was_at_the_time(tmp_path: Pat
     assert highest_at(source, 12) < 30
     assert highest_at(source, 14) == pytest.approx(150, abs=30)
     assert highest_at(source, 11) < 30
+
+
+@pytest.mark.parametrize("namespaces", [[], ["/"]])
+def test_a_skin_in_the_root_namespace_of_a_bag_is_shown_without_its_baseline(
+    tmp_path: Path, namespaces: list[str]
+) -> None:
+    path = write_bag(tmp_path / "bag", {5: [300] * 16}, skin="")
+    source, name = open_recorded(path, namespaces, "square")
+    assert name == "/bag"
+    assert highest_at(source, 12) < 30
 
 
 def test_a_bag_without_a_baseline_is_shown_as_it_was_measured(tmp_path: Path) -> None:

@@ -16,6 +16,8 @@ from acts_driver.replay import SeekableRecording
 
 # Frames are handed on so often: what is drawn 30 times a second need not come one by one [s].
 _TURN_S = 0.01
+# Reading that is slower than playing is shown so often [us].
+_READ_MAX_US = 100_000
 # Where the machine is later than this, the recording waits: nothing is left out [s].
 _LATE_MAX_S = 0.25
 # One frame alone shows little: those before the time that is sought are shown with it [us].
@@ -142,12 +144,16 @@ class Playback:
                     anchor_us = _now_us() - seek_us
                     continue
                 due: list[SampleFrame] = []
-                late_us = 0.0 if coming is None else _now_us() - anchor_us - self._place_us(coming)
+                now_us = _now_us()
+                late_us = 0.0 if coming is None else now_us - anchor_us - self._place_us(coming)
                 if late_us > _LATE_MAX_S * 1e6:
                     anchor_us += late_us
-                while coming is not None and self._place_us(coming) <= _now_us() - anchor_us:
+                # Up to a time that stands still: after one that moves on, slow reading would run for ever.
+                while coming is not None and self._place_us(coming) <= now_us - anchor_us:
                     due.append(coming)
                     coming = next(frames, None)
+                    if _now_us() - now_us > _READ_MAX_US:
+                        break
             except RecordingError as error:
                 self._end(str(error))
                 continue

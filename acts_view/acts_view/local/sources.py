@@ -309,7 +309,8 @@ def open_recorded(
     """
     if len(namespaces) > 1:
         raise SettingsError(f"a recording is shown one skin at a time; {', '.join(namespaces)} are {len(namespaces)}")
-    topic = f"/{namespaces[0].strip('/')}/samples" if namespaces else ""
+    # Of the root namespace nothing is before the topic's slash.
+    topic = f"/{namespaces[0].strip('/')}/samples".replace("//", "/") if namespaces else ""
 
     def sampling(rows: int, cols: int) -> SamplingConfig:
         return SamplingConfig("tracking", rows, cols, min(_FULL_M, rows * cols), threshold_counts=_TRACKED_COUNTS)
@@ -318,10 +319,11 @@ def open_recorded(
         path, topic, sampling=sampling, rate_cap_hz=_FULL_HZ, skin_map=DriverSettings(layout=layout).skin_map
     )
     recording = open_recording(options)
-    found = str(getattr(recording, "topic", "")).removesuffix("/samples")
+    found_topic = str(getattr(recording, "topic", ""))
+    found = found_topic.removesuffix("/samples")
 
     def read(rows: int, cols: int) -> tuple[Sequence[Baseline], str]:
-        if not found:
+        if not found_topic:
             return (), ""
         # Late: an npz file needs nothing of ROS.
         from acts_view.local.bag_baselines import read_baselines

@@ -49,7 +49,7 @@ export class Controls {
       group.append(title);
       const offered = new Set(offers.filter(([, namespace]) => namespace === of).map(([what]) => what));
       for (const button of BUTTONS) if (offered.has(button.do)) group.append(this.#button(of, button));
-      if (offered.has("set")) for (const field of FIELDS) group.append(this.#field(of, field, schemes));
+      if (offered.has("set")) for (const field of FIELDS) group.append(...this.#field(of, field, schemes));
       this.groups.set(of, group);
     }
     this.element.querySelector(".groups").replaceChildren(...this.groups.values());
@@ -76,13 +76,20 @@ export class Controls {
     } else {
       Object.assign(field, { type: "number", step: 1, min: least, title: note });
     }
+    const refused = document.createElement("span");
+    refused.className = "refused";
+    refused.dataset.refused = name;
+    refused.setAttribute("role", "status");
     field.onchange = () => {
       const value = name === "scheme" ? field.value : field.valueAsNumber;
-      if (Number.isNaN(value)) return;
+      // An empty field is NaN.
+      const isNone = name !== "scheme" && !(Number.isInteger(value) && value >= least);
+      refused.textContent = isNone ? `not set: needed is a whole number from ${least} on` : "";
+      if (isNone) return;
       this.#ask(`${title}, ${of || "/"}`, "set", { skin: of, name, value });
     };
     label.append(field);
-    return label;
+    return [label, refused];
   }
 
   #showValues(of, values) {

@@ -6,7 +6,7 @@
 import { connect } from "./connection.js";
 import { Controls } from "./controls.js";
 import { Diagnostics } from "./diagnostics.js";
-import { Panel } from "./skin/panel.js";
+import { Panels } from "./panels.js";
 import { Recording } from "./recording.js";
 import { Replay } from "./replay.js";
 import { answered, forgetAll, useConnection } from "./requests.js";
@@ -17,32 +17,17 @@ const STATES = { connecting: "connecting", live: "connected", gone: "server gone
 const KEYS = { s: "scale", n: "unit", m: "colours", i: "smooth", c: "contacts", o: "outlines", u: "unsure", t: "measured", d: "theme" };
 const ZOOMS = { "+": (plots) => plots.zoom(0.5), "=": (plots) => plots.zoom(0.5), "-": (plots) => plots.zoom(2), 0: (plots) => plots.reset(), "<": (plots) => plots.move(-0.5), ">": (plots) => plots.move(0.5) };
 
-const panels = new Map();
+const panels = new Panels(document.getElementById("skins"), () => hold(true));
 const diagnostics = new Diagnostics(document.getElementById("diagnostics"));
 const replay = new Replay(document.getElementById("replay"));
 const recording = new Recording(document.getElementById("recording"));
 const controls = new Controls(document.getElementById("controls"));
-let isHeld = false;
 
 const byId = (id) => document.getElementById(id);
 
-function panel(name) {
-  if (!panels.has(name)) {
-    const made = new Panel(name, () => hold(true));
-    const after = [...panels.keys()].filter((other) => other > name).sort()[0];
-    byId("skins").insertBefore(made.element, panels.get(after)?.element ?? null);
-    panels.set(name, made);
-    byId("skins").dataset.count = panels.size;
-    byId("empty").hidden = true;
-    made.redraw();
-    if (isHeld) made.hold(true);
-  }
-  return panels.get(name);
-}
-
 function onMessage(message) {
-  if (message.type === "skin") panel(message.skin).describe(message);
-  else if (message.type === "frame") panel(message.skin).take(message);
+  if (message.type === "skin") panels.of(message.skin).describe(message);
+  else if (message.type === "frame") panels.of(message.skin).take(message);
   else if (message.type === "answer") answered(message);
   else if (message.type === "status") {
     diagnostics.show(message.diagnostics);
@@ -50,8 +35,10 @@ function onMessage(message) {
     recording.show(message.recording);
     controls.show(message);
     byId("note").textContent = message.note ?? "";
-    byId("empty").hidden = panels.size > 0;
+    panels.offer(message.skins ?? []);
   }
+  // Before the first status nobody knows whether there is a skin.
+  if (panels.size || message.type === "status") byId("empty").hidden = panels.size > 0;
 }
 
 function onState(state) {
@@ -59,15 +46,15 @@ function onState(state) {
   pill.dataset.state = state;
   pill.textContent = STATES[state];
   document.body.dataset.connection = state;
+  if (state === "live") panels.begin();
+  else panels.end();
   if (state === "gone" || state === "refused") forgetAll();
-  if (state === "live") for (const one of panels.values()) one.forget();
 }
 
-function hold(held) {
-  isHeld = held;
+function hold(isHeld) {
   byId("pause").setAttribute("aria-pressed", String(isHeld));
   byId("pause").textContent = isHeld ? "Go on" : "Pause";
-  for (const one of panels.values()) one.hold(isHeld);
+  panels.hold(isHeld);
 }
 
 function show() {
@@ -75,7 +62,7 @@ function show() {
   for (const name of ["smooth", "contacts", "outlines", "unsure", "measured"]) byId(name).setAttribute("aria-pressed", String(settings[name]));
   byId("theme").textContent = `Theme: ${settings.theme}`;
   document.documentElement.dataset.theme = settings.theme;
-  for (const one of panels.values()) one.redraw();
+  for (const one of panels) one.redraw();
 }
 
 for (const name of ["scale", "unit", "colours", "window"]) {
@@ -86,23 +73,21 @@ for (const name of ["scale", "unit", "colours", "window"]) {
   };
 }
 for (const name of ["smooth", "contacts", "outlines", "unsure", "measured", "theme"]) byId(name).onclick = () => next(name);
-byId("pause").onclick = () => hold(!isHeld);
+byId("pause").onclick = () => hold(!panels.isHeld);
 document.addEventListener("keydown", (event) => {
   if (event.ctrlKey || event.metaKey || event.altKey) return;
   // What is typed there is theirs; a slider has arrows, Home, End and the page keys, and none of these is ours.
   if (event.target.closest("select, input:not([type=range])")) return;
   if (event.key in KEYS) next(KEYS[event.key]);
-  else if (event.key in ZOOMS) for (const one of panels.values()) ZOOMS[event.key](one.plots);
+  else if (event.key in ZOOMS) for (const one of panels) ZOOMS[event.key](one.plots);
   // On a button it presses that.
   else if (event.key !== " " || event.target.closest("button, summary")) return;
   else if (replay.isShown) replay.toggle();
-  else hold(!isHeld);
+  else hold(!panels.isHeld);
   event.preventDefault();
 });
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", show);
 onChange(show);
 show();
-setInterval(() => {
-  for (const one of panels.values()) one.tick(replay.isHeld);
-}, TICK_MS);
+setInterval(() => panels.tick(replay.isHeld), TICK_MS);
 useConnection(connect(onMessage, onState));

@@ -228,7 +228,8 @@ def encode_frame(name: str, frame: Frame, history: NDArray[np.float64], life: in
 
     Times of the history are offsets from ``base_s``: the seconds since 1970 do not fit 32 bits.
     """
-    base_s = float(history[0, 0]) if len(history) else 0.0
+    # The newest: where a clock was set forward, what is before that may be days away, and is no longer in any plot.
+    base_s = float(history[-1, 0]) if len(history) else 0.0
     series = history.copy()
     series[:, :1] -= base_s
     arrays: dict[str, NDArray[Any]] = {

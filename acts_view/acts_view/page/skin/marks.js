@@ -11,6 +11,7 @@ export class Marks {
   constructor(canvas) {
     this.canvas = canvas;
     this.trails = new Map();
+    this.now_ms = 0; // of what is shown, which may be held
   }
 
   /** A skin of another shape. */
@@ -20,7 +21,7 @@ export class Marks {
 
   /** Take where the contacts of a message are. */
   remember({ arrays: { contacts, contact_numbers } }) {
-    const now_ms = performance.now();
+    const now_ms = (this.now_ms = performance.now());
     const width = contacts.shape[1];
     contact_numbers.data.forEach((number, index) => {
       const [x_m, y_m] = contacts.data.subarray(index * width, index * width + 2);
@@ -44,11 +45,12 @@ export class Marks {
     if (age) this.#drawMeasured(context, age);
     if (message) {
       this.#drawTrails(context);
+      // Below the labels of contacts, since the ball is mostly there.
+      this.#drawReference(context, message.ball.reference);
       const { outlines } = message.arrays;
       if (outlines && settings.outlines) this.#drawOutlines(context, message.arrays);
       this.#drawContacts(context, message.arrays, !(outlines && settings.outlines));
       this.#drawCentre(context, message.touch);
-      this.#drawReference(context, message.ball.reference);
     }
     if (pointed) this.#drawPointed(context, pointed);
   }
@@ -68,7 +70,7 @@ export class Marks {
   }
 
   #drawTrails(context) {
-    const now_ms = performance.now();
+    const { now_ms } = this;
     context.lineWidth = 2 * this.ratio;
     context.lineCap = "round";
     for (const points of this.trails.values()) {

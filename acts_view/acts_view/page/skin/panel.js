@@ -117,16 +117,26 @@ export class Panel {
     this.history.clear();
   }
 
-  /** Now and then: numbers, plots, and whether the skin is silent; of a recording that is held it is meant to be. */
-  tick(isStill = false) {
+  /** The server has it no longer. */
+  remove() {
+    this.element.remove();
+    this.plots.destroy();
+  }
+
+  /**
+   * Now and then: numbers, plots, and whether the skin is silent; of a recording that is held (`isStill`) it is meant
+   * to be. `isGone`: this server has not told of it.
+   */
+  tick(isStill = false, isGone = false) {
     const now_ms = performance.now();
     const silent_ms = now_ms - this.heard_ms;
     const pill = this.find(".pill");
     const isSilent = silent_ms > SILENT_MS;
-    const state = this.isHeld || (isStill && this.message) ? "held" : !this.message ? "waiting" : isSilent ? "silent" : "live";
+    const state = this.isHeld ? "held" : isGone || !this.message ? "waiting" : isStill ? "held" : isSilent ? "silent" : "live";
     const words = { held: "paused", waiting: "waiting", silent: `silent for ${Math.round(silent_ms / 1000)} s`, live: "live" }[state];
     if (pill.textContent !== words) pill.textContent = words;
     pill.dataset.state = state;
+    this.element.dataset.gone = String(isGone && !this.isHeld);
     this.plots.draw();
     if (!this.isHeld && now_ms - this.numbers_ms > NUMBERS_EVERY_MS) this.#showFigures(now_ms);
   }

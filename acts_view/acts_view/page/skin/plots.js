@@ -30,6 +30,7 @@ export class Plots {
     this.history = history;
     this.held = null;
     this.last_ms = 0;
+    this.length_s = 0;
     this.isZoomed = false;
     this.onZoom = onZoom;
     this.plots = KINDS.map((kind) => {
@@ -84,12 +85,21 @@ export class Plots {
     this.last_ms = time_ms;
     const history = this.held ?? this.history;
     const length_s = Number(settings.window);
+    // Another window was asked for: all of it, since what was zoomed may not be in it.
+    if (length_s !== this.length_s) this.isZoomed = false;
+    this.length_s = length_s;
     for (const { kind, plot } of this.plots) {
       const data = kind.read(history, length_s, plot.bbox.width / (window.devicePixelRatio || 1));
       plot.setData(data, false);
       if (!this.isZoomed) plot.setScale("x", { min: -length_s, max: 0 });
       else plot.redraw();
     }
+  }
+
+  /** Nothing is drawn any more. */
+  destroy() {
+    for (const { plot } of this.plots) plot.destroy();
+    this.plots = [];
   }
 
   /** As much of a part as is in the window; all of the window is no zoom. */

@@ -15,6 +15,7 @@ const COUNTS = Uint16Array.from({ length: COUNT_MAX + 1 }, (_, counts) => counts
 export class Taxels {
   constructor(canvas) {
     this.canvas = canvas;
+    this.most = LEAST_TOP_COUNTS; // that an adaptive scale reaches up to
     this.top = COUNT_MAX;
     this.unit = "counts";
     this.tiles = [];
@@ -31,6 +32,14 @@ export class Taxels {
       const pixels = context.createImageData(canvas.width, canvas.height);
       return { patch, canvas, context, pixels, words: new Uint32Array(pixels.data.buffer) };
     });
+  }
+
+  /** Let an adaptive scale follow an image that is new: what is only drawn again does not change it. */
+  follow(image) {
+    let largest = LEAST_TOP_COUNTS;
+    for (const counts of image) if (counts > largest) largest = counts;
+    // Up at once, down slowly: the picture does not flicker.
+    this.most = Math.max(largest, 0.97 * this.most);
   }
 
   /** Draw counts; with a confidence of 0 to 255 of each, what is not sure fades. Both may be null. */
@@ -66,18 +75,8 @@ export class Taxels {
 
   #scale(image) {
     const values = this.valuesOf();
-    const unit = values === COUNTS ? "counts" : "N";
-    const isOther = unit !== this.unit;
-    this.unit = unit;
-    if (settings.scale === "fixed" || !image) {
-      this.top = values === COUNTS ? COUNT_MAX : values[FIXED_TOP_COUNTS];
-      return;
-    }
-    let most = LEAST_TOP_COUNTS;
-    for (const counts of image) if (counts > most) most = counts;
-    const largest = values[most];
-    if (isOther) this.top = largest;
-    // Up at once, down slowly: the picture does not flicker.
-    this.top = largest > this.top ? largest : Math.max(largest, 0.97 * this.top);
+    this.unit = values === COUNTS ? "counts" : "N";
+    if (settings.scale === "adaptive" && image) this.top = values[Math.round(this.most)];
+    else this.top = values[values === COUNTS ? COUNT_MAX : FIXED_TOP_COUNTS];
   }
 }

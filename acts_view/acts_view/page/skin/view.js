@@ -52,8 +52,9 @@ export class SkinView {
   setState(message) {
     this.state = message;
     this.marks.remember(message);
+    const image = this.geometry && this.#array("image");
+    if (image) this.taxels.follow(image);
     this.draw();
-    if (this.pointed) this.#tell();
   }
 
   /** The canvases, one over another. */
@@ -71,6 +72,7 @@ export class SkinView {
     this.geometry.fit(wide);
     this.taxels.draw(this.#array("image"), settings.unsure ? this.#array("confidence") : null);
     this.#drawMarks();
+    if (this.pointed) this.#tell();
   }
 
   #drawMarks() {

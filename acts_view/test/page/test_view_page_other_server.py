@@ -1,0 +1,82 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""A server that ends and is followed by one with other skins, in a real browser: what becomes of the panels."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+import pytest
+from view_browser import expect, needs_browser
+from view_player import Player, pressed
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+pytestmark = [needs_browser, pytest.mark.slow]
+
+PLATE, FOOT = "[data-skin='/plate']", "[data-skin='/foot']"
+
+
+@pytest.fixture
+def follow(play: Callable[..., Player], open_page: Callable[..., Page]) -> Callable[..., tuple[Page, Player]]:
+    """Open a page, do something on it, and follow its server with one of these skins."""
+
+    def begin(*names: str, meanwhile: Callable[[Page], object] = lambda _: None) -> tuple[Page, Player]:
+        first = play()
+        page = open_page(first)
+        # The same element as now, and the most panels at a time.
+        page.evaluate(
+            """() => {
+              document.querySelector(".skin").dataset.kept = "yes";
+              const { dataset } = document.body, skins = document.getElementById("skins");
+              const count = () => { dataset.most = Math.max(dataset.most ?? 0, skins.childElementCount); };
+              new MutationObserver(count).observe(skins, { childList: true });
+            }"""
+        )
+        meanwhile(page)
+        first.close()
+        page.wait_for_selector("#connection[data-state=gone]")
+        second = play(names, port=first.server.address.port)
+        page.wait_for_selector("#connection[data-state=live]")
+        return page, second
+
+    return begin
+
+
+def test_the_panel_of_a_skin_takes_the_place_of_one_that_is_gone(follow: Callable[..., tuple[Page, Player]]) -> None:
+    page, _ = follow("/foot")
+    expect(page.locator(f"{FOOT} .pill")).to_have_text("live")
+    expect(page.locator(PLATE)).to_have_count(0)
+    assert page.get_attribute("body", "data-most") == "1"
+    assert page.get_attribute("#skins", "data-count") == "1"
+
+
+def test_a_skin_that_does_not_come_back_goes(follow: Callable[..., tuple[Page, Player]]) -> None:
+    page, _ = follow()
+    expect(page.locator(f"{PLATE} .pill")).to_have_text("waiting")
+    expect(page.locator(PLATE)).to_have_attribute("data-gone", "true")
+    expect(page.locator(".skin")).to_have_count(0)
+    expect(page.locator("#empty")).to_be_visible()
+
+
+def test_a_skin_that_comes_back_late_keeps_its_panel(follow: Callable[..., tuple[Page, Player]]) -> None:
+    page, second = follow()
+    expect(page.locator(f"{PLATE} .pill")).to_have_text("waiting")
+    second.server.show_frame(*pressed("/plate", time.time()))
+    expect(page.locator(f"{PLATE} .pill")).to_have_text("live")
+    expect(page.locator(PLATE)).to_have_attribute("data-gone", "false")
+    expect(page.locator(PLATE)).to_have_attribute("data-kept", "yes")
+
+
+def test_a_paused_panel_stays_until_one_goes_on(follow: Callable[..., tuple[Page, Player]]) -> None:
+    page, _ = follow("/foot", meanwhile=lambda page: page.click("#pause"))
+    expect(page.locator(f"{FOOT} .pill")).to_have_text("paused")
+    expect(page.locator(f"{PLATE} .pill")).to_have_text("paused")
+    expect(page.locator(f"{PLATE} [data-number=peak]")).to_have_text("800")
+    page.click("#pause")
+    expect(page.locator(PLATE)).to_have_count(0)
+    expect(page.locator(f"{FOOT} .pill")).to_have_text("live")
