@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 FORMATS = ("csv", "npz", "parquet", "lerobot")
 _LEROBOT_HZ = 30.0
 _RATE_MAX_HZ = 10_000.0
+_NOTES_FILE = "notes.txt"
 
 
 def add_parser(subparsers: Any) -> None:
@@ -82,8 +84,10 @@ def run(arguments: argparse.Namespace) -> int:
     from acts_tools.export.recording import Choice, open_recording
     from acts_tools.export.tables import write_csv, write_npz, write_parquet
 
-    choice = Choice(arguments.skin, arguments.joints, arguments.layout, rate_hz)
+    # Learning has no use for a NaN: it would spread into the statistics of the dataset.
+    choice = Choice(arguments.skin, arguments.joints, arguments.layout, rate_hz, numbers_only=kind == "lerobot")
     writer: LeRobotWriter | None = None
+    notes: list[str] = []
     try:
         output.parent.mkdir(parents=True, exist_ok=True)
         # What is not whole does not stay: it would be in the way of the next attempt.
@@ -98,6 +102,9 @@ def run(arguments: argparse.Namespace) -> int:
                         write = {"csv": write_csv, "npz": write_npz, "parquet": write_parquet}[kind]
                         n_rows = write(recording, begun)
                     _tell(bag, recording, n_rows)
+                    notes += [f"{bag.resolve().name}: {sentence}\n" for sentence in recording.notes()]
+            if notes and kind != "npz":
+                (begun / _NOTES_FILE).write_text("".join(notes))
             if writer is not None:
                 writer.close()
             begun.rename(output)
@@ -110,12 +117,8 @@ def run(arguments: argparse.Namespace) -> int:
 def _tell(bag: Path, recording: Recording, n_rows: int) -> None:
     joints = f", {len(recording.joint_columns)} joint columns" if recording.joint_columns else ""
     print(f"{bag}: {n_rows} rows of {recording.skin or '/'}{joints}")
-    if recording.early:
-        print(f"{bag}: {recording.early} frames left out, from before all else in the bag had come once")
-    if recording.backward:
-        print(f"{bag}: {recording.backward} frames left out, not newer than one before: was a clock set?")
-    for sentence in filter(None, (recording.note, recording.hint)):
-        print(f"{bag}: {sentence}")
+    for sentence in recording.notes():
+        print(f"{bag}: {sentence}", file=sys.stderr)
 
 
 def _default_output(bag: Path, kind: str) -> Path:

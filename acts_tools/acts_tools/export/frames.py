@@ -20,7 +20,7 @@ from acts_recon.frame_recovery import FrameRecovery
 from acts_recon.settings import ReconstructionConfig, ReconstructionSettings
 from acts_ros.messages import frame_of, stamp_ns_of
 from acts_tools.bags.messages import image_counts, messages, parsed
-from acts_tools.export.tracks import Values, contact_found, contacts_found
+from acts_tools.export.tracks import Track, Values, contact_found, contacts_found
 from acts_tools.export.tracks import stamp_ns_of as header_stamp_ns
 
 
@@ -103,6 +103,17 @@ def recovered_frames(bag: Any, path: Path, topic: str, beside: str | None, layou
             raise
         except ActsError as error:
             raise RecordingError(f"{where}: {error}") from error
+
+
+def contacts_in(frames: Iterator[Seen]) -> tuple[Track[Values], Track[Values]]:
+    """The total contact and the single contacts of recovered images, where the images themselves were recorded."""
+    contact, contacts = Track[Values](), Track[Values]()
+    for seen in frames:
+        assert seen.contact is not None
+        assert seen.contacts is not None
+        contact.add(seen.stamp_ns, seen.contact)
+        contacts.add(seen.stamp_ns, seen.contacts)
+    return contact, contacts
 
 
 def _settings(samples: TactileSamples, layout: str) -> ReconstructionConfig:

@@ -19,14 +19,15 @@ from acts_core.errors import RecordingError
 from acts_msgs.msg import RegionContacts
 from acts_ros.bags import require_rosbags
 from acts_tools.bags.messages import messages
-from acts_tools.export.frames import Seen, recorded_frames, recovered_frames
-from acts_tools.export.tracks import Track, Values, contact_track, contacts_track, joint_track
+from acts_tools.export.frames import Seen, contacts_in, recorded_frames, recovered_frames
+from acts_tools.export.tracks import Joints, Track, Values, contact_track, contacts_track, joint_track
 
 _IMAGE = "sensor_msgs/msg/Image"
 _SAMPLES = "acts_msgs/msg/TactileSamples"
 _JOINTS = "sensor_msgs/msg/JointState"
 _REGIONS = "acts_msgs/msg/RegionContacts"
 _NS_PER_S = 1_000_000_000
+_BACKWARD = "left out, not newer than one before: was a clock set?"
 NO_JOINTS = "none"
 """In place of a topic of joint states: none is exported."""
 
@@ -48,12 +49,15 @@ class Choice:
         Layout of the skin, for recovery from samples.
     rate_hz : float
         Rows per second; 0: one row per frame.
+    numbers_only : bool
+        Whether values of joints that are no numbers are left out; see `joint_track`.
     """
 
     skin: str = ""
     joints: str = ""
     layout: str = "square"
     rate_hz: float = 0.0
+    numbers_only: bool = False
 
 
 @dataclass(frozen=True)
@@ -99,14 +103,19 @@ class Recording:
     """Number of frames without a row: before the first contact or joint state."""
     backward: int = 0
     """Number of frames without a row: not newer than one before."""
-    note: str | None = None
-    """For the user: what is wrong with the bag; None where it is whole."""
     hint: str = ""
     """For the user: what may be meant otherwise; empty where there is nothing."""
+    _notes: tuple[str, ...] = ()
     _frames: Iterator[Seen] = field(default_factory=lambda: iter(()))
     _contact: Track[Values] | None = None
     _contacts: Track[Values] | None = None
     _joints: Track[Values] | None = None
+
+    def notes(self) -> list[str]:
+        """For the user, once the rows are read: what was left out, what is wrong with the bag, what may be meant."""
+        early = f"{self.early} frames left out, from before all else in the bag had come once" if self.early else ""
+        backward = f"{self.backward} frames {_BACKWARD}" if self.backward else ""
+        return [sentence for sentence in (early, backward, *self._notes, self.hint) if sentence]
 
     def rows(self) -> Iterator[Row]:
         """All rows in order; can be read once.
@@ -122,8 +131,9 @@ class Recording:
         before: Seen | None = None
         for seen in self._ascending():
             if before is not None and seen.stamp_ns - before.stamp_ns > _PAUSE_MAX_S * _NS_PER_S and self.rate_hz:
+                pause_s = (seen.stamp_ns - before.stamp_ns) * 1e-9
                 raise RecordingError(
-                    f"'{self.name}' has no frame of {self.skin} for {(seen.stamp_ns - before.stamp_ns) * 1e-9:.0f} s; "
+                    f"'{self.name}' has no frame of {self.skin or '/'} for {pause_s:.0f} s; "
                     f"rows are repeated for at most {_PAUSE_MAX_S:.0f} s: export it with --rate 0, or record less"
                 )
             if seen.stamp_ns < begin_ns:
@@ -207,24 +217,39 @@ def open_recording(path: Path, choice: Choice) -> Iterator[Recording]:
         joints = _joint_topic(path, types, choice.joints)
         for topic in (images, samples, beside, f"{skin}/contact", f"{skin}/contacts", joints):
             bag.check_definition(topic)
+        baseline = beside if beside in types else None
+        joint_states = joint_track(bag, path, joints, numbers_only=choice.numbers_only) if joints else Joints()
+        tracks = {
+            f"{skin}/contact": contact_track(bag, path, f"{skin}/contact"),
+            f"{skin}/contacts": contacts_track(bag, path, f"{skin}/contacts"),
+            joints: joint_states.track,
+        }
+        left_out = {topic: track.backward for topic, track in tracks.items() if track.backward}
+        contact, contacts, _ = tracks.values()
         if types.get(images) == _IMAGE and _is_in_counts(bag, path, images):
             frames = recorded_frames(bag, path, images)
+            if types.get(samples) == _SAMPLES and not (contact.stamps_ns and contacts.stamps_ns):
+                found, each_found = contacts_in(recovered_frames(bag, path, samples, baseline, choice.layout))
+                contact = contact if contact.stamps_ns else found
+                contacts = contacts if contacts.stamps_ns else each_found
+                left_out |= {samples: found.backward} if found.backward else {}
         else:
-            frames = recovered_frames(bag, path, samples, beside if beside in types else None, choice.layout)
-        columns, joint_values = joint_track(bag, path, joints) if joints else ((), Track[Values]())
-        contact = contact_track(bag, path, f"{skin}/contact")
-        contacts = contacts_track(bag, path, f"{skin}/contacts")
+            frames = recovered_frames(bag, path, samples, baseline, choice.layout)
         yield Recording(
             name=str(path),
             skin=skin,
             rate_hz=choice.rate_hz,
-            joint_columns=columns if joint_values.stamps_ns else (),
-            note=bag.note,
+            joint_columns=joint_states.columns,
             hint=_layout_hint(bag, path, skin, choice.layout),
+            _notes=(
+                *(f"{count} messages of {topic} {_BACKWARD}" for topic, count in left_out.items()),
+                *joint_states.notes,
+                bag.note or "",
+            ),
             _frames=frames,
             _contact=contact if contact.stamps_ns else None,
             _contacts=contacts if contacts.stamps_ns else None,
-            _joints=joint_values if joint_values.stamps_ns else None,
+            _joints=joint_states.track if joint_states.track.stamps_ns else None,
         )
 
 
@@ -238,14 +263,16 @@ def _skin(bag: Any, path: Path, types: dict[str, str], wanted: str) -> str:
         }
     )
     found = [name for name in found if not (name.endswith("/view") and name.removesuffix("/view") in found)]
+    # Of a skin in the root namespace it is empty, before the slash of its topics.
+    listed = ", ".join(name or "/" for name in found)
     if wanted:
-        name = f"/{wanted.strip('/')}"
+        name = f"/{wanted.strip('/')}".removesuffix("/")
         if name not in found:
-            raise RecordingError(f"'{path}' has no skin {name}; it has {', '.join(found) or 'none'}")
+            raise RecordingError(f"'{path}' has no skin {name or '/'}; it has {listed or 'none'}")
         return name
     if len(found) != 1:
         raise RecordingError(
-            f"'{path}' has the skins {', '.join(found)}: choose one with --skin"
+            f"'{path}' has the skins {listed}: choose one with --skin"
             if found
             else f"'{path}' has no skin: needed is a topic image_raw (sensor_msgs/msg/Image, mono16) or samples "
             f"({_SAMPLES}); it has {', '.join(sorted(types)) or 'none'}"

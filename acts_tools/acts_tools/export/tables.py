@@ -60,6 +60,8 @@ def write_npz(recording: Recording, path: Path) -> int:
         arrays |= {f"contacts.{name}": values for name, values in contacts.items()}
         if recording.rate_hz:
             arrays["rate_hz"] = np.array(recording.rate_hz)
+        if notes := recording.notes():
+            arrays["notes"] = np.array(notes)
         np.savez_compressed(file, **arrays)
     return len(rows)
 

@@ -5,7 +5,9 @@
 
 from __future__ import annotations
 
+import math
 from bisect import bisect_right
+from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -43,16 +45,21 @@ class Track(Generic[_T]):
         Ascending, ROS time [ns].
     values : list
         Value at each stamp.
+    backward : int
+        Number of messages left out: not newer than one before.
     """
 
     stamps_ns: list[int] = field(default_factory=list)
     values: list[_T] = field(default_factory=list)
+    backward: int = 0
 
     def add(self, stamp_ns: int, value: _T) -> None:
         """Append, unless it is not newer than the last."""
         if not self.stamps_ns or stamp_ns > self.stamps_ns[-1]:
             self.stamps_ns.append(stamp_ns)
             self.values.append(value)
+        else:
+            self.backward += 1
 
     def at(self, stamp_ns: int) -> tuple[int, _T]:
         """Stamp and value of the newest at or before a time, which must exist."""
@@ -76,17 +83,39 @@ def contacts_track(bag: Any, path: Path, topic: str) -> Track[Values]:
     return _track(bag, path, topic, Contacts, _contacts_of_message)
 
 
-def joint_track(bag: Any, path: Path, topic: str) -> tuple[tuple[str, ...], Track[Values]]:
+@dataclass(frozen=True)
+class Joints:
     """Recorded joint states.
 
-    Publishers may share the topic; what each of them says of its joints is kept until it says more.
-
-    Returns
-    -------
+    Attributes
+    ----------
     columns : tuple of str
         Such as ``knuckle.position``, of the joints in their order; velocity and effort where they are told.
     track : Track
         From the message on with which every joint has been told.
+    notes : tuple of str
+        For the user: what of them was left out.
+    """
+
+    columns: tuple[str, ...] = ()
+    track: Track[Values] = field(default_factory=Track[Values])
+    notes: tuple[str, ...] = ()
+
+
+def joint_track(bag: Any, path: Path, topic: str, *, numbers_only: bool = False) -> Joints:
+    """Recorded joint states.
+
+    Publishers may share the topic; what each of them says of its joints is kept until it says more.
+
+    Parameters
+    ----------
+    bag : acts_ros.bags.reading.Bag
+        Open.
+    path : Path
+        Of the bag, for errors.
+    topic : str
+    numbers_only : bool
+        Whether NaN and infinity, by which drivers say that they do not know a value, count as not told.
 
     Raises
     ------
@@ -100,14 +129,44 @@ def joint_track(bag: Any, path: Path, topic: str) -> tuple[tuple[str, ...], Trac
             f"'{path}': {unstamped} of {len(told)} joint states on {topic} have no stamp, so that it is not known when "
             "they were; leave them out with --joints none"
         )
+    notes: list[str] = []
+    if numbers_only:
+        told, notes = _numbers_of(told)
     columns = tuple(dict.fromkeys(name for _, values in told for name in values))
     newest: dict[str, float] = {}
+    # Of each column: publishers that share the topic may overtake one another.
+    newest_ns: dict[str, int] = {}
     track: Track[Values] = Track()
     for stamp_ns, values in told:
+        if any(stamp_ns <= newest_ns.get(name, 0) for name in values):
+            track.backward += 1
+            continue
         newest.update(values)
-        if columns and len(newest) == len(columns):
-            track.add(stamp_ns, np.array([newest[name] for name in columns]))
-    return columns, track
+        newest_ns.update(dict.fromkeys(values, stamp_ns))
+        if not columns or len(newest) < len(columns):
+            continue
+        state = np.array([newest[name] for name in columns])
+        if track.stamps_ns and stamp_ns <= track.stamps_ns[-1]:
+            track.values[-1] = state
+        else:
+            track.add(stamp_ns, state)
+    return Joints(columns, track, tuple(notes)) if track.stamps_ns else Joints(notes=tuple(notes))
+
+
+def _numbers_of(told: list[tuple[int, dict[str, float]]]) -> tuple[list[tuple[int, dict[str, float]]], list[str]]:
+    """Joint states without what is no number, and what has gone with that, in words."""
+    numbers = [(stamp_ns, {name: x for name, x in values.items() if math.isfinite(x)}) for stamp_ns, values in told]
+    kept = {name for _, values in numbers for name in values}
+    unknown = Counter(name for _, values in told for name, x in values.items() if not math.isfinite(x))
+    never = [name for name in unknown if name not in kept]
+    now_and_then = [name for name in unknown if name in kept]
+    notes = []
+    if never:
+        notes.append(f"{', '.join(never)} left out: no number of {'it' if len(never) == 1 else 'them'} was published")
+    if now_and_then:
+        count = sum(unknown[name] for name in now_and_then)
+        notes.append(f"{count} values of joints are no numbers, and those before them stay: {', '.join(now_and_then)}")
+    return numbers, notes
 
 
 def contact_found(found: FoundContact) -> Values:

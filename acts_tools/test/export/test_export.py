@@ -171,9 +171,9 @@ def test_images_and_contacts_are_recovered_from_samples_as_the_node_does(tmp_pat
 def test_csv(bag: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out = tmp_path / "out"
     assert main(["export", str(bag), "--to", "csv", "-o", str(out)]) == 0
-    said = capsys.readouterr().out
-    assert "3 rows of /plate, 2 joint columns\n" in said
-    assert "3 frames left out, from before all else in the bag had come once" in said
+    said = capsys.readouterr()
+    assert "3 rows of /plate, 2 joint columns\n" in said.out
+    assert "3 frames left out, from before all else in the bag had come once" in said.err
     with (out / "frames.csv").open() as file:
         rows = list(csv.DictReader(file))
     assert [int(row["stamp_ns"]) for row in rows] == [(BEGIN_MS + t) * 1_000_000 for t in (30, 40, 50)]

@@ -1,10 +1,13 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Bags that nobody meant to export: topics without messages, stamps or names, and others than those of one skin."""
+"""Bags that nobody meant to export: topics without messages, stamps, names or numbers, and others than of one skin."""
 
 from __future__ import annotations
 
+import csv
+import json
+import math
 import re
 from array import array
 from pathlib import Path
@@ -14,7 +17,7 @@ import numpy as np
 import pytest
 from rclpy.serialization import serialize_message
 from sensor_msgs.msg import Image, JointState
-from test_export import header, image, joints, pressed, rows_of, samples, write_bag
+from test_export import contact, contacts, header, image, joints, pressed, rows_of, samples, write_bag
 
 from acts_core.errors import RecordingError
 from acts_msgs.msg import Baseline, RegionContact, RegionContacts
@@ -109,3 +112,136 @@ def test_a_skin_of_several_patches_asks_for_its_layout(tmp_path: Path) -> None:
         assert recording.hint.startswith("/hand/regions has 2 patches: with --layout NAME")
     with open_recording(path, Choice(layout="leap_right")) as recording:
         assert recording.hint == ""
+
+
+@pytest.mark.parametrize("topic", ["image_raw", "samples"])
+def test_a_skin_in_the_root_namespace(topic: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    make = image if topic == "image_raw" else samples
+    path = write_bag(
+        tmp_path / "b",
+        (f"/{topic}", make(1, pressed(0))),
+        (f"/plate/{topic}", make(1, pressed(0))),
+        ("/contact", contact(1, 2.0)),
+    )
+    with pytest.raises(RecordingError, match="has the skins /, /plate: choose one with --skin"):
+        rows_of(path)
+    with pytest.raises(RecordingError, match="has no skin /foot; it has /, /plate"):
+        rows_of(path, skin="foot")
+    assert main(["export", str(path), "--skin", "/", "--to", "csv", "-o", str(tmp_path / "out")]) == 0
+    assert "1 rows of /\n" in capsys.readouterr().out
+    with (tmp_path / "out/frames.csv").open() as file:
+        assert [row["contact.force_n"] for row in csv.DictReader(file)] == ["2"]
+
+
+def efforts(time_ms: int, **efforts_nm: float) -> JointState:
+    """Joints at rest whose efforts are told."""
+    count = len(efforts_nm)
+    return JointState(header=header(time_ms), name=list(efforts_nm), position=[0.5] * count, effort=efforts_nm.values())
+
+
+@pytest.fixture
+def bag_without_all_efforts(tmp_path: Path) -> Path:
+    """Images at 0 to 40 ms; the hip has no effort, the knee has one now and then, as of drivers that tell NaN."""
+    nan = math.nan
+    return write_bag(
+        tmp_path / "b",
+        *(("/plate/image_raw", image(t, pressed(0))) for t in (0, 10, 20, 30, 40)),
+        *(("/joint_states", efforts(t, hip=nan, knee=one)) for t, one in ((0, nan), (10, 1.5), (20, nan), (30, 2.5))),
+    )
+
+
+def test_in_a_lerobot_dataset_all_joint_values_are_numbers(
+    bag_without_all_efforts: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    parquet = pytest.importorskip("pyarrow.parquet", reason="./acts run python3 -m pip install pyarrow")
+    out = tmp_path / "out"
+    assert main(["export", str(bag_without_all_efforts), "--to", "lerobot", "--rate", "100", "-o", str(out)]) == 0
+    states = parquet.read_table(out / "data/chunk-000/file-000.parquet")["observation.state"].to_pylist()
+    assert states == [[0.5, 0.5, 1.5], [0.5, 0.5, 1.5], [0.5, 0.5, 2.5], [0.5, 0.5, 2.5]]
+    info = json.loads((out / "meta/info.json").read_text())
+    assert info["features"]["observation.state"]["names"] == ["hip.position", "knee.position", "knee.effort"]
+    statistics = json.loads((out / "meta/stats.json").read_text(), parse_constant=pytest.fail)
+    assert statistics["observation.state"]["max"] == [0.5, 0.5, 2.5]
+    told = capsys.readouterr().err
+    for sentence in (
+        "hip.effort left out: no number of it was published",
+        "2 values of joints are no numbers, and those before them stay: knee.effort",
+    ):
+        assert sentence in told
+        assert sentence in (out / "notes.txt").read_text()
+
+
+def test_in_other_formats_joint_values_are_what_was_published(bag_without_all_efforts: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out.npz"
+    assert main(["export", str(bag_without_all_efforts), "--to", "npz", "-o", str(out)]) == 0
+    with np.load(out) as arrays:
+        np.testing.assert_equal(arrays["knee.effort"], [math.nan, 1.5, math.nan, 2.5, 2.5])
+        assert np.isnan(arrays["hip.effort"]).all()
+
+
+def test_contacts_and_joint_states_that_go_back_in_time_are_left_out_and_told(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = write_bag(
+        tmp_path / "b",
+        *(("/plate/image_raw", image(t, pressed(0))) for t in (10, 20, 30)),
+        *(("/plate/contact", contact(t, float(t))) for t in (10, 20, 5, 20)),
+        *(("/plate/contacts", contacts(t, 1)) for t in (10, 9)),
+        *(("/joint_states", joints(t, knee=float(t))) for t in (10, 20, 15, 16, 17)),
+    )
+    sentences = [
+        f"{count} messages of {topic} left out, not newer than one before: was a clock set?"
+        for count, topic in ((2, "/plate/contact"), (1, "/plate/contacts"), (3, "/joint_states"))
+    ]
+    rows, _ = rows_of(path)
+    assert [row.joints.tolist() for row in rows if row.joints is not None] == [[10.0], [20.0], [20.0]]
+    assert main(["export", str(path), "--to", "csv", "-o", str(tmp_path / "out")]) == 0
+    told = capsys.readouterr().err
+    assert main(["export", str(path), "--to", "npz", "-o", str(tmp_path / "out.npz")]) == 0
+    with np.load(tmp_path / "out.npz") as arrays:
+        in_npz = arrays["notes"].tolist()
+    assert [line.removeprefix(f"{path}: ") for line in told.splitlines()] == sentences
+    assert in_npz == sentences
+    assert (tmp_path / "out/notes.txt").read_text().splitlines() == [f"b: {one}" for one in sentences]
+
+
+def test_of_a_bag_without_fault_nothing_is_noted(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = write_bag(tmp_path / "b", *(("/plate/image_raw", image(t, pressed(0))) for t in (10, 20)))
+    assert main(["export", str(path), "--to", "csv", "-o", str(tmp_path / "out")]) == 0
+    assert capsys.readouterr().err == ""
+    assert sorted(file.name for file in (tmp_path / "out").iterdir()) == ["contacts.csv", "frames.csv"]
+
+
+def test_joint_states_of_publishers_whose_messages_overtake_one_another(tmp_path: Path) -> None:
+    path = write_bag(
+        tmp_path / "b",
+        *(("/plate/image_raw", image(t, pressed(0))) for t in (10, 20, 30)),
+        *(("/joint_states", joints(t, **told)) for t, told in ((10, {"knee": 1.0}), (9, {"hip": 1.0}))),
+        *(("/joint_states", joints(t, **told)) for t, told in ((20, {"knee": 2.0}), (20, {"hip": 2.0}))),
+    )
+    rows, _ = rows_of(path)
+    assert [row.joints.tolist() for row in rows if row.joints is not None] == [[1.0, 1.0], [2.0, 2.0], [2.0, 2.0]]
+    with open_recording(path, Choice()) as recording:
+        assert len(list(recording.rows())) == 3
+        assert recording.notes() == []
+
+
+def test_contacts_beside_recorded_images_are_found_in_the_samples(tmp_path: Path) -> None:
+    recorded = np.zeros_like(pressed(0))
+    both = [
+        message
+        for n in range(3)
+        for message in (("/plate/samples", samples(n, pressed(n))), ("/plate/image_raw", image(n, recorded)))
+    ]
+    alone = write_bag(tmp_path / "samples", *(one for one in both if one[0] == "/plate/samples"))
+    expected, _ = rows_of(alone)
+    assert [row.contacts is not None and len(row.contacts) for row in expected] == [1, 1, 1]
+    found, _ = rows_of(write_bag(tmp_path / "both", *both))
+    assert all(np.array_equal(row.image, recorded) for row in found)
+    for row, other in zip(found, expected, strict=True):
+        np.testing.assert_array_equal(row.contact, other.contact)
+        np.testing.assert_array_equal(row.contacts, other.contacts)
+    # What was recorded goes first.
+    rows, _ = rows_of(write_bag(tmp_path / "all", *both, ("/plate/contact", contact(0, 7.0))))
+    assert [row.contact[3] for row in rows if row.contact is not None] == [7.0, 7.0, 7.0]
+    assert [row.contacts is not None and len(row.contacts) for row in rows] == [1, 1, 1]
