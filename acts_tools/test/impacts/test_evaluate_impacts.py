@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from acts_tools.cli import main
@@ -32,9 +33,14 @@ def test_bounces_are_told_and_seen_as_often_as_by_the_papers_method(tmp_path: Pa
 
 def test_directions_are_told_better_than_by_the_papers_method(tmp_path: Path) -> None:
     out = tmp_path / "ricochet.json"
-    assert main(["evaluate", "ricochet", "--seeds", "1", "--speeds", "2", "--json", str(out)]) == 0
+    words = ["evaluate", "ricochet", "--seeds", "1", "--speeds", "2", "--json", str(out)]
+    assert main([*words, "--recordings", str(tmp_path)]) == 0
     *angles, whole = json.loads(out.read_text())["results"]
     assert [entry["angle_deg"] for entry in angles] == [0, 45, 90, 135, 180, -135, -90, -45]
     assert whole["throws"] == 8
+    written = [np.load(tmp_path / f"throw_2_m_s_{angle}_deg.npy") for angle in range(0, 360, 45)]
+    # A second, untouched at both ends, with a touch of some milliseconds.
+    assert all(len(frames) == 8000 and not frames[0].any() and not frames[-1].any() for frames in written)
+    assert all(20 < np.count_nonzero(frames.max(axis=(1, 2)) > 50) < 200 for frames in written)
     assert whole["acts"]["unknown"] == 0
     assert whole["acts"]["mean_deg"] < 3 < whole["paper"]["mean_with_guesses_deg"]

@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from acts_tools.cli import main
@@ -18,7 +19,7 @@ pytestmark = pytest.mark.slow
 def test_outlines_are_nearer_to_the_truth_than_by_the_papers_method(tmp_path: Path) -> None:
     out, folder = tmp_path / "outlines.json", tmp_path / "surfaces"
     words = ["evaluate", "outlines", "--seeds", "2", "--m", "64", "--json", str(out), "--surfaces", str(folder)]
-    assert main(words) == 0
+    assert main([*words, "--recordings", str(tmp_path / "scenes")]) == 0
     results = json.loads(out.read_text())["results"]
     assert [entry["body"] for entry in results] == ["tennis"] * 3 + ["block"] * 3 + ["balloon"] * 3
     for paper, ours, alike in zip(results[::3], results[1::3], results[2::3], strict=True):
@@ -29,6 +30,11 @@ def test_outlines_are_nearer_to_the_truth_than_by_the_papers_method(tmp_path: Pa
     assert sorted(path.name for path in folder.iterdir()) == [
         f"{body}_m64.{kind}" for body in ("balloon", "block", "tennis") for kind in ("ply", "png")
     ]
+    for body in ("balloon", "block", "tennis"):
+        frames = np.load(tmp_path / "scenes" / f"{body}.npy")
+        assert (frames.shape, frames.dtype) == ((8000, 32, 32), np.uint16)
+        assert not frames[0].any()
+        assert frames.max() > 100
     assert (folder / "tennis_m64.png").read_bytes().startswith(b"\x89PNG")
 
 

@@ -17,13 +17,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_recon.impacts import Kind
-from acts_sim.impacts import Scene, ball_named, collide, dropped, scene, skin_of
+from acts_sim.impacts import SCENE_RATE_HZ, Scene, ball_named, collide, dropped, scene, skin_of
 from acts_tools.arguments import real
 from acts_tools.evaluate import report
 from acts_tools.evaluate.images.options import add_m, add_scene_arguments
 from acts_tools.evaluate.images.recovery import SAMPLE_US
 from acts_tools.evaluate.images.scores import distribution
 from acts_tools.evaluate.impacts import plays
+from acts_tools.evaluate.scene_recordings import add_recordings_argument, write_recording
 from acts_tools.progress import Progress
 
 _M = (42, 64, 88, 128, 256, 512, 1024)
@@ -57,6 +58,7 @@ def add_parser(commands: Any) -> None:
         help="how long a ball touches (default: %(default)s)",
     )
     add_scene_arguments(parser, 100, "drops")
+    add_recordings_argument(parser, "the first drop")
     parser.set_defaults(evaluate=_run)
 
 
@@ -79,6 +81,8 @@ def _run(arguments: argparse.Namespace) -> int:
     about = {name: getattr(arguments, name) for name in ("touch_ms", "noise_counts", "seed", "seeds")}
     results = report.Results(arguments.json, about)
     scenes = drops_of(arguments.seeds, arguments.seed, arguments.touch_ms)
+    if arguments.recordings is not None:
+        write_recording(arguments.recordings, "drop", scenes[0].frames, SCENE_RATE_HZ)
     work = len(arguments.m) * (1 + len(_SCHEMES)) * len(scenes)
     print(_TITLE, flush=True)
     with Progress("impacts", work) as progress:

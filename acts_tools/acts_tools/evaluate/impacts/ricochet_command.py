@@ -21,11 +21,12 @@ from acts_core.skin import ForceResponse
 from acts_recon.contacts import ContactFinder
 from acts_recon.impacts import UNKNOWN_DIRECTION_SD_RAD
 from acts_recon.methods import PerFrame, PerFrameConfig, SkinSetup
-from acts_sim.impacts import Scene, ball_named, scene, skin_of, thrown
+from acts_sim.impacts import SCENE_RATE_HZ, Scene, ball_named, scene, skin_of, thrown
 from acts_tools.arguments import real, taxels
 from acts_tools.evaluate import report
 from acts_tools.evaluate.images.options import add_scene_arguments
 from acts_tools.evaluate.impacts import plays
+from acts_tools.evaluate.scene_recordings import add_recordings_argument, write_recording
 from acts_tools.evaluate.shares import wilson
 from acts_tools.progress import Progress
 
@@ -61,6 +62,7 @@ def add_parser(commands: Any) -> None:
         help="[m/s] (default: 1 2 3)",
     )
     add_scene_arguments(parser, 25, "throws of each angle and speed")
+    add_recordings_argument(parser, "the first throw of each angle and speed")
     parser.set_defaults(evaluate=_run)
 
 
@@ -131,6 +133,9 @@ def _run(arguments: argparse.Namespace) -> int:
                 for number in range(arguments.seeds):
                     key = [arguments.seed, round(1000 * speed_m_s), angle_deg % 360, number]
                     shown = throw_of(speed_m_s, angle_deg, np.random.default_rng(key))
+                    if arguments.recordings is not None and number == 0:
+                        name = f"throw_{speed_m_s:g}_m_s_{angle_deg % 360}_deg"
+                        write_recording(arguments.recordings, name, shown.frames, SCENE_RATE_HZ)
                     of_paper.append(error_deg(paper.direction_rad(shown, number + 1), angle_deg))
                     of_ours.append(told_by_us(ours, shown, number + 1, angle_deg))
                     progress.show(done := done + 1)

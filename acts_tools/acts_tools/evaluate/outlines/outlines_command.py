@@ -17,7 +17,7 @@ import numpy as np
 
 from acts_core.array import ArrayGeometry
 from acts_sim.deforming import BODIES, Meeting, body_named, meeting
-from acts_sim.impacts import skin_of
+from acts_sim.impacts import SCENE_RATE_HZ, skin_of
 from acts_tools.evaluate import report
 from acts_tools.evaluate.images.options import add_m, add_scene_arguments
 from acts_tools.evaluate.images.recovery import SAMPLE_US
@@ -25,6 +25,7 @@ from acts_tools.evaluate.images.scores import distribution
 from acts_tools.evaluate.outlines import tracing
 from acts_tools.evaluate.outlines.surface_files import write_surfaces
 from acts_tools.evaluate.outlines.tracing import Traced
+from acts_tools.evaluate.scene_recordings import add_recordings_argument, write_recording
 from acts_tools.progress import Progress
 
 _M = (64, 88, 128, 256, 352, 512)
@@ -50,6 +51,7 @@ def add_parser(commands: Any) -> None:
     parser.add_argument(
         "--surfaces", type=Path, metavar="FOLDER", help="write the first touch of each body here: PNG, and PLY for 3D"
     )
+    add_recordings_argument(parser, "the first touch of each body")
     parser.set_defaults(evaluate=_run)
 
 
@@ -61,6 +63,8 @@ def _run(arguments: argparse.Namespace) -> int:
         done = 0
         for name in arguments.body:
             touches = [touch_of(name, arguments.seed, number) for number in range(arguments.seeds)]
+            if arguments.recordings is not None:
+                write_recording(arguments.recordings, name, touches[0].frames, SCENE_RATE_HZ)
             for m in arguments.m:
                 scheme_of_paper = tracing.PAPER_SCHEMES[name]
                 told: dict[tuple[str, str], list[list[Traced]]] = {

@@ -14,12 +14,14 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from acts_recon.spectra import Peak
-from acts_sim.vibrations import Motor
+from acts_sim.vibrations import VIBRATION_RATE_HZ, Motor, Vibration
 from acts_tools.evaluate import report
 from acts_tools.evaluate.images.options import add_m, add_scene_arguments
 from acts_tools.evaluate.images.scores import distribution
+from acts_tools.evaluate.scene_recordings import add_recordings_argument, write_recording
 from acts_tools.evaluate.spectra import motors
 from acts_tools.progress import Progress
 
@@ -45,6 +47,7 @@ def add_parser(commands: Any) -> None:
     )
     add_m(parser, _M)
     add_scene_arguments(parser, 25, "motors for each M")
+    add_recordings_argument(parser, "the middle motor of each M")
     parser.set_defaults(evaluate=_run)
 
 
@@ -62,7 +65,11 @@ def _run(arguments: argparse.Namespace) -> int:
                 motor = motors.random_motor(m, (number + rng.uniform()) / arguments.seeds, rng)
                 motor = replace(motor, amplitude_n=0.0, rocking=0.0) if is_still else motor
                 all_motors.append(motor)
-                for key, peaks in _told(motor, m, arguments.noise_counts, number + 1, rng).items():
+                shown = motors.shown(motor, m, rng)
+                if arguments.recordings is not None and number == arguments.seeds // 2 and not is_still:
+                    name = f"motor_{motor.frequency_hz:.1f}_hz"
+                    write_recording(arguments.recordings, name, _whole_periods(shown), VIBRATION_RATE_HZ)
+                for key, peaks in _told(shown, m, arguments.noise_counts, number + 1).items():
                     told.setdefault(key, []).append(peaks)
                 progress.show(done := done + 1)
             for (method, scheme), of_motors in told.items():
@@ -104,11 +111,14 @@ def _of_one_taxel(kind: str, arguments: argparse.Namespace, progress: Progress, 
     return {"m": m, "method": "acts", "scheme": "fixed", "taxels": 1, **scores}
 
 
-def _told(
-    motor: Motor, m: int, noise_counts: float, seed: int, rng: np.random.Generator
-) -> dict[tuple[str, str], tuple[Peak, ...]]:
+def _whole_periods(shown: Vibration) -> NDArray[np.uint16]:
+    """The frames of whole periods, so that a board that repeats them vibrates on."""
+    periods = int(shown.duration_s * shown.motor.frequency_hz)
+    return shown.frames[: round(periods / shown.motor.frequency_hz * VIBRATION_RATE_HZ)]
+
+
+def _told(shown: Vibration, m: int, noise_counts: float, seed: int) -> dict[tuple[str, str], tuple[Peak, ...]]:
     """The peaks that are told of a motor, by method and scheme; of the paper's spectrum the largest value."""
-    shown = motors.shown(motor, m, rng)
     frequency_hz, amplitude_n = motors.paper_spectrum(shown, m, noise_counts, seed)
     # The hand moves below.
     amplitude_n[frequency_hz < motors.LOWEST_HZ / 2] = 0.0

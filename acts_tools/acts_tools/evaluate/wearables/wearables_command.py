@@ -10,16 +10,15 @@ from __future__ import annotations
 
 import argparse
 from dataclasses import asdict
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from acts_core.errors import RecordingError
-from acts_sim.wearables import SCENES, WornScene, worn_scene
+from acts_sim.wearables import SCENES, WORN_RATE_HZ, WornScene, worn_scene
 from acts_tools.arguments import real, taxels
 from acts_tools.evaluate import report
 from acts_tools.evaluate.images.options import add_scene_arguments
+from acts_tools.evaluate.scene_recordings import add_recordings_argument, write_recording
 from acts_tools.evaluate.wearables.happened import Tally
 from acts_tools.evaluate.wearables.untouched import watch_untouched
 from acts_tools.evaluate.wearables.watching import SCHEME, Watcher
@@ -50,13 +49,8 @@ def add_parser(commands: Any) -> None:
         "--minutes", type=real(0.0), default=10.0, metavar="T", help="each skin is left alone (default: %(default)s)"
     )
     parser.add_argument("--m", type=taxels, default=64, help="taxels per frame (default: %(default)s)")
-    parser.add_argument(
-        "--recordings",
-        type=Path,
-        metavar="FOLDER",
-        help="write the first of each scene here, less the offsets, SCENE.npy for `virtual_board --recording`",
-    )
     add_scene_arguments(parser, 25, "of each scene")
+    add_recordings_argument(parser, "the first of each scene, less the offsets of its skin,")
     parser.set_defaults(evaluate=_run)
 
 
@@ -84,7 +78,9 @@ def _run(arguments: argparse.Namespace) -> int:
         print(_TITLE, flush=True)
     for name in arguments.scene:
         if arguments.recordings is not None:
-            _write(arguments.recordings, name, scene_of(name, arguments.seed, 0))
+            frames = scene_of(name, arguments.seed, 0).frames
+            # A board that repeats a scene is never untouched for as long as a calibration takes.
+            write_recording(arguments.recordings, name, np.maximum(frames, frames[0]) - frames[0], WORN_RATE_HZ)
         with Progress(name, arguments.seeds) as progress:
             found = tally(name, arguments.seeds, arguments.m, arguments.noise_counts, arguments.seed, progress)
         kind = SCENES[name]
@@ -104,16 +100,6 @@ def _run(arguments: argparse.Namespace) -> int:
             flush=True,
         )
     return 0
-
-
-def _write(folder: Path, name: str, shown: WornScene) -> None:
-    # A board that repeats a scene is never untouched for as long as a calibration takes.
-    counts = np.maximum(shown.frames, shown.frames[0]) - shown.frames[0]
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        np.save(folder / f"{name}.npy", counts)
-    except OSError as error:
-        raise RecordingError(f"--recordings {folder}: cannot be written ({error.strerror})") from error
 
 
 def _line(entry: dict[str, Any]) -> str:
