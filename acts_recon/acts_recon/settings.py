@@ -62,8 +62,8 @@ class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig, ImpactCo
     )
     noise_counts: float = setting(
         default_of(FusionConfig, "noise_counts"),
-        "standard deviation of a reading about the truth where the topic baseline does not say it [counts]; 0: not known, "
-        "then untouched skin is shown as what it reads in the mean",
+        "standard deviation of a reading about the truth where the topic baseline does not say it [counts]; 0: not "
+        "known, then untouched skin is shown as what it reads in the mean",
         minimum=0.0,
         maximum=100.0,
     )
@@ -272,7 +272,14 @@ class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig, ImpactCo
         recovery : Recovery
             What `recovery` returned.
         """
-        return ImpactDetector(recovery.geometry, recovery.response, self.blob_config(), self, recovery.borders)
+        return ImpactDetector(
+            recovery.geometry,
+            recovery.response,
+            self.blob_config(),
+            part_of(ImpactConfig, self),
+            recovery.borders,
+            stood_on=self.arranged().stood_on,
+        )
 
     def spectrum_analyser(self, recovery: Recovery) -> SpectrumAnalyser:
         """Make ready what tells how contacts vibrate.

@@ -24,7 +24,7 @@ NO_PATCH = 255
 MAX_PATCHES = 16
 """A board is told four bits for each taxel (`SkinMap`); where some are no skin, one value is theirs."""
 
-_FILE_KEYS = ("matrix", "picture", "pitch_m", "row_pitch_m", "patches")
+_FILE_KEYS = ("matrix", "picture", "pitch_m", "row_pitch_m", "stood_on", "patches")
 _PATCH_KEYS = ("at", "wires", "link", "pose", "pitch_m", "row_pitch_m", "radius_m", "row_radius_m")
 _WIRES_KEYS = ("down", "across")
 _POSE_KEYS = ("position_m", "rpy_rad", "quaternion_xyzw")
@@ -49,6 +49,7 @@ class LayoutFile:
     row_pitch_m: float
     patches: tuple[SkinPatch, ...]
     patch_of: NDArray[np.uint8]
+    stood_on: bool | None
 
 
 @dataclass(frozen=True)
@@ -117,7 +118,15 @@ def read_layout(path: Path, rows: int | None, cols: int | None) -> LayoutFile:
         row_pitch_m,
         tuple(one.patch if "pose" in one.section.values else _in_picture(one.patch, geometry) for one in wired),
         patch_of,
+        _stood_on(top),
     )
+
+
+def _stood_on(top: Section) -> bool | None:
+    value = top.values.get("stood_on")
+    if value is not None and not isinstance(value, bool):
+        raise top.error(f"stood_on = {shown(value)}: allowed is true or false", "stood_on")
+    return value
 
 
 def _matrix(top: Section, rows: int | None, cols: int | None) -> tuple[int, int]:

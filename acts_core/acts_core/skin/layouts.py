@@ -49,6 +49,8 @@ class Layout:
         None overlap. Their edges are borders: nothing is made of taxels on both sides of one.
     patch_of : np.ndarray [shape=(rows, cols), dtype=uint8, read-only]
         Index in `patches` of the patch at each place of the picture, `NO_PATCH` where there is no skin.
+    stood_on : bool or None
+        Whether somebody stands and steps on it, as on an insole; None: not known.
     """
 
     name: str
@@ -60,6 +62,7 @@ class Layout:
     row_pitch_m: float
     patches: tuple[SkinPatch, ...]
     patch_of: NDArray[np.uint8]
+    stood_on: bool | None = None
 
     @property
     def rows(self) -> int:
@@ -171,5 +174,13 @@ def layout(name_or_path: str, rows: int | None = None, cols: int | None = None) 
     for array in (read.taxels, read.patch_of, places):
         array.flags.writeable = False
     return Layout(
-        name_or_path, read.taxels, places, *read.matrix, read.pitch_m, read.row_pitch_m, read.patches, read.patch_of
+        name_or_path,
+        read.taxels,
+        places,
+        *read.matrix,
+        read.pitch_m,
+        read.row_pitch_m,
+        read.patches,
+        read.patch_of,
+        read.stood_on,
     )

@@ -45,6 +45,13 @@ def read(folder: Path, text: str, rows: int = 4, cols: int = 6) -> Layout:
     return layout(str(path), rows, cols)
 
 
+@pytest.mark.parametrize(("line", "told"), [("", None), ("stood_on: true\n", True), ("stood_on: false\n", False)])
+def test_a_file_says_whether_somebody_stands_on_the_skin(tmp_path: Path, line: str, told: bool | None) -> None:
+    assert read(tmp_path, HAND + "picture: [4, 6]\n" + line).stood_on is told
+    with pytest.raises(SettingsError, match=r"hand.yaml.*stood_on = .*maybe.*allowed is true or false"):
+        read(tmp_path, HAND + "picture: [4, 6]\nstood_on: maybe\n")
+
+
 def test_a_hand_of_ones_own(tmp_path: Path) -> None:
     hand = read(tmp_path, HAND + "picture: [4, 6]\n")
     assert hand.name == str(tmp_path / "hand.yaml")

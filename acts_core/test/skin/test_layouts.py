@@ -30,6 +30,11 @@ def test_square_is_the_matrix_of_any_size(rows: int, cols: int) -> None:
     assert shape.geometry() == ArrayGeometry(rows, cols, row_pitch_m=ArrayGeometry().pitch_m)
 
 
+def test_of_the_shipped_skins_one_is_stood_on_and_of_a_square_pad_it_is_not_known() -> None:
+    assert {name for name in LAYOUTS if layout(name).stood_on} == {"insole"}
+    assert {name for name in LAYOUTS if layout(name).stood_on is None} == {"square"}
+
+
 def test_insole_as_published() -> None:
     # Loops instead of array operations: column first into 64 x 16, upper half flipped, turned by 180 degrees.
     expected = np.zeros((64, 16), dtype=int)

@@ -33,13 +33,14 @@ instead of a covariance matrix. One frame takes five steps:
    exponential average of ``(innovation^2 - 2 noise^2) / t^2``. The factor s is innovation-based adaptive noise. It
    follows the normalised innovation squared, slowly over frames and at once within a frame.
 
-**Noise.** It begins as calibrated for every taxel (`FusionEstimator.set_noise`), or as the settings say. While running, each tile sums up its
-low readings, which are those of taxels with none beside that reads more than 4.6 standard deviations. A low reading is
-noise if, lately in its tile, 0 was about as good a prediction of the next reading as the last one, and if the readings
-changed no more than the noise of fast measured taxels explains. A light steady pressure fails the first, slow changes
-of the skin the second. So on a skin with little noise readings of one count are shown. Noise of
-a known size is shown as 0, though it reads more in the mean: no reading is below 0. Where nobody has told the noise, it
-is taken for `ASSUMED_NOISE_COUNTS` at first, and the mean of the tile's low readings is shown: it may be what is there.
+**Noise.** It begins as calibrated for every taxel (`FusionEstimator.set_noise`), or as the settings say. While running,
+each tile sums up its low readings, which are those of taxels with none beside that reads more than 4.6 standard
+deviations. A low reading is noise if, lately in its tile, 0 was about as good a prediction of the next reading as the
+last one, and if the readings changed no more than the noise of fast measured taxels explains. A light steady pressure
+fails the first, slow changes of the skin the second. So on a skin with little noise readings of one count are shown.
+Noise of a known size is shown as 0, though it reads more in the mean: no reading is below 0. Where nobody has told the
+noise, it is taken for `ASSUMED_NOISE_COUNTS` at first, and the mean of the tile's low readings is shown: it may be what
+is there.
 
 `fusion_kernels` does the work; `fusion_reference` is the reference implementation, in double precision.
 """

@@ -48,6 +48,8 @@ class ImpactDetector:
     config : ImpactConfig, optional
     borders : Borders, optional
         No contact reaches over one, and contacts on its two sides are never one impact.
+    stood_on : bool or None, optional
+        Whether somebody steps on the skin; see `ImpactConfig.on`.
     """
 
     def __init__(
@@ -57,8 +59,10 @@ class ImpactDetector:
         blobs: BlobConfig | None = None,
         config: ImpactConfig | None = None,
         borders: Borders | None = None,
+        *,
+        stood_on: bool | None = None,
     ) -> None:
-        self.config = config or ImpactConfig()
+        self.config = (config or ImpactConfig()).on(stood_on=stood_on)
         blobs = blobs or BlobConfig()
         response = response or ForceResponse()
         self._geometry = geometry

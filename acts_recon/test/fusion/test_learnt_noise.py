@@ -104,7 +104,7 @@ def test_readings_of_untouched_noisy_skin_are_0_whatever_its_noise(noise_counts:
 @pytest.mark.parametrize("shape", [(16, 16), (32, 32), (64, 64)])
 @pytest.mark.parametrize("noise_counts", [1.0, 4.0])
 def test_what_skin_of_unknown_noise_reads_untouched_is_kept(shape: tuple[int, int], noise_counts: float) -> None:
-    """No reading is below 0, so that noise adds to each in the mean: a recording's own centre is drawn to the middle."""
+    """No reading is below 0, so noise adds to each in the mean, and draws a recording's own centre to the middle."""
     r, c = np.indices(shape)
     bump = 400 * np.exp(-((r - 0.3 * shape[0]) ** 2 + (c - 0.6 * shape[1]) ** 2) / 8)
     rng = np.random.default_rng(3)

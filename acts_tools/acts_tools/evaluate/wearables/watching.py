@@ -13,7 +13,7 @@ from acts_core.skin import Layout
 from acts_recon.contacts import BlobConfig
 from acts_recon.fusion import FusionConfig, FusionEstimator
 from acts_recon.images import BaselineSubtraction
-from acts_recon.impacts import Impact, ImpactConfig, ImpactDetector
+from acts_recon.impacts import Impact, ImpactDetector
 from acts_sim.wearables import WORN_RATE_HZ, WornScene
 from acts_tools.evaluate.images.scene_frames import Frame, frames_of
 
@@ -23,12 +23,6 @@ THRESHOLD_COUNTS = 60
 
 TOUCH_COUNTS = 25
 """A taxel above is pressed: eight times the noise of a reading."""
-
-INSOLE_CONFIG = ImpactConfig(impact_join_m=0.3)
-"""Settings of impacts on an insole: heel and toes are one touch."""
-
-BODY_CONFIG = ImpactConfig(impact_step_m2=1.0)
-"""And on all other skins: nobody steps on them."""
 
 
 class Watcher:
@@ -51,8 +45,8 @@ class Watcher:
         self._detector = ImpactDetector(
             geometry,
             blobs=BlobConfig(touch_counts=TOUCH_COUNTS, noise_counts=noise_counts),
-            config=INSOLE_CONFIG if arranged.name == "insole" else BODY_CONFIG,
             borders=self.fusion.borders,
+            stood_on=arranged.stood_on,
         )
 
     def set_baseline(self, counts: NDArray[np.float32]) -> None:
