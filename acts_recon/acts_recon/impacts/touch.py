@@ -135,7 +135,9 @@ class Touch:
     def kind(self, onset_s: float, end_s: float, config: ImpactConfig) -> Kind:
         """What it was, now that it is over."""
         duration_s = end_s - onset_s
-        if duration_s <= config.impact_longest_s and not self._is_held(duration_s):
+        # Where frames are long, what lies beyond the samples is a guess.
+        certain_s = min(duration_s, self.last_sample_s - self.first_sample_s)
+        if certain_s <= config.impact_longest_s and not self._is_held(certain_s):
             return Kind.IMPACT
         is_large = self.most_area_m2 > config.impact_step_m2
         # The weight of a foot rolls over it, but not beyond it.
