@@ -13,13 +13,17 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
+from dynamixel_sdk import COMM_RX_TIMEOUT, Protocol2PacketHandler
 
 from acts_control.hand.description import LEAP_RIGHT, HandDescription, Joint
 from acts_control.hand.motors import DynamixelConfig, DynamixelHand, HandError, HandLostError, HandReading
+from acts_control.hand.motors.dynamixel_port import DynamixelPort
+from acts_control.hand.motors.dynamixel_table import P_GAIN
 from acts_core.errors import SettingsError
 from acts_sim.dynamixel import ask_once
 
@@ -28,6 +32,7 @@ pytestmark = pytest.mark.slow
 DEADLINE_S = 30.0
 # Half of how long an answer is waited for: a loaded machine is slow.
 TIMEOUT_MS = 150.0
+HELD = rf"is held by .*process {os.getpid()}\b.*obeys one program"
 
 
 class Bus:
@@ -35,6 +40,7 @@ class Bus:
 
     def __init__(self, folder: Path, *options: str) -> None:
         self.link, self.control = folder / "hand", folder / "control"
+        self._hands: list[DynamixelHand] = []
         self.process = subprocess.Popen(
             [
                 *(sys.executable, "-m", "acts_ros.executables.program", "acts_sim.dynamixel.main"),
@@ -54,10 +60,17 @@ class Bus:
         return list(json.loads(self.command("state"))["motors"])
 
     def hand(self, **settings: Any) -> DynamixelHand:
-        config = DynamixelConfig(port=str(self.link), answer_timeout_ms=TIMEOUT_MS, **settings)
-        return DynamixelHand(LEAP_RIGHT, config)
+        return self.hand_at(self.link, **settings)
+
+    def hand_at(self, port: Path, **settings: Any) -> DynamixelHand:
+        """A hand at any name of the port; it is given back in the end, for the next bus gets the same device."""
+        config = DynamixelConfig(port=str(port), answer_timeout_ms=TIMEOUT_MS, **settings)
+        self._hands.append(DynamixelHand(LEAP_RIGHT, config))
+        return self._hands[-1]
 
     def close(self) -> None:
+        for hand in self._hands:
+            hand.close()
         self.process.send_signal(signal.SIGINT)
         assert self.process.wait(DEADLINE_S) == 0
 
@@ -148,11 +161,15 @@ def test_an_overload_is_read_and_recovered_by_starting_anew(bus: Bus) -> None:
     hand.close()
 
 
-def test_a_motor_that_had_switched_itself_off_is_started_anew_at_the_start(bus: Bus) -> None:
+def test_a_motor_that_had_switched_itself_off_is_told_by_the_first_reading(bus: Bus) -> None:
     bus.command("overheat 9")
     hand = bus.hand()
-    assert hand.connect() == ["motor 9 (ring_mcp_forward) had switched itself off; it has been started anew"]
+    assert hand.connect() == []
+    assert [(k, fault) for k, fault in enumerate(hand.read().faults) if fault] == [(9, "overheating")]
+    hand.recover(9)
     assert hand.read().faults == ("",) * 16
+    motor = bus.motors()[9]
+    assert (motor["operating_mode"], motor["goal_current"], motor["torque_enable"]) == (5, 350, 0)
     hand.close()
 
 
@@ -178,7 +195,7 @@ def test_a_cable_torn_off_is_told_and_the_hand_connects_again(bus: Bus) -> None:
     with pytest.raises(HandLostError, match="not connected"):
         hand.command([0.0] * 16)
     # Nobody else gets the hand meanwhile.
-    with pytest.raises(HandError, match=rf"is held by .*process {os.getpid()}\b.*obeys one program"):
+    with pytest.raises(HandError, match=HELD):
         bus.hand().connect()
     with pytest.raises(HandError, match="is not there; plug the hand in"):
         hand.connect()
@@ -247,23 +264,153 @@ def test_a_bus_that_another_program_moves_is_refused_with_its_name_and_goes_on(b
     first = bus.hand(motor_watchdog_s=0.0)
     first.connect()
     first.enable()
-    with pytest.raises(HandError, match=rf"is held by .*process {os.getpid()}\b.*obeys one program"):
+    with pytest.raises(HandError, match=HELD):
         bus.hand().connect()
-    # By another name of the port, too.
-    other_name = DynamixelHand(LEAP_RIGHT, DynamixelConfig(port=str(bus.link.resolve())))
-    with pytest.raises(HandError, match=rf"is held by .*process {bus.process.pid}.*obeys one program"):
-        other_name.connect()
     first.command([0.1] * 16)
     reading_where(first, lambda reading: reading.q_rad == pytest.approx([0.1] * 16, abs=0.02))
     # While the first one connects anew, nobody else gets the hand.
     first.disconnect()
-    with pytest.raises(HandError, match=rf"is held by .*process {os.getpid()}\b.*obeys one program"):
+    with pytest.raises(HandError, match=HELD):
         bus.hand().connect()
     first.connect()
     first.close()
     second = bus.hand()
     second.connect()
     second.close()
+
+
+def test_a_port_that_has_two_names_is_one_hand_also_while_it_connects_anew(bus: Bus, tmp_path: Path) -> None:
+    by_id, device = tmp_path / "by_id", bus.link.resolve()
+    by_id.symlink_to(bus.link)
+    for name, other_name in ((by_id, device), (device, by_id), (bus.link, by_id)):
+        first, second = bus.hand_at(name), bus.hand_at(other_name)
+        first.connect()
+        with pytest.raises(HandError, match=HELD):
+            second.connect()
+        first.disconnect()
+        with pytest.raises(HandError, match=HELD):
+            second.connect()
+        first.connect()
+        first.close()
+        second.connect()
+        second.close()
+
+
+def test_a_name_that_leads_to_a_port_only_later_is_that_port_from_then_on(bus: Bus, tmp_path: Path) -> None:
+    by_id, device = tmp_path / "by_id", bus.link.resolve()
+    first, second = bus.hand_at(by_id), bus.hand_at(device)
+    with pytest.raises(HandError, match="is not there; plug the hand in"):
+        first.connect()
+    second.connect()
+    by_id.symlink_to(device)
+    with pytest.raises(HandError, match=HELD):
+        first.connect()
+    second.close()
+    first.connect()
+    first.disconnect()
+    with pytest.raises(HandError, match=HELD):
+        second.connect()
+    first.close()
+
+
+def test_a_hand_that_comes_back_at_another_port_leaves_the_old_one_to_others(bus: Bus, tmp_path: Path) -> None:
+    (tmp_path / "other").mkdir()
+    other, by_id = Bus(tmp_path / "other"), tmp_path / "by_id"
+    try:
+        by_id.symlink_to(bus.link.resolve())
+        moved = bus.hand_at(by_id)
+        moved.connect()
+        moved.disconnect()
+        by_id.unlink()
+        by_id.symlink_to(other.link.resolve())
+        moved.connect()
+        newcomer = bus.hand_at(bus.link)
+        newcomer.connect()
+        with pytest.raises(HandError, match=HELD):
+            bus.hand_at(other.link).connect()
+        newcomer.close()
+        moved.close()
+    finally:
+        other.close()
+
+
+def test_gains_beyond_what_a_motor_takes_are_refused_with_their_joint() -> None:
+    joints = [replace(joint, gain_scale=8.0) if joint.name == "ring_pip" else joint for joint in LEAP_RIGHT.joints]
+    hand = replace(LEAP_RIGHT, joints=tuple(joints))
+    for name in ("position_p_gain", "position_d_gain"):
+        told = f"joint ring_pip: {name} 9000 times gain_scale 8 is 72000; a motor takes 0 to 16383"
+        with pytest.raises(SettingsError, match=told):
+            DynamixelHand(hand, DynamixelConfig(**{name: 9000}))
+    DynamixelHand(hand, DynamixelConfig(position_p_gain=2047, position_i_gain=16383))
+
+
+def test_a_number_that_does_not_fit_its_register_is_not_sent(bus: Bus) -> None:
+    port = DynamixelPort(DynamixelConfig(port=str(bus.link), answer_timeout_ms=TIMEOUT_MS))
+    port.open()
+    try:
+        for number in (-1, 65536):
+            told = rf"motor 2 \(index_pip\): {number} does not fit in register 84, which takes 0 to 65535"
+            with pytest.raises(HandError, match=told):
+                port.write(LEAP_RIGHT.joints[2], P_GAIN, number)
+        port.write(LEAP_RIGHT.joints[2], P_GAIN, 16383)
+        assert port.read(LEAP_RIGHT.joints[2], P_GAIN) == 16383
+    finally:
+        port.close()
+
+
+def leave_at(bus: Bus, angle_rad: float) -> None:
+    """Another program, which knows wider limits, leaves all joints somewhere, without torque."""
+    wide = [replace(joint, upper_rad=2.9) for joint in LEAP_RIGHT.joints]
+    hand = DynamixelHand(replace(LEAP_RIGHT, joints=tuple(wide)), DynamixelConfig(port=str(bus.link)))
+    hand.connect()
+    hand.enable()
+    hand.command([angle_rad] * 16)
+    reading_where(hand, lambda it: it.q_rad == pytest.approx([angle_rad] * 16, abs=0.02) and not any(it.qd_rad_s))
+    hand.release()
+    hand.close()
+
+
+def test_a_joint_beyond_its_limit_stays_there_until_it_is_sent_back_and_does_not_jump(bus: Bus) -> None:
+    leave_at(bus, 2.7)
+    hand = bus.hand()
+    hand.connect()
+    hand.enable()
+
+    def goals_rad() -> list[float]:
+        hand.read()  # behind the command on the bus
+        return [motor["goal_position"] * math.tau / 4096 - math.pi for motor in bus.motors()]
+
+    assert goals_rad() == pytest.approx([2.7] * 16, abs=0.02)
+    for angle_rad in (2.6, 2.5):  # beyond the limits of all joints
+        hand.command([angle_rad] * 16)
+        assert goals_rad() == pytest.approx([angle_rad] * 16, abs=0.001)
+    hand.command([2.7] * 16)
+    assert goals_rad() == pytest.approx([2.5] * 16, abs=0.001)
+    hand.command([0.5] * 16)
+    hand.command([2.7] * 16)
+    assert goals_rad() == pytest.approx([joint.upper_rad for joint in LEAP_RIGHT.joints], abs=0.001)
+    hand.close()
+
+
+def test_motors_that_hear_but_cannot_answer_are_switched_off_too(bus: Bus, monkeypatch: pytest.MonkeyPatch) -> None:
+    first = bus.hand()
+    first.connect()
+    first.enable()
+    first.disconnect()
+    ask = Protocol2PacketHandler.txRxPacket
+
+    def unheard(packets: Any, port: Any, packet: Any) -> Any:
+        if packet[4] != 7:  # the ID
+            return ask(packets, port, packet)
+        packets.txPacket(port, packet)
+        port.is_using = False
+        return None, COMM_RX_TIMEOUT, 0
+
+    monkeypatch.setattr(Protocol2PacketHandler, "txRxPacket", unheard)
+    with pytest.raises(HandError, match=r"motors 7 \(middle_dip\) do not answer"):
+        first.connect()
+    assert {motor["torque_enable"] for motor in bus.motors()} == {0}
+    first.close()
 
 
 @pytest.mark.parametrize("port", ["/dev/ptmx", "/dev/zero", "/dev/null", "/", "/etc/hostname"])

@@ -14,7 +14,9 @@ import threading
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import pytest
 import rclpy
@@ -23,12 +25,11 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
-from test_dynamixel_hand import DEADLINE_S, TIMEOUT_MS, Bus
+from test_dynamixel_hand import DEADLINE_S, TIMEOUT_MS, Bus, leave_at
 
-from acts_control.hand.control import HandLoop, HandLoopConfig, HandPhase
-from acts_control.hand.control.loop import Behaviour
+from acts_control.hand.control import Behaviour, HandLoop, HandLoopConfig, HandPhase
 from acts_control.hand.description import LEAP_RIGHT
-from acts_control.hand.motors import HandError, HandReading
+from acts_control.hand.motors import DynamixelHand, HandError, HandReading
 
 pytestmark = pytest.mark.slow
 
@@ -49,14 +50,14 @@ class Running:
     """A loop on the bus, and what it has logged."""
 
     def __init__(
-        self, bus: Bus, motor_watchdog_s: float = 0.0, behaviour: Behaviour | None = None, **settings: float
+        self, bus: Bus, motor_watchdog_s: float = 0.0, behaviour: Behaviour | None = None, **settings: Any
     ) -> None:
         self.log: list[tuple[str, str]] = []
         self.may_go_on = threading.Event()
         self.may_go_on.set()
         # The motors' own watchdog is off: a loaded machine holds a loop up for longer.
         hand = bus.hand(motor_watchdog_s=motor_watchdog_s)
-        config = HandLoopConfig(silence_s=2.0, connect_retry_s=0.05, **settings)
+        config = HandLoopConfig(**{"silence_s": 2.0, "connect_retry_s": 0.05, **settings})
         self.loop = HandLoop(LEAP_RIGHT, hand, config, lambda *told: self.log.append(told), self._on_reading, behaviour)
         self.loop.launch()
 
@@ -131,8 +132,8 @@ def test_names_and_numbers_that_cannot_be_are_refused_and_change_nothing(running
 def test_the_hand_is_released_and_enabled_again(bus: Bus, running: Running) -> None:
     running.until_phase(HandPhase.ENABLED)
     assert torques(bus) == {1}
-    running.loop.release()
-    running.until_phase(HandPhase.RELEASED)
+    assert running.loop.release() == ""
+    assert running.loop.status.phase is HandPhase.RELEASED
     assert torques(bus) == {0}
     assert running.loop.enable() == ""
     running.until_phase(HandPhase.ENABLED)
@@ -222,7 +223,7 @@ def test_an_answer_without_its_data_is_asked_for_again(running: Running, monkeyp
     running.until_phase(HandPhase.ENABLED)
     running.loop.release()
     running.until_phase(HandPhase.RELEASED)
-    packets = running.loop._bus._packets  # type: ignore[attr-defined]
+    packets = running.loop._bus._port._packets  # type: ignore[attr-defined]
     read, broken = packets.read4ByteTxRx, [7, 7]
 
     def broken_twice(port: object, motor_id: int, address: int) -> object:
@@ -247,7 +248,7 @@ def test_a_motor_whose_power_was_gone_for_a_moment_is_set_up_again(
     def without_power() -> HandReading:
         if off:
             # Its registers are those of a motor that has just started, as after a reboot.
-            hand._packets.reboot(hand._port, off.pop())  # type: ignore[attr-defined]
+            hand._port.reboot(LEAP_RIGHT.joints[off.pop()])  # type: ignore[attr-defined]
         return read()
 
     monkeypatch.setattr(hand, "read", without_power)
@@ -267,6 +268,97 @@ def test_what_was_commanded_long_ago_is_not_resumed_with_another_joint(running: 
     running.loop.command({"index_pip": 0.2})
     running.until(lambda: running.loop.status.goal_rad[2] == pytest.approx(0.2))
     assert running.loop.status.goal_rad[10] == stood_rad
+
+
+def test_who_asks_for_a_release_while_a_motor_is_silent_is_told_and_the_others_are_off_at_once(bus: Bus) -> None:
+    running = Running(bus, silence_s=10.0)
+    try:
+        running.until_phase(HandPhase.ENABLED)
+        bus.command("lose 14")
+        assert "cut their power to be sure" in running.loop.release()
+        running.until_phase(HandPhase.CONNECTING)
+        # Long before they count as silent.
+        assert running.loop.status.unanswered < 5
+        assert [motor["torque_enable"] for motor in bus.motors()].count(1) == 1
+        assert "motors 14 (thumb_mcp) d" in running.loop.release()
+        bus.command("find 14")
+        running.until_phase(HandPhase.RELEASED)
+        assert running.loop.release() == ""
+    finally:
+        running.loop.close()
+    assert torques(bus) == {0}
+
+
+def test_a_release_that_the_loop_has_not_come_to_is_not_told_as_done(bus: Bus, running: Running) -> None:
+    running.until_phase(HandPhase.ENABLED)
+    running.may_go_on.clear()
+    cycles = running.loop.status.cycles
+    running.until(lambda: running.loop.status.cycles > cycles)
+    assert "cut their power to be sure" in running.loop.release()
+    running.may_go_on.set()
+    running.until_phase(HandPhase.RELEASED)
+
+
+def test_a_motor_that_is_found_switched_off_counts_like_one_that_does_it_later(bus: Bus) -> None:
+    bus.command("overheat 9")
+    running = Running(bus)
+    try:
+        running.until(lambda: running.loop.status.recovered == 1 and running.loop.status.phase is HandPhase.ENABLED)
+        bus.command("unplug")
+        running.until_phase(HandPhase.CONNECTING)
+        bus.command("overheat 9")
+        bus.command("plug_in")
+        running.until_phase(HandPhase.GIVEN_UP)
+        assert "ring_mcp_forward: overheating, 2 times within a minute" in running.loop.status.reason
+        assert torques(bus) == {0}
+    finally:
+        running.loop.close()
+
+
+def test_a_motor_that_may_not_switch_itself_off_even_once_starts_anew_when_that_is_asked_for(bus: Bus) -> None:
+    running = Running(bus, max_faults=1)
+    try:
+        running.until_phase(HandPhase.ENABLED)
+        bus.command("overload 6")
+        running.until_phase(HandPhase.GIVEN_UP)
+        running.loop.enable()
+        running.until_phase(HandPhase.ENABLED)
+    finally:
+        running.loop.close()
+
+
+def test_a_joint_beyond_its_limit_is_brought_back_slowly_and_that_is_told(
+    bus: Bus, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    leave_at(bus, 2.7)
+    sent: list[Sequence[float]] = []
+    command = DynamixelHand.command
+
+    def noted(hand: DynamixelHand, q_rad: Sequence[float]) -> None:
+        command(hand, q_rad)
+        sent.append(list(q_rad))
+
+    monkeypatch.setattr(DynamixelHand, "command", noted)
+    running = Running(bus, max_speed_rad_s=8.0)
+    limits_rad = [joint.upper_rad for joint in LEAP_RIGHT.joints]
+
+    def is_back() -> bool:
+        running.loop.command({"index_pip": 0.0})  # asks for more speed than it gets
+        return bool(sent) and all(sent[-1][k] == limit for k, limit in enumerate(limits_rad) if k != 2)
+
+    try:
+        running.until(is_back)
+        running.until(lambda: sent[-1][2] == 0.0)
+    finally:
+        running.loop.close()
+    assert sent[0] == pytest.approx([2.7] * 16, abs=0.05)
+    for before, after in pairwise(sent):
+        for k, limit in enumerate(limits_rad):
+            # At most four periods of 10 ms are made up for at once.
+            allowed_rad = 0.5 * 0.04 if before[k] > limit else 8.0 * 0.04
+            assert 0.0 <= before[k] - after[k] <= allowed_rad + 1e-9
+    told = [sentence for level, sentence in running.log if level == "warning"]
+    assert any("index_pip is at 2.7" in sentence and "0.5 rad/s" in sentence for sentence in told), told
 
 
 class Moved:
@@ -380,6 +472,12 @@ def test_the_leap_team_s_own_node_is_commanded_within_the_same_limits() -> None:
 
         until(arrived)
         assert list(sent[-1].position[:2]) == pytest.approx([math.pi, math.pi])
+        release = node.create_client(Trigger, "hand/release")
+        assert release.wait_for_service(DEADLINE_S)
+        answer = release.call_async(Trigger.Request())
+        until(answer.done)
+        assert not answer.result().success
+        assert "the torque stays on" in answer.result().message
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=DEADLINE_S)
         assert process.returncode == 0

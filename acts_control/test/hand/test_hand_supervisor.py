@@ -199,6 +199,33 @@ def test_patches_that_the_hand_does_not_have_are_left_out() -> None:
     assert np.isfinite(hand.goal).all()
 
 
+FOREIGN = [region("index_distal", 0.8)._replace(name=name, link=name) for name in ("chest_left", "chest_right")]
+
+
+@pytest.mark.parametrize(("foreign", "told"), [(FOREIGN, "chest_left, chest_right"), ([], "no region at all")])
+def test_touch_of_another_skin_counts_as_not_come_and_is_told(foreign: list[RegionContact], told: str) -> None:
+    hand = a_holding_hand()
+    for _ in range(40):
+        hand.step(None)
+        assert not hand.supervisor.touch(foreign, hand.now_s, hand.now_s)
+    hand.step(None)
+    status = hand.supervisor.status
+    assert status.is_stale
+    assert "no reflex acts" in status.reason
+    assert status.refused == 40
+    assert told in status.refusal
+    assert "palm, index_proximal, index_medial and 10 more" in status.refusal
+
+
+def test_touch_that_names_other_patches_besides_is_used() -> None:
+    hand = a_holding_hand()
+    hand.step(None)
+    assert hand.supervisor.touch([*FOREIGN, region("index_distal", 0.8)], hand.now_s, hand.now_s)
+    hand.step(None)
+    assert hand.supervisor.status.refused == 0
+    assert hand.supervisor.status.touch_age_s < 0.01
+
+
 def test_a_finger_that_cannot_come_into_its_shape_does_not_keep_the_hand_from_closing() -> None:
     hand = a_hand()
     hand.stops["thumb_cmc"] = 0.2

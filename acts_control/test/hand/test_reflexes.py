@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hand_rig import DT_S, NAMES, region, sensed
+from hand_rig import DT_S, NAMES, RigidHand, region, sensed
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -54,6 +54,16 @@ def test_the_number_of_steps_rises_as_shaped_for_each_motor() -> None:
         goal = rule.goals(goal, goal, np.zeros(16), [Wish(np.full(16, 1.0), "")], DT_S)
         seen.append(goal[PIP])
     assert np.diff([0.0, *seen]) / (0.01 * 60 * DT_S) == pytest.approx([0.4, 0.8, 1.0, 1.0])
+
+
+def test_what_began_at_once_ends_at_once_and_leaves_the_others_their_steps() -> None:
+    rule = StepRule(LEAP_RIGHT, StepRuleConfig(steps_rise_per_s=100.0, base_step_rad=0.01))
+    slow, sudden = Wish(np.full(16, 0.3), ""), Wish(np.full(16, 9.0), "", at_once=True)
+    goal, seen = np.zeros(16), []
+    for wishes in ([slow], [slow], [slow, sudden], [slow, sudden], [slow], [], []):
+        goal = rule.goals(goal, goal, np.zeros(16), wishes, DT_S)
+        seen.append(goal[PIP])
+    assert np.diff([0.0, *seen]) / (0.01 * 60 * DT_S) == pytest.approx([0.3, 0.3, 9.3, 9.3, 0.3, 0.0, 0.0])
 
 
 def test_claimed_joints_are_left_alone_by_those_that_come_after() -> None:
@@ -131,6 +141,22 @@ def test_the_grip_that_is_added_has_an_end() -> None:
     for k in range(100):
         reflex.step(sensed(slipping("index_distal", 1e-4 * (k + 1)), time_s=k * DT_S))
     assert reflex.state.added == pytest.approx(3.0)
+
+
+@pytest.mark.parametrize("most", [0.1, 1.0, 3.0])
+def test_the_goals_move_no_farther_than_the_grip_that_may_be_added(most: float) -> None:
+    hand = RigidHand(("slip", SlipPrevention(SlipPreventionConfig(slip_max_added_steps=most))), max_lead_rad=1.0)
+    hand.supervisor.restart(recovered=False)
+    held = [region(f"{finger}_distal", 0.8) for finger in LEAP_RIGHT.fingers]
+    hand.step(held)
+    hand.supervisor.grasp()
+    hand.step(held, steps=100)
+    before = hand.goal.copy()
+    for k in range(100):
+        hand.step([slipping("index_distal", 1e-4 * (k + 1)), *held[1:]])
+    added = (hand.goal - before) / StepRuleConfig().base_step_rad
+    assert added.max() == pytest.approx(most)
+    assert added.min() >= -1e-9
 
 
 # --- sharp

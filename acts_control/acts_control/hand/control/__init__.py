@@ -7,8 +7,10 @@ In come regions and readings of the motors; out come goals, limited in step, rat
 between closing, holding and avoiding; the reflexes say what they want.
 """
 
+from acts_control.hand.control.behaviour import Behaviour
 from acts_control.hand.control.cycle_times import CycleTimes
-from acts_control.hand.control.loop import Behaviour, HandLoop, HandLoopConfig, HandPhase
+from acts_control.hand.control.loop import HandLoop, HandLoopConfig
+from acts_control.hand.control.status import HandPhase
 from acts_control.hand.control.supervisor import HandSupervisor, SupervisorConfig, SupervisorStatus
 
 __all__ = [

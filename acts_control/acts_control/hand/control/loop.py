@@ -7,29 +7,28 @@ from __future__ import annotations
 
 import threading
 import time
-from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from enum import IntEnum
 from math import isfinite
-from typing import Protocol
 
+from acts_control.hand.control.behaviour import Behaviour
+from acts_control.hand.control.fault_memory import FaultMemory
+from acts_control.hand.control.status import HandPhase, HandStatus
 from acts_control.hand.description import HandDescription
 from acts_control.hand.motors import HandBus, HandError, HandLostError, HandReading
+from acts_core.errors import SettingsError
 from acts_core.settings import setting, validate
 
-_FAULT_MEMORY_S = 60.0
+# A joint that is beyond a limit when the torque comes on is brought back so fast: slowly, for it may be held there.
+_RETURN_RAD_S = 0.5
+# A joint at its limit may read as a little beyond.
+_BEYOND_RAD = 0.02
+# Who asks for a release waits no longer for the motors' answers; where many are silent, asking them all takes longer.
+_ANSWER_S = 2.0
+_CUT_POWER = "motors that are silent may hold on: cut their power to be sure"
+# So many reads have to fail before motors count as silent: one answer may be lost.
+_LEAST_READS = 2
 _NOT_FINITE = "the goals stand still, for what was asked for cannot be"
-
-
-class HandPhase(IntEnum):
-    """What the hand does."""
-
-    CONNECTING = 0
-    RELEASED = 1
-    ENABLED = 2
-    RECOVERING = 3
-    GIVEN_UP = 4
 
 
 @dataclass(frozen=True)
@@ -44,7 +43,10 @@ class HandLoopConfig:
         0.5, "without a command for longer the goals stand still [s]", minimum=0.01, maximum=10.0
     )
     silence_s: float = setting(
-        0.3, "motors that do not answer for longer are connected anew [s]", minimum=0.05, maximum=10.0
+        0.3,
+        "motors that do not answer for longer are connected anew [s]; at least two periods of rate_hz",
+        minimum=0.05,
+        maximum=10.0,
     )
     connect_retry_s: float = setting(1.0, "time between attempts to connect [s]", minimum=0.05, maximum=60.0)
     max_faults: int = setting(
@@ -54,60 +56,12 @@ class HandLoopConfig:
 
     def __post_init__(self) -> None:
         validate(self)
-
-
-@dataclass(frozen=True)
-class HandStatus:
-    """What the loop does, as of the last cycle.
-
-    Attributes
-    ----------
-    phase : HandPhase
-    reason : str
-        Why, in words.
-    reading : HandReading or None
-        Newest one; None before the first and while the hand is not connected.
-    goal_rad : tuple of float
-        What was sent last [rad].
-    cycles, late, unanswered, recovered : int
-        Cycles so far; those that began more than half a period late; reads without an answer; motors started anew.
-    """
-
-    phase: HandPhase = HandPhase.CONNECTING
-    reason: str = "not started"
-    reading: HandReading | None = None
-    goal_rad: tuple[float, ...] = ()
-    cycles: int = 0
-    late: int = 0
-    unanswered: int = 0
-    recovered: int = 0
-
-
-class Behaviour(Protocol):
-    """What moves a hand instead of commands, from the loop's thread."""
-
-    def restart(self, *, recovered: bool) -> None:
-        """The torque is on again, and every joint holds where it is; `recovered`: after a motor had failed."""
-
-    def step(self, reading: HandReading, goal_rad: Sequence[float], now_s: float, dt_s: float) -> Sequence[float]:
-        """Called with each reading while the torque is on.
-
-        Parameters
-        ----------
-        reading : HandReading
-        goal_rad : sequence of float
-            What was sent last [rad].
-        now_s, dt_s : float
-            By `time.monotonic`, and since the step before [s].
-
-        Returns
-        -------
-        sequence of float
-            Where every joint is to go [rad].
-        """
-
-    def sent(self, began_s: float, sent_s: float) -> None:
-        """What `step` asked for has been sent; when its cycle began, and now, by `time.monotonic` [s]."""
+        if self.silence_s < _LEAST_READS / self.rate_hz:
+            raise SettingsError(
+                f"silence_s = {self.silence_s:g}: with rate_hz = {self.rate_hz:g} the motors are read "
+                f"every {1.0 / self.rate_hz:.4g} s, and one lost answer would count as silence: raise silence_s to "
+                f"{_LEAST_READS / self.rate_hz:.4g}, or rate_hz to {_LEAST_READS / self.silence_s:.4g}"
+            )
 
 
 class HandLoop:
@@ -154,7 +108,8 @@ class HandLoop:
         self._enabled = config.autostart
         self._is_on = False  # whether the torque of a motor may be on
         self._closing = threading.Event()
-        self._faults: list[deque[float]] = [deque(maxlen=config.max_faults) for _ in hand.joints]
+        self._has_obeyed = threading.Event()  # whether it is known what has become of a wish for release
+        self._faults = FaultMemory(len(hand.joints), config.max_faults)
         self._thread = threading.Thread(target=self._run, name="hand_loop", daemon=True)
 
     def launch(self) -> None:
@@ -195,19 +150,26 @@ class HandLoop:
         """Switch the torque on, now or as soon as the hand is connected; why that cannot be, or nothing."""
         if self._closing.is_set() or not self._thread.is_alive():
             return f"the hand's loop has ended: {self.status.reason}"
-        for faults in self._faults:
-            faults.clear()
+        self._faults.forget()
         self._enabled = True
         return ""
 
     def release(self) -> str:
-        """Switch the torque off, now or as soon as the hand is connected; why that cannot be now, or nothing."""
+        """Switch the torque off, now or as soon as the hand is connected; why it may still be on, or nothing.
+
+        Waits for what the motors say to it, for two seconds at most.
+        """
         self._enabled = False
+        self._has_obeyed.clear()
+        if self.status.phase is not HandPhase.CONNECTING and self._thread.is_alive():
+            self._has_obeyed.wait(_ANSWER_S)
         status = self.status
         if not self._thread.is_alive():
             return f"the hand's loop has ended: {status.reason}"
         if status.phase is HandPhase.CONNECTING:
-            return f"the hand is not connected ({status.reason}); its motors are released as soon as it is"
+            return f"the hand is not connected ({status.reason}); it is released as soon as it is; {_CUT_POWER}"
+        if not self._has_obeyed.is_set():
+            return f"the motors have not said within {_ANSWER_S:g} s that they are released; {_CUT_POWER}"
         return ""
 
     def _run(self) -> None:
@@ -219,6 +181,7 @@ class HandLoop:
             if self._is_on:
                 self._switch_off_at_last()
             self._bus.close()
+            self._has_obeyed.set()
 
     def _run_once(self) -> None:
         """Until the hand is lost, or the loop is to end."""
@@ -237,6 +200,7 @@ class HandLoop:
             self._set(HandPhase.GIVEN_UP, "the hand's loop failed", reading=None)
             raise
         finally:
+            self._has_obeyed.set()
             self._bus.disconnect()
 
     def _connect(self) -> None:
@@ -283,10 +247,12 @@ class HandLoop:
                     self._count(unanswered=1)
                     if now_s - answered_s > self._config.silence_s:
                         raise
+                    self._obey_release()  # for those that answer
                     continue
                 answered_s = now_s
                 self._set(self.status.phase, self.status.reason, reading=reading)
                 self._on_reading(reading)
+                self._obey_release()
                 if any(reading.faults):
                     self._recover(reading)
                     goal = []
@@ -295,36 +261,55 @@ class HandLoop:
         finally:
             self._release_at_end()
 
+    def _obey_release(self) -> None:
+        """Switch the torque off where that is wanted."""
+        if self._enabled:
+            return
+        if self.status.phase in (HandPhase.ENABLED, HandPhase.RECOVERING):
+            self._release()
+            self._set(HandPhase.RELEASED, "released by request")
+        self._has_obeyed.set()
+
     def _move(self, reading: HandReading, goal: list[float], dt_s: float, now_s: float) -> list[float]:
-        """One cycle of a hand that is well: switch the torque as is wanted, and bring the goals nearer."""
+        """One cycle of a hand that is well: switch the torque on if that is wanted, and bring the goals nearer."""
         phase = self.status.phase
-        if not self._enabled:
-            if phase in (HandPhase.ENABLED, HandPhase.RECOVERING):
-                self._release()
-                self._set(HandPhase.RELEASED, "released by request")
+        if not self._enabled and phase is not HandPhase.ENABLED:
             return []
         if reading.is_stopped and phase is HandPhase.ENABLED:
             self._log("warning", "the motors' watchdog has stopped them: this process stood still; the hand goes on")
             phase = HandPhase.RECOVERING
         if phase is not HandPhase.ENABLED:
-            self._is_on = True
-            self._bus.enable()
-            with self._lock:
-                self._target.clear()  # what was wanted before is old
-            goal = list(reading.q_rad)
-            if self._behaviour is not None:
-                self._behaviour.restart(recovered=phase is HandPhase.RECOVERING)
-            self._set(HandPhase.ENABLED, "holding", goal_rad=tuple(goal))
-            return goal
+            return self._switch_on(reading, recovered=phase is HandPhase.RECOVERING)
         targets, reason = self._targets(reading, goal, now_s, dt_s)
         step = self._config.max_speed_rad_s * dt_s
-        for k, target in targets.items():
-            goal[k] += min(max(target - goal[k], -step), step)
+        for k, joint in enumerate(self._hand.joints):
+            target, most = targets.get(k, goal[k]), step
+            if joint.clipped(goal[k]) != goal[k]:
+                target, most = joint.clipped(goal[k]), min(step, _RETURN_RAD_S * dt_s)
+            goal[k] += min(max(target - goal[k], -most), most)
         self._bus.command(goal)
         if self._behaviour is not None:
             self._behaviour.sent(now_s, time.monotonic())
         self._set(HandPhase.ENABLED, reason, goal_rad=tuple(goal))
         return goal
+
+    def _switch_on(self, reading: HandReading, *, recovered: bool) -> list[float]:
+        """Hold every joint where it is: the goals."""
+        self._is_on = True
+        self._bus.enable()
+        with self._lock:
+            self._target.clear()  # what was wanted before is old
+        for joint, q_rad in zip(self._hand.joints, reading.q_rad, strict=True):
+            if abs(q_rad - joint.clipped(q_rad)) > _BEYOND_RAD:
+                self._log(
+                    "warning",
+                    f"{joint.name} is at {q_rad:.2f} rad, beyond its limits of {joint.lower_rad:g} to "
+                    f"{joint.upper_rad:g}: it is brought back at {_RETURN_RAD_S:g} rad/s",
+                )
+        if self._behaviour is not None:
+            self._behaviour.restart(recovered=recovered)
+        self._set(HandPhase.ENABLED, "holding", goal_rad=reading.q_rad)
+        return list(reading.q_rad)
 
     def _targets(
         self, reading: HandReading, goal: Sequence[float], now_s: float, dt_s: float
@@ -344,15 +329,15 @@ class HandLoop:
 
     def _recover(self, reading: HandReading) -> None:
         """Motors have switched themselves off: start them anew, or give up what does it again and again."""
-        if self.status.phase is HandPhase.GIVEN_UP and not self._enabled:
+        # Who enables a hand that was given up has looked after these motors.
+        is_forgiven = self.status.phase is HandPhase.GIVEN_UP
+        if is_forgiven and not self._enabled:
             return
-        now_s = time.monotonic()
         for k, fault in enumerate(reading.faults):
             if not fault:
                 continue
             name = self._hand.joints[k].name
-            self._faults[k].append(now_s)
-            if self._gave_up():
+            if not is_forgiven and self._faults.add(k):
                 # First, so that it stays given up where the motors do not answer to the rest.
                 self._enabled = False
                 reason = f"{name}: {fault}, {self._config.max_faults} times within a minute; ~/enable to go on"
@@ -365,12 +350,6 @@ class HandLoop:
             self._set(HandPhase.RECOVERING if was_on else HandPhase.RELEASED, f"{name}: {fault}")
             self._bus.recover(k)
             self._count(recovered=1)
-
-    def _gave_up(self) -> bool:
-        now_s = time.monotonic()
-        return any(
-            len(times) == self._config.max_faults and now_s - times[0] < _FAULT_MEMORY_S for times in self._faults
-        )
 
     def _release_at_end(self) -> None:
         if not self._closing.is_set():

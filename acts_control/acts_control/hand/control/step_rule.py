@@ -4,9 +4,10 @@
 """From what the reflexes ask for to the goals of the joints: the one place that moves a goal.
 
 A reflex asks for steps. One step moves a joint's goal by the base step times the scale of its motor; how quickly the
-number of steps may change is shaped for each motor. The goals stay within the joints' limits and never farther ahead of
-the joints than `max_lead_rad`: a position-controlled motor presses in proportion to that lead, so this bounds the grip,
-and an opening finger begins to open with its first step.
+number of steps may change is shaped for each motor, except for steps that a reflex wants at once: these also end at
+once, for a tail would move the goal farther than was asked for. The goals stay within the joints' limits and never
+farther ahead of the joints than `max_lead_rad`: a position-controlled motor presses in proportion to that lead, so this
+bounds the grip, and an opening finger begins to open with its first step.
 """
 
 from __future__ import annotations
@@ -105,6 +106,7 @@ class StepRule:
         config = self._config
         free = np.ones(len(goal_rad), dtype=bool)
         wanted = np.zeros(len(goal_rad))
+        lasting = np.zeros(len(goal_rad))  # what of it is not to be at once
         at_once = np.zeros(len(goal_rad), dtype=bool)
         for wish in wishes:
             if not np.isfinite(wish.steps).all():
@@ -113,15 +115,20 @@ class StepRule:
             wanted[free] += wish.steps[free]
             if wish.at_once:
                 at_once |= free & (wish.steps != 0.0)
+            else:
+                lasting[free] += wish.steps[free]
             if wish.claimed is not None:
                 free &= ~wish.claimed
-        np.clip(wanted, -config.max_steps, config.max_steps, out=wanted)
+        for steps in (wanted, lasting):
+            np.clip(steps, -config.max_steps, config.max_steps, out=steps)
         rise = config.steps_rise_per_s * dt_s
         shaped = np.clip(wanted, self._steps - rise, self._steps + rise)
-        self._steps = np.where(at_once, wanted, shaped)
-        # Closed no further: it may only open.
-        self._steps[(current_ma > config.max_grip_current_ma) & (self._steps > 0.0)] = 0.0
-        moved = goal_rad + self.step_rad_s * self._steps * dt_s
+        self._steps = np.where(at_once, lasting, shaped)
+        now = np.where(at_once, wanted, shaped)
+        is_exhausted = current_ma > config.max_grip_current_ma
+        for steps in (now, self._steps):
+            steps[is_exhausted & (steps > 0.0)] = 0.0  # closed no further: it may only open
+        moved = goal_rad + self.step_rad_s * now * dt_s
         moved = np.clip(moved, q_rad - self._lead, q_rad + self._lead)
         result: Array = np.clip(moved, self._hand.lower_rad, self._hand.upper_rad)
         return result

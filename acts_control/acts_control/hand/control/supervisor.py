@@ -32,6 +32,7 @@ _FUTURE_S = 0.05
 # Beyond what any skin of a hand says. With places farther off and longer normals, equations could not be solved.
 _LARGEST, _FARTHEST_M, _LONGEST_NORMAL = 1e6, 10.0, 1.01
 _LONGEST_NAME = 64
+_MOST_NAMES = 3
 
 
 @dataclass(frozen=True)
@@ -167,6 +168,12 @@ class HandSupervisor:
         """
         if not stamp_s <= now_s + _FUTURE_S:
             return self.refuse(f"touch is stamped {stamp_s - now_s:.3g} s ahead of the clock")
+        # A message has all patches of its skin, also those that nothing touches: this one says nothing of the hand.
+        if not any(one.name in self._hand.regions for one in regions):
+            return self.refuse(
+                f"touch names {_listed([one.name for one in regions])}; the hand has "
+                f"{_listed(list(self._hand.regions))}: is `regions` the topic of another skin?"
+            )
         objection = next(filter(None, map(self._objection, regions)), "")
         if objection:
             return self.refuse(objection)
@@ -338,6 +345,13 @@ class HandSupervisor:
         if not _can_be(region):
             return f"region {name!r} has numbers that no skin says"
         return ""
+
+
+def _listed(names: Sequence[str]) -> str:
+    """Names of regions for a person, shortened: anybody may have sent them."""
+    more = len(names) - _MOST_NAMES
+    shown = ", ".join(name[:_LONGEST_NAME] for name in names[:_MOST_NAMES])
+    return f"{shown} and {more} more" if more > 0 else shown or "no region at all"
 
 
 def _can_be(region: RegionContact) -> bool:

@@ -96,6 +96,9 @@ def _finger(one: Section, name: str, links: set[str], joints: set[str]) -> Finge
         if joint not in joints:
             raise closes.error(f"{joint!r} is no joint of this hand", joint)
     shares = {joint: _number(closes, joint) for joint in closes.values}
+    for joint, share in shares.items():
+        if share <= 0.0:
+            raise closes.error(f"{joint} = {share:g}: how much a joint takes part in closing is above 0", joint)
     opposes = one.values.get("opposes", False)
     if not isinstance(opposes, bool):
         raise one.error(f"opposes is {shown(opposes)}; allowed is true or false", "opposes")

@@ -8,7 +8,8 @@ LEAP hand; a make of motors is a module here and a line in `registry`.
 """
 
 from acts_control.hand.motors.bus import BusConfig, HandBus, HandError, HandLostError, HandReading
-from acts_control.hand.motors.dynamixel import DynamixelConfig, DynamixelHand
+from acts_control.hand.motors.dynamixel import DynamixelHand
+from acts_control.hand.motors.dynamixel_config import DynamixelConfig
 from acts_control.hand.motors.registry import MOTORS, MotorKind, make_motors, with_motors
 
 __all__ = [

@@ -30,6 +30,15 @@ class BusConfig:
     def __post_init__(self) -> None:
         validate(self)
 
+    def check_rate(self, rate_hz: float) -> None:
+        """Refuse a rate of the hand's loop at which these motors would stop by themselves; any is right here.
+
+        Raises
+        ------
+        SettingsError
+            With what is allowed.
+        """
+
 
 class HandReading(NamedTuple):
     """What the motors say of themselves, in the order of the joints.
@@ -66,7 +75,8 @@ class HandBus(Protocol):
     def connect(self) -> list[str]:
         """Find all motors and set them up, with the torque off; what a person should know of, in sentences.
 
-        Called again and again until it succeeds, and after `disconnect`.
+        Called again and again until it succeeds, and after `disconnect`. Motors that have switched themselves off are
+        told by `read`.
         """
 
     def enable(self) -> None:
@@ -79,7 +89,10 @@ class HandBus(Protocol):
         """The newest state of all motors; called at the rate of the loop, also while the torque is off."""
 
     def command(self, q_rad: Sequence[float]) -> None:
-        """Send every joint to an angle; finite, within the limits of the joint, near the angle before."""
+        """Send every joint to an angle; finite, near the angle before.
+
+        It is within the limits of the joint, or on the way back to them from where the joint was at `enable`.
+        """
 
     def recover(self, joint: int) -> None:
         """Bring a motor back that has switched itself off; its torque stays off."""

@@ -11,7 +11,8 @@ from typing import Any
 
 from acts_control.hand.description import HandDescription
 from acts_control.hand.motors.bus import BusConfig, HandBus
-from acts_control.hand.motors.dynamixel import DynamixelConfig, DynamixelHand
+from acts_control.hand.motors.dynamixel import DynamixelHand
+from acts_control.hand.motors.dynamixel_config import DynamixelConfig
 from acts_core.settings import part_of, refuse_doubles
 
 

@@ -16,6 +16,12 @@ from math import isfinite
 from acts_control.hand.description import HandDescription
 from acts_control.hand.motors import HandError, HandReading
 
+TORQUE_STAYS = (
+    "nothing more is sent, but the torque stays on: it is the LEAP team's node's, which cannot switch it off; cut the "
+    "power of the hand, or move it by interface:=dynamixel"
+)
+"""What a person should know who asks for the torque to be switched off."""
+
 
 class CmdLeapBus:
     """A hand that somebody else's node moves.
@@ -41,7 +47,7 @@ class CmdLeapBus:
         """Nothing is sent before the first command."""
 
     def release(self) -> None:
-        """Send nothing more; the torque is the other node's."""
+        """Send nothing more; the torque is the other node's, see `TORQUE_STAYS`."""
 
     def read(self) -> HandReading:
         """What was sent last."""

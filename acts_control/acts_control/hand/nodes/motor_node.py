@@ -15,7 +15,7 @@ from std_srvs.srv import Trigger
 from acts_control.hand.control import Behaviour, HandLoop, HandLoopConfig, HandPhase
 from acts_control.hand.description import HandDescription, hand_description
 from acts_control.hand.motors import MOTORS, BusConfig, HandBus, HandReading, make_motors
-from acts_control.hand.nodes.cmd_leap import CmdLeapBus
+from acts_control.hand.nodes.cmd_leap import TORQUE_STAYS, CmdLeapBus
 from acts_core.runtime import RealtimeConfig, enter_realtime
 from acts_core.settings import setting
 from acts_ros.clocks import keep_system_clock
@@ -43,8 +43,11 @@ class MotorSettings(RealtimeConfig, HandLoopConfig, BusConfig):
 
     def __post_init__(self) -> None:
         RealtimeConfig.__post_init__(self)
+        HandLoopConfig.__post_init__(self)
         if self.interface in MOTORS:
-            MOTORS[self.interface].config.__post_init__(self)
+            config: Any = MOTORS[self.interface].config
+            config.__post_init__(self)
+            config.check_rate(self, self.rate_hz)
         check_frame_id(self.frame_id, "none is the base of the hand")
 
     def frame_of(self, hand: HandDescription) -> str:
@@ -126,7 +129,8 @@ class MotorNode(PollingNode):
         return answered(response, self.loop.enable())
 
     def _on_torque_off(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-        return answered(response, self.loop.release())
+        objection = self.loop.release()
+        return answered(response, TORQUE_STAYS if self.settings.interface == _CMD_LEAP else objection)
 
 
 def answered(response: Trigger.Response, objection: str) -> Any:

@@ -104,11 +104,11 @@ class TouchedHand:
         self._touched_ns: int | None = None
 
     def restart(self, *, recovered: bool) -> None:
-        """See `acts_control.hand.control.loop.Behaviour`."""
+        """See `acts_control.hand.control.Behaviour`."""
         self._supervisor.restart(recovered=recovered)
 
     def step(self, reading: HandReading, goal_rad: Sequence[float], now_s: float, dt_s: float) -> Sequence[float]:
-        """See `acts_control.hand.control.loop.Behaviour`."""
+        """See `acts_control.hand.control.Behaviour`."""
         taken = self._regions.take_all()[-_TOUCH_TRIES:]
         self._touched_ns = None
         while taken and not self._feel(taken.pop()[0], now_s):
@@ -132,7 +132,7 @@ class TouchedHand:
         return can_be_used
 
     def sent(self, began_s: float, sent_s: float) -> None:
-        """See `acts_control.hand.control.loop.Behaviour`."""
+        """See `acts_control.hand.control.Behaviour`."""
         latency_s = None if self._touched_ns is None else 1e-9 * (self._now_ns() - self._touched_ns)
         self.times.add(sent_s - began_s, latency_s)
 

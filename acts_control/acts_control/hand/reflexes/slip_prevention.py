@@ -25,7 +25,7 @@ class SlipPreventionConfig:
         16.0, "steps by which fingers grip harder while the object slips", minimum=0.1, maximum=50.0
     )
     slip_max_added_steps: float = setting(
-        6.0, "most that is added to the grip, in steps of a cycle at 60 Hz", minimum=0.1, maximum=200.0
+        11.0, "most that is added to the grip, in steps of a cycle at 60 Hz", minimum=0.1, maximum=200.0
     )
     slip_growth_m: float = setting(
         1e-5,

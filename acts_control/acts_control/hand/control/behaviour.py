@@ -1,0 +1,38 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""What the loop of a hand asks where the joints are to go."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Protocol
+
+from acts_control.hand.motors import HandReading
+
+
+class Behaviour(Protocol):
+    """What moves a hand instead of commands, from the loop's thread."""
+
+    def restart(self, *, recovered: bool) -> None:
+        """The torque is on again, and every joint holds where it is; `recovered`: after a motor had failed."""
+
+    def step(self, reading: HandReading, goal_rad: Sequence[float], now_s: float, dt_s: float) -> Sequence[float]:
+        """Called with each reading while the torque is on.
+
+        Parameters
+        ----------
+        reading : HandReading
+        goal_rad : sequence of float
+            What was sent last [rad].
+        now_s, dt_s : float
+            By `time.monotonic`, and since the step before [s].
+
+        Returns
+        -------
+        sequence of float
+            Where every joint is to go [rad].
+        """
+
+    def sent(self, began_s: float, sent_s: float) -> None:
+        """What `step` asked for has been sent; when its cycle began, and now, by `time.monotonic` [s]."""

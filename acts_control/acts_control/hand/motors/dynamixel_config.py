@@ -1,0 +1,73 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Settings of Dynamixel motors, and which of them motors do not take."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from acts_control.hand.description import Joint
+from acts_control.hand.motors.bus import BusConfig
+from acts_control.hand.motors.dynamixel_table import LARGEST_GAIN
+from acts_core.errors import SettingsError
+from acts_core.settings import setting
+
+# So many cycles have to come within the motors' watchdog: one of them may be late or lost.
+_CYCLES_IN_WATCHDOG = 2
+
+
+@dataclass(frozen=True)
+class DynamixelConfig(BusConfig):
+    """How the motors are reached, and how strong they are."""
+
+    baud: int = setting(4_000_000, "bits a second on the bus", minimum=9600, maximum=4_000_000)
+    answer_timeout_ms: float = setting(
+        16.0,
+        "half of the time to wait for a reply, in addition to the time of its bytes [ms]",
+        minimum=1.0,
+        maximum=500.0,
+    )
+    position_p_gain: int = setting(600, "P gain of position control", minimum=0, maximum=LARGEST_GAIN)
+    position_i_gain: int = setting(0, "I gain of position control", minimum=0, maximum=LARGEST_GAIN)
+    position_d_gain: int = setting(200, "D gain of position control", minimum=0, maximum=LARGEST_GAIN)
+    max_current_ma: int = setting(350, "largest current of each motor [mA]", minimum=1, maximum=1750)
+    motor_watchdog_s: float = setting(
+        0.2,
+        "a motor that hears nothing for longer stops [s]; at least two periods of rate_hz; 0: never",
+        minimum=0.0,
+        maximum=2.54,
+    )
+    set_return_delay: bool = setting(
+        False, "whether to set the return delay in the EEPROM of the motors to 0 where it is not"
+    )
+
+    def check_rate(self, rate_hz: float) -> None:
+        """See `BusConfig.check_rate`."""
+        watchdog_s = self.motor_watchdog_s
+        if 0.0 < watchdog_s < _CYCLES_IN_WATCHDOG / rate_hz:
+            raise SettingsError(
+                f"rate_hz = {rate_hz:g}: the motors stop by themselves after motor_watchdog_s = {watchdog_s:g} "
+                f"without a cycle, and {_CYCLES_IN_WATCHDOG} cycles have to come within it: raise rate_hz to "
+                f"{_CYCLES_IN_WATCHDOG / watchdog_s:.4g}, or motor_watchdog_s to {_CYCLES_IN_WATCHDOG / rate_hz:.4g}"
+            )
+
+    def gains(self, joint: Joint) -> tuple[int, int, int]:
+        """The P, I and D gain of a joint's motor.
+
+        Raises
+        ------
+        SettingsError
+            When a motor cannot take one of them.
+        """
+        scaled = []
+        for name in ("position_p_gain", "position_d_gain"):
+            gain = getattr(self, name)
+            scaled.append(round(gain * joint.gain_scale))
+            if scaled[-1] > LARGEST_GAIN:
+                raise SettingsError(
+                    f"joint {joint.name}: {name} {gain} times gain_scale {joint.gain_scale:g} is {scaled[-1]}; "
+                    f"a motor takes 0 to {LARGEST_GAIN}: lower one of them"
+                )
+        p_gain, d_gain = scaled
+        return p_gain, self.position_i_gain, d_gain

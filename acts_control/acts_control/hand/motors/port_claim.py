@@ -1,0 +1,58 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""The port of a hand as this program's own, whatever the others call it."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from acts_control.claims import Claim, ClaimedError
+from acts_control.hand.motors.bus import HandError
+from acts_control.hand.motors.port_words import held
+
+
+class PortClaim:
+    """Keeps other programs from a port, also while nothing is there.
+
+    A port has the name that was given, and the one where that leads to: a link in /dev/serial/by-id and /dev/ttyUSB0
+    are one hand. While nothing is there the first alone is known.
+
+    Parameters
+    ----------
+    port : str
+    """
+
+    def __init__(self, port: str) -> None:
+        self._port = port
+        self._claims: dict[str, Claim] = {}
+
+    def take(self) -> None:
+        """Claim the names that the port has now; to be called whenever it is to be opened.
+
+        Raises
+        ------
+        HandError
+            When another program has one of them, which is named.
+        """
+        names = dict.fromkeys((str(Path(self._port).absolute()), os.path.realpath(self._port)))
+        # An adapter that was plugged in anew may have another number, and its old one be somebody else's.
+        for name in self._claims.keys() - names:
+            self._claims.pop(name).close()
+        for name in names:
+            if name not in self._claims:
+                self._claims[name] = self._claim(name)
+
+    def close(self) -> None:
+        """Give it up. May be called again."""
+        while self._claims:
+            self._claims.popitem()[1].close()
+
+    def _claim(self, name: str) -> Claim:
+        try:
+            return Claim("hand", name)
+        except ClaimedError as error:
+            raise HandError(held(self._port, str(error))) from error
+        except OSError as error:
+            raise HandError(f"{self._port} cannot be claimed ({error.strerror})") from error
