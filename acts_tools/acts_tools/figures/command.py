@@ -16,11 +16,11 @@ from acts_tools.evaluate import report
 from acts_tools.figures.differences import differences
 from acts_tools.figures.drawing import draw
 from acts_tools.figures.figure import Figure
-from acts_tools.figures.files import read_stamped, write_csv, write_stamped
+from acts_tools.figures.files import read_stamped, write_csv, write_images, write_stamped
 from acts_tools.figures.published import VARIABLE, PublishedData, published_data
 from acts_tools.figures.registry import FIGURES, figures_named
 from acts_tools.figures.run import Run
-from acts_tools.figures.sheet import PUBLISHED, Panel, from_json, rows, to_json
+from acts_tools.figures.sheet import PUBLISHED, Panel, from_json, large_images, rows, to_json
 from acts_tools.progress import Progress
 
 _HEADER = ("panel", "curve", "by", "x", "y", "low", "high")
@@ -99,6 +99,8 @@ def _make(figure: Figure, one: Run, published: PublishedData | None) -> dict[str
     }
     write_stamped(path, entry)
     write_csv(path.with_suffix(".csv"), command, _HEADER, rows(whole))
+    if images := large_images(whole):
+        write_images(path.with_suffix(".npz"), command, images)
     notes = [*figure.notes, *([_WITHOUT] if published is None and figure.has_published else [])]
     draw(path.with_suffix(".png"), figure, whole, command, notes)
     how = "as measured before" if known is not None else f"measured in {spent_s:.1f} s"

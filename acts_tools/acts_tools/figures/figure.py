@@ -27,9 +27,12 @@ class Figure:
     published : callable or None
         ``published(data, panels)``: published curves by the title of their panel; None for none.
     published_panels : callable or None
-        ``published_panels(data)``: panels that only show what was published, drawn first; None for none.
+        ``published_panels(data, panels)``: the panels, and among them those that only show what was published; None for
+        none.
     columns : int
         Panels in a row of the picture.
+    panel_inch : tuple of float
+        Width and height of a panel [inch].
     notes : tuple of str
         What a reader of the picture must know, a sentence each.
     """
@@ -38,8 +41,9 @@ class Figure:
     title: str
     measure: Callable[[Run], list[Panel]]
     published: Callable[[PublishedData, Sequence[Panel]], dict[str, list[Curve]]] | None = None
-    published_panels: Callable[[PublishedData], list[Panel]] | None = None
+    published_panels: Callable[[PublishedData, Sequence[Panel]], list[Panel]] | None = None
     columns: int = 3
+    panel_inch: tuple[float, float] = (3.4, 2.9)
     notes: tuple[str, ...] = ()
 
     @property
@@ -60,5 +64,5 @@ class Figure:
         RecordingError
             When `data` has no such curves.
         """
-        alone = [] if self.published_panels is None else self.published_panels(data)
-        return [*alone, *with_curves(panels, {} if self.published is None else self.published(data, panels))]
+        whole = with_curves(panels, {} if self.published is None else self.published(data, panels))
+        return whole if self.published_panels is None else self.published_panels(data, whole)

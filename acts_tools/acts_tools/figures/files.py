@@ -11,6 +11,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from acts_core.errors import RecordingError
 
 
@@ -45,7 +47,7 @@ def write_stamped(path: Path, content: Mapping[str, Any]) -> None:
 
 
 def write_csv(path: Path, command: str, header: Sequence[str], rows: Sequence[Sequence[Any]]) -> None:
-    """Write a CSV file whose first line, a comment, is the command.
+    """Write a CSV file whose first line, a comment, is the command; numbers have six digits, those in JSON have all.
 
     Raises
     ------
@@ -57,6 +59,25 @@ def write_csv(path: Path, command: str, header: Sequence[str], rows: Sequence[Se
             file.write(f"# {command}\n")
             writer = csv.writer(file)
             writer.writerow(header)
-            writer.writerows(rows)
+            writer.writerows([_short(value) for value in row] for row in rows)
+    except OSError as error:
+        raise RecordingError(f"{path}: cannot be written ({error.strerror})") from error
+
+
+def _short(value: Any) -> Any:
+    return f"{value:.6g}" if isinstance(value, float) else value
+
+
+def write_images(path: Path, command: str, images: Mapping[str, Sequence[Sequence[float]]]) -> None:
+    """Write images to a compressed npz file, each as an array of its name, and the command as `command`.
+
+    Raises
+    ------
+    RecordingError
+        When it cannot be written.
+    """
+    try:
+        arrays: dict[str, Any] = {name: np.array(image, "f4") for name, image in images.items()}
+        np.savez_compressed(path, command=np.array(command), **arrays)
     except OSError as error:
         raise RecordingError(f"{path}: cannot be written ({error.strerror})") from error

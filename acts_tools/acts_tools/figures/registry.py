@@ -16,12 +16,13 @@ from acts_tools.figures.board import force_response, frame_rates, on_board
 from acts_tools.figures.control import hand, letters
 from acts_tools.figures.events import bounces, ricochets, rotator, soft_bodies, wearables
 from acts_tools.figures.figure import Figure
-from acts_tools.figures.recovery import dictionaries, large_area, new_objects, recognition, support
+from acts_tools.figures.recovery import confusion, dictionaries, large_area, new_objects, recognition, support
 
 _MODULES = (
     frame_rates,
     support,
     recognition,
+    confusion,
     bounces,
     ricochets,
     soft_bodies,

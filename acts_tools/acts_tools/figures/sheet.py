@@ -33,6 +33,8 @@ class Curve:
         Points only, without a line.
     beside : str
         Of a published curve, the label of the curve in the same panel that it is compared with; empty for none.
+    at : float or None
+        Value of a scale that the panel names, as a time: sets the colour, and the height in a solid.
     """
 
     label: str
@@ -44,6 +46,7 @@ class Curve:
     high: list[float] = field(default_factory=list)
     points: bool = False
     beside: str = ""
+    at: float | None = None
 
 
 @dataclass(frozen=True)
@@ -113,6 +116,13 @@ class Panel:
         `PUBLISHED` if all of it is; else empty.
     equal : bool
         The same length for a unit on both axes.
+    x_min, x_max : float or None
+    x_names : list of str
+        What stands at 1, 2, ... of the x axis; empty for numbers.
+    at_label : str
+        What `at` of the curves is; empty where they have none.
+    solid : bool
+        Closed curves above one another, at the heights `at`, with the surface through them.
     """
 
     title: str
@@ -127,6 +137,11 @@ class Panel:
     y_max: float | None = None
     by: str = ""
     equal: bool = False
+    x_min: float | None = None
+    x_max: float | None = None
+    x_names: list[str] = field(default_factory=list)
+    at_label: str = ""
+    solid: bool = False
 
     def without_published(self) -> Panel:
         """The same panel without published curves."""
@@ -187,6 +202,9 @@ def _filled(entry: dict[str, Any]) -> dict[str, Any]:
 Row = tuple[str, str, str, float, float, float | None, float | None]
 """Of the CSV file: panel, curve, whose, x, y, low, high; of an image panel, row, "picture", column, value."""
 
+_PIXELS_MAX = 10_000
+"""An image of more pixels is not written to the CSV file, where each takes a line."""
+
 
 def rows(panels: Sequence[Panel]) -> list[Row]:
     """All numbers as rows of the CSV file."""
@@ -202,8 +220,19 @@ def _of_curves(panel: Panel) -> list[Row]:
     return found
 
 
+def large_images(panels: Sequence[Panel]) -> dict[str, list[list[float]]]:
+    """Images that are too large for the CSV file, by the titles of their panels."""
+    return {
+        panel.title: panel.picture.values
+        for panel in panels
+        if panel.picture is not None and len(panel.picture.values) * len(panel.picture.values[0]) > _PIXELS_MAX
+    }
+
+
 def _of_picture(panel: Panel) -> list[Row]:
     values = panel.picture.values if panel.picture is not None else []
+    if large_images([panel]):
+        return [(panel.title, "in the npz file; columns, rows", "picture", len(values[0]), len(values), None, None)]
     return [
         (panel.title, str(number), "picture", col, value, None, None)
         for number, row in enumerate(values)

@@ -35,6 +35,9 @@ _PATCHES, _FRAMES = 1492, 300
 
 _PRESSES, _PRESSES_FAST = 90, 10
 _BOARD_COLUMNS_CHOSEN = 2
+_SLOWEST_HZ, _FASTEST_HZ = 10.0, 5000.0
+"""Ends of the maps' colour scale."""
+
 _M_LABEL = "taxels measured per frame, M"
 _NOTE = "Rates: the virtual board's model, which is made of the published times; no board was at hand."
 
@@ -151,6 +154,8 @@ def _picture(rates: list[list[float]], sizes: Sequence[int]) -> Picture:
         sizes[0] - half,
         sizes[-1] + half,
         logarithmic=True,
+        lowest=_SLOWEST_HZ,
+        highest=_FASTEST_HZ,
     )
 
 
@@ -167,13 +172,13 @@ def _measure_maps(run: Run) -> list[Panel]:
         [float(m) for m in support["m"]],
         [float(atoms) for atoms in support["atoms"]],
         support["support"],
-        _levels(support["support"], (0.90, 0.93, 0.95, 0.96, 0.97, 0.98, 0.985, 0.99)),
+        _levels(support["support"], (0.93, 0.96, 0.98, 0.99)),
     )
     of_accuracy = Contours(
         [float(m) for m in accuracy["m"]],
         [float(columns) for columns in accuracy["columns"]],
         accuracy["accuracy"],
-        _levels(accuracy["accuracy"], (0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.98, 0.99)),
+        _levels(accuracy["accuracy"], (0.6, 0.8, 0.9, 0.95)),
     )
     return [
         _map("recovery, lines: support accuracy", "image", _FINE, "atoms, K", of_support),
@@ -181,10 +186,10 @@ def _measure_maps(run: Run) -> list[Panel]:
     ]
 
 
-def _published_map(data: PublishedData) -> list[Panel]:
+def _published_map(data: PublishedData, panels: Sequence[Panel]) -> list[Panel]:
     rates = data.array("fig8_heatmap.npz", "fps").astype(float).tolist()
     panel = Panel("recovery, published", _M_LABEL, "atoms, K", picture=_picture(rates, _FINE), by=PUBLISHED)
-    return [panel]
+    return [panel, *panels]
 
 
 FIGURES = (

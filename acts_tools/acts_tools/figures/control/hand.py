@@ -74,16 +74,17 @@ def _measure(run: Run) -> list[Panel]:
     found = run.shared("hand", lambda: _measure_all(run))
     panels = []
     for one in _SHOWN:
-        curves = []
+        curves, kept = [], []
         for label, _, _, by, colour in _RUNS:
             own = [entry for entry in found if (entry["scenario"], entry["run"]) == (one.scenario, label)]
             told = [(float(entry["seed"]), entry["value"]) for entry in own if entry["value"] is not None]
+            kept.append(sum(entry["kept"] for entry in own))
             if told:
-                kept = sum(entry["kept"] for entry in own)
                 x, y = [seed for seed, _ in told], [value for _, value in told]
-                curves.append(Curve(f"{label}: kept {kept} of {len(own)}", x, y, by, colour))
+                curves.append(Curve(label, x, y, by, colour, points=True))
         if curves:
-            panels.append(Panel(one.title, "run", one.y_label, curves, y_min=0.0))
+            x_label = f"run (kept: {', '.join(map(str, kept))})"
+            panels.append(Panel(one.title, x_label, one.y_label, curves, y_min=0.0))
     return panels
 
 
@@ -93,7 +94,8 @@ FIGURES = (
         "reflexes of a hand by touch alone",
         _measure,
         notes=(
-            "Runs of `acts evaluate hand`, a simulated hand; kept: the object, or of the sharp tip all other contacts.",
+            "Runs of `acts evaluate hand`, a simulated hand. Kept: in how many runs, in the order of the legend, the "
+            "object, or of the sharp tip all other contacts.",
             "The paper shows photographs and videos of single trials, without numbers.",
         ),
     ),

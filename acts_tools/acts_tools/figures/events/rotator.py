@@ -26,6 +26,9 @@ _SHOWN = (1.0, 3.0, 5.0)
 _HZ_PER_VOLT = 13.1
 """Turns a second of the simulated motor; the published peaks at M = 64 lie near this line."""
 
+_SHOWN_HZ = 150.0
+"""More than twice the fastest motor's tone; nothing is above."""
+
 _FORCE_N, _AMPLITUDE_N, _OVERTONE, _ROCKING = 6.0, 0.6, 0.2, 0.2
 _NOISE_COUNTS = 3.0
 _LOWEST_HZ = motors.LOWEST_HZ / 2
@@ -85,7 +88,7 @@ def _measure(run: Run) -> list[Panel]:
                 x, y = entry["ours"]
                 curves.append(Curve("ours", x, y, OURS, "tracking"))
             title = f"{entry['volt']:g} V, M = {entry['m']}"
-            panels.append(Panel(title, "frequency [Hz]", "amplitude / largest", curves))
+            panels.append(Panel(title, "frequency [Hz]", "amplitude / largest", curves, x_min=0.0, x_max=_SHOWN_HZ))
     for m in sorted({entry["m"] for entry in found}):
         own = [entry for entry in found if entry["m"] == m]
         volts = [entry["volt"] for entry in own]
@@ -100,7 +103,7 @@ def _measure(run: Run) -> list[Panel]:
         ]
         # Above twice the fastest motor, half the frame rate is of no interest.
         kept = [curve for curve in curves if max(curve.y, default=0.0) < 2 * _HZ_PER_VOLT * _VOLTS[-1]]
-        panels.append(Panel(f"strongest tone, M = {m}", "volts", "frequency [Hz]", kept))
+        panels.append(Panel(f"strongest tone, M = {m}", "voltage [V]", "frequency [Hz]", kept))
     return panels
 
 
@@ -108,10 +111,10 @@ def _published(data: PublishedData, panels: Sequence[Panel]) -> dict[str, list[C
     found = {}
     for panel in panels:
         m = int(panel.title.rpartition(" ")[2])
-        if panel.x_label == "volts":
+        if panel.x_label.startswith("voltage"):
             peaks = [_peak_hz(*data.points(_FILE, f"M={m}", axes).T) for axes in range(len(_VOLTS))]
             curve = Curve(
-                "published", list(_VOLTS), peaks, PUBLISHED, "tab:green", points=True, beside="paper's method"
+                "published, peak", list(_VOLTS), peaks, PUBLISHED, "tab:green", points=True, beside="paper's method"
             )
         else:
             volt = float(panel.title.partition(" ")[0])

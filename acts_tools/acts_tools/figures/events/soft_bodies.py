@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.array import ArrayGeometry
 from acts_tools.evaluate.outlines import tracing
 from acts_tools.evaluate.outlines.outlines_command import scores_of, touch_of
 from acts_tools.figures.figure import Figure
@@ -64,13 +65,14 @@ def _measure(body: str) -> Callable[[Run], list[Panel]]:
     def measure(run: Run) -> list[Panel]:
         found = run.shared(f"outlines_{body}", lambda: _measure_body(run, body))
         panels = []
-        for who, title in (("paper", "paper's method"), ("ours", "ours"), ("truth", "truth")):
-            outlines = found["drawn"][who]
-            chosen = outlines[:: -(-len(outlines) // _OUTLINES_MAX) or 1]
-            begin_ms = found["drawn"]["truth"][0][0]
-            by = {"paper": SAME, "ours": OURS, "truth": TRUTH}[who]
-            curves = [Curve(f"{ms - begin_ms:.1f} ms", x, y, by, f"C{k}") for k, (ms, x, y) in enumerate(chosen)]
-            panels.append(Panel(f"outlines, M = {_M_DRAWN}, {title}", "x [mm]", "y [mm]", curves, equal=True))
+        begin_ms = found["drawn"]["truth"][0][0]
+        for solid in (False, True):
+            for who, title, by in (
+                ("paper", "paper's method", SAME),
+                ("ours", "ours", OURS),
+                ("truth", "truth", TRUTH),
+            ):
+                panels.append(_outlines(found["drawn"][who], begin_ms, title, by, solid=solid))
         for number, title, y_label in (("frames", _FRAMES, "frames"), ("error", _ERROR, "mean distance [taxels]")):
             curves = []
             for who, label, by, scheme in (
@@ -87,6 +89,44 @@ def _measure(body: str) -> Callable[[Run], list[Panel]]:
         return panels
 
     return measure
+
+
+def _outlines(
+    outlines: Sequence[tuple[float, list[float], list[float]]], begin_ms: float, title: str, by: str, *, solid: bool
+) -> Panel:
+    """Some of the outlines of a touch in the plane, or all of them above one another, time upwards."""
+    chosen = outlines if solid else outlines[:: -(-len(outlines) // _OUTLINES_MAX) or 1]
+    curves = [Curve(f"{ms - begin_ms:.1f} ms", x, y, by, at=ms - begin_ms) for ms, x, y in chosen]
+    return Panel(
+        f"{'surface' if solid else 'outlines'}, M = {_M_DRAWN}, {title}",
+        "x [mm]",
+        "y [mm]",
+        curves,
+        by=by if by == PUBLISHED else "",
+        equal=True,
+        at_label="time [ms]",
+        solid=solid,
+    )
+
+
+def _published_outlines(body: str) -> Callable[[PublishedData, Sequence[Panel]], list[Panel]]:
+    def published(data: PublishedData, panels: Sequence[Panel]) -> list[Panel]:
+        """Before ours, those of the published touch, about their common middle, as their place is not told."""
+        rows = data.array("outlines_fig7.npz", _PUBLISHED_NAMES[body])
+        rows = rows[rows[:, 0] == _M_DRAWN]
+        # Each frame repeats its corners several times, in order.
+        frames = [
+            (time_s, list(dict.fromkeys(map(tuple, rows[rows[:, 3] == time_s, 1:3].tolist()))))
+            for time_s in np.unique(rows[:, 3]).tolist()
+        ]
+        middle = np.mean([corner for _, corners in frames for corner in corners], axis=0)
+        pitch_m = ArrayGeometry().pitch_m
+        outlines = [_closed(time_s, pitch_m * (np.array(corners) - middle)) for time_s, corners in frames]
+        flat, solid = (_outlines(outlines, outlines[0][0], "published", PUBLISHED, solid=way) for way in (False, True))
+        first = next(number for number, panel in enumerate(panels) if panel.solid)
+        return [flat, *panels[:first], solid, *panels[first:]]
+
+    return published
 
 
 def _published(body: str) -> Callable[[PublishedData, Sequence[Panel]], dict[str, list[Curve]]]:
@@ -107,7 +147,14 @@ FIGURES = tuple(
         f"outlines over time: {body}",
         _measure(body),
         _published(body),
-        notes=("The published outlines are polygons on whole taxels without a true edge: only their frames compare.",),
+        _published_outlines(body),
+        columns=4,
+        panel_inch=(2.8, 2.6),
+        notes=(
+            "The published outlines are polygons on whole taxels without a true edge, of one touch; its place is not "
+            "told.",
+            f"In the plane at most {_OUTLINES_MAX} outlines of a touch are drawn, in the surfaces all.",
+        ),
     )
     for body, name in _BODIES.items()
 )

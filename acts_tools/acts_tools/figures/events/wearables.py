@@ -17,12 +17,14 @@ from acts_tools.evaluate.wearables.watching import SCHEME, THRESHOLD_COUNTS, TOU
 from acts_tools.evaluate.wearables.wearables_command import scene_of
 from acts_tools.figures.figure import Figure
 from acts_tools.figures.run import Run
-from acts_tools.figures.sheet import OURS, TRUTH, Curve, Panel, Picture
+from acts_tools.figures.sheet import OURS, TRUTH, Curve, Panel
+from acts_tools.figures.skin_images import skin_panel
 
 _M = 64
 _NOISE_COUNTS = 3.0
 _SCENES = 5
-_TRUTH_STEP_S = 0.002
+_TRUTH_STEP_S = 0.0005
+_ONSET_COLOUR = "C0"
 _ONSET_FRAMES = 3
 """Images at the onset are those of the third frame that shows the touch."""
 
@@ -30,7 +32,9 @@ _ONSET_FRAMES = 3
 def _measure(run: Run) -> list[Panel]:
     names = run.pick(tuple(SCENES), ("arm_tap", "helmet_hit"))
     panels: list[Panel] = []
-    errors: list[Curve] = []
+    places: list[float] = []
+    errors_ms: list[float] = []
+    figures: list[str] = []
     with run.progress("scenes", len(names) * run.pick(_SCENES, 1)) as progress:
         done = 0
         for place, name in enumerate(names):
@@ -42,10 +46,14 @@ def _measure(run: Run) -> list[Panel]:
                     panels += _panels(shown, watcher)
                 found.add(shown, watcher.watch(shown, _M, _NOISE_COUNTS, number + 1))
                 progress.show(done := done + 1, name)
-            label = f"{place + 1}: {_title(shown)}"
-            errors.append(Curve(label, [place + 1.0] * len(found.onset_ms), found.onset_ms, OURS, points=True))
-    limit = [Curve("", [0.5, len(names) + 0.5], [at_ms] * 2, TRUTH, "truth") for at_ms in (-2.0, 2.0)]
-    return [*panels, Panel("errors of onsets", "scene", "told less true [ms]", [*errors, *limit])]
+            places += [place + 1.0] * len(found.onset_ms)
+            errors_ms += found.onset_ms
+            figures.append(shown.kind.figure)
+    curves = [
+        Curve("onset", places, errors_ms, OURS, _ONSET_COLOUR, points=True),
+        *(Curve("", [0.5, len(names) + 0.5], [at_ms] * 2, TRUTH, "truth") for at_ms in (-2.0, 2.0)),
+    ]
+    return [*panels, Panel("errors of onsets", "scene", "told less true [ms]", curves, x_names=figures)]
 
 
 def _title(shown: WornScene) -> str:
@@ -78,29 +86,35 @@ def _panels(shown: WornScene, watcher: Watcher) -> list[Panel]:
             first = image.copy()
     true_s = np.arange(0.0, shown.duration_s, _TRUTH_STEP_S)
     marks = [
-        Curve("onset" if not number else "", [at_ms] * 2, [0.0, max(forces)], OURS, "tracking")
+        Curve("onset" if not number else "", [at_ms] * 2, [0.0, max(forces)], OURS, _ONSET_COLOUR)
         for number, at_ms in enumerate(onsets)
     ]
     curves = [
         Curve("truth", (1e3 * true_s).tolist(), [shown.force_n(at_s) for at_s in true_s.tolist()], TRUTH, "truth"),
-        Curve("ours", times, forces, OURS, "adaptive"),
-        *marks,
+        Curve("ours", times, forces, OURS, "tracking"),
     ]
     title = _title(shown)
+    # Without the rest before and after, so that short hits are seen.
+    touched_ms = [at_ms for curve in curves for at_ms, force_n in zip(curve.x, curve.y, strict=True) if force_n > 0]
+    first_ms, last_ms = min(touched_ms), max(touched_ms)
+    around_ms = 0.1 * (last_ms - first_ms) + 1.0
     return [
-        Panel(title, "time [ms]", "force [N]", curves, y_min=0.0),
+        Panel(
+            title,
+            "time [ms]",
+            "force [N]",
+            [*curves, *marks],
+            y_min=0.0,
+            x_min=first_ms - around_ms,
+            x_max=last_ms + around_ms,
+        ),
         _image(f"{title}: onset", peak if first is None else first, geometry),
         _image(f"{title}: peak", peak, geometry),
     ]
 
 
 def _image(title: str, image: NDArray[np.float32], geometry: ArrayGeometry) -> Panel:
-    half_x = 500 * geometry.cols * geometry.pitch_m
-    half_y = 500 * geometry.rows * geometry.pitch_y_m
-    highest = max(float(image.max()), 1.0)
-    return Panel(
-        title, picture=Picture(image.tolist(), "counts", -half_x, half_x, -half_y, half_y, lowest=0.0, highest=highest)
-    )
+    return skin_panel(title, image, geometry, highest=max(float(image.max()), 1.0))
 
 
 FIGURES = (
@@ -110,7 +124,7 @@ FIGURES = (
         _measure,
         notes=(
             "M = 64. Simulated scenes: motions, shapes and stiffnesses are ours. Published are pictures only.",
-            "Red lines: onsets as told when the touch is over; the fingers of a catch are touches of their own.",
+            "Vertical lines: onsets as told when the touch is over; the fingers of a catch are touches of their own.",
         ),
     ),
 )

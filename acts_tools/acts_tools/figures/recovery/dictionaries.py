@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -60,11 +61,16 @@ def _mosaic(atoms: NDArray[np.floating], side: int) -> list[list[float]]:
         row, col = divmod(number, _ATOMS_A_ROW)
         shown = atom.reshape(side, side).T / np.abs(atom).max()
         image[row * step : row * step + side, col * step : col * step + side] = shown
-    return image.round(3).tolist()
+    return image.round(2).tolist()
 
 
 def _panel(title: str, atoms: NDArray[np.floating], side: int, by: str = "") -> Panel:
-    return Panel(title, picture=Picture(_mosaic(atoms, side), lowest=-0.3, highest=1.0), by=by)
+    image = _mosaic(atoms, side)
+    rows = len(image) / (side + _GAP)
+    picture = Picture(
+        image, "share of the largest entry", right=float(_ATOMS_A_ROW), bottom=rows, lowest=-0.3, highest=1.0
+    )
+    return Panel(title, "atom of a row", f"row of {_ATOMS_A_ROW} atoms", picture=picture, by=by, equal=True)
 
 
 def _measure_dictionary(run: Run) -> list[Panel]:
@@ -72,12 +78,9 @@ def _measure_dictionary(run: Run) -> list[Panel]:
     return [_panel("the dictionary that comes with ACTS", dictionary.atoms, dictionary.patch_size)]
 
 
-def _published_dictionary(data: PublishedData) -> list[Panel]:
-    return [
-        _panel(
-            "published (estimated from its picture)", data.array("dictionaries.npz", "learned_unit_est"), 8, PUBLISHED
-        )
-    ]
+def _published_dictionary(data: PublishedData, panels: Sequence[Panel]) -> list[Panel]:
+    atoms = data.array("dictionaries.npz", "learned_unit_est")
+    return [_panel("published (estimated from its picture)", atoms, 8, PUBLISHED), *panels]
 
 
 FIGURES = (
@@ -92,6 +95,8 @@ FIGURES = (
         "the learnt dictionary, 1000 atoms of 8 x 8",
         _measure_dictionary,
         published_panels=_published_dictionary,
-        columns=2,
+        columns=1,
+        panel_inch=(8.2, 5.2),
+        notes=("Each atom is divided by its largest entry.",),
     ),
 )

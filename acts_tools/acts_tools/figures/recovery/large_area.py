@@ -8,9 +8,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from acts_core.array import ArrayGeometry
+from acts_core.array import COUNT_MAX, ArrayGeometry
 from acts_recon.methods import SkinSetup
 from acts_sim.pressing import (
     ContactObject,
@@ -28,11 +27,12 @@ from acts_tools.evaluate.images.board_sampler import sampler_of
 from acts_tools.figures.figure import Figure
 from acts_tools.figures.recovery import presses
 from acts_tools.figures.run import Run
-from acts_tools.figures.sheet import Panel, Picture
+from acts_tools.figures.sheet import Panel
+from acts_tools.figures.skin_images import skin_panel
 
 _M = 64
-_OUR_FRAMES = 40
-"""Frames since the touch began, for ours; the paper's method uses one alone."""
+_OURS_S = 0.046
+"""Time since the touch began, for ours; the paper's method uses one frame alone."""
 
 _DEPTH_M = (0.002, 0.003)
 _BAR_M = 0.025
@@ -85,30 +85,21 @@ def _measure(run: Run) -> list[Panel]:
     for touch in _touches():
         arm = PressingArm([touch.item], foam=FoamConfig(noise_counts=0.0), seed=run.seed)
         frame = arm.held_frame(0)
-        held = frame[None]
         its = presses.task(run, "paper", touch.scheme, _M)
-        indices, counts = sampler_of(its.sampling, its.noise_counts).frame(held, 0.0, 0.0)
+        indices, counts = sampler_of(its.sampling, its.noise_counts).frame(frame[None], 0.0, 0.0)
         measured = np.zeros(frame.size)
         measured[indices] = counts
         alone = method_named("paper")(skin, presses.shipped(), {}).step(indices, counts, its.duration_s, its.duration_s)
         panels += [
-            _image(f"{touch.name}: measured, {touch.scheme}", measured),
-            _image("paper's method", alone, touch.name),
+            skin_panel(f"{touch.name}: {what}", image, highest=float(COUNT_MAX))
+            for what, image in (
+                (f"measured, {touch.scheme}", measured),
+                ("paper's method", alone),
+                ("ours", presses.ours_of_held(run, frame, _M, _OURS_S)[0]),
+                ("truth", frame),
+            )
         ]
-        tracking = presses.task(run, "acts", "tracking", _M)
-        sampler = sampler_of(tracking.sampling, tracking.noise_counts)
-        ours = method_named("acts")(skin, presses.shipped(), {})
-        image = ours.image
-        for number in range(1, _OUR_FRAMES + 1):
-            indices, counts = sampler.frame(held, 0.0, 0.0)
-            image = ours.step(indices, counts, number * tracking.period_s, tracking.duration_s)
-        panels += [_image("ours", image, touch.name), _image("truth", frame, touch.name)]
     return panels
-
-
-def _image(title: str, counts: NDArray, of: str = "") -> Panel:
-    values = np.asarray(counts, dtype=float).reshape(32, 32).tolist()
-    return Panel(f"{of}: {title}" if of else title, picture=Picture(values, lowest=0.0, highest=1023.0))
 
 
 FIGURES = (
@@ -117,9 +108,10 @@ FIGURES = (
         "six touches of a large skin",
         _measure,
         columns=4,
+        panel_inch=(2.1, 2.15),
         notes=(
             "M = 64. Simple shapes stand for glove, foam bullet, yardstick and hand, at the largest depth.",
-            f"Ours: {_OUR_FRAMES} frames (46 ms) after the touch began. Published are pictures only.",
+            f"Ours: {1e3 * _OURS_S:.0f} ms (40 frames) after the touch began. Published are pictures only.",
         ),
     ),
 )

@@ -9,11 +9,16 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from acts_core.array import ArrayGeometry
 from acts_core.sampling import SamplingConfig
 from acts_recon.learning import KsvdConfig, learn_dictionary
+from acts_recon.methods import SkinSetup
 from acts_recon.sparse import Dictionary, load_dictionary, shipped_dictionary_path
 from acts_sim.pressing import OBJECTS, PRESS_RATE_HZ, ContactModel, ContactObject, FoamConfig, press_over_time
+from acts_tools.evaluate.estimators.methods import method_named
+from acts_tools.evaluate.images.board_sampler import sampler_of
 from acts_tools.evaluate.images.recovery import FOLLOW_COUNTS, Recording, Task, evaluate
 from acts_tools.figures.run import Run
 from acts_tools.train import choose_patches, model_frames
@@ -98,6 +103,26 @@ def over_m(
                 values.append(support(recordings, task(run, method, scheme, m, rate_hz=rate_hz), dictionary))
                 progress.show(sum(map(len, found.values())))
     return {"m": list(ms), "support": found}
+
+
+def ours_over_m(run: Run) -> dict[str, Any]:
+    """Support accuracy of our method over M, on one press of every object."""
+
+    def measure() -> Any:
+        return over_m(run, "ours over M", presses(run, objects(run)), [("acts", "tracking")], shipped())
+
+    return run.shared("ours", measure)
+
+
+def ours_of_held(run: Run, frame: NDArray, m: int, duration_s: float) -> tuple[NDArray, int]:
+    """Our image of a touch that is held, some time after it began, and how many frames it is made of."""
+    its = task(run, "acts", "tracking", m)
+    sampler = sampler_of(its.sampling, its.noise_counts)
+    method = method_named("acts")(SkinSetup(ArrayGeometry(), touch_counts=TOUCH_COUNTS), shipped(), {})
+    image, count = method.image, max(round(duration_s / its.period_s), 1)
+    for number in range(1, count + 1):
+        image = method.step(*sampler.frame(frame[None], 0.0, 0.0), number * its.period_s, its.duration_s)
+    return image, count
 
 
 def learn(

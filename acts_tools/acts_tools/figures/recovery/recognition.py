@@ -1,11 +1,11 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Figures 4F, 4G and S7: which object presses, over the taxels measured and over time since contact."""
+"""Figures 4F and 4G: which object presses, over the taxels measured and over time since contact."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -26,35 +26,31 @@ from acts_tools.evaluate.shares import wilson
 from acts_tools.figures.figure import Figure
 from acts_tools.figures.published import PublishedData
 from acts_tools.figures.run import Run
-from acts_tools.figures.sheet import OURS, PUBLISHED, SAME, Curve, Panel, Picture
+from acts_tools.figures.sheet import OURS, PUBLISHED, SAME, Curve, Panel
 
 _RECORDED_HZ = 1000.0
 _SCHEMES = {"adaptive": "Binary Sampling", "uniform": "Down Sampling", "random": "Random Sampling"}
 _AXES = {"adaptive": 2, "uniform": 0, "random": 1}
 """Of the published curves over time."""
 
-_MODES = {"uniform": 0, "random": 1, "adaptive": 2}
-"""Of the published confusion matrices."""
-
 _M = (42, 48, 56, 64, 88, 128, 256, 512)
 _M_OVER_TIME = (64, 112, 192, 256, 512, 1024)
-_M_OF_MATRICES = (64, 256, 512, 1024)
-_WINDOWS_MS = (25, 50, 100)
-_LAST_MS = 100
-_ALL = 1024
-_OURS = "ours"
+WINDOWS_MS = (25, 50, 100)
+LAST_MS = 100
+ALL = 1024
+OUR_KEY = "ours"
 
 
 def _contenders(run: Run) -> list[tuple[str, int, bool]]:
-    """Scheme or `_OURS`, M, and whether all times are asked for, or only that of a held press."""
-    over_time = run.pick(_M_OVER_TIME, (64, _ALL))
+    """Scheme or `OUR_KEY`, M, and whether all times are asked for, or only that of a held press."""
+    over_time = run.pick(_M_OVER_TIME, (64, ALL))
     ms = sorted({*run.pick(_M, (64,)), *over_time})
     return [
         (scheme, m, m in over_time)
-        for scheme in (*_SCHEMES, _OURS)
+        for scheme in (*_SCHEMES, OUR_KEY)
         for m in ms
         # All taxels take 18 ms: our method has no use for such a frame, which has no choice left.
-        if not (scheme == _OURS and m == _ALL)
+        if not (scheme == OUR_KEY and m == ALL)
     ]
 
 
@@ -65,11 +61,11 @@ def _measure_all(run: Run) -> dict[str, Any]:
     if run.fast:
         trials = Trials(arms=1, presses=1, columns=2, seed=run.seed, objects=items)
     asked = _contenders(run)
-    every_ms = list(range(1, _LAST_MS + 1))
+    every_ms = list(range(1, LAST_MS + 1))
     count = len(OBJECTS) if items is None else len(items)
-    right = {f"{scheme} {m}": np.zeros(_LAST_MS if whole else 1, dtype=int) for scheme, m, whole in asked}
+    right = {f"{scheme} {m}": np.zeros(LAST_MS if whole else 1, dtype=int) for scheme, m, whole in asked}
     matrices = {
-        f"{scheme} {m}": np.zeros((len(_WINDOWS_MS), count, count), dtype=int) for scheme, m, whole in asked if whole
+        f"{scheme} {m}": np.zeros((len(WINDOWS_MS), count, count), dtype=int) for scheme, m, whole in asked if whole
     }
     names: list[str] = []
     presses = 0
@@ -79,20 +75,20 @@ def _measure_all(run: Run) -> dict[str, Any]:
             names = list(coarse.names)
             judged = {
                 f"{scheme} {m}": FusedImage(fine, m, period_s=frame_period_s(m), noise_counts=trials.foam.noise_counts)
-                if scheme == _OURS
-                else PerFrameSrc(coarse, m, scheme="raster" if m == _ALL else scheme)
+                if scheme == OUR_KEY
+                else PerFrameSrc(coarse, m, scheme="raster" if m == ALL else scheme)
                 for scheme, m, _ in asked
             }
             for item in range(count):
                 wanted = names.index(arm.objects[item].name)
                 for _ in range(trials.presses):
-                    frames, contact_s = press_of(arm, item, 1e-3 * _LAST_MS + 0.015)
+                    frames, contact_s = press_of(arm, item, 1e-3 * LAST_MS + 0.015)
                     for key, total in right.items():
                         times_ms = every_ms if len(total) > 1 else [MIDDLE_MS]
                         found = answers(judged[key], frames, _RECORDED_HZ, contact_s, [1e-3 * ms for ms in times_ms])
                         total += [answer == wanted for answer in found]
                         if key in matrices:
-                            for window, ms in enumerate(_WINDOWS_MS):
+                            for window, ms in enumerate(WINDOWS_MS):
                                 answer = found[ms - 1]
                                 if answer is not None:
                                     matrices[key][window, wanted, answer] += 1
@@ -105,25 +101,26 @@ def _measure_all(run: Run) -> dict[str, Any]:
     }
 
 
-def _shared(run: Run) -> Any:
+def shared_answers(run: Run) -> Any:
+    """Right answers and confusion matrices of all contenders, measured once."""
     return run.shared("recognition", lambda: _measure_all(run))
 
 
 def _measure_over_m(run: Run) -> list[Panel]:
-    found = _shared(run)
+    found = shared_answers(run)
     curves = []
-    for scheme in (*_SCHEMES, _OURS):
+    for scheme in (*_SCHEMES, OUR_KEY):
         ms = [m for one, m, _ in _contenders(run) if one == scheme]
         # The millisecond of a held press, where all were asked for.
         held = [(right := found["right"][f"{scheme} {m}"])[round(MIDDLE_MS) - 1 if len(right) > 1 else 0] for m in ms]
         bounds = [wilson(right, found["presses"]) for right in held]
         curves.append(
             Curve(
-                "ours, tracking" if scheme == _OURS else scheme,
+                "ours, tracking" if scheme == OUR_KEY else scheme,
                 [float(m) for m in ms],
                 [right / found["presses"] for right in held],
-                OURS if scheme == _OURS else SAME,
-                "tracking" if scheme == _OURS else scheme,
+                OURS if scheme == OUR_KEY else SAME,
+                "tracking" if scheme == OUR_KEY else scheme,
                 low=[low for low, _ in bounds],
                 high=[high for _, high in bounds],
             )
@@ -146,7 +143,7 @@ def _published_over_m(data: PublishedData, panels: Sequence[Panel]) -> dict[str,
     }
 
 
-def _running_mean(right: Sequence[int], m: int, presses: int) -> tuple[list[float], list[float]]:
+def running_mean(right: Sequence[int], m: int, presses: int) -> tuple[list[float], list[float]]:
     """Time [ms], and accuracy as the paper has it: mean over all answers since contact; from the first answer on."""
     first = int(np.ceil(m * SAMPLE_US * 1e-3))
     shares = np.array(right[first - 1 :]) / presses
@@ -155,23 +152,23 @@ def _running_mean(right: Sequence[int], m: int, presses: int) -> tuple[list[floa
 
 
 def _measure_over_time(run: Run) -> list[Panel]:
-    found = _shared(run)
+    found = shared_answers(run)
     presses = found["presses"]
-    over_time = run.pick(_M_OVER_TIME, (64, _ALL))
+    over_time = run.pick(_M_OVER_TIME, (64, ALL))
     panels = []
     for scheme in _SCHEMES:
         curves = []
         for number, m in enumerate(over_time):
-            x, y = _running_mean(found["right"][f"{scheme} {m}"], m, presses)
+            x, y = running_mean(found["right"][f"{scheme} {m}"], m, presses)
             curves.append(Curve(f"M = {m}", x, y, SAME, f"C{number}"))
         panels.append(Panel(f"{scheme}, mean since contact", "time since contact [ms]", "accuracy", curves))
     last = []
     for number, m in enumerate(over_time):
-        for scheme, by in ((_OURS, OURS), ("adaptive", SAME)):
+        for scheme, by in ((OUR_KEY, OURS), ("adaptive", SAME)):
             right = found["right"].get(f"{scheme} {m}")
             if right is not None and (by == OURS or m == over_time[0]):
                 first = int(np.ceil(m * SAMPLE_US * 1e-3))
-                x = [float(ms) for ms in range(first, _LAST_MS + 1)]
+                x = [float(ms) for ms in range(first, LAST_MS + 1)]
                 label = f"{'ours' if by == OURS else 'paper, adaptive'}, M = {m}"
                 last.append(Curve(label, x, [one / presses for one in right[first - 1 :]], by, f"C{number}"))
     panels.append(Panel("each answer by itself", "time since contact [ms]", "accuracy", last))
@@ -187,58 +184,17 @@ def _published_over_time(data: PublishedData, panels: Sequence[Panel]) -> dict[s
             m = curve.label.rpartition(" ")[2]
             points = data.points("fig4/time_Acc_classification.fig", f"Measurement Level: {m}", axes)
             # The published time is that of the clock; a thousandth of a second is a point of ours.
-            points = points[(points[:, 0] > 0) & (points[:, 0] <= 1e-3 * _LAST_MS)]
+            points = points[(points[:, 0] > 0) & (points[:, 0] <= 1e-3 * LAST_MS)]
             x, y = (1e3 * points[:, 0]).tolist(), points[:, 1].tolist()
             curves.append(Curve(f"M = {m}, published", x, y, PUBLISHED, curve.scheme, beside=curve.label))
         found[panel.title] = curves
     return found
 
 
-def _matrices(scheme: str) -> Callable[[Run], list[Panel]]:
-    def measure(run: Run) -> list[Panel]:
-        found = _shared(run)
-        ms = run.pick(_M_OF_MATRICES, (64, _ALL))
-        shares: list[Curve] = []
-        panels: list[Panel] = []
-        asked = [(scheme, m) for m in ms] + ([(_OURS, 64)] if scheme == "adaptive" else [])
-        for one, m in asked:
-            key = f"{one} {m}"
-            counts = np.array(found["matrices"][key], dtype=float)
-            _, means = _running_mean(found["right"][key], m, found["presses"])
-            y = [means[window - _LAST_MS - 1] for window in _WINDOWS_MS]
-            label = f"M = {m}" if one != _OURS else f"ours, M = {m}"
-            colour = "tracking" if one == _OURS else f"C{len(shares)}"
-            x = [float(ms) for ms in _WINDOWS_MS]
-            shares.append(Curve(label, x, y, OURS if one == _OURS else SAME, colour))
-            for window, matrix in zip(_WINDOWS_MS, counts, strict=True):
-                of_each = matrix / (found["presses"] / len(matrix))
-                panels.append(
-                    Panel(f"{label}, {window} ms", picture=Picture(of_each.tolist(), lowest=0.0, highest=1.0))
-                )
-        return [*panels, Panel("mean since contact", "time since contact [ms]", "accuracy", shares)]
-
-    return measure
-
-
-def _published_matrices(scheme: str) -> Callable[[PublishedData, Sequence[Panel]], dict[str, list[Curve]]]:
-    def published(data: PublishedData, panels: Sequence[Panel]) -> dict[str, list[Curve]]:
-        counts = data.array("confusion_SRC.npz", "counts")[_MODES[scheme]]
-        ms = data.array("confusion_SRC.npz", "M").tolist()
-        x = (1e3 * data.array("confusion_SRC.npz", "window_s")).tolist()
-        curves = []
-        for curve in panels[-1].curves:
-            if curve.by == SAME:
-                of_m = counts[ms.index(int(curve.label.rpartition(" ")[2]))]
-                y = [float(np.trace(matrix) / matrix.sum()) for matrix in of_m]
-                curves.append(Curve(f"{curve.label}, published", x, y, PUBLISHED, curve.scheme, beside=curve.label))
-        return {panels[-1].title: curves}
-
-    return published
-
-
 _HOW = (
-    "Presses of simulated objects as in docs/recovery.md (360, with --fast 6); bands: 95 % intervals.",
+    "Presses of simulated objects as in docs/recovery.md (360, with --fast 6).",
     "The published repeatability of the spot is unknown: 0.15 taxels here, which fits adaptive sampling.",
+    "Bands: 95 % intervals.",
 )
 
 FIGURES = (
@@ -250,18 +206,5 @@ FIGURES = (
         _published_over_time,
         columns=2,
         notes=_HOW[:1],
-    ),
-    *(
-        Figure(
-            name,
-            f"confusion matrices, {scheme} sampling",
-            _matrices(scheme),
-            _published_matrices(scheme),
-            notes=(
-                "Rows: object pressed; columns: the answer at this time; none where nothing was felt.",
-                "The published matrices count all answers since contact, as the means of the last panel do.",
-            ),
-        )
-        for name, scheme in (("S7-1", "adaptive"), ("S7-2", "uniform"), ("S7-3", "random"))
     ),
 )

@@ -1,0 +1,116 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""How figures are drawn: legends lie on no diagram, and colours do not repeat."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from acts_tools.cli import main
+from acts_tools.figures.board import frame_rates
+from acts_tools.figures.run import Run
+from acts_tools.figures.sheet import OTHERS, OURS, PUBLISHED, SAME, Curve, Panel, Picture, large_images, rows
+
+
+@pytest.fixture
+def page() -> Iterator[Any]:
+    """An empty figure of two places in a row."""
+    # Imported here, because a file of tests imports nothing slow.
+    from matplotlib import pyplot as plt
+
+    figure, _ = plt.subplots(1, 2, figsize=(7, 3), layout="constrained")
+    yield figure
+    plt.close(figure)
+
+
+def diagrams(page: Any, panels: list[Panel]) -> tuple[list[Any], list[Any]]:
+    """Draw panels with their legends, and return where diagrams and legends are."""
+    from acts_tools.figures.drawing.diagrams import draw_panel
+    from acts_tools.figures.drawing.legends import draw_legends
+    from acts_tools.figures.drawing.over_time import scale_of
+    from acts_tools.figures.drawing.style import Looks
+
+    looks = Looks(panels)
+    for axes, panel in zip(page.axes, panels, strict=True):
+        draw_panel(axes, panel, looks, scale_of(panels))
+    draw_legends(page, page.axes, panels, looks, None)
+    page.canvas.draw()
+    legends = [*page.legends, *(axes.get_legend() for axes in page.axes if axes.get_legend())]
+    return [axes.get_window_extent() for axes in page.axes], [legend.get_window_extent() for legend in legends]
+
+
+@pytest.mark.parametrize(("colours", "expected"), [(("C0", "C0"), 1), (("C0", "C1"), 2)])
+def test_legends_are_beside_the_diagrams(page: Any, colours: tuple[str, str], expected: int) -> None:
+    panels = [
+        Panel(f"panel {number}", curves=[Curve("a line with a long name", [0.0, 1.0], [0.0, 1.0], OURS, colour)])
+        for number, colour in enumerate(colours)
+    ]
+    axes, legends = diagrams(page, panels)
+    assert len(legends) == expected
+    assert not any(one.overlaps(other) for one in axes for other in legends)
+    assert all(axis.width > 150 for axis in axes)
+
+
+def test_other_arrays_are_told_apart() -> None:
+    from acts_tools.figures.drawing.style import Looks
+
+    for figure in frame_rates.FIGURES[1:]:
+        panels = figure.measure(Run(Path()))
+        looks = Looks(panels)
+        others = [curve for curve in panels[0].curves if curve.by == OTHERS]
+        seen = {(looks.colour(curve, panels[0]), looks.line(curve)["marker"]) for curve in others}
+        assert len({colour for colour, _ in seen}) == len({marker for _, marker in seen}) == len(others)
+        assert looks.colour(Curve("ours", [], [], OURS, "tracking"), panels[0]) not in {colour for colour, _ in seen}
+
+
+def test_a_published_curve_has_the_colour_of_its_counterpart() -> None:
+    from acts_tools.figures.drawing.style import Looks
+
+    first, second = Curve("first", [0.0], [0.0], SAME), Curve("second", [0.0], [0.0], SAME)
+    published = Curve("second, published", [0.0], [0.0], PUBLISHED, beside="second")
+    panel = Panel("both", curves=[published, first, second])
+    looks = Looks([panel])
+    assert looks.colour(published, panel) == looks.colour(second, panel) != looks.colour(first, panel)
+
+
+def test_a_large_image_is_written_apart(tmp_path: Path) -> None:
+    assert main(["figures", "S5", "--out", str(tmp_path)]) == 0
+    made = json.loads((tmp_path / "fig_s5.json").read_text())
+    (title,) = [panel["title"] for panel in made["panels"]]
+    with np.load(tmp_path / "fig_s5.npz") as file:
+        assert str(file["command"]) == made["command"]
+        np.testing.assert_allclose(file[title], made["panels"][0]["picture"]["values"], atol=1e-6)
+    assert (tmp_path / "fig_s5.csv").stat().st_size < 1000
+    small = Panel("small", picture=Picture([[1.0, 2.0]]))
+    assert not large_images([small])
+    assert len(rows([small])) == 2
+
+
+@pytest.mark.slow
+def test_published_matrices_stand_beside_ours(recording_path: Callable[[str], Path], tmp_path: Path) -> None:
+    data = recording_path("paper/confusion_SRC.npz").parent
+    words = ["figures", "S7-1", "6A", "--fast", "--out", str(tmp_path)]
+    assert main([*words, "--paper-data", str(data)]) == 0
+    made = {name: json.loads((tmp_path / f"fig_{name}.json").read_text())["panels"] for name in ("s7_1", "6a")}
+    titles = [panel["title"] for panel in made["s7_1"]]
+    assert titles[:6] == [f"{who}M = 64, {ms} ms" for who in ("published, ", "") for ms in (25, 50, 100)]
+    assert [len(made["s7_1"][number]["picture"]["values"]) for number in (0, 3)] == [30, 6]
+    np.testing.assert_allclose(np.sum(made["s7_1"][0]["picture"]["values"], axis=1), 1.0)
+    flat, solid = (
+        next(panel for panel in made["6a"] if panel["title"] == f"{kind}, M = 88, published")
+        for kind in ("outlines", "surface")
+    )
+    # Four frames, each a closed line.
+    assert [len(flat["curves"]), len(solid["curves"])] == [4, 4]
+    assert all((curve["x"][0], curve["y"][0]) == (curve["x"][-1], curve["y"][-1]) for curve in solid["curves"])
+    # Again without: nothing published stays.
+    assert main(words) == 0
+    again = json.loads((tmp_path / "fig_s7_1.json").read_text())["panels"]
+    assert [panel["title"] for panel in again] == [title for title in titles if not title.startswith("published")]
