@@ -86,7 +86,7 @@ def run(chain: Chain, limit_s: float = 60.0, show: Callable[[float], None] = lam
     sampler = BoardSampler(
         SamplingConfig(chain.scheme, geometry.rows, geometry.cols, 55, threshold_counts=chain.threshold_counts)
     )
-    recovery = ReconstructionSettings(method=chain.method).recovery()
+    recovery = ReconstructionSettings(method=chain.method, noise_counts=chain.noise_counts).recovery()
     estimator = BallEstimator(chain.estimator)
     controller = BallController(chain.controller)
     trajectory = Trajectory(chain.trajectory)

@@ -93,7 +93,6 @@ FIGURES = (
         _measure,
         notes=(
             "Cumulative pressure and true path; simulated ball, plate and robot; our controller in both.",
-            "Ours shows untouched skin as what its noise reads in the mean, as no calibration tells that noise here.",
             "The paper shows its maps as photographs without numbers.",
         ),
     ),
