@@ -10,7 +10,6 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_core.array import COUNT_MAX
 from acts_core.kernels import kernel
 from acts_recon.fusion.fusion_motion_kernels import FASTMATH
 from acts_recon.fusion.fusion_state import IS_NOISE, QUIET, RESTING, TRUST, UNKNOWN_COUNTS, State, Tuning
@@ -30,7 +29,6 @@ MOST_CONFIRMED = 2.0
 LEAST_CHANGE_COUNTS = 0.85
 
 _F = np.float32
-_TOP = np.float32(COUNT_MAX)
 
 
 @kernel(fastmath=FASTMATH, inline="always")
@@ -79,6 +77,29 @@ def _maximum_filter(state: State, values: NDArray[np.float32], cols: int) -> NDA
 
 
 @kernel(fastmath=FASTMATH, inline="always")
+def _find_most(state: State, cols: int, horizon: np.float32) -> None:
+    """The largest value of each patch that was measured within the horizon."""
+    for p in range(state.patches.shape[0]):
+        top, bottom, left, right = state.patches[p, 0], state.patches[p, 1], state.patches[p, 2], state.patches[p, 3]
+        if right - left == cols:
+            state.most[p] = _most_of(state, top * cols, bottom * cols, horizon)
+            continue
+        state.most[p] = _F(0)
+        for row in range(top, bottom):
+            state.most[p] = max(state.most[p], _most_of(state, row * cols + left, row * cols + right, horizon))
+
+
+@kernel(fastmath=FASTMATH, inline="always")
+def _most_of(state: State, first: int, end: int, horizon: np.float32) -> np.float32:
+    """`_find_most` of consecutive taxels."""
+    value, age, most = state.value[first:end], state.age[first:end], np.int32(0)
+    # All are whole numbers; the compiler vectorises the maximum of integers only.
+    for i in range(value.shape[0]):
+        most = max(most, np.int32(value[i]) if age[i] < horizon else np.int32(0))
+    return _F(most)
+
+
+@kernel(fastmath=FASTMATH, inline="always")
 def show(state: State, cols: int, tuning: Tuning) -> None:
     """Image of the estimates as far as they are trusted; where readings are noise, what untouched skin reads."""
     above, quiet, resting, tile_of = state.total, state.weight, state.before, state.tile_of
@@ -94,6 +115,7 @@ def show(state: State, cols: int, tuning: Tuning) -> None:
     around = _maximum_filter(state, above, cols)
     least, quiet_s, horizon = _F(LEAST_CHANGE_COUNTS), _F(tuning.quiet_s), _F(tuning.horizon_s)
     slope, fade, velocity = state.slope, state.fade, state.velocity
+    _find_most(state, cols, horizon)
     for i in range(image.shape[0]):
         # Too old to be followed: of what the slope has added, only as much stays as is trusted.
         if slope[i] != _F(0) and not age[i] < horizon:
@@ -121,9 +143,11 @@ def show(state: State, cols: int, tuning: Tuning) -> None:
             else:
                 change = learnt[tile_of[i], TRUST] * above[i]
             if abs(change) >= least:
+                # Near full scale a few counts more are a multiple of the force.
+                highest = max(state.most[state.patch_of[i]], value[i])
                 # Whole counts, as readings are: with a fraction more, a taxel that reads just the threshold would be
                 # pressed.
-                image[i] = _F(int(min(max(value[i] + change, _F(0)), _TOP) + _F(0.5)))
+                image[i] = _F(int(min(max(value[i] + change, _F(0)), highest) + _F(0.5)))
     for i in range(image.shape[0]):
         low[i] = around[i] <= _F(0)
         is_settled = (image[i] <= quiet[i]) | ((age[i] < quiet_s) & (quiet[i] >= _F(0)))

@@ -338,7 +338,8 @@ class FusionReference:
         trusted = rest_trust * (ahead - by_slope) + self._trust_slope(by_slope, time, self.slope_square) * by_slope
         change = np.where(self.age < tuning.horizon_s, trusted, tile_trust[self._tile_of] * ahead)
         is_change = (np.abs(ahead) >= LEAST_CHANGE_COUNTS) & (np.abs(change) >= LEAST_CHANGE_COUNTS)
-        self.image = np.clip(self.value + np.where(is_change, change, 0), 0, COUNT_MAX)
+        most = self.value[self.age < tuning.horizon_s].max(initial=0.0)
+        self.image = np.clip(self.value + np.where(is_change, change, 0), 0, np.maximum(self.value, most))
         self.image = np.floor(self.image + 0.5)
         is_settled = (self.image <= quiet) | (self.age < tuning.quiet_s)
         resting: Floats = np.zeros_like(self.low_total)

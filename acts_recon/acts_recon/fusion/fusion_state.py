@@ -99,6 +99,8 @@ class State(NamedTuple):
     patches : np.ndarray [shape=(patches, PATCH_COLUMNS), dtype=int64]
         First row, row behind the last, first column, column behind the last, first tile, rows and columns of tiles.
     patch_of : np.ndarray [shape=(taxels,), dtype=uint16]
+    most : np.ndarray [shape=(patches,), dtype=float32]
+        Largest value that was measured within the horizon [counts].
     nis_excess : np.ndarray [shape=(patches,), dtype=float32]
         Sum of the normalised innovations squared of a frame, less their number.
     rate : np.ndarray [shape=(taxels,), dtype=float32]
@@ -136,6 +138,7 @@ class State(NamedTuple):
     patches: NDArray[np.int64]
     patch_of: NDArray[np.uint16]
     scale: NDArray[np.float32]
+    most: NDArray[np.float32]
     nis_excess: NDArray[np.float32]
     compared: NDArray[np.float32]
     before: NDArray[np.float32]
@@ -159,7 +162,7 @@ class Memory(NamedTuple):
     flags : np.ndarray [shape=(2, taxels), dtype=bool]
     tiles : np.ndarray [shape=(2, tiles + 1, 6), dtype=float32]
     velocity : np.ndarray [shape=(tiles + 1, 3), dtype=float32]
-    scales : np.ndarray [shape=(8, patches), dtype=float32]
+    scales : np.ndarray [shape=(9, patches), dtype=float32]
     learnt : np.ndarray [shape=(tiles + 1, LEARNT_COLUMNS), dtype=float32]
     patches : np.ndarray [shape=(patches, PATCH_COLUMNS), dtype=int64]
     owners : np.ndarray [shape=(2, taxels), dtype=uint16]
@@ -185,7 +188,7 @@ def new_memory(rows: int, cols: int, borders: Borders) -> Memory:
         flags=np.zeros((2, rows * cols), dtype=np.bool_),
         tiles=np.zeros((2, tiles + 1, 6), dtype=np.float32),
         velocity=np.zeros((tiles + 1, 3), dtype=np.float32),
-        scales=np.zeros((8, len(patches)), dtype=np.float32),
+        scales=np.zeros((9, len(patches)), dtype=np.float32),
         learnt=np.zeros((tiles + 1, LEARNT_COLUMNS), dtype=np.float32),
         patches=patches,
         owners=np.stack((borders.rectangle_of.ravel(), _tile_of(rows, cols, patches, tiles))).astype(np.uint16),
@@ -258,6 +261,7 @@ def state_of(memory: Memory) -> State:
         patches=memory.patches,
         patch_of=memory.owners[0],
         scale=scales[2],
+        most=scales[8],
         nis_excess=scales[3],
         compared=scales[4],
         before=taxels[7],
