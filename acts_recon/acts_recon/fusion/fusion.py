@@ -20,15 +20,16 @@ instead of a covariance matrix. One frame takes five steps:
    since then: t over the time between the sample's measurements. One that was never measured is known by those around
    it alone: what of its estimate is above all samples within two taxels fades, by the share of their weights.
 4. **Image.** A taxel shows its last count and, as far as predictions are trusted, how it has changed since: those of
-   this frame, too, since an image is of the end of its frame. None is shown to have risen above what was measured
-   within the last `horizon_s`. A count that can be noise has no slope. The trust is the least squares solution of
-   ``measured change = trust * predicted change``, of each taxel for predictions over less than `horizon_s`, of each
-   tile for longer ones. Where nothing predicted comes true, the image is that of the last values. A slope is trusted as
-   far as earlier slopes came true, and what it predicts counts as one more such prediction, which comes true over times
-   well below `UNPROVEN_S` and fails over longer ones: a slope that nothing but samples beside has confirmed is not
-   followed past the end of an impact, nor a tap that holds. At `horizon_s` the slope is forgotten, and what it added
-   stays as far as it was trusted. In place of the noise of untouched skin its mean is shown, since the noise of a
-   thousand taxels would pull the centre of pressure to and fro. What untouched skin reads is learnt, see below.
+   this frame, too, since an image is of the end of its frame. Above half of the full scale none is shown to have risen
+   beyond what was measured within the last `horizon_s`. A count that can be noise has no slope. The trust is the least
+   squares solution of ``measured change = trust * predicted change``, of each taxel for predictions over less than
+   `horizon_s`, of each tile for longer ones. Where nothing predicted comes true, the image is that of the last values.
+   A slope is trusted as far as earlier slopes came true, and what it predicts counts as one more such prediction, which
+   comes true over times well below `UNPROVEN_S` and fails over longer ones: a slope that nothing but samples beside has
+   confirmed is not followed past the end of an impact, nor a tap that holds. At `horizon_s` the slope is forgotten, and
+   what it added stays as far as it was trusted. In place of the noise of untouched skin its mean is shown, since the
+   noise of a thousand taxels would pull the centre of pressure to and fro. What untouched skin reads is learnt, see
+   below.
 5. **Uncertainty.** ``sigma^2 = noise^2 + s q t^2 + ...``, where t is the taxel's age and q its process noise: the
    exponential average of ``(innovation^2 - 2 noise^2) / t^2``. The factor s is innovation-based adaptive noise. It
    follows the normalised innovation squared, slowly over frames and at once within a frame.

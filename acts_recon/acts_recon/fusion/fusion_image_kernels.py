@@ -10,6 +10,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.array import COUNT_MAX
 from acts_core.kernels import kernel
 from acts_recon.fusion.fusion_motion_kernels import FASTMATH
 from acts_recon.fusion.fusion_state import IS_NOISE, QUIET, RESTING, TRUST, UNKNOWN_COUNTS, State, Tuning
@@ -27,6 +28,9 @@ UNPROVEN_WEIGHT = 0.3
 MOST_CONFIRMED = 2.0
 # Smaller predicted changes are not shown: one step of the converter looks like a slope of nearly one count.
 LEAST_CHANGE_COUNTS = 0.85
+# Above this nothing is shown to have risen beyond what was measured lately: near full scale a few counts more are a
+# multiple of the force.
+STEEP_COUNTS = (COUNT_MAX + 1) // 2
 
 _F = np.float32
 
@@ -143,8 +147,7 @@ def show(state: State, cols: int, tuning: Tuning) -> None:
             else:
                 change = learnt[tile_of[i], TRUST] * above[i]
             if abs(change) >= least:
-                # Near full scale a few counts more are a multiple of the force.
-                highest = max(state.most[state.patch_of[i]], value[i])
+                highest = max(state.most[state.patch_of[i]], value[i], _F(STEEP_COUNTS))
                 # Whole counts, as readings are: with a fraction more, a taxel that reads just the threshold would be
                 # pressed.
                 image[i] = _F(int(min(max(value[i] + change, _F(0)), highest) + _F(0.5)))

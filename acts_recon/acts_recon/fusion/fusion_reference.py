@@ -14,6 +14,7 @@ from acts_recon.fusion.fusion_image_kernels import (
     IDLE_COUNTS_PER_S,
     LEAST_CHANGE_COUNTS,
     MOST_CONFIRMED,
+    STEEP_COUNTS,
     TRUST_PRIOR,
     UNPROVEN_S,
     UNPROVEN_WEIGHT,
@@ -338,7 +339,7 @@ class FusionReference:
         trusted = rest_trust * (ahead - by_slope) + self._trust_slope(by_slope, time, self.slope_square) * by_slope
         change = np.where(self.age < tuning.horizon_s, trusted, tile_trust[self._tile_of] * ahead)
         is_change = (np.abs(ahead) >= LEAST_CHANGE_COUNTS) & (np.abs(change) >= LEAST_CHANGE_COUNTS)
-        most = self.value[self.age < tuning.horizon_s].max(initial=0.0)
+        most = self.value[self.age < tuning.horizon_s].max(initial=STEEP_COUNTS)
         self.image = np.clip(self.value + np.where(is_change, change, 0), 0, np.maximum(self.value, most))
         self.image = np.floor(self.image + 0.5)
         is_settled = (self.image <= quiet) | (self.age < tuning.quiet_s)
