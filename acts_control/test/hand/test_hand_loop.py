@@ -147,7 +147,7 @@ def test_an_overload_is_recovered_once_and_given_up_the_second_time(bus: Bus, ru
     assert torques(bus) == {1}
     bus.command("overload 6")
     running.until_phase(HandPhase.GIVEN_UP)
-    assert running.loop.status.reason == "middle_pip: overload, 2 times within a minute; ~/enable to go on"
+    assert running.loop.status.reason == "middle_pip: overload, 2 times within a minute; call enable to go on"
     assert torques(bus) == {0}
     assert running.loop.enable() == ""  # a person has looked after it
     running.until_phase(HandPhase.ENABLED)

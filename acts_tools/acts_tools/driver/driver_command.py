@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from acts_core.errors import BoardError, SettingsError
 from acts_core.names import full_name
 from acts_core.settings import checked, default_of, describe
+from acts_core.skin import LAYOUTS, layout_path
 
 if TYPE_CHECKING:
     from rclpy.client import Client
@@ -92,6 +93,8 @@ def parameters_of(words: list[str]) -> dict[str, Any]:
     ------
     SettingsError
         There is no such parameter, or the value has another type or is out of range.
+    ArrayError
+        A layout is neither a known name nor a path.
     """
     from acts_driver.board import BOARD_PARAMETERS, BoardParameters
 
@@ -103,7 +106,7 @@ def parameters_of(words: list[str]) -> dict[str, Any]:
         default = default_of(BoardParameters, name)
         kind: Any = type(default)
         try:
-            value = _absolute(text) if name == "model" else kind(text)
+            value = _ABSOLUTE[name](text) if name in _ABSOLUTE else kind(text)
         except ValueError:
             raise SettingsError(
                 f"{word}: needed is a {'whole number' if kind is int else 'number'} for {name}"
@@ -113,9 +116,16 @@ def parameters_of(words: list[str]) -> dict[str, Any]:
     return values
 
 
-def _absolute(path: str) -> str:
-    """An absolute path, because the driver has another working directory."""
+def _absolute_model(path: str) -> str:
     return path if path in ("", "none") else str(Path(path).expanduser().absolute())
+
+
+def _absolute_layout(name_or_path: str) -> str:
+    return name_or_path if name_or_path in ("", *LAYOUTS) else str(layout_path(name_or_path).absolute())
+
+
+_ABSOLUTE = {"model": _absolute_model, "layout": _absolute_layout}
+"""What a driver, which has another working directory, is told of parameters that name a file."""
 
 
 def _call(kind: Any, name: str, request: Any) -> Any:

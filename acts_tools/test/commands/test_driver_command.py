@@ -17,7 +17,7 @@ import pytest
 from rclpy.client import Client
 from std_srvs.srv import Trigger
 
-from acts_core.errors import SettingsError
+from acts_core.errors import ArrayError, SettingsError
 from acts_tools.bench.rigs.processes import virtual_board
 from acts_tools.cli import main
 from acts_tools.driver.driver_command import parameters_of
@@ -76,6 +76,10 @@ def test_parameters_have_the_types_they_are_declared_with() -> None:
     assert found == {"m": 64, "rate_cap_hz": 500.0, "scheme": "tracking", "model": ""}
     assert type(found["rate_cap_hz"]) is float
     assert parameters_of(["model=a.npz"]) == {"model": str(Path.cwd() / "a.npz")}
+    assert parameters_of(["layout=own.yaml"]) == {"layout": str(Path.cwd() / "own.yaml")}
+    assert parameters_of(["layout=glove"]) == {"layout": "glove"}
+    with pytest.raises(ArrayError, match="layout 'glvoe': allowed is one of square"):
+        parameters_of(["layout=glvoe"])
     for word, told in (
         ("m=5000", "m = 5000: allowed is 0 to 4096 (taxels measured per frame"),
         ("m=-1", "m = -1: allowed is 0 to 4096"),

@@ -340,7 +340,7 @@ class HandLoop:
             if not is_forgiven and self._faults.add(k):
                 # First, so that it stays given up where the motors do not answer to the rest.
                 self._enabled = False
-                reason = f"{name}: {fault}, {self._config.max_faults} times within a minute; ~/enable to go on"
+                reason = f"{name}: {fault}, {self._config.max_faults} times within a minute; call enable to go on"
                 self._log("error", reason)
                 self._release()
                 self._set(HandPhase.GIVEN_UP, reason)

@@ -37,7 +37,7 @@ class RobotClaim:
             self._claim = Claim("robot", _numeric(address))
         except ClaimedError as error:
             raise RobotTakenError(
-                f"robot {address} is controlled by {error}; end that program, then call ~/start"
+                f"robot {address} is controlled by {error}; end that program, then call start"
             ) from error
         except OSError as error:
             raise RobotError(f"robot {address} cannot be claimed ({error.strerror})") from error
