@@ -75,6 +75,22 @@ def test_it_follows_what_the_palm_feels_and_remembers_it_where_that_is_lost() ->
     assert np.abs(lost - fresh).max() > 0.02
 
 
+def test_what_held_a_moment_ago_counts_when_closing_ends() -> None:
+    """Thumb and palm feel a light object in turns; the other fingers never meet it."""
+
+    def ended(*turns: list[RegionContact]) -> str:
+        grasp = Grasp(GraspConfig(grasp_posture="cup", close_timeout_s=0.5, grip_settle_s=0.2))
+        for k in range(round(1.0 / DT_S)):
+            grasp.step(sensed(*turns[k % len(turns)], q_rad=POSTURE, goal_rad=POSTURE))
+            if grasp.ended:
+                break
+        return grasp.ended
+
+    thumb, palm = region("thumb_distal", 0.8), on_palm(spread_m=0.008)
+    assert ended([thumb, palm]) == ended([thumb], [palm], [], []) == "gripped by thumb, palm"
+    assert ended([thumb]) == ended([], []) == "nothing was gripped"
+
+
 def test_closing_aims_only_at_what_is_small_and_only_while_no_finger_touches() -> None:
     def first_way(palm: RegionContact, *pressed: RegionContact) -> bool:
         """Whether closing with this touch has begun to aim."""

@@ -26,7 +26,6 @@ from acts_sim.hand import HandTruth, HandWorldConfig, held_object
 from acts_tools.live_hand.live import HandRefusalError, LiveHand
 from acts_tools.live_hand.recording import Array
 
-_BEHIND_S = 0.1
 _SILENCE_S = 10.0
 _PAUSE_S = 0.3
 _REFUSED_S = 5.0
@@ -52,7 +51,11 @@ class LiveRig:
         The true state, and commands to the world.
     supervisor : LiveSupervisor
     reflexes : dict of str to LiveReflex
+    behind_s : float
+        How long after the present it knows of it, and can do something [s].
     """
+
+    behind_s = 0.1
 
     def __init__(self, hand: LiveHand, config: HandWorldConfig) -> None:
         self._hand = hand
@@ -163,7 +166,7 @@ class LiveRig:
 
     def _fetch(self) -> bool:
         """Read the pieces of truth that are old enough; return whether there are data."""
-        recording, known_s = self._recording, time.monotonic() - _BEHIND_S
+        recording, known_s = self._recording, time.monotonic() - self.behind_s
         while self._pieces < len(recording.truth_times) and recording.truth_times[self._pieces][-1] < known_s:
             times_s, rows = recording.truth_times[self._pieces], recording.truth_rows[self._pieces]
             self._pending.extend(zip(times_s.tolist(), rows, strict=True))

@@ -91,6 +91,7 @@ class Grasp:
         self._shaping_s = 0.0
         self._closing_s = 0.0
         self._gripped_s = 0.0
+        self._since_s: dict[str, float] = {}
         self._narrow_s = 0.0
         self._aim: Aim | None = None
 
@@ -111,12 +112,19 @@ class Grasp:
         all_grip = len(gripping) == len(forces)
         self._gripped_s = self._gripped_s + sensed.dt_s if all_grip else 0.0
         is_exhausted = self._closing_s > config.close_timeout_s or not (all_grip or is_closing)
+        holders = self._holders(sensed, gripping)
         if self._gripped_s > config.grip_settle_s or is_exhausted:
-            palm = [name for name, one in sensed.regions.items() if one.in_contact and not sensed.finger(name)]
-            holders = [*gripping, *palm]
             self.has_gripped = len(holders) >= 2
             self.ended = f"gripped by {', '.join(holders)}" if self.has_gripped else "nothing was gripped"
         return Wish(steps, "closing")
+
+    def _holders(self, sensed: Sensed, gripping: Sequence[str]) -> list[str]:
+        """Fingers and regions of the palm that hold, or did a moment ago: a light grip comes and goes."""
+        palm = [name for name, one in sensed.regions.items() if one.in_contact and not sensed.finger(name)]
+        self._since_s = {name: since_s + sensed.dt_s for name, since_s in self._since_s.items()}
+        self._since_s |= dict.fromkeys((*gripping, *palm), 0.0)
+        lately = {name for name, since_s in self._since_s.items() if since_s <= self._config.grip_settle_s}
+        return [name for name in (*sensed.hand.fingers, *sensed.regions) if name in lately]
 
     def _look(self, sensed: Sensed) -> Aim | None:
         """Whether something small lies on the palm: for a while, for what is put down sinks into the skin first."""

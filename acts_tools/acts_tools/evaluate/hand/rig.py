@@ -92,7 +92,11 @@ class HandRig:
         Regions at the last step.
     goal_rad : np.ndarray [shape=(joints,)]
         Goals last sent to the motors [rad].
+    behind_s : float
+        How long after the present it knows of it [s].
     """
+
+    behind_s = 0.0
 
     def __init__(self, world: HandWorldConfig, options: RigOptions) -> None:
         self.world = HandWorld(world)
