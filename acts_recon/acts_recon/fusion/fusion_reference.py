@@ -51,7 +51,6 @@ from acts_recon.fusion.fusion_state import (
     UNKNOWN_COUNTS,
     Tuning,
 )
-from acts_recon.images import Borders
 
 Floats = NDArray[np.float64]
 
@@ -357,46 +356,6 @@ class FusionReference:
         variance = self.noise**2 + self.frame_scale * np.exp(self.log_scale) * process_noise * time**2
         variance += (IDLE_COUNTS_PER_S * np.minimum(self.age, 1e3)) ** 2
         self.sigma = np.minimum(np.sqrt(variance), UNKNOWN_COUNTS)
-
-
-class PatchesReference:
-    """A skin with borders: one `FusionReference` for each of its rectangles.
-
-    Parameters
-    ----------
-    rows, cols : int
-    borders : Borders
-    tuning : Tuning
-    noise : float
-        As of `FusionReference`.
-    """
-
-    def __init__(self, rows: int, cols: int, borders: Borders, tuning: Tuning, noise: float) -> None:
-        self._shape = (rows, cols)
-        self._rectangles = borders.rectangles.tolist()
-        self.parts = [FusionReference(r1 - r0, c1 - c0, tuning, noise) for r0, r1, c0, c1 in self._rectangles]
-
-    def step(
-        self, indices: NDArray[np.integer], counts: NDArray[np.integer], period_s: float, duration_s: float
-    ) -> None:
-        """As `FusionReference.step`, every sample for the rectangle that holds it."""
-        lag = lags(indices.size, duration_s)
-        row, col = np.unravel_index(indices.astype(np.intp), self._shape)
-        for part, (r0, r1, c0, c1) in zip(self.parts, self._rectangles, strict=True):
-            own = (row >= r0) & (row < r1) & (col >= c0) & (col < c1)
-            part.update((row[own] - r0) * (c1 - c0) + col[own] - c0, counts[own], lag[own], period_s)
-
-    def forget(self) -> None:
-        """See `FusionReference.forget`."""
-        for part in self.parts:
-            part.forget()
-
-    def field(self, name: str) -> Floats:
-        """One of the arrays of `FusionReference`, of the whole skin."""
-        whole = np.zeros(self._shape)
-        for part, (r0, r1, c0, c1) in zip(self.parts, self._rectangles, strict=True):
-            whole[r0:r1, c0:c1] = getattr(part, name)
-        return whole
 
 
 def _share(product: Floats, square: Floats) -> Floats:

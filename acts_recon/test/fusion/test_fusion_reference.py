@@ -14,7 +14,8 @@ from recon_samples import layouts
 from acts_core.array import ArrayGeometry
 from acts_core.skin import NO_PATCH, Layout
 from acts_recon.fusion import FusionEstimator
-from acts_recon.fusion.fusion_reference import FusionReference, PatchesReference
+from acts_recon.fusion.fusion_patches_reference import PatchesReference
+from acts_recon.fusion.fusion_reference import FusionReference
 from acts_recon.images import borders_of
 
 pytestmark = pytest.mark.slow

@@ -6,16 +6,14 @@
 from __future__ import annotations
 
 import signal
-from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from dynamixel_bus import DEADLINE_S, TIMEOUT_MS, Bus
+from hand_node_rig import Spin, node_and_user
 from hand_rig import all_regions, region
 from rclpy.node import Node
 from std_srvs.srv import Trigger
-from test_dynamixel_hand import DEADLINE_S, TIMEOUT_MS, Bus
-from test_hand_loop import Spin, node_and_user
 
 from acts_control.hand.description import LEAP_RIGHT
 from acts_core.skin import RegionContact as Touch
@@ -27,13 +25,6 @@ pytestmark = pytest.mark.slow
 DOMAIN_ID = 215
 GRIPPED = [region(f"{finger}_distal", 0.8) for finger in LEAP_RIGHT.fingers]
 TIP = region("index_distal", 0.5, 1, sharpness=10.0)
-
-
-@pytest.fixture
-def bus(tmp_path: Path) -> Iterator[Bus]:
-    bus = Bus(tmp_path)
-    yield bus
-    bus.close()
 
 
 def message_of(touch: Touch) -> RegionContact:

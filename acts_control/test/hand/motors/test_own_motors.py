@@ -25,7 +25,7 @@ from acts_control.hand.motors import MOTORS, HandError, HandLostError, MotorKind
 from acts_core.errors import SettingsError
 from acts_core.settings import describe, setting
 
-PAGE = (Path(__file__).resolve().parents[3] / "docs" / "hand.md").read_text()
+PAGE = (Path(__file__).resolve().parents[4] / "docs" / "hand.md").read_text()
 DEADLINE_S = 20.0
 
 

@@ -1,0 +1,91 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""The simulated Dynamixel bus as a process, and hands at it."""
+
+from __future__ import annotations
+
+import json
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from acts_control.hand.description import LEAP_RIGHT
+from acts_control.hand.motors import DynamixelConfig, DynamixelHand, HandReading
+from acts_sim.dynamixel import ask_once
+
+DEADLINE_S = 30.0
+# Half of how long an answer is waited for: a loaded machine is slow.
+TIMEOUT_MS = 150.0
+
+
+class Bus:
+    """The simulated motors."""
+
+    def __init__(self, folder: Path, *options: str) -> None:
+        self.link, self.control = folder / "hand", folder / "control"
+        self._hands: list[DynamixelHand] = []
+        self.process = subprocess.Popen(
+            [
+                *(sys.executable, "-m", "acts_ros.executables.program", "acts_sim.dynamixel.main"),
+                *("--link", str(self.link)),
+                *("--control", str(self.control), "--return-delay", "0", *options),
+            ],
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+        assert self.process.stdout is not None
+        self.process.stdout.readline()
+
+    def command(self, line: str) -> str:
+        return ask_once(self.control, line)
+
+    def motors(self) -> list[dict[str, Any]]:
+        return list(json.loads(self.command("state"))["motors"])
+
+    def hand(self, **settings: Any) -> DynamixelHand:
+        return self.hand_at(self.link, **settings)
+
+    def hand_at(self, port: Path, **settings: Any) -> DynamixelHand:
+        """A hand at any name of the port; it is given back in the end, for the next bus gets the same device."""
+        config = DynamixelConfig(port=str(port), answer_timeout_ms=TIMEOUT_MS, **settings)
+        self._hands.append(DynamixelHand(LEAP_RIGHT, config))
+        return self._hands[-1]
+
+    def close(self) -> None:
+        for hand in self._hands:
+            hand.close()
+        self.process.send_signal(signal.SIGINT)
+        assert self.process.wait(DEADLINE_S) == 0
+
+
+def reading_where(hand: DynamixelHand, condition: Callable[[HandReading], bool]) -> HandReading:
+    end_s = time.monotonic() + DEADLINE_S
+    while True:
+        reading = hand.read()
+        if condition(reading):
+            return reading
+        assert time.monotonic() < end_s, reading
+
+
+def leave_at(bus: Bus, angle_rad: float) -> None:
+    """Another program, which knows wider limits, leaves all joints somewhere, without torque."""
+    wide = [replace(joint, upper_rad=2.9) for joint in LEAP_RIGHT.joints]
+    hand = DynamixelHand(replace(LEAP_RIGHT, joints=tuple(wide)), DynamixelConfig(port=str(bus.link)))
+    hand.connect()
+    hand.enable()
+    hand.command([angle_rad] * 16)
+    reading_where(hand, lambda it: it.q_rad == pytest.approx([angle_rad] * 16, abs=0.02) and not any(it.qd_rad_s))
+    hand.release()
+    hand.close()
+
+
+def torques(bus: Bus) -> set[float]:
+    return {motor["torque_enable"] for motor in bus.motors()}

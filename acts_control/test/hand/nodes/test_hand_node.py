@@ -1,0 +1,74 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""The node of a hand as a process, on the simulated bus; ROS_DOMAIN_ID 206 and 207."""
+
+from __future__ import annotations
+
+import math
+import signal
+
+import pytest
+from dynamixel_bus import DEADLINE_S, TIMEOUT_MS, Bus, torques
+from hand_node_rig import node_and_user
+from sensor_msgs.msg import JointState
+from std_srvs.srv import Trigger
+
+from acts_control.hand.description import LEAP_RIGHT
+
+pytestmark = pytest.mark.slow
+
+DOMAIN_ID = 206
+CMD_LEAP_DOMAIN_ID = 207
+
+
+def test_the_node_publishes_joint_states_follows_commands_and_ends_in_order(bus: Bus) -> None:
+    parameters = (f"port:={bus.link}", f"answer_timeout_ms:={TIMEOUT_MS}", "silence_s:=2.0")
+    with node_and_user(DOMAIN_ID, *parameters) as (process, node, until):
+        states: list[JointState] = []
+        node.create_subscription(JointState, "joint_states", states.append, 10)
+        commands = node.create_publisher(JointState, "hand/command", 10)
+        release = node.create_client(Trigger, "hand/release")
+
+        def arrived() -> bool:
+            commands.publish(JointState(name=["thumb_cmc", "nobody"], position=[0.7, 0.1]))  # left out, and told
+            commands.publish(JointState(name=["thumb_cmc"], position=[0.3]))
+            return bool(states) and abs(states[-1].position[12] - 0.3) < 0.02
+
+        until(arrived)
+        assert list(states[-1].name) == LEAP_RIGHT.names
+        assert release.wait_for_service(DEADLINE_S)
+        answer = release.call_async(Trigger.Request())
+        until(answer.done)
+        assert answer.result().success
+        until(lambda: torques(bus) == {0})
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=DEADLINE_S)
+        assert process.returncode == 0
+        assert "a command was left out: the hand has no joint 'nobody'" in errors
+
+
+def test_the_leap_team_s_own_node_is_commanded_within_the_same_limits() -> None:
+    with node_and_user(CMD_LEAP_DOMAIN_ID, "interface:=cmd_leap") as (process, node, until):
+        sent: list[JointState] = []
+        node.create_subscription(JointState, "cmd_leap", sent.append, 10)
+        commands = node.create_publisher(JointState, "hand/command", 10)
+
+        def arrived() -> bool:
+            commands.publish(JointState(name=["index_pip", "thumb_cmc"], position=[0.2, -9.0]))
+            if not sent:
+                return False
+            motors = sent[-1].position
+            return bool(abs(motors[2] - math.pi - 0.2) < 1e-6 and abs(motors[12] - math.pi + 0.349) < 1e-6)
+
+        until(arrived)
+        assert list(sent[-1].position[:2]) == pytest.approx([math.pi, math.pi])
+        release = node.create_client(Trigger, "hand/release")
+        assert release.wait_for_service(DEADLINE_S)
+        answer = release.call_async(Trigger.Request())
+        until(answer.done)
+        assert not answer.result().success
+        assert "the torque stays on" in answer.result().message
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=DEADLINE_S)
+        assert process.returncode == 0
