@@ -98,22 +98,23 @@ class DriverReport:
     def totals(self) -> Totals:
         """Present counters."""
         statistics, decoder = self._stream.statistics, self._decoder
-        return Totals(
-            frames=statistics.frames,
-            lost=statistics.lost,
-            discarded=statistics.discarded,
-            crc_errors=decoder.crc_errors,
-            malformed=decoder.malformed,
-            wrong_size=self._stream.wrong_size,
-            overruns=statistics.overruns,
-            repeated=statistics.repeated,
-            restarts=statistics.restarts,
-            reconnects=self._reader.reconnects,
-            partial=decoder.partial,
-            bytes_discarded=decoder.bytes_discarded,
-            consumer_errors=self._reader.consumer_errors,
-            clock_resets=self._stream.clock.state.resets,
-        )
+        with statistics.lock:
+            return Totals(
+                frames=statistics.frames,
+                lost=statistics.lost,
+                discarded=statistics.discarded,
+                crc_errors=decoder.crc_errors,
+                malformed=decoder.malformed,
+                wrong_size=self._stream.wrong_size,
+                overruns=statistics.overruns,
+                repeated=statistics.repeated,
+                restarts=statistics.restarts,
+                reconnects=self._reader.reconnects,
+                partial=decoder.partial,
+                bytes_discarded=decoder.bytes_discarded,
+                consumer_errors=self._reader.consumer_errors,
+                clock_resets=self._stream.clock.state.resets,
+            )
 
     def make(self, state: str, now_ns: int) -> Report:
         """Level, sentence and values for the time since the last call.

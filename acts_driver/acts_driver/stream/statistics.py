@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections import deque
 
 _MODULUS = 1 << 32
@@ -33,9 +34,13 @@ class StreamStatistics:
         Restarts of the board. Its sequence starts anew then, and no frame counts as lost.
     overruns : int
         Frames the board dropped because the host did not read, as it said last.
+    lock : threading.Lock
+        `FrameStream.accept` holds it while it counts. Another thread that reads several counters holds it too, or one
+        may already count a gap of which another does not know yet.
     """
 
     def __init__(self) -> None:
+        self.lock = threading.Lock()
         self.frames = 0
         self.lost = 0
         self.discarded = 0

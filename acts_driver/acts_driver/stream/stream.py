@@ -68,12 +68,13 @@ class FrameStream:
         new: list[SampleFrame] = []
         board_us: list[int] = []
         restarted = False
-        for frame in frames:
-            restarts = statistics.restarts
-            if statistics.observe(frame.sequence, frame.board_us, frame.overruns, arrival_ns):
-                restarted |= not new and statistics.restarts > restarts
-                new.append(frame)
-                board_us.append(frame.board_us)
+        with statistics.lock:
+            for frame in frames:
+                restarts = statistics.restarts
+                if statistics.observe(frame.sequence, frame.board_us, frame.overruns, arrival_ns):
+                    restarted |= not new and statistics.restarts > restarts
+                    new.append(frame)
+                    board_us.append(frame.board_us)
         if not new:
             return []
         if self.has_board_clock:

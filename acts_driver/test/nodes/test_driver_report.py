@@ -1,7 +1,11 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The driver's report on frames that are read late, and on bytes that hold none."""
+"""The driver's report on frames that are read late or missing, and on bytes that hold none."""
+
+import sys
+import threading
+from collections.abc import Iterator
 
 import numpy as np
 import pytest
@@ -15,6 +19,15 @@ from acts_ros.diagnostics import ERROR, WARN
 
 MS = 1_000_000
 NO_TAXELS = np.empty(0, dtype=np.uint16)
+
+
+@pytest.fixture
+def eager_threads() -> Iterator[None]:
+    """Let threads take turns as often as they can."""
+    interval_s = sys.getswitchinterval()
+    sys.setswitchinterval(1e-6)
+    yield
+    sys.setswitchinterval(interval_s)
 
 
 def test_frames_that_are_read_late_are_told() -> None:
@@ -43,6 +56,30 @@ def test_frames_that_are_read_late_are_told() -> None:
     receive(116, 1, late_ms=0)
     _, message, _ = report.make("active", 2600 * MS)
     assert "late" not in message
+
+
+@pytest.mark.usefixtures("eager_threads")
+def test_a_report_amid_a_frame_knows_all_of_its_gap_or_nothing() -> None:
+    source, decoder = SerialSource("/dev/ttyACM0"), StreamDecoder()
+    stream = FrameStream(32, 32)
+    report = DriverReport(source, Reader(source, decoder, lambda frames, arrival_ns: None), decoder, stream, (32, 32))
+
+    def receive() -> None:
+        for number in range(1, 20_001):
+            # The board drops one frame before each that it sends.
+            sequence, dropped = 2 * number, number - 1
+            frame = SampleFrame(sequence, 1000 * sequence, 900, Scheme.RANDOM, 32, 32, dropped, NO_TAXELS, NO_TAXELS)
+            stream.accept([frame], sequence * MS)
+
+    reading = threading.Thread(target=receive)
+    reading.start()
+    seen = []
+    while reading.is_alive():
+        seen.append(report.totals())
+    reading.join()
+    assert len(seen) > 100
+    assert {(totals.lost - totals.overruns, totals.frames - totals.lost) for totals in seen} <= {(0, 0), (0, 1)}
+    assert report.totals().lost == 19_999
 
 
 @pytest.mark.parametrize(
