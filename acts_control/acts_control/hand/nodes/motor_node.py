@@ -111,10 +111,15 @@ class MotorNode(PollingNode):
             "unanswered": status.unanswered,
             "recovered": status.recovered,
         }
-        if status.reading is not None:
+        words = f"{status.phase.name.lower()}: {status.reason}"
+        if self.settings.interface == _CMD_LEAP:
+            # What is told as read is what was sent: no heat, no current, and no torque that were off.
+            if status.phase in (HandPhase.RELEASED, HandPhase.GIVEN_UP):
+                words = f"{words}; {TORQUE_STAYS}"
+        elif status.reading is not None:
             values["hottest_c"] = max(status.reading.temperature_c)
             values["largest_current_ma"] = max(map(abs, status.reading.current_ma))
-        return _LEVELS.get(status.phase, OK), f"{status.phase.name.lower()}: {status.reason}", values
+        return _LEVELS.get(status.phase, OK), words, values
 
     def _on_reading(self, reading: HandReading) -> None:
         # From the loop's thread.

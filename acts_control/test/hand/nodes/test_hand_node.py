@@ -9,6 +9,7 @@ import math
 import signal
 
 import pytest
+from diagnostic_msgs.msg import DiagnosticArray
 from dynamixel_bus import DEADLINE_S, TIMEOUT_MS, Bus, torques
 from hand_node_rig import node_and_user
 from sensor_msgs.msg import JointState
@@ -52,6 +53,13 @@ def test_the_leap_team_s_own_node_is_commanded_within_the_same_limits() -> None:
     with node_and_user(CMD_LEAP_DOMAIN_ID, "interface:=cmd_leap") as (process, node, until):
         sent: list[JointState] = []
         node.create_subscription(JointState, "cmd_leap", sent.append, 10)
+        diagnostics: list[str] = []
+        node.create_subscription(
+            DiagnosticArray,
+            "/diagnostics",
+            lambda array: diagnostics.extend(status.message for status in array.status),
+            10,
+        )
         commands = node.create_publisher(JointState, "hand/command", 10)
 
         def arrived() -> bool:
@@ -69,6 +77,7 @@ def test_the_leap_team_s_own_node_is_commanded_within_the_same_limits() -> None:
         until(answer.done)
         assert not answer.result().success
         assert "the torque stays on" in answer.result().message
+        until(lambda: any("released" in told and "the torque stays on" in told for told in diagnostics))
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=DEADLINE_S)
         assert process.returncode == 0
