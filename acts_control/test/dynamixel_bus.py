@@ -78,7 +78,8 @@ def reading_where(hand: DynamixelHand, condition: Callable[[HandReading], bool])
 def leave_at(bus: Bus, angle_rad: float) -> None:
     """Another program, which knows wider limits, leaves all joints somewhere, without torque."""
     wide = [replace(joint, upper_rad=2.9) for joint in LEAP_RIGHT.joints]
-    hand = DynamixelHand(replace(LEAP_RIGHT, joints=tuple(wide)), DynamixelConfig(port=str(bus.link)))
+    config = DynamixelConfig(port=str(bus.link), answer_timeout_ms=TIMEOUT_MS)
+    hand = DynamixelHand(replace(LEAP_RIGHT, joints=tuple(wide)), config)
     hand.connect()
     hand.enable()
     hand.command([angle_rad] * 16)
