@@ -50,7 +50,10 @@ def test_a_distribution_without_wheels_is_refused_first(tmp_path: Path, monkeypa
 
 
 @pytest.mark.parametrize("is_anothers", [False, True])
-def test_a_checkout_that_cannot_be_written_is_said(tmp_path: Path, is_anothers: bool) -> None:
+def test_a_checkout_that_cannot_be_written_is_said(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, is_anothers: bool
+) -> None:
+    monkeypatch.delenv("ROS", raising=False)  # each distribution has its own folder
     # As a read-only one, also for root.
     (tmp_path / ".acts" / "lock").mkdir(parents=True)
     if is_anothers:
