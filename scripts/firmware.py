@@ -12,6 +12,7 @@ Needs the packages that it names where they are missing; exit code 3 then.
 from __future__ import annotations
 
 import argparse
+import fcntl
 import os
 import shutil
 import subprocess
@@ -105,14 +106,17 @@ def build() -> None:
     need(COMPILER_PACKAGES)
     toolchain = SOURCE / "teensy/cortex_m7.cmake"
     configure = ["cmake", "-S", str(SOURCE), "-B", str(BUILD), "-G", "Unix Makefiles"]
-    for command in (
-        [*configure, f"-DCMAKE_TOOLCHAIN_FILE={toolchain}"],
-        ["cmake", "--build", str(BUILD), "--parallel", str(os.cpu_count() or 1)],
-    ):
-        finished = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-        if finished.returncode != 0:
-            print(finished.stdout, file=sys.stderr)
-            sys.exit("[firmware] the build for the Teensy failed")
+    BUILD.mkdir(parents=True, exist_ok=True)
+    with (BUILD / "lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)  # files of tests run side by side
+        for command in (
+            [*configure, f"-DCMAKE_TOOLCHAIN_FILE={toolchain}"],
+            ["cmake", "--build", str(BUILD), "--parallel", str(os.cpu_count() or 1)],
+        ):
+            finished = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+            if finished.returncode != 0:
+                print(finished.stdout, file=sys.stderr)
+                sys.exit("[firmware] the build for the Teensy failed")
 
 
 def sizes_of(program: Path) -> Sizes:
@@ -146,11 +150,8 @@ def report() -> bool:
     return fits
 
 
-def run(name: str, arguments: list[str], as_built: bool) -> int:
-    """A program on the emulated processor; its output and exit code are the program's own."""
-    need(QEMU_PACKAGES)
-    if not as_built:
-        build()
+def emulator(name: str, arguments: list[str], *options: str) -> list[str]:
+    """The command that runs a program as it is built on the emulated processor."""
     program = BUILD / f"teensy/{name}.elf"
     if not program.exists():
         programs = ", ".join(sorted(path.stem for path in program.parent.glob("*.elf")))
@@ -162,8 +163,16 @@ def run(name: str, arguments: list[str], as_built: bool) -> int:
     asking = ["-semihosting-config", ",".join(["enable=on", "target=native", *(f"arg={word}" for word in words)])]
     # The vectors lie at the start of flash, where the Teensy's boot ROM looks too.
     machine = ["-machine", "mps2-an500", "-global", "armv7m.init-nsvtor=0x60000000", "-kernel", str(program)]
+    return ["qemu-system-arm", *machine, *console, *asking, *options]
+
+
+def run(name: str, arguments: list[str], as_built: bool) -> int:
+    """A program on the emulated processor; its output and exit code are the program's own."""
+    need(QEMU_PACKAGES)
+    if not as_built:
+        build()
     try:
-        return subprocess.run(["qemu-system-arm", *machine, *console, *asking], timeout=RUN_LIMIT_S).returncode
+        return subprocess.run(emulator(name, arguments), timeout=RUN_LIMIT_S).returncode
     except subprocess.TimeoutExpired:
         sys.exit(f"[firmware] {name} did not end within {RUN_LIMIT_S} s")
 

@@ -6,7 +6,6 @@
 Skipped where the cross compiler or QEMU is not installed, unless ACTS_REQUIRE_FIRMWARE_TOOLS is set.
 """
 
-import os
 import subprocess
 import sys
 from pathlib import Path
@@ -14,25 +13,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 from core_library import installed
+from firmware_script import SCRIPT, firmware
 from sketch_model import SketchRun, run_sketch, upload
 
 from acts_core.sampling import SCHEME_NUMBERS
 from acts_core.wire import BoardImage, BoardObject, BoardSettings, encode_configure, object_library, patch_dictionary
 
 pytestmark = pytest.mark.slow
-
-SCRIPT = Path(__file__).resolve().parents[3] / "scripts/firmware.py"
-TOOLS_MISSING = 3
-BUILD_LIMIT_S = 600
-
-
-def firmware(*arguments: str) -> subprocess.CompletedProcess[str]:
-    result = subprocess.run(
-        [sys.executable, SCRIPT, *arguments], capture_output=True, text=True, timeout=BUILD_LIMIT_S, check=False
-    )
-    if result.returncode == TOOLS_MISSING and "ACTS_REQUIRE_FIRMWARE_TOOLS" not in os.environ:
-        pytest.skip(result.stderr.strip())
-    return result
 
 
 def test_it_compiles_and_fits_the_teensy() -> None:
