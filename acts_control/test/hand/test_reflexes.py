@@ -169,16 +169,24 @@ def tip_in(name: str) -> RegionContact:
 
 def test_only_what_is_surely_a_tip_is_avoided() -> None:
     reflex = SharpAvoidance(SharpAvoidanceConfig())
-    for sharpness in (2.9, 3.1, 2.9, 3.1):
-        assert reflex.step(sensed(region("index_distal", 0.5, 1, sharpness=sharpness))) is None
-    assert reflex.step(sensed(region("index_distal", 0.5, 1, sharpness=3.1))) is not None
+    # 2.9 is no tip, and a break begins anew.
+    for k, sharpness in enumerate((2.9, 3.1, 3.1, 2.9, 3.1, 3.1)):
+        assert reflex.step(sensed(region("index_distal", 0.5, 1, sharpness=sharpness), time_s=k * DT_S)) is None
+    assert reflex.step(sensed(region("index_distal", 0.5, 1, sharpness=3.1), time_s=6 * DT_S)) is not None
+
+
+@pytest.mark.parametrize(("rate_hz", "cycles"), [(60.0, 2), (250.0, 3), (500.0, 5)])
+def test_a_tip_is_felt_for_as_long_at_any_rate(rate_hz: float, cycles: int) -> None:
+    reflex = SharpAvoidance(SharpAvoidanceConfig())
+    opens = [reflex.step(sensed(tip_in("index_distal"), time_s=k / rate_hz)) is not None for k in range(6)]
+    assert opens == [k >= cycles - 1 for k in range(6)]
 
 
 def test_the_finger_at_a_tip_opens_at_once_and_the_others_keep_what_they_have() -> None:
     reflex = SharpAvoidance(SharpAvoidanceConfig())
-    felt = sensed(tip_in("index_distal"), region("middle_distal", 0.8))
-    assert reflex.step(felt) is None  # one image may deceive
-    wish = reflex.step(felt)
+    felt = (tip_in("index_distal"), region("middle_distal", 0.8))
+    assert reflex.step(sensed(*felt)) is None  # one image may deceive
+    wish = reflex.step(sensed(*felt, time_s=0.007))
     assert wish is not None
     assert wish.at_once
     assert wish.avoids
@@ -195,14 +203,16 @@ def test_the_finger_at_a_tip_opens_at_once_and_the_others_keep_what_they_have() 
 
 def test_what_lifts_off_is_no_tip() -> None:
     reflex = SharpAvoidance(SharpAvoidanceConfig())
-    for force_n in (0.8, 0.6, 0.4, 0.3, 0.2):
-        assert reflex.step(sensed(region("index_distal", force_n, 1, sharpness=10.0))) is None
-    assert reflex.step(sensed(region("index_distal", 0.19, 1, sharpness=10.0))) is None
-    assert reflex.step(sensed(region("index_distal", 0.19, 1, sharpness=10.0))) is not None
+    forces_n = (0.8, 0.6, 0.4, 0.3, 0.2, 0.19, 0.19, 0.19)
+    opens = [
+        reflex.step(sensed(region("index_distal", force_n, 1, sharpness=10.0), time_s=k * DT_S)) is not None
+        for k, force_n in enumerate(forces_n)
+    ]
+    assert opens == 7 * [False] + [True]
 
 
 def test_a_finger_opens_so_far_and_no_farther() -> None:
-    reflex = SharpAvoidance(SharpAvoidanceConfig(sharp_open_rad=0.2, sharp_touches=1))
+    reflex = SharpAvoidance(SharpAvoidanceConfig(sharp_open_rad=0.2, sharp_felt_s=0.0))
     reflex.step(sensed(tip_in("index_distal")))
     wish = reflex.step(sensed(tip_in("index_distal"), goal_rad=np.full(16, 0.05), time_s=0.1))
     assert wish is not None
@@ -210,7 +220,7 @@ def test_a_finger_opens_so_far_and_no_farther() -> None:
 
 
 def test_a_tip_in_the_palm_opens_all_fingers() -> None:
-    reflex = SharpAvoidance(SharpAvoidanceConfig(sharp_touches=1))
+    reflex = SharpAvoidance(SharpAvoidanceConfig(sharp_felt_s=0.0))
     wish = reflex.step(sensed(tip_in("palm")))
     assert wish is not None
     for finger in LEAP_RIGHT.fingers:

@@ -30,12 +30,12 @@ class SharpAvoidanceConfig:
         minimum=0.0,
         maximum=100.0,
     )
-    sharp_touches: int = setting(
-        2,
-        "cycles in succession in which a region must feel the tip: one image of something that moves fast can "
-        "look like a tip, because its taxels are measured one after the other",
-        minimum=1,
-        maximum=100,
+    sharp_felt_s: float = setting(
+        0.007,
+        "how long a region must feel the tip, cycle after cycle; 0: one cycle is enough [s]. An image of something "
+        "that moves fast can look like a tip, because its taxels are measured one after the other",
+        minimum=0.0,
+        maximum=1.0,
     )
     sharp_open_steps: float = setting(20.0, "steps by which the finger opens", minimum=0.1, maximum=100.0)
     sharp_open_rad: float = setting(
@@ -55,8 +55,8 @@ class SharpAvoidanceState:
 
     Attributes
     ----------
-    touches : dict
-        How many times in succession each region has felt a tip.
+    since_s : dict
+        Since when each region has felt a tip without a break, where one does.
     force_n : dict
         What each region felt in the cycle before [N].
     until_s : dict
@@ -65,7 +65,7 @@ class SharpAvoidanceState:
         Joint angles when it began [rad].
     """
 
-    touches: dict[str, int] = field(default_factory=dict)
+    since_s: dict[str, float] = field(default_factory=dict)
     force_n: dict[str, float] = field(default_factory=dict)
     until_s: dict[str, float] = field(default_factory=dict)
     from_rad: dict[str, np.ndarray] = field(default_factory=dict)
@@ -110,8 +110,10 @@ class SharpAvoidance(Reflex):
             before_n, state.force_n[name] = state.force_n.get(name, 0.0), region.force_n
             # A tip that goes in presses more and more; an image of what lifts off can look like one.
             is_sharp = region.sharpness > config.sharp_min_sharpness and region.force_n >= _KEPT_SHARE * before_n
-            state.touches[name] = state.touches.get(name, 0) + 1 if is_sharp else 0
-            if state.touches[name] < config.sharp_touches:
+            if not is_sharp:
+                state.since_s.pop(name, None)
+                continue
+            if sensed.time_s - state.since_s.setdefault(name, sensed.time_s) < config.sharp_felt_s:
                 continue
             finger = sensed.finger(name)
             if finger not in state.until_s:
