@@ -22,6 +22,7 @@ import difflib
 import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from decimal import ROUND_CEILING, Context, Decimal
 from enum import Enum
 from typing import Any, TypeVar, cast
 
@@ -90,6 +91,11 @@ class SettingInfo:
 def _number(value: float) -> str:
     # Whole numbers in full: 9.22337e+18 is none that one could enter.
     return str(value) if isinstance(value, int) else f"{value:g}"
+
+
+def rounded_up(value: float) -> str:
+    """A lower limit for a person, of four digits and never below `value`: what is set to it is allowed."""
+    return f"{Decimal(repr(value)).normalize(Context(prec=4, rounding=ROUND_CEILING)):f}"
 
 
 def setting(

@@ -6,12 +6,15 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
-from hand_rig import RigidHand, all_regions, region
+from hand_rig import DT_S, RigidHand, all_regions, region
 
-from acts_control.hand.description import LEAP_RIGHT
+from acts_control.hand.control import HandSupervisor, SupervisorConfig
+from acts_control.hand.description import LEAP_RIGHT, HandKinematics, hand_description
+from acts_control.hand.motors import HandReading
 from acts_control.hand.nodes.reflexes_node import HandReflexesSettings
 from acts_control.hand.reflexes import REFLEXES, HandState, make_reflexes
 from acts_control.hand.reflexes.sharp_avoidance import SharpAvoidance, SharpAvoidanceConfig
@@ -21,6 +24,23 @@ from acts_core.skin import RegionContact
 pytestmark = pytest.mark.slow
 
 TIP = region("index_distal", 0.5, 1, sharpness=10.0)
+GRIPPER = """
+name: gripper
+base: body
+joints:
+  left: {motor: 1, limits_rad: [0, 1.2]}
+  right: {motor: 2, limits_rad: [0, 1.2]}
+links:
+  left_jaw: {parent: body, joint: left, position_m: [0.02, 0, 0], axis: [0, -1, 0]}
+  right_jaw: {parent: body, joint: right, position_m: [-0.02, 0, 0], axis: [0, 1, 0]}
+fingers:
+  left: {closes: {left: 1.0}, tip_link: left_jaw, tip_m: [0, 0, 0.05]}
+  right: {closes: {right: 1.0}, tip_link: right_jaw, tip_m: [0, 0, 0.05]}
+regions:
+  left: {link: left_jaw, finger: left, role: distal}
+  right: {link: right_jaw, finger: right, role: distal}
+postures: {open: {}, pregrasp: {left: 0.1, right: 0.1}}
+"""
 GRIPPED = [region(f"{finger}_distal", 0.8) for finger in LEAP_RIGHT.fingers]
 
 
@@ -76,6 +96,30 @@ def test_a_hand_that_finds_nothing_opens_again() -> None:
     assert hand.supervisor.status.reason == "nothing was gripped"
     hand.step([], steps=600)
     assert hand.goal == pytest.approx(LEAP_RIGHT.postures["open"], abs=1e-3)
+
+
+@pytest.mark.parametrize(("pressed", "ends"), [(("left",), "nothing was gripped"), (("left", "right"), "gripped by")])
+def test_a_finger_whose_region_has_its_name_holds_once(tmp_path: Path, pressed: tuple[str, ...], ends: str) -> None:
+    path = tmp_path / "gripper.yaml"
+    path.write_text(GRIPPER)
+    gripper = hand_description(str(path))
+    supervisor = HandSupervisor(HandKinematics(gripper), {}, SupervisorConfig())
+    supervisor.restart(recovered=False)
+    q = np.zeros(2)
+    for k in range(2000):
+        now_s = k * DT_S
+        touch = [
+            RegionContact(name, f"{name}_jaw", int(name in pressed), 0.8 * (name in pressed), normal=(0.0, 0.0, 1.0))
+            for name in gripper.regions
+        ]
+        supervisor.touch(touch, now_s, now_s)
+        if k == 1:
+            assert supervisor.grasp() == ""
+        reading = HandReading(tuple(q), (0.0,) * 2, (0.0,) * 2, (30,) * 2, ("",) * 2)
+        q = np.asarray(supervisor.step(reading, q, now_s, DT_S))
+        if k > 1 and supervisor.status.state is not HandState.CLOSING:
+            break
+    assert supervisor.status.reason.startswith(ends)
 
 
 def test_release_opens_and_stop_stands_still_at_any_time() -> None:

@@ -124,7 +124,8 @@ class Grasp:
         self._since_s = {name: since_s + sensed.dt_s for name, since_s in self._since_s.items()}
         self._since_s |= dict.fromkeys((*gripping, *palm), 0.0)
         lately = {name for name, since_s in self._since_s.items() if since_s <= self._config.grip_settle_s}
-        return [name for name in (*sensed.hand.fingers, *sensed.regions) if name in lately]
+        # A region may have the name of its finger, which holds once.
+        return [name for name in dict.fromkeys((*sensed.hand.fingers, *sensed.regions)) if name in lately]
 
     def _look(self, sensed: Sensed) -> Aim | None:
         """Whether something small lies on the palm: for a while, for what is put down sinks into the skin first."""

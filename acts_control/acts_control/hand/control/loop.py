@@ -17,7 +17,7 @@ from acts_control.hand.control.status import HandPhase, HandStatus
 from acts_control.hand.description import HandDescription
 from acts_control.hand.motors import HandBus, HandError, HandLostError, HandReading
 from acts_core.errors import SettingsError
-from acts_core.settings import setting, validate
+from acts_core.settings import rounded_up, setting, validate
 
 # A joint that is beyond a limit when the torque comes on is brought back so fast: slowly, for it may be held there.
 _RETURN_RAD_S = 0.5
@@ -52,7 +52,9 @@ class HandLoopConfig:
     max_faults: int = setting(
         2, "a motor that has switched itself off so often within a minute is given up", minimum=1, maximum=100
     )
-    autostart: bool = setting(True, "whether to switch the torque on at once; else on ~/enable")
+    autostart: bool = setting(
+        True, "whether to switch the torque on at once; else, and with interface cmd_leap always, on ~/enable"
+    )
 
     def __post_init__(self) -> None:
         validate(self)
@@ -60,7 +62,7 @@ class HandLoopConfig:
             raise SettingsError(
                 f"silence_s = {self.silence_s:g}: with rate_hz = {self.rate_hz:g} the motors are read "
                 f"every {1.0 / self.rate_hz:.4g} s, and one lost answer would count as silence: raise silence_s to "
-                f"{_LEAST_READS / self.rate_hz:.4g}, or rate_hz to {_LEAST_READS / self.silence_s:.4g}"
+                f"{rounded_up(_LEAST_READS / self.rate_hz)}, or rate_hz to {rounded_up(_LEAST_READS / self.silence_s)}"
             )
 
 
@@ -276,7 +278,9 @@ class HandLoop:
         if not self._enabled and phase is not HandPhase.ENABLED:
             return []
         if reading.is_stopped and phase is HandPhase.ENABLED:
-            self._log("warning", "the motors' watchdog has stopped them: this process stood still; the hand goes on")
+            self._log(
+                "warning", "the motors' watchdog has stopped them, which heard nothing for long; the hand goes on"
+            )
             phase = HandPhase.RECOVERING
         if phase is not HandPhase.ENABLED:
             return self._switch_on(reading, recovered=phase is HandPhase.RECOVERING)

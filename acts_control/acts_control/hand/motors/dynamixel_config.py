@@ -11,10 +11,10 @@ from acts_control.hand.description import Joint
 from acts_control.hand.motors.bus import BusConfig
 from acts_control.hand.motors.dynamixel_table import LARGEST_GAIN
 from acts_core.errors import SettingsError
-from acts_core.settings import setting
+from acts_core.settings import rounded_up, setting
 
-# So many cycles have to come within the motors' watchdog: one of them may be late or lost.
-_CYCLES_IN_WATCHDOG = 2
+# What the SDK waits for a lost reply besides twice `answer_timeout_ms`.
+_SDK_WAITS_S = 0.002
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,8 @@ class DynamixelConfig(BusConfig):
     max_current_ma: int = setting(350, "largest current of each motor [mA]", minimum=1, maximum=1750)
     motor_watchdog_s: float = setting(
         0.2,
-        "a motor that hears nothing for longer stops [s]; at least two periods of rate_hz; 0: never",
+        "a motor that hears nothing for longer stops [s]; 0: never. At least a period of rate_hz, and another one or "
+        "the wait for a lost reply (twice answer_timeout_ms and 2 ms), whichever is longer",
         minimum=0.0,
         maximum=2.54,
     )
@@ -44,12 +45,15 @@ class DynamixelConfig(BusConfig):
 
     def check_rate(self, rate_hz: float) -> None:
         """See `BusConfig.check_rate`."""
-        watchdog_s = self.motor_watchdog_s
-        if 0.0 < watchdog_s < _CYCLES_IN_WATCHDOG / rate_hz:
+        period_s, lost_s = 1.0 / rate_hz, 2e-3 * self.answer_timeout_ms + _SDK_WAITS_S
+        # One cycle may be late, or wait for a reply that is lost.
+        least_s = period_s + max(period_s, lost_s)
+        if 0.0 < self.motor_watchdog_s < least_s:
             raise SettingsError(
-                f"rate_hz = {rate_hz:g}: the motors stop by themselves after motor_watchdog_s = {watchdog_s:g} "
-                f"without a cycle, and {_CYCLES_IN_WATCHDOG} cycles have to come within it: raise rate_hz to "
-                f"{_CYCLES_IN_WATCHDOG / watchdog_s:.4g}, or motor_watchdog_s to {_CYCLES_IN_WATCHDOG / rate_hz:.4g}"
+                f"motor_watchdog_s = {self.motor_watchdog_s:g}: with rate_hz = {rate_hz:g} and answer_timeout_ms = "
+                f"{self.answer_timeout_ms:g} the motors may hear nothing for {least_s:.4g} s when one reply is lost, "
+                f"and would stop: raise motor_watchdog_s to {rounded_up(least_s)}, raise rate_hz, or lower "
+                "answer_timeout_ms"
             )
 
     def gains(self, joint: Joint) -> tuple[int, int, int]:

@@ -5,7 +5,7 @@
 
 That node (package `leap_hand` of LEAP_Hand_API) takes sensor_msgs/JointState with 16 positions in the order of the
 motors, open and flat at pi, and opens the hand when it starts. It publishes no joint states and cannot switch the
-torque off, so what is told here as read is what was sent.
+torque off, so what is told here as read is what was sent, and before that the open hand.
 """
 
 from __future__ import annotations
@@ -41,10 +41,13 @@ class CmdLeapBus:
 
     def connect(self) -> list[str]:
         """Nothing to connect to; what a person should know of."""
-        return ["through cmd_leap nothing is read from the motors: limits and speed are kept, faults are not seen"]
+        return [
+            "through cmd_leap nothing is read from the motors, and no watchdog stops them: faults are not seen, and "
+            "enable sends the angles of the open hand first"
+        ]
 
     def enable(self) -> None:
-        """Nothing is sent before the first command."""
+        """From here on angles are sent, first those of the open hand."""
 
     def release(self) -> None:
         """Send nothing more; the torque is the other node's, see `TORQUE_STAYS`."""

@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from rclpy.node import Node
@@ -87,7 +87,9 @@ class MotorNode(PollingNode):
         self._states.name = self.hand.names
         self._publisher = self.create_publisher(JointState, "joint_states", STATE)
         bus = make_bus(self, self.hand, settings)
-        self.loop = HandLoop(self.hand, bus, settings, log_of(self), self._on_reading, behaviour)
+        # The first angles that are sent open the hand, and what it may hold then falls: that has to be asked for.
+        config = replace(settings, autostart=False) if settings.interface == _CMD_LEAP else settings
+        self.loop = HandLoop(self.hand, bus, config, log_of(self), self._on_reading, behaviour)
         self.create_service(Trigger, "~/enable", self._on_enable)
         self.create_service(Trigger, f"~/{torque_off}", self._on_torque_off)
         self.diagnostics = DiagnosticsReporter(self, settings.port, self.report, only_publishers=[moved_by])

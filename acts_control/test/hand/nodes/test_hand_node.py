@@ -24,7 +24,7 @@ CMD_LEAP_DOMAIN_ID = 207
 
 
 def test_the_node_publishes_joint_states_follows_commands_and_ends_in_order(bus: Bus) -> None:
-    parameters = (f"port:={bus.link}", f"answer_timeout_ms:={TIMEOUT_MS}", "silence_s:=2.0")
+    parameters = (f"port:={bus.link}", f"answer_timeout_ms:={TIMEOUT_MS}", "silence_s:=2.0", "motor_watchdog_s:=1.0")
     with node_and_user(DOMAIN_ID, *parameters) as (process, node, until):
         states: list[JointState] = []
         node.create_subscription(JointState, "joint_states", states.append, 10)
@@ -69,6 +69,13 @@ def test_the_leap_team_s_own_node_is_commanded_within_the_same_limits() -> None:
             motors = sent[-1].position
             return bool(abs(motors[2] - math.pi - 0.2) < 1e-6 and abs(motors[12] - math.pi + 0.349) < 1e-6)
 
+        enable = node.create_client(Trigger, "hand/enable")
+        assert enable.wait_for_service(DEADLINE_S)
+        # A node that is started beside a hand that holds something does not open it.
+        until(lambda: any(told.startswith("released: ") for told in diagnostics))
+        assert sent == []
+        enabled = enable.call_async(Trigger.Request())
+        until(enabled.done)
         until(arrived)
         assert list(sent[-1].position[:2]) == pytest.approx([math.pi, math.pi])
         release = node.create_client(Trigger, "hand/release")
@@ -77,7 +84,7 @@ def test_the_leap_team_s_own_node_is_commanded_within_the_same_limits() -> None:
         until(answer.done)
         assert not answer.result().success
         assert "the torque stays on" in answer.result().message
-        until(lambda: any("released" in told and "the torque stays on" in told for told in diagnostics))
+        until(lambda: any("released by request" in told and "the torque stays on" in told for told in diagnostics))
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=DEADLINE_S)
         assert process.returncode == 0
