@@ -23,6 +23,11 @@ from acts_tools.bags.messages import image_counts, messages, parsed
 from acts_tools.export.tracks import Track, Values, contact_found, contacts_found
 from acts_tools.export.tracks import stamp_ns_of as header_stamp_ns
 
+# Without a taxel above it, an image says nothing of where the taxels lie.
+_TOUCH_COUNTS = 60
+# Cosine between images of the same touch; they may be recovered by other methods, or with another baseline.
+_LEAST_LIKENESS = 0.5
+
 
 @dataclass(frozen=True)
 class Seen:
@@ -105,15 +110,43 @@ def recovered_frames(bag: Any, path: Path, topic: str, beside: str | None, layou
             raise RecordingError(f"{where}: {error}") from error
 
 
-def contacts_in(frames: Iterator[Seen]) -> tuple[Track[Values], Track[Values]]:
-    """The total contact and the single contacts of recovered images, where the images themselves were recorded."""
+def contacts_in(frames: Iterator[Seen], recorded: Iterator[Seen]) -> tuple[Track[Values], Track[Values]] | None:
+    """The total contact and the single contacts of recovered images, where the images themselves were recorded.
+
+    Parameters
+    ----------
+    frames : iterator of Seen
+        Recovered.
+    recorded : iterator of Seen
+        The recorded images, in a pass of their own.
+
+    Returns
+    -------
+    (Track, Track) or None
+        None where a recovered image is not like the recorded one with the most touch: then the layout is another.
+    """
     contact, contacts = Track[Values](), Track[Values]()
+    most = max(recorded, key=lambda seen: int(seen.image.sum()), default=None)
     for seen in frames:
+        if most is not None and seen.stamp_ns >= most.stamp_ns:
+            if not _are_alike(seen.image, most.image):
+                return None
+            most = None
         assert seen.contact is not None
         assert seen.contacts is not None
         contact.add(seen.stamp_ns, seen.contact)
         contacts.add(seen.stamp_ns, seen.contacts)
     return contact, contacts
+
+
+def _are_alike(recovered: NDArray[np.uint16], recorded: NDArray[np.uint16]) -> bool:
+    """Whether two images may show the same touch; a recorded one without touch does not tell."""
+    if recovered.shape != recorded.shape:
+        return False
+    if recorded.max() < _TOUCH_COUNTS:
+        return True
+    a, b = recovered.ravel().astype(np.float64), recorded.ravel().astype(np.float64)
+    return bool(a.any()) and float(a @ b) >= _LEAST_LIKENESS * float(np.linalg.norm(a) * np.linalg.norm(b))
 
 
 def _settings(samples: TactileSamples, layout: str) -> ReconstructionConfig:

@@ -226,13 +226,22 @@ def open_recording(path: Path, choice: Choice) -> Iterator[Recording]:
         }
         left_out = {topic: track.backward for topic, track in tracks.items() if track.backward}
         contact, contacts, _ = tracks.values()
+        unlike: tuple[str, ...] = ()
         if types.get(images) == _IMAGE and _is_in_counts(bag, path, images):
             frames = recorded_frames(bag, path, images)
             if types.get(samples) == _SAMPLES and not (contact.stamps_ns and contacts.stamps_ns):
-                found, each_found = contacts_in(recovered_frames(bag, path, samples, baseline, choice.layout))
-                contact = contact if contact.stamps_ns else found
-                contacts = contacts if contacts.stamps_ns else each_found
-                left_out |= {samples: found.backward} if found.backward else {}
+                found = contacts_in(
+                    recovered_frames(bag, path, samples, baseline, choice.layout), recorded_frames(bag, path, images)
+                )
+                if found is None:
+                    unlike = (
+                        f"contacts were not recorded, and are left out: with the layout {choice.layout} {samples} does "
+                        f"not give the images of {images}; export it with --layout NAME, as the driver had it",
+                    )
+                else:
+                    contact = contact if contact.stamps_ns else found[0]
+                    contacts = contacts if contacts.stamps_ns else found[1]
+                    left_out |= {samples: found[0].backward} if found[0].backward else {}
         else:
             frames = recovered_frames(bag, path, samples, baseline, choice.layout)
         yield Recording(
@@ -243,6 +252,7 @@ def open_recording(path: Path, choice: Choice) -> Iterator[Recording]:
             hint=_layout_hint(bag, path, skin, choice.layout),
             _notes=(
                 *(f"{count} messages of {topic} {_BACKWARD}" for topic, count in left_out.items()),
+                *unlike,
                 *joint_states.notes,
                 bag.note or "",
             ),

@@ -20,6 +20,7 @@ from sensor_msgs.msg import Image, JointState
 from test_export import contact, contacts, header, image, joints, pressed, rows_of, samples, write_bag
 
 from acts_core.errors import RecordingError
+from acts_core.skin import layout
 from acts_msgs.msg import Baseline, RegionContact, RegionContacts
 from acts_ros.bags.message_types import Definitions
 from acts_ros.bags.writing import BagWriter
@@ -245,3 +246,28 @@ def test_contacts_beside_recorded_images_are_found_in_the_samples(tmp_path: Path
     rows, _ = rows_of(write_bag(tmp_path / "all", *both, ("/plate/contact", contact(0, 7.0))))
     assert [row.contact[3] for row in rows if row.contact is not None] == [7.0, 7.0, 7.0]
     assert [row.contacts is not None and len(row.contacts) for row in rows] == [1, 1, 1]
+
+
+@pytest.mark.parametrize("name", ["insole", "glove"])
+def test_contacts_of_another_layout_than_that_of_the_images_are_left_out_and_told(name: str, tmp_path: Path) -> None:
+    skin = layout(name, 32, 32)
+    patch = skin.patches[-1]
+    row, col = (patch.first_row + patch.end_row) // 2, (patch.first_col + patch.end_col) // 2
+    picture = np.zeros((skin.rows, skin.cols), np.uint16)
+    picture[row - 1 : row + 2, col - 1 : col + 2] = 600
+    matrix = picture.ravel()[skin.places].reshape(32, 32)
+    path = write_bag(
+        tmp_path / "b",
+        *(
+            message
+            for n in range(3)
+            for message in (("/plate/samples", samples(n, matrix)), ("/plate/image_raw", image(n, picture)))
+        ),
+    )
+    with open_recording(path, Choice(layout=name)) as recording:
+        assert [row.contacts is not None and len(row.contacts) for row in recording.rows()] == [1, 1, 1]
+        assert recording.notes() == []
+    with open_recording(path, Choice()) as recording:
+        assert [row.contact is None and row.contacts is None for row in recording.rows()] == [True] * 3
+        (note,) = recording.notes()
+    assert "with the layout square /plate/samples does not give the images of /plate/image_raw" in note
