@@ -283,7 +283,7 @@ class ImpactDetector:
         else:
             free_s = self._samples.untouched_s(touch.x_m, touch.y_m, touch.last_sample_s, math.inf)
             end_s, _ = touch.end(free_s, touch.last_sample_s + 1.5 * period_s, force if is_short else None)
-        kind = Kind.IMPACT if stays else touch.kind(onset_s, end_s, self.config)
+        kind = Kind.IMPACT if stays else touch.kind(onset_s, end_s, period_s, self.config)
         velocity, sd, direction, direction_sd = (0.0, 0.0), (0.0, 0.0), 0.0, UNKNOWN_DIRECTION_SD_RAD
         if fitted is not None and kind is Kind.IMPACT:
             vx, vy = fitted.velocity_m_s.tolist()

@@ -132,11 +132,13 @@ class Touch:
         """Whether what still touches came as an impact: its force was soon largest and has fallen since."""
         return bool(self.rows[-1, _FORCE] <= _FALLEN_SHARE * self.peak_n)
 
-    def kind(self, onset_s: float, end_s: float, config: ImpactConfig) -> Kind:
-        """What it was, now that it is over."""
-        duration_s = end_s - onset_s
-        # Where frames are long, what lies beyond the samples is a guess.
-        certain_s = min(duration_s, self.last_sample_s - self.first_sample_s)
+    def kind(self, onset_s: float, end_s: float, frame_s: float, config: ImpactConfig) -> Kind:
+        """What it was, now that it is over; `frame_s`: the time of a frame."""
+        duration_s = certain_s = end_s - onset_s
+        # What lies beyond the samples is a guess: an impact may be seen by one long frame. So may a tap by one that is
+        # longer than an impact.
+        if frame_s <= config.impact_longest_s:
+            certain_s = min(duration_s, self.last_sample_s - self.first_sample_s)
         if certain_s <= config.impact_longest_s and not self._is_held(certain_s):
             return Kind.IMPACT
         is_large = self.most_area_m2 > config.impact_step_m2

@@ -77,6 +77,26 @@ def test_a_bounce_beside_a_body_that_rests_is_over(scheme: str, m: int) -> None:
     assert balls[1].onset_s == pytest.approx(100.0 + onset_s, abs=0.0015)
 
 
+@pytest.mark.parametrize("began_s", [0.30, 0.32, 0.34, 0.36])
+def test_a_tap_that_one_frame_of_a_large_array_sees_is_no_impact(began_s: float) -> None:
+    settings = ReconstructionSettings(rows=64, cols=64, touch_counts=25)
+    recovery = settings.recovery()
+    detector = settings.impact_detector(recovery)
+    finger, taxels = 400 * bump(64, 64, 30, 30, 2.0).ravel(), np.arange(4096, dtype=np.uint16)
+    frame_s = taxels.size * SAMPLE_S
+    told: list[Impact] = []
+    for number in range(10):
+        time_s = number * frame_s + (taxels + 1) * SAMPLE_S
+        share = np.clip(np.minimum(time_s - began_s, began_s + 0.08 - time_s) / 0.01, 0.0, 1.0)
+        end_s = 100.0 + float(time_s[-1])
+        recovery.step(taxels, np.rint(finger * share).astype(np.uint16), end_s, frame_s)
+        told += detector.step(end_s, frame_s, recovery.image, recovery.sigma, recovery.age_s, recovery.measured)
+    assert [(one.is_over, one.kind, one.bounced) for one in told] == [
+        (False, Kind.UNKNOWN, False),
+        (True, Kind.TAP, False),
+    ]
+
+
 @pytest.mark.parametrize(("rows", "cols"), [(1, 32), (32, 1)])
 def test_on_a_single_row_of_taxels_no_direction_is_known(rows: int, cols: int) -> None:
     middle = (rows - 1) / 2, (cols - 1) / 2
