@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from acts_core.errors import SettingsError
-from acts_core.settings import describe, from_mapping, setting, validate
+from acts_core.settings import describe, from_mapping, rounded_up, setting, validate
 
 
 @dataclass(frozen=True)
@@ -90,3 +90,16 @@ def test_any_mapping_gives_settings_or_a_settings_error(values: dict[str, Any]) 
     values = {KEYS[len(key) % len(KEYS)] if len(key) < 5 else key: value for key, value in values.items()}
     with suppress(SettingsError):
         validate(from_mapping(Example, values))
+
+
+@given(st.floats(1e-6, 1e6))
+def test_a_limit_for_a_person_is_rounded_to_what_is_allowed(limit: float) -> None:
+    told = float(rounded_up(limit))
+    assert limit <= told <= 1.001 * limit
+
+
+@pytest.mark.parametrize(
+    ("limit", "told"), [(0.2, "0.2"), (2.0 / 60.0, "0.03334"), (13.0 + 1e-9, "13.01"), (0.01, "0.01")]
+)
+def test_a_limit_for_a_person_has_four_digits_at_most(limit: float, told: str) -> None:
+    assert rounded_up(limit) == told

@@ -8,5 +8,6 @@ reference implementation in double precision are tested against one another.
 """
 
 from acts_recon.fusion.fusion import ASSUMED_NOISE_COUNTS, FusionConfig, FusionEstimator
+from acts_recon.fusion.fusion_state import known_noise
 
-__all__ = ["ASSUMED_NOISE_COUNTS", "FusionConfig", "FusionEstimator"]
+__all__ = ["ASSUMED_NOISE_COUNTS", "FusionConfig", "FusionEstimator", "known_noise"]

@@ -22,13 +22,18 @@ class PatchesReference:
     borders : Borders
     tuning : Tuning
     noise : float
+    is_known : bool, optional
         As of `FusionReference`.
     """
 
-    def __init__(self, rows: int, cols: int, borders: Borders, tuning: Tuning, noise: float) -> None:
+    def __init__(
+        self, rows: int, cols: int, borders: Borders, tuning: Tuning, noise: float, *, is_known: bool = False
+    ) -> None:
         self._shape = (rows, cols)
         self._rectangles = borders.rectangles.tolist()
-        self.parts = [FusionReference(r1 - r0, c1 - c0, tuning, noise) for r0, r1, c0, c1 in self._rectangles]
+        self.parts = [
+            FusionReference(r1 - r0, c1 - c0, tuning, noise, is_known=is_known) for r0, r1, c0, c1 in self._rectangles
+        ]
 
     def step(
         self, indices: NDArray[np.integer], counts: NDArray[np.integer], period_s: float, duration_s: float

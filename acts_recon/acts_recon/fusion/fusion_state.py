@@ -24,6 +24,12 @@ UNKNOWN_COUNTS = 300.0
 LEAST_NOISE_COUNTS = 0.29
 """Smallest standard deviation of a reading: whole counts are rounded, ``1 / sqrt(12)``."""
 
+
+def known_noise(noise_counts: float) -> float:
+    """`FusionConfig.noise_counts` for noise that is known, even to be none; there 0 stands for not known [counts]."""
+    return max(noise_counts, LEAST_NOISE_COUNTS)
+
+
 SUMS = 7
 LEARNT_COLUMNS = SUMS + 4
 PRODUCT, SQUARE, READINGS, CHANGES, EXPECTED, TOTAL, NUMBER, QUIET, TRUST, IS_NOISE, RESTING = range(LEARNT_COLUMNS)

@@ -13,7 +13,7 @@ from recon_samples import layouts
 
 from acts_core.array import ArrayGeometry
 from acts_core.skin import NO_PATCH, Layout
-from acts_recon.fusion import FusionEstimator
+from acts_recon.fusion import ASSUMED_NOISE_COUNTS, FusionConfig, FusionEstimator
 from acts_recon.fusion.fusion_patches_reference import PatchesReference
 from acts_recon.fusion.fusion_reference import FusionReference
 from acts_recon.images import borders_of
@@ -70,16 +70,19 @@ def test_kernels_equal_the_reference_on_arrays_of_any_shape(shape: tuple[int, in
 
 
 # The same frames every time: where a decision hangs by the last bit of a float32, kernel and reference part.
+@pytest.mark.parametrize("noise_counts", [0.0, 1.5])
 @given(layouts(9, 13), streams())
 @settings(max_examples=15, deadline=None, derandomize=True)
 def test_patches_are_skins_of_their_own(
-    estimator_of: Callable[[Layout | None], FusionEstimator],
+    estimator_of: Callable[[float, Layout | None], FusionEstimator],
+    noise_counts: float,
     arranged: Layout | None,
     frames: list[tuple[Frame, float, float]],
 ) -> None:
-    estimator = estimator_of(arranged)
-    borders, tuning = borders_of(9, 13, arranged), estimator.config.tuning
-    reference, last_s = PatchesReference(9, 13, borders, tuning, 2.0), None
+    estimator = estimator_of(noise_counts, arranged)
+    borders, tuning, is_known = borders_of(9, 13, arranged), estimator.config.tuning, noise_counts > 0
+    assumed = noise_counts or ASSUMED_NOISE_COUNTS
+    reference, last_s = PatchesReference(9, 13, borders, tuning, assumed, is_known=is_known), None
     for (indices, counts), end_s, duration_s in frames:
         image = estimator.step(indices, counts, end_s, duration_s)
         period_s = duration_s if last_s is None else end_s - last_s
@@ -97,5 +100,5 @@ def test_patches_are_skins_of_their_own(
 
 
 @pytest.fixture(scope="module")
-def estimator_of() -> Callable[[Layout | None], FusionEstimator]:
-    return lambda arranged: FusionEstimator(SMALL, layout=arranged)
+def estimator_of() -> Callable[[float, Layout | None], FusionEstimator]:
+    return lambda noise_counts, arranged: FusionEstimator(SMALL, FusionConfig(noise_counts=noise_counts), arranged)

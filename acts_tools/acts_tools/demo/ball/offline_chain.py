@@ -32,6 +32,7 @@ from acts_control.robots.ur import UrConfig
 from acts_core.array import COUNT_MAX, ArrayGeometry
 from acts_core.robots import ur5e
 from acts_core.sampling import SamplingConfig
+from acts_recon.fusion import known_noise
 from acts_recon.settings import ReconstructionSettings
 from acts_sim.ball import JointMotion, Phase, World, WorldConfig
 from acts_sim.ur import JointState, Servo
@@ -86,7 +87,7 @@ def run(chain: Chain, limit_s: float = 60.0, show: Callable[[float], None] = lam
     sampler = BoardSampler(
         SamplingConfig(chain.scheme, geometry.rows, geometry.cols, 55, threshold_counts=chain.threshold_counts)
     )
-    recovery = ReconstructionSettings(method=chain.method, noise_counts=chain.noise_counts).recovery()
+    recovery = ReconstructionSettings(method=chain.method, noise_counts=known_noise(chain.noise_counts)).recovery()
     estimator = BallEstimator(chain.estimator)
     controller = BallController(chain.controller)
     trajectory = Trajectory(chain.trajectory)

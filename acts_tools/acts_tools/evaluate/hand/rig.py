@@ -25,7 +25,7 @@ from acts_core.array import COUNT_MAX
 from acts_core.sampling import SamplingConfig, SkinMap
 from acts_core.settings import describe
 from acts_core.skin import ForceResponse, RegionContact
-from acts_recon.fusion import FusionConfig, FusionEstimator
+from acts_recon.fusion import FusionConfig, FusionEstimator, known_noise
 from acts_recon.regions import Regions
 from acts_recon.slip import SlipConfig
 from acts_sim.dynamixel import RAD_PER_TICK
@@ -111,7 +111,7 @@ class HandRig:
         self._board = BoardSampler(
             replace(options.sampling, seed=world.seed + 1), noise_counts, skin_map=SkinMap.of(layout)
         )
-        self._fusion = FusionEstimator(layout.geometry(), FusionConfig(noise_counts=noise_counts), layout)
+        self._fusion = FusionEstimator(layout.geometry(), FusionConfig(noise_counts=known_noise(noise_counts)), layout)
         self._counts = self._matrix()
         self._period_s = 1.0 / options.rate_hz
         self._due_s = self._last_s = 0.0

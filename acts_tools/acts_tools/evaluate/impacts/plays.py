@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 from acts_core.array import ArrayGeometry
 from acts_recon.contacts import BlobConfig
-from acts_recon.fusion import FusionConfig, FusionEstimator
+from acts_recon.fusion import FusionConfig, FusionEstimator, known_noise
 from acts_recon.impacts import Impact, ImpactDetector
 from acts_sim.impacts import SCENE_RATE_HZ, Scene
 from acts_tools.evaluate.images.recovery import FOLLOW_COUNTS
@@ -51,7 +51,7 @@ class Ours:
         geometry = ArrayGeometry()
         self.scheme = scheme
         self._m, self._noise_counts = m, noise_counts
-        self._fusion = FusionEstimator(geometry, FusionConfig(noise_counts=noise_counts))
+        self._fusion = FusionEstimator(geometry, FusionConfig(noise_counts=known_noise(noise_counts)))
         self._detector = ImpactDetector(
             geometry, blobs=BlobConfig(touch_counts=TOUCH_COUNTS, noise_counts=noise_counts)
         )

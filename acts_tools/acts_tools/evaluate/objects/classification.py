@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from acts_core.array import ArrayGeometry
 from acts_core.sampling import SamplingConfig
 from acts_recon.classifiers import CLASSIFIERS, FusedImageRecogniser, ObjectRecogniser, SrcRecogniser
-from acts_recon.fusion import FusionConfig, FusionEstimator
+from acts_recon.fusion import FusionConfig, FusionEstimator, known_noise
 from acts_recon.methods import Fusion, SkinSetup
 from acts_recon.objects import (
     Classification,
@@ -127,7 +127,7 @@ class FusedImage:
         )
         self._period_s = period_s
         geometry = ArrayGeometry(rows=library.rows, cols=library.cols)
-        self._estimator = FusionEstimator(geometry, FusionConfig(noise_counts=noise_counts))
+        self._estimator = FusionEstimator(geometry, FusionConfig(noise_counts=known_noise(noise_counts)))
         self.spent_us: list[float] = []
 
     def reset(self) -> None:

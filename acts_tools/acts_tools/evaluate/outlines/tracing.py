@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
-from acts_recon.fusion import FusionConfig, FusionEstimator
+from acts_recon.fusion import FusionConfig, FusionEstimator, known_noise
 from acts_recon.methods import PerFrame, PerFrameConfig, SkinSetup
 from acts_recon.outlines import Outline, OutlineTracer, area, contours, mean_distance_m
 from acts_sim.deforming import Meeting
@@ -59,7 +59,7 @@ class Traced:
 def our_outlines(shown: Meeting, m: int, noise_counts: float, seed: int, scheme: str = SCHEME) -> list[Outline]:
     """All that `OutlineTracer` tells of a scene."""
     geometry = ArrayGeometry()
-    fusion = FusionEstimator(geometry, FusionConfig(noise_counts=noise_counts))
+    fusion = FusionEstimator(geometry, FusionConfig(noise_counts=known_noise(noise_counts)))
     tracer = OutlineTracer(geometry, touch_counts=TOUCH_COUNTS, noise_counts=noise_counts)
     found: list[Outline] = []
     for frame in frames_of(shown.frames, SCENE_RATE_HZ, scheme, m, FOLLOW_COUNTS, noise_counts, seed):

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from acts_core.sampling import SkinMap
 from acts_core.skin import Layout
 from acts_recon.contacts import BlobConfig
-from acts_recon.fusion import FusionConfig, FusionEstimator
+from acts_recon.fusion import FusionConfig, FusionEstimator, known_noise
 from acts_recon.images import BaselineSubtraction
 from acts_recon.impacts import Impact, ImpactDetector
 from acts_sim.wearables import WORN_RATE_HZ, WornScene
@@ -39,7 +39,7 @@ class Watcher:
         self.skin_map = None if arranged.is_matrix else SkinMap.of(arranged)
         geometry = arranged.geometry()
         self.fusion = FusionEstimator(
-            geometry, FusionConfig(noise_counts=noise_counts), None if arranged.is_matrix else arranged
+            geometry, FusionConfig(noise_counts=known_noise(noise_counts)), None if arranged.is_matrix else arranged
         )
         self._baseline = BaselineSubtraction(arranged.taxels.size)
         self._detector = ImpactDetector(
