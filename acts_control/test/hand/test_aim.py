@@ -13,6 +13,7 @@ from hand_rig import DT_S, LEAP, region, sensed
 
 from acts_control.hand.control.grasp import Aim, Grasp, GraspConfig
 from acts_control.hand.description import LEAP_RIGHT
+from acts_control.hand.reflexes.spheres.aiming import SMALL_M
 from acts_core.skin import RegionContact
 
 POSTURE = np.array(LEAP_RIGHT.postures["cup"])
@@ -89,6 +90,31 @@ def test_what_held_a_moment_ago_counts_when_closing_ends() -> None:
     thumb, palm = region("thumb_distal", 0.8), on_palm(spread_m=0.008)
     assert ended([thumb, palm]) == ended([thumb], [palm], [], []) == "gripped by thumb, palm"
     assert ended([thumb]) == ended([], []) == "nothing was gripped"
+
+
+def test_what_turns_out_to_be_large_is_closed_upon_by_all_fingers() -> None:
+    """A tip on top of something tall, whose palm contact looked like that of something small."""
+    tip = region("middle_distal", 0.1, centre_m=LEAP_RIGHT.regions["middle_distal"].centre_m)
+    grasp = Grasp(GraspConfig(grasp_posture="cup", aim_shrink_m_s=0.001))
+    straight = Grasp(GraspConfig(grasp_posture="cup")).step(sensed(tip, q_rad=POSTURE, goal_rad=POSTURE))
+    assert straight is not None
+    assert distance_m(POSTURE, "middle") > 2 * SMALL_M
+    wish = None
+    for _ in range(round(0.3 / DT_S)):
+        wish = grasp.step(sensed(on_palm(), q_rad=POSTURE, goal_rad=POSTURE))
+    assert wish is not None
+    assert not np.allclose(wish.steps, straight.steps), "it aims"
+    for _ in range(round(0.1 / DT_S)):
+        wish = grasp.step(sensed(on_palm(), tip, q_rad=POSTURE, goal_rad=POSTURE))
+    assert wish is not None
+    assert wish.steps == pytest.approx(straight.steps)
+    # It stays large where the finger comes off again.
+    for _ in range(round(0.3 / DT_S)):
+        wish = grasp.step(sensed(on_palm(), q_rad=POSTURE, goal_rad=POSTURE))
+    without = Grasp(GraspConfig(grasp_posture="cup")).step(sensed(q_rad=POSTURE, goal_rad=POSTURE))
+    assert wish is not None
+    assert without is not None
+    assert wish.steps == pytest.approx(without.steps)
 
 
 def test_closing_aims_only_at_what_is_small_and_only_while_no_finger_touches() -> None:

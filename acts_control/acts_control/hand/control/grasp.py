@@ -4,7 +4,8 @@
 """Closing the hand: into the shape from which it closes, then each finger until it feels enough.
 
 Something small on the palm is aimed at: a sphere that touches the palm there and shrinks tells each fingertip where to
-go, until one feels what is really there. Anything else is closed upon by all fingers alike.
+go, until one feels what is really there. Anything else is closed upon by all fingers alike, also what turns out to be
+large.
 """
 
 from __future__ import annotations
@@ -30,6 +31,8 @@ _AIM_SPEED_M_S, _PRESS_M_S = 0.15, 0.010
 _ARRIVES_S = 1.0
 _NARROW_S = 0.15
 _WIDEST_M = 0.008
+# What is felt as large for so long is large.
+_LARGE_S = 0.05
 
 
 @dataclass(frozen=True)
@@ -94,6 +97,7 @@ class Grasp:
         self._since_s: dict[str, float] = {}
         self._narrow_s = 0.0
         self._aim: Aim | None = None
+        self._may_aim = True
 
     def step(self, sensed: Sensed) -> Wish | None:
         """Steps that close the hand."""
@@ -103,11 +107,14 @@ class Grasp:
         self._closing_s += sensed.dt_s
         forces = {finger: sum(one.force_n for one in sensed.of_finger(finger)) for finger in sensed.hand.fingers}
         gripping = [finger for finger, force in forces.items() if force >= config.grip_force_n]
-        if self._aim is None:
+        if self._may_aim and self._aim is None:
             self._aim = self._look(sensed)
         if self._aim is not None:
             steps, is_closing = self._aim.step(sensed, gripping)
-        else:
+            if self._aim.is_large:
+                # The palm barely touched it, or it touches the palm at an edge.
+                self._aim, self._may_aim = None, False
+        if self._aim is None:
             steps, is_closing = self._straight(sensed, gripping)
         all_grip = len(gripping) == len(forces)
         self._gripped_s = self._gripped_s + sensed.dt_s if all_grip else 0.0
@@ -165,6 +172,11 @@ class Aim:
     config : GraspConfig
     at_m, up : np.ndarray [shape=(3,)]
         Where the palm feels it, and the direction out of the palm.
+
+    Attributes
+    ----------
+    is_large : bool
+        Whether palm and fingers together say that it is not small.
     """
 
     def __init__(self, config: GraspConfig, at_m: Array, up: Array) -> None:
@@ -172,6 +184,8 @@ class Aim:
         self._at_m, self._up = at_m, up
         self._radius_m = _LARGEST_M
         self._least_s = 0.0
+        self._large_s = 0.0
+        self.is_large = False
 
     def step(self, sensed: Sensed, gripping: Sequence[str]) -> tuple[Array, bool]:
         """Steps of all fingers, and whether they are still on their way."""
@@ -182,12 +196,14 @@ class Aim:
         contacts = [one for name, one in sensed.regions.items() if one.in_contact and sensed.finger(name)]
         points = [sensed.pose.point(one.link, one.centre_m) for one in contacts]
         known_m = aiming.radius_on_palm(self._at_m, up, points)
+        self._large_s = self._large_s + sensed.dt_s if known_m is not None and known_m >= aiming.SMALL_M else 0.0
+        self.is_large = self._large_s > _LARGE_S
         least_m = max(_SMALLEST_M, (known_m or 0.0) - _WITHIN_M)
         self._radius_m = max(self._radius_m - self._config.aim_shrink_m_s * sensed.dt_s, least_m)
         rates = sensed.steps()
         for finger, approach in aiming.approaches(sensed, self._at_m, up).items():
             touched = [one for one in contacts if sensed.finger(one.name) == finger]
-            radius_m = max(self._radius_m, approach.nearest_m(known_m))
+            radius_m = max(self._radius_m, approach.waits_m)
             middle = self._at_m + (known_m if known_m and radius_m <= known_m else radius_m) * up
             away = approach.on_sphere(up, radius_m)
             if touched:

@@ -32,7 +32,7 @@ SMALL_M = 0.018
 PAIR_M = 0.0245
 """Radius of a sphere that only the finger over it and the one against it get hold of [m]."""
 
-# Until it is known that a sphere is not small, the others wait at this distance from its middle.
+# The others wait at this distance from its middle.
 _WAITS_M = {"over": 0.0, "beside": 0.040, "against": 0.028}
 
 # Fingers beside the one in the middle come from the side, and a little from ahead.
@@ -93,9 +93,10 @@ class Approach(NamedTuple):
         result: Array = np.cos(height_rad) * self.side + np.sin(height_rad) * up
         return result
 
-    def nearest_m(self, known_m: float | None) -> float:
+    @property
+    def waits_m(self) -> float:
         """No nearer to the sphere's middle than this, or it is in the way of the finger that comes from above [m]."""
-        return 0.0 if known_m is not None and known_m >= SMALL_M else _WAITS_M[self.part]
+        return _WAITS_M[self.part]
 
 
 def approaches(sensed: Sensed, at_m: Array, up: Array) -> dict[str, Approach]:
