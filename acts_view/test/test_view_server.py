@@ -9,6 +9,7 @@ import errno
 import gc
 import http.client
 import socket
+import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import suppress
@@ -305,3 +306,27 @@ def test_connections_that_ask_for_nothing_are_bounded(bench: Bench, monkeypatch:
         return False
 
     bench.until(is_served)
+
+
+def test_what_is_called_again_and_again_shows_on_the_servers_thread_and_outlives_an_error(bench: Bench) -> None:
+    threads: set[str] = set()
+    values = count(1)
+
+    def show() -> None:
+        threads.add(threading.current_thread().name)
+        value = next(values)
+        if value == 2:
+            raise ValueError("only once")
+        bench.show(value)
+
+    shown: list[int] = []
+    with bench.connect() as client:
+        bench.server.every(0.001, show)
+        while len(shown) < 3:
+            header, arrays = decode(client.recv(DEADLINE_S))  # type: ignore[arg-type]
+            if header["type"] == "frame":
+                shown.append(int(arrays["image"][0, 0]))
+    assert 2 not in shown
+    assert shown == sorted(set(shown))
+    assert threads == {"acts_view_server"}
+    assert [line.rpartition(": ")[2] for line in bench.log] == ["ValueError only once"]

@@ -8,6 +8,7 @@ from __future__ import annotations
 import csv
 import threading
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -66,14 +67,21 @@ def pressed(name: str, time_s: float) -> tuple[str, Frame, list[Sample]]:
 
 
 class Player:
-    """A server that a thread feeds as the node does."""
+    """A server that a thread feeds as the node does, with what `pressed` gives or, of its frames, `change`."""
 
-    def __init__(self, names: tuple[str, ...] = ("/plate",), shape: SkinShape | None = None, port: int = 0) -> None:
+    def __init__(
+        self,
+        names: tuple[str, ...] = ("/plate",),
+        shape: SkinShape | None = None,
+        port: int = 0,
+        change: Callable[[Frame], Frame] = lambda frame: frame,
+    ) -> None:
         self.server = ViewServer("127.0.0.1", port, on_clients=lambda _: None, log=lambda *_: None)
         self.url = self.server.address.url
         for name in names:
             self.server.show_shape(name, shape or SkinShape())
         self._names = names
+        self._change = change
         self.status: dict[str, Any] = {}
         """What each status says besides."""
         self._stopped = threading.Event()
@@ -86,7 +94,8 @@ class Player:
         begin_s = time.time()
         while not self._stopped.wait(PERIOD_S):
             for name in self._names:
-                self.server.show_frame(*pressed(name, begin_s + number * 0.033))
+                _, frame, samples = pressed(name, begin_s + number * 0.033)
+                self.server.show_frame(name, self._change(frame), samples)
             if number % 30 == 0:
                 self.server.show_status({"skins": list(self._names), "diagnostics": [node], **self.status})
             number += 1

@@ -30,7 +30,7 @@ no touch; its stamp [s], None where nothing came."""
 class ContactTopic:
     """Subscribes to ``view/contact_series`` or, where only that is published, as in a bag, to ``contact``.
 
-    All calls from the executor's thread.
+    One call at a time, from the executor's thread, `take` from any.
 
     Parameters
     ----------
@@ -80,19 +80,14 @@ class ContactTopic:
         newest: ContactFields | None = None
         for data, _ in self._series.take_all() if self._series is not None else []:
             try:
-                series = _checked(read_series(data))
+                series = read_series(data)
+                samples += _samples(series)
             except PacketError as error:
                 self._node.get_logger().warning(
                     f"{self._namespace}/view/contact_series: {error}", throttle_duration_sec=5.0
                 )
                 continue
             newest = series.newest
-            last_s = newest.stamp_ns * 1e-9
-            columns = (column.tolist() for column in (series.age_s, series.force_n, series.delay_s, series.missing))
-            samples += [
-                Sample(last_s - age_s, force_n, _latency_ms(delay_s), missing)
-                for age_s, force_n, delay_s, missing in zip(*columns, strict=True)
-            ]
         return _taken(samples, newest)
 
     def _take_contacts(self) -> Taken:
@@ -118,12 +113,19 @@ def _taken(samples: list[Sample], newest: ContactFields | None) -> Taken:
     return samples, _finite(touch) if newest.in_contact else None, newest.stamp_ns * 1e-9
 
 
-def _checked(series: SeriesFields) -> SeriesFields:
-    """The same, or `PacketError` where the columns do not belong together: anybody in the domain can send any."""
-    lengths = {len(column) for column in series[1:]}
-    if len(lengths) != 1 or max(lengths) > _LONGEST or not ((series.age_s >= 0) & (series.age_s <= _OLDEST_S)).all():
+def _samples(series: SeriesFields) -> list[Sample]:
+    """Its contacts, or `PacketError` where the columns do not belong together: anybody in the domain can send any."""
+    newest, *columns = series
+    count = len(series.age_s)
+    if count > _LONGEST or any(len(column) != count for column in columns):
         raise PacketError("no series of contacts")
-    return series
+    ages_s, forces_n, delays_s, missing = (column.tolist() for column in columns)
+    # Of so few numbers Python itself takes less time than numpy.
+    if not all(0 <= age_s <= _OLDEST_S for age_s in ages_s):
+        raise PacketError("no series of contacts")
+    last_s = newest.stamp_ns * 1e-9
+    stamps_s = [last_s - age_s for age_s in ages_s]
+    return list(map(Sample, stamps_s, forces_n, map(_latency_ms, delays_s), missing))
 
 
 def _latency_ms(delay_s: float) -> float:

@@ -22,7 +22,7 @@ _ENDED_S = 0.2
 
 
 class OutlineTopic:
-    """Subscribes to outlines; all calls from the executor's thread.
+    """Subscribes to outlines; one call at a time, from the executor's thread, `take` from any.
 
     Parameters
     ----------

@@ -54,7 +54,7 @@ _ROBOT: dict[str, tuple[type, Callable[[Any], dict[str, Any]], str]] = {
 
 
 class SkinTopics:
-    """Subscribes to what a skin publishes; all calls from the executor's thread.
+    """Subscribes to what a skin publishes; one call at a time, from the executor's thread, `take` from any.
 
     Parameters
     ----------

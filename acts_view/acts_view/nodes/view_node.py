@@ -8,6 +8,7 @@ While no page is open it subscribes to no skin, so that nothing is computed for 
 
 from __future__ import annotations
 
+import threading
 import time
 from collections.abc import Sequence
 from pathlib import Path
@@ -35,6 +36,7 @@ from acts_view.web.server import ViewServer
 if TYPE_CHECKING:
     from acts_view.recording.bounded_bag import BoundedBag
 
+_STEP_PERIOD_S = 0.1
 _LOOK_PERIOD_S = 1.0
 _DIAGNOSTICS_DEPTH = 100
 _FORGET_NODE_S = 60.0
@@ -64,6 +66,8 @@ class ViewNode(PollingNode):
         super().__init__("view", **node_options(), **options)
         self._settings = settings = declare(self, ViewSettings)
         self._skins: dict[str, SkinTopics] = {}
+        # The executor's thread changes what is subscribed to, the server's takes what has come.
+        self._lock = threading.Lock()
         self._asked: dict[str, tuple[Client, Future[Any] | None]] = {}
         self._names = list(settings.namespaces)
         self._heard: dict[str, tuple[float, dict[str, Any]]] = {}
@@ -88,7 +92,9 @@ class ViewNode(PollingNode):
         self.address = self._server.address
         self.create_subscription(DiagnosticArray, "/diagnostics", self._on_diagnostics, _DIAGNOSTICS_DEPTH)
         self._diagnostics = DiagnosticsReporter(self, self.address.url.partition("?")[0], self._report)
-        steady_timer(self, 1.0 / settings.rate_hz, self._step)
+        # Not by a timer of the node: it costs more than what it would call.
+        self._server.every(1.0 / settings.rate_hz, self._show)
+        steady_timer(self, _STEP_PERIOD_S, self._step)
         steady_timer(self, _LOOK_PERIOD_S, self._look)
         self.get_logger().info(f"open {self.address.url}")
 
@@ -107,18 +113,22 @@ class ViewNode(PollingNode):
         """From the server's thread."""
         self._pages = pages
 
+    def _show(self) -> None:
+        """Show what is new; on the server's thread."""
+        with self._lock:
+            for name, topics in self._skins.items():
+                taken = topics.take()
+                if taken is not None:
+                    self._server.show_frame(name, *taken)
+
     def _step(self) -> None:
+        """Often: pass on what pages ask for, and begin and end with them."""
         if self._control is not None:
             self._control.step()
         if not self._pages:
             self._leave()
-            return
-        if not self._skins:
+        elif not self._skins:
             self._look()
-        for name, topics in self._skins.items():
-            taken = topics.take()
-            if taken is not None:
-                self._server.show_frame(name, *taken)
 
     def _look(self) -> None:
         """Now and then: which skins there are, what they are like, and what is said of all."""
@@ -130,9 +140,13 @@ class ViewNode(PollingNode):
             self._find()
         for name in self._names:
             if name in self._skins:
-                self._skins[name].look()
+                with self._lock:
+                    self._skins[name].look()
             else:
-                self._skins[name] = SkinTopics(self, name, with_outlines=self._settings.outlines)
+                # What takes long comes before the lock: the server's thread does not wait for it.
+                made = SkinTopics(self, name, with_outlines=self._settings.outlines)
+                with self._lock:
+                    self._skins[name] = made
             self._ask_shape(name)
         told = {"note": _ONLY_SHOWS} if self._control is None else self._control.look()
         self._server.show_status(
@@ -140,9 +154,10 @@ class ViewNode(PollingNode):
         )
 
     def _leave(self) -> None:
-        for topics in self._skins.values():
-            topics.close()
-        self._skins.clear()
+        with self._lock:
+            for topics in self._skins.values():
+                topics.close()
+            self._skins.clear()
 
     def _find(self) -> None:
         for topic, kinds in self.get_topic_names_and_types():

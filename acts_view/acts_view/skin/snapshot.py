@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field, fields
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,9 +30,8 @@ _AGE_STEP_S = 1e-4
 _AGE_STEPS_MAX = 65535
 
 
-@dataclass(frozen=True)
-class Sample:
-    """One frame of the 1 kHz stream, as the plots need it; see `acts_view.skin.history.History.add`."""
+class Sample(NamedTuple):
+    """One frame of the 1 kHz stream, as `acts_view.skin.history.History.add` takes it."""
 
     stamp_s: float
     force_n: float
@@ -219,8 +218,8 @@ def _age_steps(age_s: NDArray[np.float32]) -> NDArray[np.uint16]:
     """Ages in tenths of a millisecond: half the bytes; what is older than 6.5 s or not known is all the same."""
     # Only what the newest frame measured is 0.
     steps = np.maximum(np.rint(age_s / _AGE_STEP_S), age_s > 0.0)
-    # A comparison with NaN is false.
-    return np.where(steps < _AGE_STEPS_MAX, steps, _AGE_STEPS_MAX).astype(np.uint16)
+    # Of NaN and a number the number.
+    return np.fmin(steps, _AGE_STEPS_MAX).astype(np.uint16)
 
 
 def encode_frame(name: str, frame: Frame, history: NDArray[np.float64], life: int) -> bytes:

@@ -35,6 +35,9 @@ _NAMES = {np.dtype(name): name for name in DTYPES}
 
 _ALIGNMENT = 4
 
+# Made once: `json.dumps` with such options makes one for each message.
+_JSON = json.JSONEncoder(allow_nan=False, separators=(",", ":"))
+
 
 def encode(header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]] | None = None) -> bytes:
     """Make a message.
@@ -61,7 +64,7 @@ def encode(header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]] | None 
         data = array.tobytes() if sys.byteorder == "little" else array.byteswap().tobytes()
         pieces += [data, bytes(-len(data) % _ALIGNMENT)]
     try:
-        text = json.dumps({**header, "arrays": described}, allow_nan=False, separators=(",", ":")).encode()
+        text = _JSON.encode({**header, "arrays": described}).encode()
     except ValueError as error:
         raise ArrayError(f"header {dict(header)!r}: {error}") from error
     text += b" " * (-len(text) % _ALIGNMENT)

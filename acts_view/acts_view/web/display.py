@@ -62,7 +62,7 @@ class Display:
         """Take the newest state of a skin, and what has come since the last one."""
         skin = self._skin(name)
         for sample in samples:
-            skin.history.add(sample.stamp_s, sample.force_n, sample.latency_ms, sample.lost)
+            skin.history.add(*sample)
         skin.frame = frame
         skin.frames += 1
 

@@ -173,6 +173,24 @@ class ViewServer:
         """As `Display.show_status`, from any thread."""
         self._show(self._display.show_status, status)
 
+    def every(self, period_s: float, call: Callable[[], None]) -> None:
+        """Call something on the server's thread again and again, from now until the end; an error in it is logged.
+
+        Parameters
+        ----------
+        period_s : float
+            From one call to the next [s]; calls that are late are not made up for.
+        call : callable
+            Must not take long. What it shows reaches the clients without waking another thread.
+        """
+
+        def again(due_s: float) -> None:
+            next_s = max(due_s + period_s, self._loop.time())
+            self._loop.call_at(next_s, again, next_s)
+            call()
+
+        self._loop.call_soon_threadsafe(again, self._loop.time())
+
     def close(self) -> None:
         """Take leave of all clients and end."""
         asyncio.run_coroutine_threadsafe(self._end(), self._loop).result()
@@ -333,7 +351,10 @@ class ViewServer:
             for client in list(self._clients):
                 self._send_to(client)
 
-        self._loop.call_soon_threadsafe(change)
+        if threading.get_ident() == self._thread.ident:
+            change()
+        else:
+            self._loop.call_soon_threadsafe(change)
 
     def _send_to(self, client: _Client) -> None:
         """Send what is new, where the client has taken what came before; if not, it gets then what is newest."""

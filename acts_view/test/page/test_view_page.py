@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -233,7 +232,7 @@ def test_a_pause_holds_the_figures_and_a_skin_that_appears_in_it(
     beside = open_page(player)
     page.click("#pause")
     _, frame, (sample, *_) = pressed("/plate", time.time())
-    player.server.show_frame("/plate", frame, [replace(sample, lost=7)])
+    player.server.show_frame("/plate", frame, [sample._replace(lost=7)])
     player.server.show_shape("/late", SkinShape())
     player.server.show_frame(*pressed("/late", time.time()))
     for shown in (page, beside):

@@ -7,11 +7,14 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
 
 import pytest
 from view_browser import expect, needs_browser
 from view_player import Player, pressed
+
+from acts_view.skin.snapshot import Frame
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -25,7 +28,7 @@ PLATE, FOOT = "[data-skin='/plate']", "[data-skin='/foot']"
 def follow(play: Callable[..., Player], open_page: Callable[..., Page]) -> Callable[..., tuple[Page, Player]]:
     """Open a page, do something on it, and follow its server with one of these skins."""
 
-    def begin(*names: str, meanwhile: Callable[[Page], object] = lambda _: None) -> tuple[Page, Player]:
+    def begin(*names: str, meanwhile: Callable[[Page], object] = lambda _: None, **options: Any) -> tuple[Page, Player]:
         first = play()
         page = open_page(first)
         # The same element as now, and the most panels at a time.
@@ -40,7 +43,7 @@ def follow(play: Callable[..., Player], open_page: Callable[..., Page]) -> Calla
         meanwhile(page)
         first.close()
         page.wait_for_selector("#connection[data-state=gone]")
-        second = play(names, port=first.server.address.port)
+        second = play(names, port=first.server.address.port, **options)
         page.wait_for_selector("#connection[data-state=live]")
         return page, second
 
@@ -80,3 +83,16 @@ def test_a_paused_panel_stays_until_one_goes_on(follow: Callable[..., tuple[Page
     page.click("#pause")
     expect(page.locator(PLATE)).to_have_count(0)
     expect(page.locator(f"{FOOT} .pill")).to_have_text("live")
+
+
+def test_of_a_hand_only_what_the_new_server_tells_stays(follow: Callable[..., tuple[Page, Player]]) -> None:
+    def smaller(frame: Frame) -> Frame:
+        joints = [["thumb_tip", 0.5], ["thumb_base", 0.25]]
+        return replace(frame, regions=frame.regions[1:], hand={**frame.hand, "joints": joints})
+
+    page, _ = follow("/plate", change=smaller)
+    hand = page.locator(f"{PLATE} .regions")
+    expect(hand.locator("li .name")).to_have_text(["index distal"])
+    expect(hand.locator("li .force")).to_have_text(["0.75 N"])
+    expect(hand.locator(".joints dt")).to_have_text(["thumb tip", "thumb base"])
+    expect(hand.locator(".joints dd")).to_have_text(["29", "14"])

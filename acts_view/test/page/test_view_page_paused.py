@@ -133,3 +133,23 @@ def test_a_shorter_window_shows_what_is_in_it_after_a_zoom_on_what_is_not(
     assert times_s[-1] - times_s[0] == pytest.approx(5.0, abs=0.02)
     assert times_s[-1] == pytest.approx(begin_s + 20.0, abs=0.05)
     expect(page.locator(".skin .pill")).to_have_text("paused")
+
+
+def test_a_skin_that_becomes_another_one_does_so_when_the_page_goes_on(
+    player: Player, open_page: Callable[..., Page], tmp_path: Path
+) -> None:
+    shown(player)
+    page = open_page(player)
+    expect(page.locator(".skin .pill")).to_have_text("live")
+    page.keyboard.press(" ")
+    expect(page.locator(".skin .pill")).to_have_text("paused")
+    before = saved_table(page, "taxels", tmp_path)
+    player.server.show_shape("/plate", SkinShape(rows=16, cols=16))
+    # Told after it, so that it has come.
+    player.server.show_shape("/plate_2", SkinShape())
+    expect(page.locator(".skin")).to_have_count(2)
+    expect(page.locator("[data-skin='/plate'] .shape")).to_contain_text("32 × 32 taxels")
+    assert saved_table(page, "taxels", tmp_path) == before
+    page.locator("canvas.marks").first.focus()  # the space bar is for what has the focus
+    page.keyboard.press(" ")
+    expect(page.locator("[data-skin='/plate'] .shape")).to_contain_text("16 × 16 taxels")

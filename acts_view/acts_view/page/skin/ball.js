@@ -3,6 +3,8 @@
 
 // Of a ball that is balanced: what the controller is about, where the ball is, and how the plate is tilted.
 
+import { rounded } from "./words.js";
+
 const FULL_RAD = 0.15; // the rim of the level
 
 export class Ball {
@@ -52,11 +54,11 @@ function place(dot, tilt) {
 }
 
 function millimetres([x_m, y_m]) {
-  return `${(1000 * x_m).toFixed(1)}, ${(1000 * y_m).toFixed(1)}`;
+  return `${rounded(1000 * x_m, 1)}, ${rounded(1000 * y_m, 1)}`;
 }
 
 function degrees([about_x, about_y]) {
-  return [about_x, about_y].map((angle_rad) => ((angle_rad * 180) / Math.PI).toFixed(2)).join(", ");
+  return [about_x, about_y].map((angle_rad) => rounded((angle_rad * 180) / Math.PI, 2)).join(", ");
 }
 
 function text(element, words) {

@@ -11,6 +11,7 @@ import { Regions } from "./regions.js";
 import { saveContacts, savePicture, savePlots, saveTaxels } from "./saving.js";
 import { settings } from "../settings.js";
 import { SkinView } from "./view.js";
+import { rounded } from "./words.js";
 
 const CONTACT_ROWS = 4;
 const SILENT_MS = 1500;
@@ -35,6 +36,7 @@ export class Panel {
     this.numbers_ms = 0;
     this.isHeld = false;
     this.message = null;
+    this.coming = null;
     this.element = document.createElement("article");
     this.element.className = "card skin";
     this.element.dataset.skin = name;
@@ -72,8 +74,10 @@ export class Panel {
     this.rows = [...this.element.querySelectorAll("tbody tr")].map((row) => [...row.cells]);
   }
 
-  /** What the skin is like. */
+  /** What the skin is like; one whose picture is held is as it was until then. */
   describe(shape) {
+    this.coming = this.isHeld && this.message ? shape : null;
+    if (this.coming) return;
     this.shape = shape;
     const [width_mm, height_mm] = [shape.cols * shape.pitch_m, shape.rows * shape.row_pitch_m].map((side) => Math.round(1000 * side));
     const size = shape.patches.length > 1 ? `${shape.patches.length} patches` : `${width_mm} × ${height_mm} mm`;
@@ -98,6 +102,7 @@ export class Panel {
   /** Hold what is shown, or go on. */
   hold(isHeld) {
     this.isHeld = isHeld;
+    if (!isHeld && this.coming) this.describe(this.coming);
     this.plots.hold(isHeld);
     // The figures beside the picture that is held are its own.
     this.#showFigures(performance.now());
@@ -178,8 +183,8 @@ export class Panel {
     const [, latencies] = history.extremes(LATENCY, 1, 1);
     const values = {
       force: touch ? force_n.toFixed(2) : "0.00",
-      x: touch ? (1000 * x_m).toFixed(1) : "–",
-      y: touch ? (1000 * y_m).toFixed(1) : "–",
+      x: touch ? rounded(1000 * x_m, 1) : "–",
+      y: touch ? rounded(1000 * y_m, 1) : "–",
       peak: touch ? peak.toFixed(0) : "0",
       area: touch ? (1e6 * area_m2).toFixed(0) : "0",
       rate: frames.length ? (frames.reduce((sum, count) => sum + count, 0) / (frames.length * BIN_S)).toFixed(0) : "–",

@@ -3,12 +3,14 @@
 
 // Of a hand: what each region feels, what the hand does, and the angles of its joints.
 
+import { rounded } from "./words.js";
+
 const FULL_N = 5;
 
 export class Regions {
   constructor(element) {
     this.element = element;
-    element.innerHTML = `<h3>Hand <span class="state"></span></h3><p class="reason"></p><ul class="patches"></ul><h3 class="joints-title">Joints <small>°</small></h3><dl class="joints"></dl><p class="note"></p>`;
+    element.innerHTML = `<h3>Hand <span class="state"></span></h3><p class="reason"></p><ul class="patches"></ul><h3 class="joints-title">Joints [°]</h3><dl class="joints"></dl><p class="note"></p>`;
     this.rows = new Map();
     this.joints = new Map();
   }
@@ -20,9 +22,11 @@ export class Regions {
     this.#text(this.element.querySelector(".reason"), hand.reason ?? "");
     const joints = hand.joints ?? [];
     this.element.querySelector(".joints-title").hidden = !joints.length;
-    for (const [name, angle_rad] of joints) this.#text(this.#joint(name), ((angle_rad * 180) / Math.PI).toFixed(0));
+    this.#keep(this.joints, joints, this.element.querySelector(".joints"));
+    for (const [name, angle_rad] of joints) this.#text(this.#joint(name), rounded((angle_rad * 180) / Math.PI, 0));
     const events = (hand.events ?? []).filter(([, count]) => count).map(([name, count]) => `${name} ${count} ×`);
     this.#text(this.element.querySelector(".note"), events.length ? `Reflexes so far: ${events.join(", ")}` : "");
+    this.#keep(this.rows, regions, this.element.querySelector(".patches"));
     for (const [name, force_n, slip_m, isSlipping] of regions) {
       const row = this.#row(name);
       row.dataset.slipping = isSlipping;
@@ -32,11 +36,20 @@ export class Regions {
     }
   }
 
+  /** Empty a list that shows anything but what is told now, in its order: another server may tell less than the last. */
+  #keep(shown, told, list) {
+    const names = new Set(told.map(([name]) => name));
+    if ([...shown.keys()].join("\n") === [...names].join("\n")) return;
+    shown.clear();
+    list.replaceChildren();
+  }
+
   #row(name) {
     if (!this.rows.has(name)) {
       const row = document.createElement("li");
       row.innerHTML = `<span class="name"></span><span class="bar-of-force"><i></i></span><span class="force"></span><span class="slip"></span>`;
-      row.querySelector(".name").textContent = name.replaceAll("_", " ");
+      const title = row.querySelector(".name");
+      title.textContent = title.title = name.replaceAll("_", " ");
       this.element.querySelector(".patches").append(row);
       this.rows.set(name, row);
     }

@@ -1,0 +1,63 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""What the page tells of a hand and a ball, in a real browser: figures and names as a person would write them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import pytest
+from view_browser import expect, needs_browser
+from view_player import Player
+
+from acts_view.skin.snapshot import Frame, RegionState
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+pytestmark = [needs_browser, pytest.mark.slow]
+
+SMALL = -1e-6
+
+
+def centred(frame: Frame) -> Frame:
+    """All of it a little below zero."""
+    ball = {**frame.ball, "ball": [SMALL, SMALL], "tilt_measured": [SMALL, SMALL]}
+    hand = {**frame.hand, "joints": [["index_mcp", SMALL]]}
+    return replace(frame, touch=(SMALL, SMALL, 1.25, 800.0, 1.9e-5), ball=ball, hand=hand)
+
+
+def test_nothing_is_minus_zero(play: Callable[..., Player], open_page: Callable[..., Page]) -> None:
+    page = open_page(play(change=centred))
+    expect(page.locator("[data-number=x]")).to_have_text("0.0")
+    expect(page.locator("[data-number=y]")).to_have_text("0.0")
+    expect(page.locator("[data-ball=ball]")).to_have_text("0.0, 0.0")
+    expect(page.locator("[data-ball=tilt]")).to_have_text("0.00, 0.00")
+    expect(page.locator(".joints dd")).to_have_text(["0"])
+
+
+@pytest.mark.parametrize("width", [360, 1280])
+def test_a_region_has_room_for_its_name(
+    play: Callable[..., Player], open_page: Callable[..., Page], width: int
+) -> None:
+    names = ["middle_proximal", "thumb_proximal", "a_region_of_a_layout_of_ones_own"]
+    regions = [RegionState(name, 2.5, 0.0032, True) for name in names]
+    page = open_page(play(change=lambda frame: replace(frame, regions=regions)), width)
+    expect(page.locator(".regions li")).to_have_count(3)
+    rows = page.evaluate(
+        """() => [...document.querySelectorAll(".regions li")].map((row) => {
+          const [name, bar] = ["name", "bar-of-force"].map((one) => row.querySelector(`.${one}`));
+          const words = document.createRange();
+          words.selectNodeContents(name);
+          const isCut = getComputedStyle(name).overflowX === "hidden";
+          const end = isCut ? name.getBoundingClientRect().right : words.getBoundingClientRect().right;
+          return { isWhole: name.scrollWidth <= name.clientWidth, isBeside: end <= bar.getBoundingClientRect().left };
+        })"""
+    )
+    assert [row["isWhole"] for row in rows] == [True, True, False]
+    assert all(row["isBeside"] for row in rows)
+    # What is cut can be read all the same.
+    assert page.get_attribute(".regions li:last-child .name", "title") == "a region of a layout of ones own"
