@@ -89,7 +89,7 @@ def _grasped(one: Run) -> tuple[Any, Outcome]:
         object="cylinder",
         object_held=True,
         object_size_m=draw.uniform(0.022, 0.028),
-        object_mass_kg=draw.uniform(0.13, 0.17),
+        object_mass_kg=draw.uniform(0.14, 0.18),
         object_x_m=draw.uniform(-0.003, 0.003),
     )
     # A light grip, which carries little more than the object.
