@@ -127,7 +127,7 @@ class FusedImage:
         )
         self._period_s = period_s
         geometry = ArrayGeometry(rows=library.rows, cols=library.cols)
-        self._estimator = FusionEstimator(geometry, FusionConfig(noise_counts=known_noise(noise_counts)))
+        self._estimator = FusionEstimator(geometry, FusionConfig(noise_counts=noise_counts))
         self.spent_us: list[float] = []
 
     def reset(self) -> None:
@@ -196,7 +196,7 @@ def contenders(
     m : int
         Taxels per frame.
     noise_counts : float
-        Standard deviation of a reading [counts].
+        Standard deviation of a reading [counts]; 0: not known, as of recorded presses.
     """
     own = {name: kind for name, kind in CLASSIFIERS.items() if kind not in (SrcRecogniser, FusedImageRecogniser)}
     return {
@@ -348,7 +348,7 @@ def run_trials(
     after_s = 1e-3 * max(MIDDLE_MS, *times_ms) + 0.015
     for number in range(trials.arms):
         arm, coarse, fine = arm_of(trials, number)
-        noise_counts = trials.foam.noise_counts
+        noise_counts = known_noise(trials.foam.noise_counts)
         judged = {m: contenders(coarse, fine, m, noise_counts=noise_counts) for m in ms}
         timed = contenders(coarse, fine, M_OVER_TIME, noise_counts=noise_counts)
         for item in range(len(arm.objects)):

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from acts_recon.fusion import known_noise
 from acts_sim.pressing import OBJECTS
 from acts_tools.evaluate.images.recovery import SAMPLE_US
 from acts_tools.evaluate.objects.classification import (
@@ -63,6 +64,7 @@ def _measure_all(run: Run) -> dict[str, Any]:
     asked = _contenders(run)
     every_ms = list(range(1, LAST_MS + 1))
     count = len(OBJECTS) if items is None else len(items)
+    noise_counts = known_noise(trials.foam.noise_counts)
     right = {f"{scheme} {m}": np.zeros(LAST_MS if whole else 1, dtype=int) for scheme, m, whole in asked}
     matrices = {
         f"{scheme} {m}": np.zeros((len(WINDOWS_MS), count, count), dtype=int) for scheme, m, whole in asked if whole
@@ -74,7 +76,7 @@ def _measure_all(run: Run) -> dict[str, Any]:
             arm, coarse, fine = arm_of(trials, number)
             names = list(coarse.names)
             judged = {
-                f"{scheme} {m}": FusedImage(fine, m, period_s=frame_period_s(m), noise_counts=trials.foam.noise_counts)
+                f"{scheme} {m}": FusedImage(fine, m, period_s=frame_period_s(m), noise_counts=noise_counts)
                 if scheme == OUR_KEY
                 else PerFrameSrc(coarse, m, scheme="raster" if m == ALL else scheme)
                 for scheme, m, _ in asked
