@@ -55,6 +55,8 @@ class Bus:
 
     def hand_at(self, port: Path, **settings: Any) -> DynamixelHand:
         """A hand at any name of the port; it is given back in the end, for the next bus gets the same device."""
+        # By default motors bear a lost answer, as `DynamixelConfig.check_rate` asks for.
+        settings = {"motor_watchdog_s": 1.0, **settings}
         config = DynamixelConfig(port=str(port), answer_timeout_ms=TIMEOUT_MS, **settings)
         self._hands.append(DynamixelHand(LEAP_RIGHT, config))
         return self._hands[-1]
@@ -78,7 +80,7 @@ def reading_where(hand: DynamixelHand, condition: Callable[[HandReading], bool])
 def leave_at(bus: Bus, angle_rad: float) -> None:
     """Another program, which knows wider limits, leaves all joints somewhere, without torque."""
     wide = [replace(joint, upper_rad=2.9) for joint in LEAP_RIGHT.joints]
-    config = DynamixelConfig(port=str(bus.link), answer_timeout_ms=TIMEOUT_MS)
+    config = DynamixelConfig(port=str(bus.link), answer_timeout_ms=TIMEOUT_MS, motor_watchdog_s=1.0)
     hand = DynamixelHand(replace(LEAP_RIGHT, joints=tuple(wide)), config)
     hand.connect()
     hand.enable()
