@@ -12,7 +12,7 @@ from acts_sim.hand.kinematics import PALM, SOLIDS, frames, rotation_of
 from acts_sim.hand.objects import HeldObject, Piece, held_object
 from acts_sim.hand.skin_kernels import BOX, CAPSULE, CYLINDER
 from acts_sim.hand.tip import BLUNT_RADIUS_M, LARGEST_RADIUS_M, SHARP_RADIUS_M
-from acts_sim.hand.truth import COLUMN, PATCH_COLUMNS, PATCHES_FROM, HandTruth, TruthFollower, row_width
+from acts_sim.hand.truth import COLUMN, PATCH_COLUMNS, PATCHES_FROM, HandTruth, PatchTruth, TruthFollower, row_width
 from acts_sim.hand.world import STEP_S, HandWorld, HandWorldConfig
 
 __all__ = [
@@ -32,6 +32,7 @@ __all__ = [
     "HandWorld",
     "HandWorldConfig",
     "HeldObject",
+    "PatchTruth",
     "Piece",
     "TruthFollower",
     "carry_out",

@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +15,7 @@ import yaml
 from ament_index_python.packages import get_package_share_directory
 
 from acts_recon.settings import ReconstructionSettings
-from acts_sim.hand import HandWorldConfig
+from acts_sim.hand import HandWorldConfig, PatchTruth
 from acts_tools.cli import main
 from acts_tools.evaluate.hand import scenarios, slip, sphere
 from acts_tools.evaluate.hand.rig import HandRig, RigOptions
@@ -90,6 +90,22 @@ def test_a_cylinder_that_is_pulled_by_twice_its_weight_is_held() -> None:
     assert outcome.noticed_ms is not None
     assert outcome.offset_mm is not None
     assert outcome.offset_mm < 10.0
+
+
+def test_an_object_that_the_fingers_yield_to_has_not_slipped() -> None:
+    outcome = slip.run(Run(190))
+    assert outcome.offset_mm is not None
+    assert outcome.offset_mm > 0.25
+    assert outcome.details["slid_mm"] < 0.2
+    assert outcome.noticed_ms is None
+    assert outcome.ok
+
+
+def test_sliding_is_the_mean_over_the_patches_weighted_by_force() -> None:
+    truth = HandRig(HandWorldConfig(object="none"), RigOptions()).world.truth
+    assert slip.sliding_m_s(replace(truth, patches={})) == 0.0
+    patches = {"palm": PatchTruth(force_n=3.0, sliding_m_s=0.001), "index_distal": PatchTruth(1.0, 0.5, 0.005, 0.0)}
+    assert slip.sliding_m_s(replace(truth, patches=patches)) == pytest.approx(0.002)
 
 
 def test_the_command_runs_seeds_and_writes_shares_with_intervals(

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from acts_sim.hand import HandWorldConfig
+from acts_sim.hand import HandTruth, HandWorldConfig
 from acts_tools.evaluate.hand.scenario import Outcome, Run
 
 LOADS = (0.5, 1.0, 2.0)
@@ -35,13 +35,17 @@ def run(one: Run) -> Outcome:
     outcome.details["load"] = load
     slips_before = outcome.details["slips_before"]
     at = rig.object_m()
-    moved_s = noticed_s = stood_s = None
-    farthest_m = 0.0
+    moved_s = slid_s = noticed_s = stood_s = None
+    farthest_m = slid_m = 0.0
     rig.world.disturbances.pull_down(load, _RAMP_S)
-    begin_s = rig.time_s
+    begin_s = before_s = rig.time_s
     while rig.time_s < begin_s + _WATCHED_S:
         rig.step()
         truth = rig.world.truth
+        slid_m += sliding_m_s(truth) * (rig.time_s - before_s)
+        before_s = rig.time_s
+        if slid_s is None and slid_m > _NOTICEABLE_M:
+            slid_s = rig.time_s
         # Only along the pull: a grip that tightens also moves the object across it, which is no slip.
         farthest_m = max(farthest_m, float((np.array(truth.object_position_m) - at) @ rig.world.down))
         speed_m_s = float(np.array(truth.object_velocity_m_s) @ rig.world.down)
@@ -55,14 +59,26 @@ def run(one: Run) -> Outcome:
             break
     outcome.kept = not rig.world.truth.object_lost and farthest_m < 0.02
     outcome.offset_mm = 1e3 * farthest_m
-    if moved_s is not None and noticed_s is not None:
-        outcome.noticed_ms = 1e3 * (noticed_s - moved_s)
+    outcome.details["slid_mm"] = 1e3 * slid_m
+    if noticed_s is not None:
+        # A touch that moves with what it touches cannot tell: it counts from when the object slides over the skin.
+        if slid_s is not None:
+            outcome.noticed_ms = 1e3 * (noticed_s - slid_s)
+        if moved_s is not None:
+            outcome.details["noticed_after_motion_ms"] = 1e3 * (noticed_s - moved_s)
     if noticed_s is not None and stood_s is not None:
         outcome.stopped_ms = 1e3 * (stood_s - noticed_s)
     outcome.details["max_grip_n"] = sum(one.force_n for one in rig.regions)
-    noticed_well = moved_s is None or (outcome.noticed_ms is not None and outcome.noticed_ms <= _NOTICED_MS)
+    noticed_well = slid_s is None or (outcome.noticed_ms is not None and outcome.noticed_ms <= _NOTICED_MS)
     outcome.ok = outcome.kept and farthest_m < _ALLOWED_M and (noticed_well or not one.reflex)
     return outcome
+
+
+def sliding_m_s(truth: HandTruth) -> float:
+    """Mean speed at which the object slides over the skin, weighted by force; 0 where it moves with the skin [m/s]."""
+    touching = truth.patches.values()
+    force_n = sum(one.force_n for one in touching)
+    return sum(one.force_n * one.sliding_m_s for one in touching) / force_n if force_n > 0.0 else 0.0
 
 
 def hold(one: Run) -> Outcome:
