@@ -38,6 +38,27 @@ def aimed(seconds: float, *pressed: RegionContact, gripping: tuple[str, ...] = (
     return q, on_their_way
 
 
+class Moments:
+    """Steps of closing or aiming with the joints where they are, at one moment after the other."""
+
+    def __init__(self) -> None:
+        self.time_s = 10.0
+
+    def steps(self, closing: Grasp | Aim, seconds: float, *pressed: RegionContact, **more: Any) -> np.ndarray:
+        """Those of the last one."""
+        steps = np.full(16, np.nan)
+        for _ in range(round(seconds / DT_S)):
+            self.time_s += DT_S
+            now = sensed(*pressed, time_s=self.time_s, q_rad=POSTURE, goal_rad=POSTURE, **more)
+            if isinstance(closing, Aim):
+                steps, _ = closing.step(now, ())
+            else:
+                wish = closing.step(now)
+                assert wish is not None
+                steps = wish.steps
+        return steps
+
+
 def distance_m(q: np.ndarray, finger: str) -> float:
     """How far the pad of a fingertip is from where the palm is touched."""
     tip = LEAP_RIGHT.regions[f"{finger}_distal"]
@@ -99,22 +120,27 @@ def test_what_turns_out_to_be_large_is_closed_upon_by_all_fingers() -> None:
     straight = Grasp(GraspConfig(grasp_posture="cup")).step(sensed(tip, q_rad=POSTURE, goal_rad=POSTURE))
     assert straight is not None
     assert distance_m(POSTURE, "middle") > 2 * SMALL_M
-    wish = None
-    for _ in range(round(0.3 / DT_S)):
-        wish = grasp.step(sensed(on_palm(), q_rad=POSTURE, goal_rad=POSTURE))
-    assert wish is not None
-    assert not np.allclose(wish.steps, straight.steps), "it aims"
-    for _ in range(round(0.1 / DT_S)):
-        wish = grasp.step(sensed(on_palm(), tip, q_rad=POSTURE, goal_rad=POSTURE))
-    assert wish is not None
-    assert wish.steps == pytest.approx(straight.steps)
+    begin = Moments()
+    assert not np.allclose(begin.steps(grasp, 0.3, on_palm()), straight.steps), "it aims"
+    assert begin.steps(grasp, 0.1, on_palm(), tip) == pytest.approx(straight.steps)
     # It stays large where the finger comes off again.
-    for _ in range(round(0.3 / DT_S)):
-        wish = grasp.step(sensed(on_palm(), q_rad=POSTURE, goal_rad=POSTURE))
     without = Grasp(GraspConfig(grasp_posture="cup")).step(sensed(q_rad=POSTURE, goal_rad=POSTURE))
-    assert wish is not None
     assert without is not None
-    assert wish.steps == pytest.approx(without.steps)
+    assert begin.steps(grasp, 0.3, on_palm()) == pytest.approx(without.steps)
+
+
+@pytest.mark.parametrize("turns", [1, 4])
+def test_a_moment_does_not_make_what_is_touched_large(turns: int) -> None:
+    """One image tells no more while no other comes, and each new one that says otherwise begins it anew."""
+    tip = region("middle_distal", 0.1, centre_m=LEAP_RIGHT.regions["middle_distal"].centre_m)
+    aim, begin = Aim(GraspConfig(), AT_M, UP), Moments()
+    for _ in range(turns):
+        begin.steps(aim, DT_S, on_palm(), tip)
+        begin.steps(aim, 0.08, on_palm(), tip, is_new=False)
+        begin.steps(aim, DT_S, on_palm())
+        assert not aim.is_large
+    begin.steps(aim, 0.08, on_palm(), tip)
+    assert aim.is_large
 
 
 def test_closing_aims_only_at_what_is_small_and_only_while_no_finger_touches() -> None:

@@ -98,10 +98,21 @@ def test_a_hand_that_finds_nothing_opens_again() -> None:
     assert hand.goal == pytest.approx(LEAP_RIGHT.postures["open"], abs=1e-3)
 
 
-@pytest.mark.parametrize(("pressed", "ends"), [(("left",), "nothing was gripped"), (("left", "right"), "gripped by")])
-def test_a_finger_whose_region_has_its_name_holds_once(tmp_path: Path, pressed: tuple[str, ...], ends: str) -> None:
+@pytest.mark.parametrize(
+    ("pressed", "ends"),
+    [
+        # A finger whose region has its name holds once.
+        (("left",), "nothing was gripped"),
+        (("left", "right"), "gripped by left, right"),
+        (("left", "palm_near"), "gripped by left, palm_near"),
+        # What lies on the palm is not held by it.
+        (("palm_near", "palm_far"), "nothing was gripped"),
+    ],
+)
+def test_a_finger_and_something_else_hold(tmp_path: Path, pressed: tuple[str, ...], ends: str) -> None:
     path = tmp_path / "gripper.yaml"
-    path.write_text(GRIPPER)
+    palm = "{link: body, role: palm, centre_m: [0.0, 0.0, 0.0], normal: [0, 0, 1]}"
+    path.write_text(GRIPPER.replace("regions:\n", f"regions:\n  palm_near: {palm}\n  palm_far: {palm}\n"))
     gripper = hand_description(str(path))
     supervisor = HandSupervisor(HandKinematics(gripper), {}, SupervisorConfig())
     supervisor.restart(recovered=False)
@@ -109,8 +120,8 @@ def test_a_finger_whose_region_has_its_name_holds_once(tmp_path: Path, pressed: 
     for k in range(2000):
         now_s = k * DT_S
         touch = [
-            RegionContact(name, f"{name}_jaw", int(name in pressed), 0.8 * (name in pressed), normal=(0.0, 0.0, 1.0))
-            for name in gripper.regions
+            RegionContact(name, one.link, int(name in pressed), 0.8 * (name in pressed), normal=(0.0, 0.0, 1.0))
+            for name, one in gripper.regions.items()
         ]
         supervisor.touch(touch, now_s, now_s)
         if k == 1:
@@ -143,6 +154,20 @@ def test_a_tip_is_avoided_while_the_other_fingers_hold_and_then_the_hand_holds_o
     others = [k for k in range(16) if k not in opened]
     assert hand.goal[others] == pytest.approx(before[others])
     assert hand.step(GRIPPED[1:], steps=200) is HandState.HOLDING
+
+
+def test_a_tip_after_a_stop_is_a_new_one() -> None:
+    hand = a_holding_hand()
+    hand.step([TIP, *GRIPPED[1:]], steps=10)
+    hand.supervisor.stop()
+    hand.step([], steps=3000)
+    hand.q = hand.goal = np.full(16, 1.0)
+    hand.supervisor.release()
+    hand.step([TIP])
+    assert hand.supervisor.status.events["sharp"] == 1, "one image may deceive"
+    hand.step([TIP], steps=10)
+    assert hand.supervisor.status.events["sharp"] == 2
+    assert hand.angle("index_pip") < hand.angle("middle_pip") - 0.1
 
 
 def test_touch_that_stops_while_closing_stops_the_hand() -> None:

@@ -5,6 +5,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hand_rig import DT_S, NAMES, RigidHand, region, sensed
@@ -209,6 +211,13 @@ def test_what_lifts_off_is_no_tip() -> None:
         for k, force_n in enumerate(forces_n)
     ]
     assert opens == 7 * [False] + [True]
+
+
+def test_of_a_region_that_was_left_out_nothing_is_known_in_between() -> None:
+    reflex = SharpAvoidance(SharpAvoidanceConfig())
+    for time_s in (0.0, 20.0):
+        assert reflex.step(sensed(tip_in("index_distal"), time_s=time_s)) is None
+        assert reflex.step(replace(sensed(time_s=time_s + DT_S), regions={})) is None
 
 
 def test_a_finger_opens_so_far_and_no_farther() -> None:

@@ -10,6 +10,7 @@ large.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -121,7 +122,8 @@ class Grasp:
         is_exhausted = self._closing_s > config.close_timeout_s or not (all_grip or is_closing)
         holders = self._holders(sensed, gripping)
         if self._gripped_s > config.grip_settle_s or is_exhausted:
-            self.has_gripped = len(holders) >= 2
+            # Without a finger nothing is held, whatever lies on the palm.
+            self.has_gripped = len(holders) >= 2 and not sensed.hand.fingers.keys().isdisjoint(holders)
             self.ended = f"gripped by {', '.join(holders)}" if self.has_gripped else "nothing was gripped"
         return Wish(steps, "closing")
 
@@ -184,7 +186,7 @@ class Aim:
         self._at_m, self._up = at_m, up
         self._radius_m = _LARGEST_M
         self._least_s = 0.0
-        self._large_s = 0.0
+        self._large_since_s = math.inf
         self.is_large = False
 
     def step(self, sensed: Sensed, gripping: Sequence[str]) -> tuple[Array, bool]:
@@ -196,8 +198,12 @@ class Aim:
         contacts = [one for name, one in sensed.regions.items() if one.in_contact and sensed.finger(name)]
         points = [sensed.pose.point(one.link, one.centre_m) for one in contacts]
         known_m = aiming.radius_on_palm(self._at_m, up, points)
-        self._large_s = self._large_s + sensed.dt_s if known_m is not None and known_m >= aiming.SMALL_M else 0.0
-        self.is_large = self._large_s > _LARGE_S
+        if sensed.is_new:
+            # Only touch that has come since tells anything; the first stands for the cycle in which it came.
+            is_large = known_m is not None and known_m >= aiming.SMALL_M
+            began_s = min(self._large_since_s, sensed.time_s - sensed.dt_s)
+            self._large_since_s = began_s if is_large else math.inf
+            self.is_large = sensed.time_s - self._large_since_s > _LARGE_S
         least_m = max(_SMALLEST_M, (known_m or 0.0) - _WITHIN_M)
         self._radius_m = max(self._radius_m - self._config.aim_shrink_m_s * sensed.dt_s, least_m)
         rates = sensed.steps()

@@ -329,6 +329,8 @@ class HandSupervisor:
     def _become(self, state: HandState, reason: str) -> None:
         if state is HandState.STOPPED:
             self._rule.reset()
+            # No reflex is asked meanwhile: what each remembers would be old.
+            self._reset_reflexes()
         self._state, self._reason = state, reason
 
     def _reset_reflexes(self) -> None:

@@ -49,11 +49,15 @@ class DynamixelConfig(BusConfig):
         # One cycle may be late, or wait for a reply that is lost.
         least_s = period_s + max(period_s, lost_s)
         if 0.0 < self.motor_watchdog_s < least_s:
+            ways = [f"raise motor_watchdog_s to {rounded_up(least_s)}"]
+            if self.motor_watchdog_s > lost_s:
+                ways.append("raise rate_hz")
+            if self.motor_watchdog_s > 2.0 * period_s:
+                ways.append("lower answer_timeout_ms")
             raise SettingsError(
                 f"motor_watchdog_s = {self.motor_watchdog_s:g}: with rate_hz = {rate_hz:g} and answer_timeout_ms = "
                 f"{self.answer_timeout_ms:g} the motors may hear nothing for {least_s:.4g} s when one reply is lost, "
-                f"and would stop: raise motor_watchdog_s to {rounded_up(least_s)}, raise rate_hz, or lower "
-                "answer_timeout_ms"
+                f"and would stop: {' or '.join(ways)}"
             )
 
     def gains(self, joint: Joint) -> tuple[int, int, int]:

@@ -17,8 +17,8 @@ from acts_control.hand.description import HandDescription
 from acts_control.hand.motors import HandError, HandReading
 
 TORQUE_STAYS = (
-    "nothing more is sent, but the torque stays on: it is the LEAP team's node's, which cannot switch it off; cut the "
-    "power of the hand, or move it by interface:=dynamixel"
+    "nothing is sent until enable is called; the torque stays on: it is the LEAP team's node's, which cannot switch it "
+    "off; cut the power of the hand, or move it by interface:=dynamixel"
 )
 """What a person should know who asks for the torque to be switched off."""
 
@@ -43,17 +43,17 @@ class CmdLeapBus:
         """Nothing to connect to; what a person should know of."""
         return [
             "through cmd_leap nothing is read from the motors, and no watchdog stops them: faults are not seen, and "
-            "enable sends the angles of the open hand first"
+            "enable sends the angles of the open hand first, or after a release those that were sent last"
         ]
 
     def enable(self) -> None:
-        """From here on angles are sent, first those of the open hand."""
+        """From here on angles are sent, first those that `read` tells."""
 
     def release(self) -> None:
         """Send nothing more; the torque is the other node's, see `TORQUE_STAYS`."""
 
     def read(self) -> HandReading:
-        """What was sent last."""
+        """What was sent last; before that the open hand."""
         count = len(self._q)
         return HandReading(self._q, (0.0,) * count, (0.0,) * count, (0,) * count, ("",) * count)
 

@@ -87,7 +87,7 @@ class MotorNode(PollingNode):
         self._states.name = self.hand.names
         self._publisher = self.create_publisher(JointState, "joint_states", STATE)
         bus = make_bus(self, self.hand, settings)
-        # The first angles that are sent open the hand, and what it may hold then falls: that has to be asked for.
+        # The first angles that a new node sends open the hand, and what it holds then falls: that has to be asked for.
         config = replace(settings, autostart=False) if settings.interface == _CMD_LEAP else settings
         self.loop = HandLoop(self.hand, bus, config, log_of(self), self._on_reading, behaviour)
         self.create_service(Trigger, "~/enable", self._on_enable)

@@ -87,10 +87,10 @@ class SharpAvoidance(Reflex):
     def step(self, sensed: Sensed) -> Wish | None:
         """Open the fingers concerned, and keep them for a while from whatever else asks for them."""
         state, config = self.state, self.config
+        state.until_s = {finger: until_s for finger, until_s in state.until_s.items() if sensed.time_s <= until_s}
         if sensed.is_new:
             self._look(sensed)
-        away = [finger for finger, until_s in state.until_s.items() if sensed.time_s <= until_s]
-        state.until_s = {finger: state.until_s[finger] for finger in away}
+        away = list(state.until_s)
         if not away:
             return None
         steps = sensed.steps()
@@ -106,6 +106,9 @@ class SharpAvoidance(Reflex):
 
     def _look(self, sensed: Sensed) -> None:
         state, config = self.state, self.config
+        # Of a region that a message left out nothing is known in between.
+        state.since_s = {name: since_s for name, since_s in state.since_s.items() if name in sensed.regions}
+        state.force_n = {name: force_n for name, force_n in state.force_n.items() if name in sensed.regions}
         for name, region in sensed.regions.items():
             before_n, state.force_n[name] = state.force_n.get(name, 0.0), region.force_n
             # A tip that goes in presses more and more; an image of what lifts off can look like one.
