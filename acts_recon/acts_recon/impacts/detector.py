@@ -75,6 +75,7 @@ class ImpactDetector:
         self._touches: list[Touch] = []
         self._next_number = 1
         self._before_s: float | None = None
+        self._frame_s = 0.0
 
     def reset(self) -> None:
         """Forget all touches, without telling of them again; numbers go on."""
@@ -121,6 +122,7 @@ class ImpactDetector:
             self.reset()
         before_s = time_s - duration_s if self._before_s is None else self._before_s
         self._before_s = time_s
+        self._frame_s = duration_s
         if age_s is not None and measured is not None:
             self._samples.add(time_s, duration_s, measured, age_s)
             is_sampled = True
@@ -283,7 +285,7 @@ class ImpactDetector:
         else:
             free_s = self._samples.untouched_s(touch.x_m, touch.y_m, touch.last_sample_s, math.inf)
             end_s, _ = touch.end(free_s, touch.last_sample_s + 1.5 * period_s, force if is_short else None)
-        kind = Kind.IMPACT if stays else touch.kind(onset_s, end_s, period_s, self.config)
+        kind = Kind.IMPACT if stays else touch.kind(onset_s, end_s, self._frame_s, self.config)
         velocity, sd, direction, direction_sd = (0.0, 0.0), (0.0, 0.0), 0.0, UNKNOWN_DIRECTION_SD_RAD
         if fitted is not None and kind is Kind.IMPACT:
             vx, vy = fitted.velocity_m_s.tolist()

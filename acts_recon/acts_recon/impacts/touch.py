@@ -133,7 +133,7 @@ class Touch:
         return bool(self.rows[-1, _FORCE] <= _FALLEN_SHARE * self.peak_n)
 
     def kind(self, onset_s: float, end_s: float, frame_s: float, config: ImpactConfig) -> Kind:
-        """What it was, now that it is over; `frame_s`: the time of a frame."""
+        """What it was, now that it is over; `frame_s`: how long the measurements of a frame take."""
         duration_s = certain_s = end_s - onset_s
         # What lies beyond the samples is a guess: an impact may be seen by one long frame. So may a tap by one that is
         # longer than an impact.

@@ -30,9 +30,13 @@ def bump(rows: int, cols: int, row: float, col: float, width: float) -> Array:
 
 
 def told_of(
-    settings: ReconstructionSettings, sampling: SamplingConfig, pressure: Callable[[float], Array], seconds: float
+    settings: ReconstructionSettings,
+    sampling: SamplingConfig,
+    pressure: Callable[[float], Array],
+    seconds: float,
+    lost_s: tuple[float, float] = (0.0, 0.0),
 ) -> list[Impact]:
-    """What is told of a skin that is sampled taxel by taxel."""
+    """What is told of a skin that is sampled taxel by taxel; frames that begin within `lost_s` never arrive."""
     rng = np.random.default_rng(1)
     recovery = settings.recovery()
     detector = settings.impact_detector(recovery)
@@ -48,6 +52,8 @@ def told_of(
             return int(np.clip(round(float(pressure(next_s)[row, col] + 2 * rng.standard_normal())), 0, 1023))
 
         indices, counts = sampler.frame(measure)
+        if lost_s[0] <= begin_s < lost_s[1]:
+            continue
         end_s = 100.0 + begin_s + frame_s
         recovery.step(indices, counts, end_s, sampling.m * SAMPLE_S)
         told += detector.step(
@@ -75,6 +81,22 @@ def test_a_bounce_beside_a_body_that_rests_is_over(scheme: str, m: int) -> None:
     assert [one.is_over for one in balls] == [False, True]
     assert (balls[1].number, balls[1].kind) == (balls[0].number, Kind.IMPACT)
     assert balls[1].onset_s == pytest.approx(100.0 + onset_s, abs=0.0015)
+
+
+@pytest.mark.parametrize("lost_from_s", [0.202, 0.204, 0.206, 0.208])
+@pytest.mark.parametrize("lost_for_s", [0.03, 0.08, 0.15])
+def test_a_bounce_is_an_impact_also_where_the_frames_after_it_are_lost(lost_from_s: float, lost_for_s: float) -> None:
+    ball = 700 * bump(32, 32, 10, 8, 2.0)
+    onset_s, contact_s = 0.2, 0.008
+
+    def pressure(time_s: float) -> Array:
+        since_s = time_s - onset_s
+        return ball * (math.sin(math.pi * since_s / contact_s) if 0 < since_s < contact_s else 0.0)
+
+    settings = ReconstructionSettings(touch_counts=25)
+    sampling = SamplingConfig("tracking", 32, 32, 64, threshold_counts=25)
+    told = told_of(settings, sampling, pressure, 0.45, (lost_from_s, lost_from_s + lost_for_s))
+    assert [(one.is_over, one.kind) for one in told] == [(False, Kind.UNKNOWN), (True, Kind.IMPACT)]
 
 
 @pytest.mark.parametrize("began_s", [0.30, 0.32, 0.34, 0.36])
