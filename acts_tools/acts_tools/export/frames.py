@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -25,7 +26,7 @@ from acts_tools.export.tracks import stamp_ns_of as header_stamp_ns
 
 # Without a taxel above it, an image says nothing of where the taxels lie.
 _TOUCH_COUNTS = 60
-# Cosine between images of the same touch; they may be recovered by other methods, or with another baseline.
+# Cosine between images of the same touches; they may be recovered by other methods, or with another baseline.
 _LEAST_LIKENESS = 0.5
 
 
@@ -41,12 +42,15 @@ class Seen:
         Counts minus the baseline, 0 to 1023.
     contact, contacts : np.ndarray or None
         Columns are `CONTACT_COLUMNS` and `CONTACTS_COLUMNS`; None for a recorded image.
+    is_whole : bool
+        Whether every taxel had been measured by then.
     """
 
     stamp_ns: int
     image: NDArray[np.uint16]
     contact: Values | None = None
     contacts: Values | None = None
+    is_whole: bool = True
 
 
 def recorded_frames(bag: Any, path: Path, topic: str) -> Iterator[Seen]:
@@ -123,30 +127,51 @@ def contacts_in(frames: Iterator[Seen], recorded: Iterator[Seen]) -> tuple[Track
     Returns
     -------
     (Track, Track) or None
-        None where a recovered image is not like the recorded one with the most touch: then the layout is another.
+        None where the recovered images are not like the recorded ones: then the layout is another.
     """
-    contact, contacts = Track[Values](), Track[Values]()
-    most = max(recorded, key=lambda seen: int(seen.image.sum()), default=None)
+    contact, contacts, likeness = Track[Values](), Track[Values](), _Likeness()
+    shown = next(recorded, None)
     for seen in frames:
-        if most is not None and seen.stamp_ns >= most.stamp_ns:
-            if not _are_alike(seen.image, most.image):
-                return None
-            most = None
+        if shown is not None and seen.stamp_ns >= shown.stamp_ns:
+            # Before, a recovered image lacks what the recorded one shows.
+            if seen.is_whole:
+                likeness.add(seen.image, shown.image)
+            shown = next((one for one in recorded if one.stamp_ns > seen.stamp_ns), None)
         assert seen.contact is not None
         assert seen.contacts is not None
         contact.add(seen.stamp_ns, seen.contact)
         contacts.add(seen.stamp_ns, seen.contacts)
-    return contact, contacts
+    return (contact, contacts) if likeness.may_be_same else None
 
 
-def _are_alike(recovered: NDArray[np.uint16], recorded: NDArray[np.uint16]) -> bool:
-    """Whether two images may show the same touch; a recorded one without touch does not tell."""
-    if recovered.shape != recorded.shape:
-        return False
-    if recorded.max() < _TOUCH_COUNTS:
-        return True
-    a, b = recovered.ravel().astype(np.float64), recorded.ravel().astype(np.float64)
-    return bool(a.any()) and float(a @ b) >= _LEAST_LIKENESS * float(np.linalg.norm(a) * np.linalg.norm(b))
+class _Likeness:
+    """Whether pairs of images may show the same touch: the cosine over all of them together.
+
+    Attributes
+    ----------
+    may_be_same : bool
+        True also where no recorded image shows touch.
+    """
+
+    def __init__(self) -> None:
+        self._have_same_shape = True
+        self._product = self._recovered = self._recorded = 0.0
+
+    def add(self, recovered: NDArray[np.uint16], recorded: NDArray[np.uint16]) -> None:
+        """Compare two images; a recorded one without touch does not tell."""
+        if recovered.shape != recorded.shape:
+            self._have_same_shape = False
+        elif recorded.max() >= _TOUCH_COUNTS:
+            a, b = recovered.ravel().astype(np.float64), recorded.ravel().astype(np.float64)
+            self._product += float(a @ b)
+            self._recovered += float(a @ a)
+            self._recorded += float(b @ b)
+
+    @property
+    def may_be_same(self) -> bool:
+        if not self._recorded:
+            return self._have_same_shape
+        return self._have_same_shape and self._product > _LEAST_LIKENESS * math.sqrt(self._recovered * self._recorded)
 
 
 def _settings(samples: TactileSamples, layout: str) -> ReconstructionConfig:
@@ -168,4 +193,6 @@ def _seen(recovery: FrameRecovery, samples: TactileSamples) -> Seen:
     stamp_ns = stamp_ns_of(samples)
     recovery.step(frame_of(samples), stamp_ns)
     image = np.rint(recovery.recovery.image).astype(np.uint16)
-    return Seen(stamp_ns, image, contact_found(recovery.contact), contacts_found(tuple(recovery.blobs)))
+    age_s = recovery.recovery.age_s
+    is_whole = age_s is None or bool(np.isfinite(age_s).all())
+    return Seen(stamp_ns, image, contact_found(recovery.contact), contacts_found(tuple(recovery.blobs)), is_whole)

@@ -248,6 +248,21 @@ def test_contacts_beside_recorded_images_are_found_in_the_samples(tmp_path: Path
     assert [row.contacts is not None and len(row.contacts) for row in rows] == [1, 1, 1]
 
 
+def test_a_bag_that_begins_in_a_touch_keeps_its_contacts(tmp_path: Path) -> None:
+    """The first frames do not measure what the images show already; the touch fades, so the first image has most."""
+    messages: list[tuple[str, Any]] = []
+    for n, peak in enumerate((600, 550, 300, 200)):
+        counts = np.zeros((32, 32), np.uint16)
+        counts[20:23, 10:13] = peak
+        frame = samples(n, counts)
+        if n == 0:
+            frame.indices, frame.counts = frame.indices[:512], frame.counts[:512]
+        messages += [("/plate/samples", frame), ("/plate/image_raw", image(n, counts))]
+    with open_recording(write_bag(tmp_path / "b", *messages), Choice()) as recording:
+        assert [row.contacts is not None and len(row.contacts) for row in recording.rows()] == [0, 1, 1, 1]
+        assert recording.notes() == []
+
+
 @pytest.mark.parametrize("name", ["insole", "glove"])
 def test_contacts_of_another_layout_than_that_of_the_images_are_left_out_and_told(name: str, tmp_path: Path) -> None:
     skin = layout(name, 32, 32)
