@@ -15,6 +15,7 @@ from collections.abc import Callable, Iterator
 from contextlib import suppress
 from itertools import count
 from pathlib import Path
+from queue import Queue
 
 import numpy as np
 import pytest
@@ -330,3 +331,33 @@ def test_what_is_called_again_and_again_shows_on_the_servers_thread_and_outlives
     assert shown == sorted(set(shown))
     assert threads == {"acts_view_server"}
     assert [line.rpartition(": ")[2] for line in bench.log] == ["ValueError only once"]
+
+
+def test_what_is_shown_on_the_servers_thread_is_there_before_the_call_returns(bench: Bench) -> None:
+    """Through the loop's queue it would wait for the next turn, and wake a thread that is awake."""
+    found: Queue[bool] = Queue()
+
+    def show() -> None:
+        if found.empty():
+            bench.show(7)
+            found.put(bool(bench.server._display._skins))
+
+    bench.server.every(0.001, show)
+    assert found.get(timeout=DEADLINE_S)
+
+
+def test_calls_that_are_late_are_not_made_up_for(bench: Bench) -> None:
+    called_s: Queue[float] = Queue()
+    numbers = count()
+
+    def call() -> None:
+        called_s.put(time.monotonic())
+        if next(numbers) == 0:
+            threading.Event().wait(20 * period_s)  # it takes so long
+
+    period_s = 0.05
+    bench.server.every(period_s, call)
+    times_s = [called_s.get(timeout=DEADLINE_S) for _ in range(4)]
+    assert times_s[1] - times_s[0] >= 20 * period_s
+    # Two may follow at once; of the twenty that were due the others are left out.
+    assert times_s[3] - times_s[1] >= 0.9 * period_s

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import threading
 import time
+import traceback
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -37,9 +38,12 @@ if TYPE_CHECKING:
     from acts_view.recording.bounded_bag import BoundedBag
 
 _STEP_PERIOD_S = 0.1
+# Somebody who wants to stop a robot waits for this.
+_CONTROL_PERIOD_S = 0.03
 _LOOK_PERIOD_S = 1.0
 _DIAGNOSTICS_DEPTH = 100
 _FORGET_NODE_S = 60.0
+_TOLD_EVERY_S = 10.0
 # What is shown at most: anybody in the domain can make up more.
 _SKINS_MAX = 32
 _NODES_MAX = 200
@@ -95,6 +99,8 @@ class ViewNode(PollingNode):
         # Not by a timer of the node: it costs more than what it would call.
         self._server.every(1.0 / settings.rate_hz, self._show)
         steady_timer(self, _STEP_PERIOD_S, self._step)
+        if self._control is not None:
+            steady_timer(self, _CONTROL_PERIOD_S, self._control.step)
         steady_timer(self, _LOOK_PERIOD_S, self._look)
         self.get_logger().info(f"open {self.address.url}")
 
@@ -117,14 +123,17 @@ class ViewNode(PollingNode):
         """Show what is new; on the server's thread."""
         with self._lock:
             for name, topics in self._skins.items():
-                taken = topics.take()
-                if taken is not None:
-                    self._server.show_frame(name, *taken)
+                try:
+                    taken = topics.take()
+                    if taken is not None:
+                        self._server.show_frame(name, *taken)
+                except Exception:  # noqa: BLE001 - the page goes on showing the other skins
+                    self.get_logger().error(
+                        f"{name} cannot be shown: {traceback.format_exc()}", throttle_duration_sec=_TOLD_EVERY_S
+                    )
 
     def _step(self) -> None:
-        """Often: pass on what pages ask for, and begin and end with them."""
-        if self._control is not None:
-            self._control.step()
+        """Often: begin and end with the pages."""
         if not self._pages:
             self._leave()
         elif not self._skins:
@@ -143,7 +152,7 @@ class ViewNode(PollingNode):
                 with self._lock:
                     self._skins[name].look()
             else:
-                # What takes long comes before the lock: the server's thread does not wait for it.
+                # Making all subscriptions takes longest; it comes before the lock, for which the server's thread waits.
                 made = SkinTopics(self, name, with_outlines=self._settings.outlines)
                 with self._lock:
                     self._skins[name] = made

@@ -5,12 +5,14 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from dataclasses import replace
+from itertools import count
 from typing import TYPE_CHECKING
 
 import pytest
-from view_browser import expect, needs_browser
+from view_browser import DEADLINE_MS, expect, needs_browser
 from view_player import Player
 
 from acts_view.skin.snapshot import Frame, RegionState
@@ -37,6 +39,35 @@ def test_nothing_is_minus_zero(play: Callable[..., Player], open_page: Callable[
     expect(page.locator("[data-ball=ball]")).to_have_text("0.0, 0.0")
     expect(page.locator("[data-ball=tilt]")).to_have_text("0.00, 0.00")
     expect(page.locator(".joints dd")).to_have_text(["0"])
+
+
+def test_joints_of_several_publishers_stay_and_those_of_none_go(
+    play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    publishers, frames = ["wrist", "arm"], count()
+
+    def change(frame: Frame) -> Frame:
+        # A message has the joints of one of them.
+        name = publishers[next(frames) % 2]
+        return replace(frame, hand={**frame.hand, "joints": [[name, 0.5]]})
+
+    page = open_page(play(change=change))
+    expect(page.locator(".joints dt")).to_have_count(2)
+    publishers[:] = ["arm", "finger"]
+    expect(page.locator(".joints dt").filter(has_text="wrist")).to_have_count(0)
+    expect(page.locator(".joints dt")).to_have_text(["arm", "finger"])
+    page.evaluate(
+        """() => {
+          window.gone = 0;
+          const count = (changes) => (window.gone += changes.reduce((sum, one) => sum + one.removedNodes.length, 0));
+          new MutationObserver(count).observe(document.querySelector(".joints"), { childList: true });
+        }"""
+    )
+    enough, deadline_s = next(frames) + 60, time.monotonic() + DEADLINE_MS / 1000
+    while next(frames) < enough:
+        assert time.monotonic() < deadline_s
+        page.wait_for_timeout(100)
+    assert page.evaluate("() => window.gone") == 0
 
 
 @pytest.mark.parametrize("width", [360, 1280])

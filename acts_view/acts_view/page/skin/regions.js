@@ -7,6 +7,9 @@ import { rounded } from "./words.js";
 
 const FULL_N = 5;
 
+// A message has the joints of one of the nodes that publish some: those of the others stay for a while.
+const JOINT_STAYS_MS = 2000;
+
 export class Regions {
   constructor(element) {
     this.element = element;
@@ -21,12 +24,11 @@ export class Regions {
     this.#text(this.element.querySelector(".state"), [hand.state, ...(hand.active ?? [])].filter(Boolean).join(" · "));
     this.#text(this.element.querySelector(".reason"), hand.reason ?? "");
     const joints = hand.joints ?? [];
-    this.element.querySelector(".joints-title").hidden = !joints.length;
-    this.#keep(this.joints, joints, this.element.querySelector(".joints"));
-    for (const [name, angle_rad] of joints) this.#text(this.#joint(name), rounded((angle_rad * 180) / Math.PI, 0));
+    this.#showJoints(joints);
+    this.element.querySelector(".joints-title").hidden = !this.joints.size;
     const events = (hand.events ?? []).filter(([, count]) => count).map(([name, count]) => `${name} ${count} ×`);
     this.#text(this.element.querySelector(".note"), events.length ? `Reflexes so far: ${events.join(", ")}` : "");
-    this.#keep(this.rows, regions, this.element.querySelector(".patches"));
+    this.#keepThose(regions);
     for (const [name, force_n, slip_m, isSlipping] of regions) {
       const row = this.#row(name);
       row.dataset.slipping = isSlipping;
@@ -36,12 +38,26 @@ export class Regions {
     }
   }
 
-  /** Empty a list that shows anything but what is told now, in its order: another server may tell less than the last. */
-  #keep(shown, told, list) {
-    const names = new Set(told.map(([name]) => name));
-    if ([...shown.keys()].join("\n") === [...names].join("\n")) return;
-    shown.clear();
-    list.replaceChildren();
+  #showJoints(joints) {
+    const now_ms = performance.now();
+    for (const [name, angle_rad] of joints) {
+      const joint = this.#joint(name);
+      joint.told_ms = now_ms;
+      this.#text(joint.angle, rounded((angle_rad * 180) / Math.PI, 0));
+    }
+    for (const [name, joint] of this.joints) {
+      if (now_ms - joint.told_ms <= JOINT_STAYS_MS) continue;
+      joint.pair.remove();
+      this.joints.delete(name);
+    }
+  }
+
+  /** Empty the list if it shows any but these, in their order: another server may have other regions than the last. */
+  #keepThose(regions) {
+    const names = new Set(regions.map(([name]) => name));
+    if ([...this.rows.keys()].join("\n") === [...names].join("\n")) return;
+    this.rows.clear();
+    this.element.querySelector(".patches").replaceChildren();
   }
 
   #row(name) {
@@ -63,7 +79,7 @@ export class Regions {
       const pair = document.createElement("div");
       pair.append(title, angle);
       this.element.querySelector(".joints").append(pair);
-      this.joints.set(name, angle);
+      this.joints.set(name, { pair, angle, told_ms: 0 });
     }
     return this.joints.get(name);
   }
