@@ -160,7 +160,13 @@ def count(records: bytes) -> tuple[list[dict[str, int]], list[Work]]:
     if finished.returncode != 0:
         sys.exit(f"[firmware] the count failed (exit code {finished.returncode})")
     lines = [json.loads(line) for line in finished.stdout.splitlines()]
-    return [line for line in lines if "turns" in line], list(works_of([line for line in lines if "output" in line]))
+    works = list(works_of([line for line in lines if "output" in line]))
+    # A model or settings that the firmware refuses leave it with those before.
+    asked = [("image", m, columns) for columns in ATOMS for m in MEASUREMENTS]
+    asked += [("object", m, columns) for columns in LIBRARIES for m in MEASUREMENTS]
+    if [(work.output, work.m, work.columns) for work in works] != asked:
+        sys.exit("[firmware] the firmware did not take each of the models and settings: it counted others than asked")
+    return [line for line in lines if "turns" in line], works
 
 
 def report(to: Path | None) -> int:

@@ -102,14 +102,23 @@ bool count_frame() {
   return board.has_computed();
 }
 
+constexpr char kNone = 0;
+constexpr char kBroken = '?';
+
+// False at the end of the file, with kNone, and at a record that is cut off or too long, with kBroken.
 bool read_record(std::FILE* file, char& kind, std::uint32_t& length, std::uint8_t* bytes, std::size_t room) {
   std::array<std::uint8_t, 5> head{};
-  if (std::fread(head.data(), 1, head.size(), file) != head.size()) {
+  const std::size_t got = std::fread(head.data(), 1, head.size(), file);
+  kind = got == 0 ? kNone : kBroken;
+  if (got != head.size()) {
+    return false;
+  }
+  length = acts::Reader(head.data() + 1).u32();
+  if (length > room || std::fread(bytes, 1, length, file) != length) {
     return false;
   }
   kind = static_cast<char>(head[0]);
-  length = acts::Reader(head.data() + 1).u32();
-  return length <= room && std::fread(bytes, 1, length, file) == length;
+  return true;
 }
 
 }  // namespace
@@ -123,7 +132,7 @@ int main(int argc, char** argv) {
   try_counter();
   firmware.start_stream();
   static std::array<std::uint8_t, 2 * kSide * kSide> bytes;
-  char kind = 0;
+  char kind = kNone;
   std::uint32_t length = 0;
   while (read_record(file, kind, length, bytes.data(), bytes.size())) {
     if (kind == 's') {
@@ -139,6 +148,10 @@ int main(int argc, char** argv) {
       std::fputs("count_instructions: the firmware neither recovers nor classifies\n", stderr);
       return 1;
     }
+  }
+  if (kind == kBroken) {
+    std::fputs("count_instructions: a record is cut off or too long\n", stderr);
+    return 1;
   }
   return 0;
 }
