@@ -8,8 +8,10 @@ Topics: contact and ball/tilt in; ball/state and contact_statistics out.
 
 from __future__ import annotations
 
+import sys
 import threading
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -23,6 +25,7 @@ from acts_core.settings import Changeable, setting
 from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import BallState, Contact, StreamStatistics
 from acts_ros.clocks import keep_system_clock, steady_timer
+from acts_ros.composition import parameters_from
 from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
 from acts_ros.messages import read_contact
@@ -205,6 +208,8 @@ SETTINGS: dict[str, type] = {"ball_state": BallStateSettings}
 """The settings class of the node, by name."""
 
 
-def main(signals: StopSignals | None = None) -> int:
+def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
     """Run the node; the exit code."""
-    return run([BallStateNode], signals=signals)
+    words = list(sys.argv if args is None else args)
+    given = parameters_from(words, SETTINGS)
+    return run([lambda: BallStateNode(parameter_overrides=given["ball_state"])], words, signals)

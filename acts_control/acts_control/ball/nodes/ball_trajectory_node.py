@@ -8,9 +8,10 @@ Topics: ball/status in; ball/reference out.
 
 from __future__ import annotations
 
+import sys
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -23,6 +24,7 @@ from acts_core.settings import Changeable, setting
 from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import BalanceStatus, BallReference
 from acts_ros.clocks import keep_system_clock, steady_timer
+from acts_ros.composition import parameters_from
 from acts_ros.executor import run
 from acts_ros.messages import skin_frame
 from acts_ros.parameters import declare, node_options, set_rate
@@ -151,6 +153,8 @@ SETTINGS: dict[str, type] = {"ball_trajectory": BallTrajectorySettings}
 """The settings class of the node, by name."""
 
 
-def main(signals: StopSignals | None = None) -> int:
+def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
     """Run the node; the exit code."""
-    return run([BallTrajectoryNode], signals=signals)
+    words = list(sys.argv if args is None else args)
+    given = parameters_from(words, SETTINGS)
+    return run([lambda: BallTrajectoryNode(parameter_overrides=given["ball_trajectory"])], words, signals)
