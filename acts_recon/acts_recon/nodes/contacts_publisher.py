@@ -68,6 +68,10 @@ class ContactsPublisher:
         """Topics for viewers that somebody listens to."""
         self.is_wanted = False
 
+    def reset(self) -> None:
+        """Forget all contacts: the next image is of another board; numbers go on."""
+        self._tracker.reset()
+
     def look_for_subscribers(self) -> None:
         """To be called now and then: whether somebody listens."""
         self._send = self._publisher.get_subscription_count() > 0

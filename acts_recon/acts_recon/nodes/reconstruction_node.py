@@ -23,12 +23,12 @@ from std_msgs.msg import Header
 from acts_core.errors import ArrayError, PacketError
 from acts_core.frames import SampleFrame
 from acts_core.kernels import skip_extras
-from acts_core.runtime import LateFrames, RateLimit, SequenceNumbers, Use, enter_realtime
+from acts_core.runtime import LateFrames, RateLimit, Use, enter_realtime
 from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import Baseline, TactileSamples
 from acts_msgs.msg import Contact as ContactMessage
 from acts_recon.contacts import Contact
-from acts_recon.images import BaselineSubtraction, check_untouched
+from acts_recon.frame_pipeline import ArraySizeError, FramePipeline
 from acts_recon.nodes.abilities import Abilities
 from acts_recon.nodes.contacts_publisher import ContactsPublisher
 from acts_recon.nodes.images_publisher import ImagesPublisher
@@ -52,7 +52,7 @@ _Part = ImagesPublisher | ContactsPublisher | Abilities | ObjectPublisher | Regi
 
 
 class ReconstructionNode(Node):
-    """Translates between topics and a `Recovery`.
+    """Translates between topics and a `FramePipeline`.
 
     Subscribes ``samples`` (acts_msgs/TactileSamples), or takes frames by `take` from a driver in the same process.
     Publishes for every frame ``contact`` (acts_msgs/Contact), while in contact ``cop`` (geometry_msgs/PointStamped),
@@ -72,8 +72,8 @@ class ReconstructionNode(Node):
         if self._settings.unused:
             self.get_logger().warning(f"{', '.join(self._settings.unused)}: not used by method {self._settings.method}")
         self.get_logger().info("compiling (the first time on a machine takes some seconds)")
-        self._recovery = self._settings.recovery()
-        self._baseline = BaselineSubtraction(self._settings.rows * self._settings.cols)
+        self._pipeline = FramePipeline(self._settings, self._forget)
+        self._recovery = self._pipeline.recovery
         self._contact_publisher = self.create_publisher(ContactMessage, "contact", **qos.overridable(qos.STREAM))
         self._cop_publisher = self.create_publisher(PointStamped, "cop", **qos.overridable(qos.STREAM))
         # Filled anew for every frame: making messages costs more than sending them.
@@ -100,7 +100,6 @@ class ReconstructionNode(Node):
         self._unused = 0
         self._late = LateFrames()
         self._rejected: Counter[str] = Counter()
-        self._numbers = SequenceNumbers()
         self._durations_s: deque[float] = deque(maxlen=1000)
         self._reported = (time.monotonic(), 0, 0, 0, 0)
 
@@ -182,50 +181,37 @@ class ReconstructionNode(Node):
 
     def _take(self, frame: SampleFrame, stamp_ns: int, age_ns: int, frame_id: str, *, is_newest: bool) -> None:
         """One of them, with its age [ns], however that is known."""
-        use = self._late.use(age_ns)
-        if use is Use.PUBLISH or is_newest:
-            self._step(frame, stamp_ns, frame_id, is_told=True)
-            return
-        self._untold += 1
-        if use is Use.RECOVER:
-            self._step(frame, stamp_ns, frame_id, is_told=False)
-            return
-        self._unused += 1
-        if self._numbers.goes_back(frame.sequence):
-            self._forget()
-        self._numbers.step(frame.sequence)
-
-    def _step(self, frame: SampleFrame, stamp_ns: int, frame_id: str, *, is_told: bool) -> None:
         began_s = time.perf_counter()
-        settings = self._settings
-        if frame.rows != settings.rows or frame.cols != settings.cols:
-            self._reject(
-                "wrong_array_size",
-                f"array of {frame.rows} x {frame.cols}: the parameters rows and cols say "
-                f"{settings.rows} x {settings.cols}",
-            )
-            return
-        if self._numbers.goes_back(frame.sequence):
-            self._forget()
-        every = frame
-        if self._baseline.is_set:
-            every = frame._replace(counts=self._baseline.apply(frame.indices, frame.counts))
-        frame = every.once()
-        end_s, duration_s = stamp_ns * 1e-9, frame.duration_us * 1e-6
+        use = self._late.use(age_ns)
+        is_told = use is Use.PUBLISH or is_newest
+        is_used = is_told or use is Use.RECOVER
+        self._untold += not is_told
+        self._unused += not is_used
         try:
-            contact = self._recovery.step(frame.indices, frame.counts, end_s, duration_s)
+            if not is_used:
+                self._pipeline.count(frame)
+                return
+            self._pipeline.step(frame, stamp_ns)
+        except ArraySizeError as error:
+            self._reject("wrong_array_size", f"{error} by the parameters rows and cols")
+            return
         except ArrayError as error:
             self._reject("bad_frame", str(error))
             return
         self._frames += 1
-        self._numbers.step(frame.sequence)
-        if not is_told:
-            return
+        if is_told:
+            self._publish(stamp_ns, frame_id)
+            self._durations_s.append(time.perf_counter() - began_s)
+
+    def _publish(self, stamp_ns: int, frame_id: str) -> None:
+        """Publish what has been found in the newest frame."""
+        frame, every, contact = self._pipeline.frame, self._pipeline.every, self._pipeline.contact
+        assert frame is not None
+        assert every is not None
         fields = ContactFields(stamp_ns, frame_id, frame.sequence, *contact)
         self._contact_publisher.publish(write_contact(fields))
         if self._is_more_wanted:
             self._publish_more(frame, every, stamp_ns, frame_id, contact)
-        self._durations_s.append(time.perf_counter() - began_s)
 
     def _publish_more(
         self, frame: SampleFrame, every: SampleFrame, stamp_ns: int, frame_id: str, contact: Contact
@@ -256,19 +242,18 @@ class ReconstructionNode(Node):
                     f"baseline of {message.rows} x {message.cols}: the parameters rows and cols say "
                     f"{settings.rows} x {settings.cols}"
                 )
-            valid = np.asarray(message.valid, dtype=np.bool_)
-            noise = np.asarray(message.noise, dtype=np.float32)
-            # Before anything is taken over.
-            check_untouched("noise", noise, valid, settings.rows * settings.cols)
-            self._baseline.set(np.asarray(message.baseline, dtype=np.float32), valid)
-            self._recovery.set_noise(noise, valid)
+            self._pipeline.set_baseline(
+                np.asarray(message.baseline, dtype=np.float32),
+                np.asarray(message.noise, dtype=np.float32),
+                np.asarray(message.valid, dtype=np.bool_),
+            )
         except ArrayError as error:
             self._rejected["bad_baseline"] += 1
             self.get_logger().warning(f"baseline not used: {error}", throttle_duration_sec=5.0)
 
     def _forget(self) -> None:
-        """Forget all frames: the board of the next one counts from the start again."""
-        self._recovery.reset()
+        """Forget what is kept of all frames: the board of the next one counts from the start again."""
+        self._contacts.reset()
         self._abilities.reset()
         if self._objects is not None:
             self._objects.reset()
@@ -283,23 +268,23 @@ class ReconstructionNode(Node):
         now_s = time.monotonic()
         rejected = self._rejected.total()
         before_s, frames, rejected_before, lost_before, untold_before = self._reported
-        self._reported = (now_s, self._frames, rejected, self._numbers.lost, self._untold)
+        self._reported = (now_s, self._frames, rejected, self._pipeline.lost, self._untold)
         new_frames, new_rejected = self._frames - frames, rejected - rejected_before
-        new_lost, new_untold = self._numbers.lost - lost_before, self._untold - untold_before
+        new_lost, new_untold = self._pipeline.lost - lost_before, self._untold - untold_before
         rate_hz = new_frames / max(now_s - before_s, 1e-9)
         durations_s = list(self._durations_s)
         self._durations_s.clear()
         values = {
             "rate_hz": rate_hz,
             "frames": self._frames,
-            "lost": self._numbers.lost,
+            "lost": self._pipeline.lost,
             "rejected.wrong_array_size": self._rejected["wrong_array_size"],
             "rejected.bad_frame": self._rejected["bad_frame"],
             "rejected.bad_stamp": self._rejected["bad_stamp"],
             "rejected.bad_baseline": self._rejected["bad_baseline"],
             "not_published": self._untold,
             "not_used": self._unused,
-            "baseline": "subtracted" if self._baseline.is_set else "none",
+            "baseline": "subtracted" if self._pipeline.subtracts else "none",
             "frame_us.median": 1e6 * median(durations_s) if durations_s else 0.0,
         }
         if new_rejected:

@@ -54,6 +54,15 @@ def test_a_board_that_begins_anew_is_another_one(recovery: FrameRecovery) -> Non
     assert recovery.blobs[0].number != number
 
 
+def test_a_frame_that_is_refused_is_not_missing_as_well(recovery: FrameRecovery) -> None:
+    recovery.reset()
+    recovery.step(frame(1, 500), 1_000_000)
+    with pytest.raises(ArrayError, match="reads 0 to 1023"):
+        recovery.step(frame(2, 1024), 2_000_000)
+    assert recovery.step(frame(3, 500), 3_000_000) == 0
+    assert recovery.lost == 0
+
+
 def test_a_frame_of_another_size_is_refused(recovery: FrameRecovery) -> None:
     with pytest.raises(ArrayError, match="16 x 16 taxels, expected are 8 x 8"):
         recovery.step(frame(0, 0, side=16), 0)

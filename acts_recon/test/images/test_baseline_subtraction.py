@@ -84,7 +84,7 @@ def test_the_node_subtracts_the_baseline_once_there_is_one(bench: Bench) -> None
     publisher.publish(baseline_message(16, 16, 500.0))
     bench.diagnostics(lambda status, values: values["rejected.bad_baseline"] == "1" and values["baseline"] == "none")
     publisher.publish(baseline_message(32, 32, 15.2))
-    bench.until(lambda: bench.node._baseline.is_set)
+    bench.until(lambda: bench.node._pipeline.subtracts)
     # What is refused changes nothing, not even half of it.
     for rejected, (counts_of_all, noise) in enumerate(((-2000.0, 1.0), (500.0, 1e30)), start=2):
         wrong = baseline_message(32, 32, counts_of_all)

@@ -73,6 +73,29 @@ def test_the_node_publishes_contacts_with_numbers_that_last(make_peers: Callable
     assert upper.area == pytest.approx(upper.active_taxels * GEOMETRY.taxel_area_m2)
 
 
+def test_contacts_on_a_board_that_begins_anew_have_new_numbers(make_peers: Callable[..., Peers]) -> None:
+    peers = make_peers(120)
+    node = peers.add(ReconstructionNode(context=peers.context, namespace="/plate", cli_args=[]))
+    publisher = peers.peer.create_publisher(TactileSamples, "samples", qos.STREAM)
+    peers.until(lambda: publisher.get_subscription_count() == 1)
+    peers.listen(Contacts, "contacts", qos.STREAM)
+    peers.until(lambda: node._contacts._send)
+
+    pressed = bump(GEOMETRY, 8, 6)
+    for count, sequence in enumerate((5, 6, 7, 0, 1), start=1):
+        message = samples_of(pressed, sequence)
+        message.header.stamp.nanosec = 1_000_000 * count
+        publisher.publish(message)
+        peers.until(lambda count=count: len(peers.received["contacts"]) == count)
+    assert [[contact.number for contact in message.contacts] for message in peers.received["contacts"]] == [
+        [1],
+        [1],
+        [1],
+        [2],
+        [2],
+    ]
+
+
 def test_standard_deviations_and_markers_are_those_of_the_contact(make_peers: Callable[..., Peers]) -> None:
     peers = make_peers(121)
     node = peers.add(Node("maker", namespace="/plate", context=peers.context))

@@ -86,6 +86,20 @@ def test_a_board_that_begins_anew_among_very_late_frames_is_noticed(make_bench: 
     assert image[[100, 140, 180, 220]].tolist() == [0, 0, 0, 500]
 
 
+def test_a_very_late_frame_of_another_array_is_refused_as_any_other(make_bench: Callable[..., Bench]) -> None:
+    bench = make_bench(26, method="fusion")
+    cells, pressed = np.array([100], dtype=np.uint16), np.array([500], dtype=np.uint16)
+    now_ns = time.time_ns()
+    mine = SampleFrame(7000, 0, 900, Scheme.TRACKING, 32, 32, 0, cells, pressed)
+    bench.node.take([(mine, now_ns - 110_000_000)], "plate")
+    other = mine._replace(sequence=3, rows=16)
+    later = mine._replace(sequence=7001, indices=cells + 40)
+    bench.node.take([(other, now_ns - 105_000_000), (later, now_ns - 100_000_000)], "plate")
+    # The board did not begin anew.
+    assert bench.node._recovery.image.ravel()[[100, 140]].tolist() == pytest.approx([500, 500], abs=50)
+    bench.diagnostics(lambda _, values: (values["rejected.wrong_array_size"], values["lost"]) == ("1", "0"))
+
+
 def test_of_messages_that_have_waited_the_newest_is_published_whatever_their_stamps(
     make_bench: Callable[..., Bench],
 ) -> None:

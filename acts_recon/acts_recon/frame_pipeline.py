@@ -1,0 +1,134 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""From frame to image and contact: what happens to every frame, in the node reconstruction and without it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.errors import ArrayError
+from acts_core.frames import SampleFrame
+from acts_core.runtime import SequenceNumbers
+from acts_recon.contacts import Contact
+from acts_recon.images import BaselineSubtraction, check_untouched
+from acts_recon.settings import ReconstructionConfig
+
+
+class ArraySizeError(ArrayError):
+    """A frame is of another array than the one it was given for."""
+
+
+class FramePipeline:
+    """Checks, counts and recovers frame after frame; everything is compiled when the constructor is through.
+
+    Parameters
+    ----------
+    settings : ReconstructionConfig
+        Size, layout and method, as the node's parameters.
+    forget : callable, optional
+        Called when all frames are forgotten: whoever keeps something of them forgets it, too.
+
+    Attributes
+    ----------
+    recovery : Recovery
+        With the image of the newest frame.
+    every : SampleFrame or None
+        The newest, with all samples, and counts less the baseline; the next one overwrites them.
+    frame : SampleFrame or None
+        The same with each taxel once.
+    contact : Contact
+        All that presses, as one.
+
+    Raises
+    ------
+    ArrayError, SettingsError
+        As of `ReconstructionConfig.recovery`.
+    """
+
+    def __init__(self, settings: ReconstructionConfig, forget: Callable[[], None] | None = None) -> None:
+        self.recovery = settings.recovery()
+        self._size = (settings.rows, settings.cols)
+        self._forget_more = forget
+        self._baseline = BaselineSubtraction(settings.rows * settings.cols)
+        self._numbers = SequenceNumbers()
+        self.every: SampleFrame | None = None
+        self.frame: SampleFrame | None = None
+        self.contact = Contact()
+
+    @property
+    def lost(self) -> int:
+        """Frames missing so far; see `SequenceNumbers`."""
+        return self._numbers.lost
+
+    @property
+    def subtracts(self) -> bool:
+        """Whether there is a baseline."""
+        return self._baseline.is_set
+
+    def set_baseline(
+        self, counts: NDArray[np.float32], noise_counts: NDArray[np.float32], valid: NDArray[np.bool_]
+    ) -> None:
+        """Use from now on what the taxels read untouched; see `BaselineSubtraction.set` and `Method.set_noise`.
+
+        Raises
+        ------
+        ArrayError
+            One of the two cannot be; nothing is changed then.
+        """
+        check_untouched("noise", noise_counts, valid, self._size[0] * self._size[1])
+        self._baseline.set(counts, valid)
+        self.recovery.set_noise(noise_counts, valid)
+
+    def reset(self) -> None:
+        """Forget all frames: the next one is long after or before, or of another board."""
+        self._forget()
+        self._numbers = SequenceNumbers()
+
+    def step(self, frame: SampleFrame, stamp_ns: int) -> int:
+        """Recover one frame. A board that counts from the start again is another board.
+
+        Parameters
+        ----------
+        frame : SampleFrame
+        stamp_ns : int
+            Time of its last measurement [ns].
+
+        Returns
+        -------
+        int
+            Frames that are missing between the last one and this.
+
+        Raises
+        ------
+        ArraySizeError
+            The frame is of another size; it is not counted.
+        ArrayError
+            Its samples are not of this matrix. It has come, so it is not missing.
+        """
+        lost = self.count(frame)
+        every = frame
+        if self._baseline.is_set:
+            every = frame._replace(counts=self._baseline.apply(frame.indices, frame.counts))
+        once = every.once()
+        self.contact = self.recovery.step(once.indices, once.counts, stamp_ns * 1e-9, once.duration_us * 1e-6)
+        self.every, self.frame = every, once
+        return lost
+
+    def count(self, frame: SampleFrame) -> int:
+        """Check and count one frame without recovering it; parameters, result and errors as of `step`."""
+        if frame.rows != self._size[0] or frame.cols != self._size[1]:
+            raise ArraySizeError(
+                f"frame of {frame.rows} x {frame.cols} taxels, expected are {self._size[0]} x {self._size[1]}"
+            )
+        if self._numbers.goes_back(frame.sequence):
+            self._forget()
+        return self._numbers.step(frame.sequence)
+
+    def _forget(self) -> None:
+        self.recovery.reset()
+        if self._forget_more is not None:
+            self._forget_more()
