@@ -62,7 +62,7 @@ def part(tracks: NDArray[Any]) -> None:
         host_vy = host.vy - track.share * track.dvy
         track.vx = host_vx + track.dvx
         track.vy = host_vy + track.dvy
-        # The position follows from the contact, see `_update`.
+        # The position follows from the contact, see `blob_motion_kernels.update`.
         track.x = track.y = math.inf
         # Expected position of the host when this one has left.
         host_x, host_y = host.x - track.share * track.dx, host.y - track.share * track.dy

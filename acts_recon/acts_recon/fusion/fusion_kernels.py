@@ -234,7 +234,7 @@ def _update(
         innovation = state.innovation[k]
         slope_before = slopes[i] * state.fade[i] if state.age[i] < horizon else _F(0)
         if is_known:
-            # As `_update_sigma` had it, of touched taxels only: beside them it is too large.
+            # As `update_sigma` had it after the last frame, of touched taxels only: beside them it is too large.
             process_noise = _F(0.5) * (process_noises[i] + state.around[i])
             predicted_variance = process_noise * since * since
             if predicted_variance > noise_variance and count > _F(QUIET_SIGMAS) * state.noise[i]:

@@ -128,7 +128,7 @@ def watch(
     Parameters
     ----------
     time_s : float
-        Of what `take` was given last.
+        Of what `update` was given last.
     bounds : np.ndarray [shape=(patches, 4), dtype=int64]
         First and end row, first and end column of every patch, at least 3 by 3. While a taxel of a patch has not been
         measured, nothing is estimated there: it would look as if the contact grew to one side.
