@@ -12,7 +12,7 @@ import numpy as np
 
 from acts_core.array import ArrayGeometry
 from acts_core.sampling import Sampler, SamplingConfig, measure_in
-from acts_recon.sparse import Reconstructor, load_dictionary, shipped_dictionary_path
+from acts_recon.methods import PerFrame, PerFrameConfig, Recovery, SkinSetup
 
 
 def main() -> None:
@@ -25,9 +25,10 @@ def main() -> None:
     sampler = Sampler(SamplingConfig(scheme="adaptive", m=128, threshold_counts=60))
     indices, counts = sampler.frame(measure_in(skin))
 
-    reconstructor = Reconstructor(geometry, load_dictionary(shipped_dictionary_path()))
-    contact = reconstructor.step(indices, counts)
-    image = reconstructor.image  # (32, 32) float32; overwritten by the next step
+    setup = SkinSetup(geometry, touch_counts=60)
+    recovery = Recovery(PerFrame(setup, PerFrameConfig()), setup)
+    contact = recovery.step(indices, counts, end_s=0.0, duration_s=0.001)
+    image = recovery.image  # (32, 32) float32; overwritten by the next step
 
     error = np.linalg.norm(image - skin) / np.linalg.norm(skin)
     print(f"{len(indices)} of {skin.size} taxels measured, relative error of the image {error:.2f}")

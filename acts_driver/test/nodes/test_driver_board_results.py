@@ -72,7 +72,7 @@ def test_images_of_the_board_are_those_of_acts_recon(board: VirtualBoard, rig: R
     touched = 0
     for samples, image in pairs:
         assert (image.header.frame_id, image.encoding, image.height, image.width) == ("plate", "mono16", 32, 32)
-        reconstructor.step(np.asarray(samples.indices, dtype=np.uint16), np.asarray(samples.counts, dtype=np.uint16))
+        reconstructor.recover(np.asarray(samples.indices, dtype=np.uint16), np.asarray(samples.counts, dtype=np.uint16))
         pixels = np.frombuffer(image.data, dtype="<u2").reshape(32, 32)
         assert np.abs(pixels - reconstructor.image).max() <= 0.505  # rounded to whole counts
         touched += bool(pixels.any())

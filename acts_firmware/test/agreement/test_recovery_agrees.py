@@ -49,7 +49,7 @@ def random_dictionary(seed: int, atoms: int, side: int = 8) -> Dictionary:
 
 def assert_same_image(reconstructor: Reconstructor, dictionary: Dictionary, indices: Frame, counts: Frame) -> None:
     config, geometry = reconstructor.config, reconstructor.geometry
-    reconstructor.step(indices, counts)
+    reconstructor.recover(indices, counts)
     image = core.recover(
         dictionary.atoms,
         dictionary.patch_size,

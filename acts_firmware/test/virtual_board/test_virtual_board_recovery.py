@@ -82,7 +82,7 @@ def test_images_are_those_of_acts_recon(board: BoardProcess, small_dictionary: D
     touched = ties = 0
     for image, frame in with_samples(images, client.frames):
         assert isinstance(image, BoardImage)
-        reconstructor.step(frame.indices, frame.counts)
+        reconstructor.recover(frame.indices, frame.counts)
         touched += bool(reconstructor.image.any())
         difference = np.abs(image.counts - reconstructor.image)
         assert difference.ravel()[frame.indices].max() <= 0.505  # rounded to whole counts

@@ -76,7 +76,6 @@ class PerFrame(Method):
                 sparsity_ratio=config.sparsity_ratio,
                 keep_measured=config.keep_measured,
             ),
-            skin.response,
             skin.layout,
         )
         self.image = self._reconstructor.image

@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""From the samples of one frame to the full image and the contact in it."""
+"""From the samples of one frame to the full image."""
 
 from __future__ import annotations
 
@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX, ArrayGeometry
 from acts_core.settings import setting, validate
-from acts_core.skin import ForceResponse, Layout, MeasuredForceResponse
-from acts_recon.contacts import Contact, ContactFinder
+from acts_core.skin import Layout
 from acts_recon.images import PlacedSamples, borders_of
 from acts_recon.sparse import fastomp_kernels as kernels
 from acts_recon.sparse.dictionary import Dictionary
@@ -44,11 +43,9 @@ class Reconstructor:
         Of the picture; without a layout that is the matrix itself.
     dictionary : Dictionary
     config : ReconstructorConfig
-    response : ForceResponse or MeasuredForceResponse
-        From counts to newtons.
     layout : Layout, optional
-        Where the taxels of the matrix lie in the picture. `step` takes matrix indices; patches are laid over the
-        picture, where neighbours are neighbours, and over none of its borders; `image` and contacts are the picture's.
+        Where the taxels of the matrix lie in the picture. `recover` takes matrix indices; patches are laid over the
+        picture, where neighbours are neighbours, and over none of its borders; `image` is the picture's.
 
     Raises
     ------
@@ -61,17 +58,14 @@ class Reconstructor:
         geometry: ArrayGeometry,
         dictionary: Dictionary,
         config: ReconstructorConfig | None = None,
-        response: ForceResponse | MeasuredForceResponse | None = None,
         layout: Layout | None = None,
     ) -> None:
         self.geometry = geometry
         self.config = config or ReconstructorConfig()
-        self.response = response or ForceResponse()
         self._samples = PlacedSamples(geometry, layout)
-        self.borders = borders_of(geometry.rows, geometry.cols, layout)
-        self._finder = ContactFinder(geometry, self.response, float(self.config.touch_counts), borders=self.borders)
+        borders = borders_of(geometry.rows, geometry.cols, layout)
         patches = patch_layout(
-            geometry.rows, geometry.cols, size=dictionary.patch_size, step=self.config.patch_step, borders=self.borders
+            geometry.rows, geometry.cols, size=dictionary.patch_size, step=self.config.patch_step, borders=borders
         )
         self._model = PatchModel(patches, dictionary.atoms).arguments()
         self._workspace = workspace(patches, self.config.sparsity_ratio).arrays()
@@ -82,11 +76,6 @@ class Reconstructor:
         Overwritten by the next frame: copy what is to be kept.
         """
         self._warm_up()
-
-    def step(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16]) -> Contact:
-        """Recover one frame into `image` and find the contact in it; parameters and errors as of `recover`."""
-        self.recover(indices, counts)
-        return self._finder.find(self._flat)
 
     def recover(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16]) -> NDArray[np.float32]:
         """Recover one frame into `image`, and return that.
@@ -119,5 +108,5 @@ class Reconstructor:
     def _warm_up(self) -> None:
         """Compile, or load from the cache, what the first frame would otherwise wait seconds for."""
         everything = np.arange(self.geometry.size, dtype=np.uint16)
-        self.step(everything[:1], np.full(1, COUNT_MAX, dtype=np.uint16))
-        self.step(everything[:1], np.zeros(1, dtype=np.uint16))
+        self.recover(everything[:1], np.full(1, COUNT_MAX, dtype=np.uint16))
+        self.recover(everything[:1], np.zeros(1, dtype=np.uint16))

@@ -13,6 +13,7 @@ from acts_core.sampling import Sampler, SamplingConfig, measure_in
 from acts_core.sampling.basis import division_order
 from acts_core.skin import ForceResponse, layout
 from acts_recon.contacts.contact import find_contact
+from acts_recon.methods import PerFrame, PerFrameConfig, Recovery, SkinSetup
 from acts_recon.sparse import Dictionary, Reconstructor
 
 
@@ -27,12 +28,12 @@ def test_the_samples_of_the_matrix_are_recovered_in_the_picture(dictionary: Dict
     counts = shape.matrix(picture).ravel()[indices].astype(np.uint16)
 
     arranged = Reconstructor(geometry, dictionary, layout=shape)
-    contact = arranged.step(indices, counts)
+    arranged.recover(indices, counts)
+    contact = find_contact(arranged.image, geometry, ForceResponse())
     if len(shape.patches) == 1:
         # The same as if the board had given places of the picture.
         plain = Reconstructor(geometry, dictionary)
-        assert contact == plain.step(shape.places[indices], counts)
-        assert np.array_equal(arranged.image, plain.image)
+        assert np.array_equal(arranged.image, plain.recover(shape.places[indices], counts))
 
     truth = np.where(picture > 60, picture, 0)
     assert np.linalg.norm(arranged.image - truth) < 0.2 * np.linalg.norm(truth)
@@ -48,9 +49,9 @@ def test_patches_over_the_matrix_would_not_do(dictionary: Dictionary) -> None:
     indices = np.random.default_rng(3).permutation(1024)[:300].astype(np.uint16)
     counts = shape.matrix(picture).ravel()[indices].astype(np.uint16)
     arranged = Reconstructor(shape.geometry(), dictionary, layout=shape)
-    arranged.step(indices, counts)
+    arranged.recover(indices, counts)
     torn = Reconstructor(ArrayGeometry(), dictionary)
-    torn.step(indices, counts)
+    torn.recover(indices, counts)
     error = np.linalg.norm(arranged.image - truth)
     assert error < 0.5 * np.linalg.norm(shape.picture(torn.image) - truth)
 
@@ -58,9 +59,10 @@ def test_patches_over_the_matrix_would_not_do(dictionary: Dictionary) -> None:
 def test_contacts_where_rows_and_columns_have_different_pitches(dictionary: Dictionary) -> None:
     geometry = layout("insole").geometry()
     assert geometry.pitch_m != geometry.pitch_y_m
-    reconstructor = Reconstructor(geometry, dictionary)
-    contact = reconstructor.step(*sample(bump(geometry, 30, 6, width=2.5), 1024))
-    expected = find_contact(reconstructor.image, geometry, ForceResponse())
+    skin = SkinSetup(geometry)
+    recovery = Recovery(PerFrame(skin, PerFrameConfig(), dictionary), skin)
+    contact = recovery.step(*sample(bump(geometry, 30, 6, width=2.5), 1024), 0.0, 0.001)
+    expected = find_contact(recovery.image, geometry, ForceResponse())
     for name in ("x_m", "y_m", "force_n", "peak_counts", "area_m2", "spread_m"):
         assert getattr(contact, name) == pytest.approx(getattr(expected, name), rel=1e-4, abs=1e-7)
 
@@ -79,7 +81,8 @@ def test_schemes_that_walk_the_matrix_find_a_contact_of_the_picture(
     sampler = Sampler(SamplingConfig(scheme, m=200, threshold_counts=60))
     reconstructor = Reconstructor(geometry, dictionary, layout=shape)
     for _ in range(30):
-        contact = reconstructor.step(*sampler.frame(measure_in(shape.matrix(picture))))
+        reconstructor.recover(*sampler.frame(measure_in(shape.matrix(picture))))
+    contact = find_contact(reconstructor.image, geometry, ForceResponse())
     assert contact.in_contact
     assert abs(contact.x_m - geometry.x_m(col)) < geometry.pitch_m
     assert abs(contact.y_m - geometry.y_m(row)) < geometry.pitch_y_m
@@ -99,10 +102,10 @@ def test_a_bad_frame_is_told_in_matrix_indices(dictionary: Dictionary) -> None:
     reconstructor = Reconstructor(shape.geometry(), dictionary, layout=shape)
     counts = np.array([1, 2, 3], dtype=np.uint16)
     with pytest.raises(ArrayError, match="index 5 occurs twice"):
-        reconstructor.step(np.array([5, 7, 5], dtype=np.uint16), counts)
+        reconstructor.recover(np.array([5, 7, 5], dtype=np.uint16), counts)
     for index in (1024, 65535):
         with pytest.raises(ArrayError, match=f"index {index}: an array of 32 x 32 has 0 to 1023"):
-            reconstructor.step(np.array([5, index, 6], dtype=np.uint16), counts)
+            reconstructor.recover(np.array([5, index, 6], dtype=np.uint16), counts)
 
 
 def test_a_geometry_that_is_not_the_layouts_is_refused(dictionary: Dictionary) -> None:

@@ -11,7 +11,9 @@ from recon_samples import bump, sample
 from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError, SettingsError
 from acts_core.skin import ForceResponse
+from acts_recon.contacts import Contact
 from acts_recon.contacts.contact import NO_CONTACT, find_contact
+from acts_recon.methods import PerFrame, PerFrameConfig, Recovery, SkinSetup
 from acts_recon.sparse import Dictionary, Reconstructor, ReconstructorConfig
 
 
@@ -20,31 +22,39 @@ def reconstructor(dictionary: Dictionary) -> Reconstructor:
     return Reconstructor(ArrayGeometry(), dictionary)
 
 
+def contact_in(reconstructor: Reconstructor) -> Contact:
+    return find_contact(reconstructor.image, reconstructor.geometry, ForceResponse())
+
+
 def row(*values: int) -> NDArray[np.uint16]:
     return np.array(values, dtype=np.uint16)
 
 
 def test_a_round_contact_is_recovered_from_55_samples(reconstructor: Reconstructor) -> None:
     frame = bump(ArrayGeometry(), 16.3, 15.6)
-    contact = reconstructor.step(*sample(frame, 55))
+    reconstructor.recover(*sample(frame, 55))
+    contact = contact_in(reconstructor)
     truth = np.where(frame > 60, frame, 0)
     assert np.linalg.norm(reconstructor.image - truth) < 0.1 * np.linalg.norm(truth)
     assert contact.x_m == pytest.approx(float(ArrayGeometry().x_m(15.6)), abs=2e-4)
     assert contact.y_m == pytest.approx(float(ArrayGeometry().y_m(16.3)), abs=2e-4)
 
 
-def test_the_contact_is_that_of_the_image(reconstructor: Reconstructor) -> None:
-    contact = reconstructor.step(*sample(bump(ArrayGeometry(), 8, 20, width=3), 200))
-    expected = find_contact(reconstructor.image, ArrayGeometry(), ForceResponse())
+def test_the_contact_is_that_of_the_image(dictionary: Dictionary) -> None:
+    skin = SkinSetup(ArrayGeometry())
+    recovery = Recovery(PerFrame(skin, PerFrameConfig(), dictionary), skin)
+    contact = recovery.step(*sample(bump(ArrayGeometry(), 8, 20, width=3), 200), 0.0, 0.001)
+    expected = find_contact(recovery.image, ArrayGeometry(), ForceResponse())
     assert contact.active_taxels == expected.active_taxels
     for name in ("x_m", "y_m", "force_n", "peak_counts", "area_m2", "spread_m"):
         assert getattr(contact, name) == pytest.approx(getattr(expected, name), rel=1e-5, abs=1e-7)
 
 
 def test_no_contact_after_a_contact(reconstructor: Reconstructor) -> None:
-    reconstructor.step(row(500), row(900))
+    reconstructor.recover(row(500), row(900))
     assert reconstructor.image.any()
-    assert reconstructor.step(row(500), row(10)) == NO_CONTACT
+    reconstructor.recover(row(500), row(10))
+    assert contact_in(reconstructor) == NO_CONTACT
     assert not reconstructor.image.any()
 
 
@@ -65,12 +75,11 @@ def test_a_bad_frame_is_refused_and_changes_nothing(
     reconstructor: Reconstructor, indices: NDArray, counts: NDArray, word: str
 ) -> None:
     frame = sample(bump(ArrayGeometry(), 10, 10), 55)
-    before = reconstructor.step(*frame)
-    image = reconstructor.image.copy()
+    image = reconstructor.recover(*frame).copy()
     with pytest.raises(ArrayError, match=word):
-        reconstructor.step(indices, counts)
+        reconstructor.recover(indices, counts)
     assert np.array_equal(reconstructor.image, image)
-    assert reconstructor.step(*frame) == before
+    reconstructor.recover(*frame)
     assert np.array_equal(reconstructor.image, image)
 
 
@@ -80,7 +89,8 @@ def test_any_frame_gives_finite_numbers(reconstructor: Reconstructor, data: st.D
     indices = data.draw(st.lists(st.integers(0, 1023), min_size=1, max_size=80, unique=True))
     extremes = st.sampled_from([0, 60, 61, 1023]) | st.integers(0, 1023)
     counts = data.draw(st.lists(extremes, min_size=len(indices), max_size=len(indices)))
-    contact = reconstructor.step(row(*indices), row(*counts))
+    reconstructor.recover(row(*indices), row(*counts))
+    contact = contact_in(reconstructor)
     assert np.isfinite(reconstructor.image).all()
     assert 0 <= reconstructor.image.min() <= reconstructor.image.max() <= 1023
     assert contact.in_contact == any(count > 60 for count in counts)
@@ -92,7 +102,8 @@ def test_other_arrays(dictionary: Dictionary, rows: int, cols: int) -> None:
     geometry = ArrayGeometry(rows, cols, 0.004)
     reconstructor = Reconstructor(geometry, dictionary)
     frame = bump(geometry, rows - 2, cols - 2)
-    contact = reconstructor.step(*sample(frame, frame.size))
+    reconstructor.recover(*sample(frame, frame.size))
+    contact = contact_in(reconstructor)
     assert np.array_equal(reconstructor.image, np.where(frame > 60, frame, 0))
     # Cut off by the edge, so inside of the middle of the bump.
     assert geometry.x_m(cols - 4) < contact.x_m < geometry.x_m(cols - 2)
@@ -102,7 +113,7 @@ def test_other_arrays(dictionary: Dictionary, rows: int, cols: int) -> None:
 def test_measured_taxels_may_be_smoothed(dictionary: Dictionary) -> None:
     reconstructor = Reconstructor(ArrayGeometry(), dictionary, ReconstructorConfig(keep_measured=False))
     indices, counts = sample(bump(ArrayGeometry(), 16, 16), 55)
-    reconstructor.step(indices, counts)
+    reconstructor.recover(indices, counts)
     assert not np.array_equal(reconstructor.image.ravel()[indices], np.where(counts > 60, counts, 0))
 
 
