@@ -17,12 +17,6 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
-from acts_core.errors import ArrayError
-from acts_recon.slip.motion_kernels import normal_equations, solve
-
 # Ridge term: a pattern without gradient, such as equal pressure all over, has no motion.
 RIDGE = 1e-6
 
@@ -55,60 +49,3 @@ class Motion(NamedTuple):
     def distance_taxels(self) -> float:
         """Length of the shift."""
         return math.hypot(self.cols, self.rows)
-
-
-class MotionEstimator:
-    """Estimates the motion on patches of one size.
-
-    Parameters
-    ----------
-    rows, cols : int
-        Size of the patch, at least 3 by 3.
-    noise_counts : float
-        Standard deviation of a taxel of the images [counts].
-
-    Raises
-    ------
-    ArrayError
-        For a smaller patch, or noise that is not above 0.
-    """
-
-    def __init__(self, rows: int, cols: int, noise_counts: float = 1.5) -> None:
-        if min(rows, cols) < SMALLEST_SIDE:
-            raise ArrayError(
-                f"a patch of {rows} x {cols} taxels: motion is seen on {SMALLEST_SIDE} x {SMALLEST_SIDE} and more"
-            )
-        if not noise_counts > 0.0:
-            raise ArrayError(f"noise_counts = {noise_counts}: allowed is a number above 0")
-        self._shape = (rows, cols)
-        self._noise = noise_counts
-        self._matrix = np.zeros((4, 5))
-        self._inverse = np.zeros((4, 4))
-
-    def between(self, reference: NDArray[np.float32], image: NDArray[np.float32]) -> Motion | None:
-        """The motion from one image to another.
-
-        Parameters
-        ----------
-        reference, image : np.ndarray [shape=(rows, cols), dtype=float32]
-            Counts above the baseline, finite.
-
-        Returns
-        -------
-        Motion or None
-            None where nothing presses.
-
-        Raises
-        ------
-        ArrayError
-            When one has another shape or type.
-        """
-        for given in (reference, image):
-            if given.shape != self._shape or given.dtype != np.float32:
-                raise ArrayError(
-                    f"an image of shape {given.shape}, {given.dtype}: needed is {self._shape}, float32 (counts)"
-                )
-        squares, count = normal_equations(reference, image, self._matrix)
-        if not count:
-            return None
-        return Motion(*solve(self._matrix, self._inverse, squares, count, self._noise, RIDGE))

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from acts_core.errors import ArrayError
 from acts_recon.slip import SlipConfig, SlipDetector
-from acts_recon.slip.motion import RIDGE, MotionEstimator
+from acts_recon.slip.motion import RIDGE, Motion
+from acts_recon.slip.motion_kernels import normal_equations, solve
 
 pytestmark = pytest.mark.slow
 
@@ -24,6 +25,15 @@ PITCH_M = 0.003
 def press(row: float, col: float, width: float = 1.5, counts: float = 600.0, side: int = SIDE) -> NDArray[np.float32]:
     rows, cols = np.indices((side, side))
     return np.asarray(counts * np.exp(-((rows - row) ** 2 + (cols - col) ** 2) / (2 * width**2)), np.float32)
+
+
+def motion_between(
+    reference: NDArray[np.float32], image: NDArray[np.float32], noise_counts: float = 1.5
+) -> Motion | None:
+    """By the kernels; None where nothing presses."""
+    matrix = np.zeros((4, 5))
+    squares, count = normal_equations(reference, image, matrix)
+    return Motion(*solve(matrix, np.zeros((4, 4)), squares, count, noise_counts, RIDGE)) if count else None
 
 
 def by_lstsq(reference: NDArray[np.float32], image: NDArray[np.float32]) -> NDArray[np.float64]:
@@ -44,7 +54,7 @@ def test_the_kernel_is_the_least_squares_that_it_says(seed: int, rows: int, cols
     rng = np.random.default_rng(seed)
     reference = rng.uniform(0, 900, (rows, cols)).astype(np.float32)
     image = (reference + rng.normal(0, 20, (rows, cols))).astype(np.float32)
-    motion = MotionEstimator(rows, cols).between(reference, image)
+    motion = motion_between(reference, image)
     assert motion is not None
     expected = by_lstsq(reference, image)
     found = np.array([motion.cols, motion.rows, motion.gain, motion.growth])
@@ -55,7 +65,7 @@ def test_the_kernel_is_the_least_squares_that_it_says(seed: int, rows: int, cols
 @pytest.mark.parametrize("angle_deg", [0, 37, 90, 200])
 def test_a_small_shift_is_measured(shift: float, angle_deg: int) -> None:
     right, down = shift * np.cos(np.radians(angle_deg)), shift * np.sin(np.radians(angle_deg))
-    motion = MotionEstimator(SIDE, SIDE).between(press(3.4, 3.7), press(3.4 + down, 3.7 + right))
+    motion = motion_between(press(3.4, 3.7), press(3.4 + down, 3.7 + right))
     assert motion is not None
     assert motion.cols == pytest.approx(right, abs=0.06 * shift)
     assert motion.rows == pytest.approx(down, abs=0.06 * shift)
@@ -63,7 +73,7 @@ def test_a_small_shift_is_measured(shift: float, angle_deg: int) -> None:
 
 
 def test_force_and_width_are_told_from_motion() -> None:
-    motion = MotionEstimator(SIDE, SIDE).between(press(3.4, 3.7), press(3.4, 3.7, width=1.56, counts=690.0))
+    motion = motion_between(press(3.4, 3.7), press(3.4, 3.7, width=1.56, counts=690.0))
     assert motion is not None
     assert motion.distance_taxels < 0.01
     assert motion.gain == pytest.approx(1.15, abs=0.02)
@@ -72,11 +82,10 @@ def test_force_and_width_are_told_from_motion() -> None:
 
 def test_its_standard_deviation_is_that_of_many_tries() -> None:
     rng = np.random.default_rng(1)
-    estimator = MotionEstimator(SIDE, SIDE, noise_counts=4.0)
     clean, errors, deviations = press(3.4, 3.7), [], []
     for _ in range(400):
         a, b = (clean + rng.normal(0, 4.0, clean.shape).astype(np.float32) for _ in range(2))
-        motion = estimator.between(a, b)
+        motion = motion_between(a, b, noise_counts=4.0)
         assert motion is not None
         errors.append((motion.cols, motion.rows))
         deviations.append(motion.sd_taxels)
@@ -86,12 +95,12 @@ def test_its_standard_deviation_is_that_of_many_tries() -> None:
 
 def test_nothing_is_said_where_nothing_presses() -> None:
     empty = np.zeros((SIDE, SIDE), np.float32)
-    assert MotionEstimator(SIDE, SIDE).between(empty, empty) is None
+    assert motion_between(empty, empty) is None
 
 
 def test_equal_pressure_all_over_shows_no_motion() -> None:
     flat = np.full((SIDE, SIDE), 300.0, np.float32)
-    motion = MotionEstimator(SIDE, SIDE).between(flat, flat + 1.0)
+    motion = motion_between(flat, flat + 1.0)
     assert motion is not None
     assert not motion.distance_taxels > 5 * motion.sd_taxels
 
@@ -101,15 +110,15 @@ def test_equal_pressure_all_over_shows_no_motion() -> None:
 )
 def test_patches_and_noise_that_cannot_be_are_refused(rows: int, cols: int, noise: float, words: str) -> None:
     with pytest.raises(ArrayError, match=words):
-        MotionEstimator(rows, cols, noise)
+        SlipDetector(rows, cols, PITCH_M, noise_counts=noise)
 
 
 def test_images_of_another_kind_are_refused() -> None:
-    estimator = MotionEstimator(SIDE, SIDE)
+    detector = SlipDetector(SIDE, SIDE, PITCH_M)
     image = press(3, 3)
     for wrong in (image[:-1], image.astype(np.float64)):
         with pytest.raises(ArrayError, match="float32"):
-            estimator.between(image, wrong)
+            detector.step(0.0, wrong)
 
 
 def first_slip(images: list[NDArray[np.float32]], rate_hz: float, config: SlipConfig | None = None) -> int | None:
