@@ -28,9 +28,9 @@ from rclpy.task import Future
 from std_srvs.srv import Trigger
 
 from acts_control.ball.plate import acceleration_of
-from acts_control.names import set_stamp
 from acts_core.robots import ur5e
 from acts_msgs.msg import BalanceStatus, BallReference, BallState, Contact, StreamStatistics
+from acts_ros.messages import set_stamp
 from acts_ros.qos import STATE, STREAM
 
 HOOK_PORT = 30100

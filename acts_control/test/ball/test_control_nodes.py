@@ -18,10 +18,10 @@ from geometry_msgs.msg import Vector3Stamped
 
 from acts_control.ball.nodes.ball_state_node import BallStateNode
 from acts_control.ball.nodes.ball_trajectory_node import BallTrajectoryNode
-from acts_control.names import set_stamp, to_ns
 from acts_core.errors import REFUSED_EXIT_CODE
 from acts_core.runtime import StreamCounter
 from acts_msgs.msg import BalanceStatus
+from acts_ros.messages import ns_of, set_stamp
 from acts_ros.qos import STATE, STREAM
 
 pytestmark = pytest.mark.slow
@@ -100,7 +100,7 @@ def test_state_uses_the_tilt_and_tells_when_the_ball_is_gone(bench: Bench) -> No
     set_stamp(tilt.header.stamp, bench.now_ns())
     tilts.publish(tilt)
     # Stamped a millisecond apart, however slowly this loop runs: the ball counts as lost after 1 s by the stamps.
-    stamps_ns = itertools.count(to_ns(tilt.header.stamp), MS)
+    stamps_ns = itertools.count(ns_of(tilt.header.stamp), MS)
 
     def moved() -> bool:
         # The tilt travels on a topic of its own: it may arrive after the first of these.

@@ -14,8 +14,8 @@ from test_control_loop import ArmInProcess, wait_for
 
 from acts_control.ball import Phase
 from acts_control.ball.nodes.ball_control_node import BallControlNode
-from acts_control.names import set_stamp
 from acts_msgs.msg import BallReference, BallState
+from acts_ros.messages import set_stamp
 
 
 @pytest.fixture

@@ -21,9 +21,9 @@ from acts_core.runtime import within_patience
 from acts_driver.baseline import Baseline, BaselineParameters, BaselineTracker
 from acts_msgs.msg import Baseline as BaselineMessage
 from acts_ros.clocks import steady_timer
+from acts_ros.messages import set_stamp
 from acts_ros.qos import LATCHED, overridable
 
-_NS_PER_S = 1_000_000_000
 _PUBLISH_PERIOD_S = 1.0
 _MOVED_COUNTS = 0.5
 # Older frames do not show the present skin [s].
@@ -180,8 +180,7 @@ def baseline_message(baseline: Baseline, frame_id: str) -> BaselineMessage:
     """A baseline as it is published."""
     message = BaselineMessage()
     message.header.frame_id = frame_id
-    stamp_ns = baseline.time_ns or time.time_ns()
-    message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp_ns, _NS_PER_S)
+    set_stamp(message.header.stamp, baseline.time_ns or time.time_ns())
     message.rows, message.cols = baseline.counts.shape
     message.source = int(baseline.source)
     message.baseline = array("f", baseline.counts.tobytes())

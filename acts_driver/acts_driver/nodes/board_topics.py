@@ -13,9 +13,8 @@ from sensor_msgs.msg import Image
 from acts_core.wire import BoardImage, BoardObject, confidence_of
 from acts_driver.board import BoardResult
 from acts_msgs.msg import ObjectClass
+from acts_ros.messages import set_stamp
 from acts_ros.qos import STREAM, overridable
-
-_NS_PER_S = 1_000_000_000
 
 
 class BoardTopics:
@@ -47,7 +46,7 @@ def image_message(image: BoardImage, frame_id: str, stamp_ns: int) -> Image:
     rows, cols = image.counts.shape
     message = Image(height=rows, width=cols, encoding="mono16", is_bigendian=0, step=2 * cols)
     message.header.frame_id = frame_id
-    message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp_ns, _NS_PER_S)
+    set_stamp(message.header.stamp, stamp_ns)
     message.data = array("B", image.counts.astype("<u2").tobytes())
     return message
 
@@ -57,7 +56,7 @@ def object_message(result: BoardObject, frame_id: str, stamp_ns: int) -> ObjectC
     touched = result.number is not None
     message = ObjectClass(sequence=result.sequence)
     message.header.frame_id = frame_id
-    message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp_ns, _NS_PER_S)
+    set_stamp(message.header.stamp, stamp_ns)
     message.class_number = result.number if touched else ObjectClass.NO_OBJECT
     message.confidence = confidence_of(result.residuals) if touched else 0.0
     message.residuals = array("f", result.residuals.astype("f4").tobytes())

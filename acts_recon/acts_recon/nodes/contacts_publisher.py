@@ -22,14 +22,13 @@ from acts_msgs.msg import Contacts
 from acts_recon.contacts import BlobConfig, BlobTracker, TrackedBlob
 from acts_recon.images import Borders
 from acts_ros import qos
-from acts_ros.messages import ContactsFields, write_contacts
+from acts_ros.messages import ContactsFields, ns_of, seconds_of, write_contacts
 
 # Within 4 ms a contact that slides at 1 m/s moves by a taxel.
 _VIEWED_RATE_HZ = 250.0
 _MARKER_LIFETIME_S = 0.2
 _MARKER_HEIGHT_M = 0.004
 _MAX_ID = 2**31
-_NS_PER_S = 1_000_000_000
 
 
 class ContactsPublisher:
@@ -107,10 +106,9 @@ class ContactsPublisher:
         to_view, to_mark = "view/contacts" in due, "contacts_view" in due
         if not (self._send or to_view or to_mark or self._viewed_limit.due(time.monotonic())):
             return
-        stamp = header.stamp
-        found = self._tracker.step(image, stamp.sec + 1e-9 * stamp.nanosec, sigma)
+        found = self._tracker.step(image, seconds_of(header.stamp), sigma)
         if self._send or to_view:
-            stamp_ns = stamp.sec * _NS_PER_S + stamp.nanosec
+            stamp_ns = ns_of(header.stamp)
             data = write_contacts(ContactsFields(stamp_ns, header.frame_id, sequence, found, self._tracker.dropped))
             if self._send:
                 self._publisher.publish(data)

@@ -14,8 +14,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from builtin_interfaces.msg import Time
-
 from acts_core.errors import PacketError, SettingsError
 from acts_core.names import ALLOWED, is_full_name
 from acts_core.settings import setting
@@ -28,7 +26,7 @@ from acts_ros.clocks import steady_timer
 from acts_ros.composition import parameters_from
 from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
-from acts_ros.messages import ContactFields, read_contact
+from acts_ros.messages import ContactFields, read_contact, set_stamp
 from acts_ros.parameters import declare, node_options
 from acts_ros.polled import PollingNode
 
@@ -105,14 +103,15 @@ class GaitNode(PollingNode):
         for step in self._tracker.step(foot, time_s, contact.force_n, contact.x_m, contact.y_m):
             self._steps[foot] += 1
             self._steps_publisher.publish(self._step_message(foot, contact, step))
-            self._gait_publisher.publish(_gait_message(_time(contact.stamp_ns), self._tracker.gait()))
+            self._gait_publisher.publish(_gait_message(contact.stamp_ns, self._tracker.gait()))
 
     def _step_message(self, foot: int, contact: ContactFields, step: Step) -> FootStep:
         first_ns = self._first_ns or 0
         message = FootStep(foot=foot)
-        message.header.stamp, message.header.frame_id = _time(contact.stamp_ns), contact.frame_id
-        message.strike = _time(first_ns + round(step.strike_s * _NS_PER_S))
-        message.toe_off = _time(first_ns + round(step.toe_off_s * _NS_PER_S))
+        message.header.frame_id = contact.frame_id
+        set_stamp(message.header.stamp, contact.stamp_ns)
+        set_stamp(message.strike, first_ns + round(step.strike_s * _NS_PER_S))
+        set_stamp(message.toe_off, first_ns + round(step.toe_off_s * _NS_PER_S))
         message.strike_sigma, message.toe_off_sigma = step.strike_sd_s, step.toe_off_sd_s
         message.stance, message.swing = step.stance_s, step.swing_s or 0.0
         message.peak_force = step.peak_force
@@ -136,14 +135,9 @@ class GaitNode(PollingNode):
         return OK, f"{sum(self._steps)} steps", values
 
 
-def _time(stamp_ns: int) -> Time:
-    sec, nanosec = divmod(stamp_ns, _NS_PER_S)
-    return Time(sec=sec, nanosec=nanosec)
-
-
-def _gait_message(stamp: Time, gait: Gait) -> GaitMessage:
+def _gait_message(stamp_ns: int, gait: Gait) -> GaitMessage:
     message = GaitMessage()
-    message.header.stamp = stamp
+    set_stamp(message.header.stamp, stamp_ns)
     message.cadence, message.double_support = gait.cadence_per_min or 0.0, gait.double_support or 0.0
     message.steps = [foot.steps for foot in gait.feet]
     message.stride = [foot.stride_s or 0.0 for foot in gait.feet]

@@ -16,8 +16,7 @@ from acts_msgs.msg import Impact as ImpactMessage
 from acts_recon.impacts import Impact, ImpactDetector
 from acts_recon.methods import Recovery
 from acts_ros import qos
-
-_NS_PER_S = 1_000_000_000
+from acts_ros.messages import ns_of, set_stamp
 
 
 class ImpactsPublisher:
@@ -73,9 +72,8 @@ def _message(header: Header, sequence: int, end_s: float, impact: Impact) -> Imp
     message.kind = int(impact.kind)
     message.bounced = impact.bounced
     # Seconds since 1970 leave too few digits: what counts is how long before the stamp.
-    stamp_ns = header.stamp.sec * _NS_PER_S + header.stamp.nanosec
-    onset_ns = max(stamp_ns - round((end_s - impact.onset_s) * _NS_PER_S), 0)
-    message.onset.sec, message.onset.nanosec = divmod(onset_ns, _NS_PER_S)
+    onset_ns = max(ns_of(header.stamp) - round((end_s - impact.onset_s) * 1e9), 0)
+    set_stamp(message.onset, onset_ns)
     message.onset_sigma = impact.onset_sd_s
     message.duration = impact.duration_s
     message.frames = impact.frames

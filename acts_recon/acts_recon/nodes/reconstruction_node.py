@@ -41,12 +41,11 @@ from acts_ros.composition import parameters_from
 from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
 from acts_ros.log import log_of
-from acts_ros.messages import ContactFields, frame_of, stamp_ns_of, write_contact
+from acts_ros.messages import ContactFields, frame_of, set_stamp, stamp_ns_of, write_contact
 from acts_ros.parameters import declare, node_options
 from acts_ros.polled import PolledSubscription
 
 _SUBSCRIBERS_PERIOD_S = 0.2
-_NS_PER_S = 1_000_000_000
 
 _Part = ImagesPublisher | ContactsPublisher | Abilities | ObjectPublisher | RegionsPublisher
 
@@ -220,7 +219,7 @@ class ReconstructionNode(Node):
         end_s, duration_s = stamp_ns * 1e-9, frame.duration_us * 1e-6
         header = self._header
         header.frame_id = frame_id
-        header.stamp.sec, header.stamp.nanosec = divmod(stamp_ns, _NS_PER_S)
+        set_stamp(header.stamp, stamp_ns)
         if self._send_cop and contact.in_contact:
             self._cop.header = header
             self._cop.point.x, self._cop.point.y = contact.x_m, contact.y_m

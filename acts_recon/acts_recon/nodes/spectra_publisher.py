@@ -18,6 +18,7 @@ from acts_core.runtime import RateLimit, background
 from acts_msgs.msg import Spectrum as SpectrumMessage
 from acts_recon.spectra import Spectrum, SpectrumAnalyser
 from acts_ros import qos
+from acts_ros.messages import ns_of, set_stamp
 
 
 class SpectraPublisher:
@@ -82,7 +83,7 @@ class SpectraPublisher:
         window = self._analyser.window() if self._limit.due(time.monotonic()) else ()
         if window:
             self._header = Header(frame_id=header.frame_id)
-            self._header.stamp.sec, self._header.stamp.nanosec = header.stamp.sec, header.stamp.nanosec
+            set_stamp(self._header.stamp, ns_of(header.stamp))
             self._sequence = frame.sequence
             self._work = background.begin(lambda: self._analyser.spectra(window))
 

@@ -19,7 +19,7 @@ from acts_ros.messages.image_cdr import ImageFields, read_image, write_image
 from acts_ros.messages.regions_cdr import RegionsFields, read_regions, write_regions
 from acts_ros.messages.sample_messages import SamplesMessage, frame_of, stamp_ns_of
 from acts_ros.messages.skin_frame import check_frame_id, skin_frame
-from acts_ros.messages.stamps import seconds_of
+from acts_ros.messages.stamps import ns_of, seconds_of, set_stamp
 
 __all__ = [
     "ContactFields",
@@ -31,12 +31,14 @@ __all__ = [
     "check_frame_id",
     "frame_of",
     "header_of",
+    "ns_of",
     "read_contact",
     "read_contacts",
     "read_image",
     "read_regions",
     "read_series",
     "seconds_of",
+    "set_stamp",
     "skin_frame",
     "stamp_ns_of",
     "write_contact",

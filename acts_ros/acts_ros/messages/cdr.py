@@ -18,8 +18,8 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from acts_core.errors import PacketError
+from acts_ros.messages.stamps import NS_PER_S
 
-_NS_PER_S = 1_000_000_000
 _ORDERS = {b"\x00\x00": ">", b"\x00\x01": "<"}
 _LITTLE_ENDIAN = b"\x00\x01\x00\x00"
 ENCAPSULATION_BYTES = 4
@@ -77,7 +77,7 @@ def write_contact(contact: ContactFields) -> bytes:
     """
     stamp_ns, frame_id, sequence, in_contact, x_m, y_m, *numbers, x_sd_m, y_sd_m, force_sd, area_sd, spread_sd = contact
     layout, name = _whole_contact(frame_id)
-    sec, nanosec = divmod(stamp_ns, _NS_PER_S)
+    sec, nanosec = divmod(stamp_ns, NS_PER_S)
     stamp = _LITTLE_ENDIAN, sec, nanosec, len(name), name
     try:
         return layout.pack(
@@ -129,7 +129,7 @@ def header_bytes(stamp_ns: int, frame_id: str) -> bytes:
         When the stamp is beyond what its field holds.
     """
     name = frame_id.encode()
-    sec, nanosec = divmod(stamp_ns, _NS_PER_S)
+    sec, nanosec = divmod(stamp_ns, NS_PER_S)
     try:
         return _LITTLE_ENDIAN + _STAMPS["<"].pack(sec, nanosec, len(name) + 1) + name + b"\x00"
     except struct.error as error:
@@ -155,9 +155,9 @@ def header_parts(data: bytes) -> tuple[int, str, str, int]:
         raise PacketError(f"message of {len(data)} bytes cannot be read: {error}") from error
     if not 1 <= length <= len(data) - begin:
         raise PacketError(f"message of {len(data)} bytes cannot be read: its frame_id has {length}")
-    if nanosec >= _NS_PER_S:
-        raise PacketError(f"stamp of {nanosec} nanoseconds: a second has {_NS_PER_S}")
-    return sec * _NS_PER_S + nanosec, frame_id, order, _STAMP_BYTES + length
+    if nanosec >= NS_PER_S:
+        raise PacketError(f"stamp of {nanosec} nanoseconds: a second has {NS_PER_S}")
+    return sec * NS_PER_S + nanosec, frame_id, order, _STAMP_BYTES + length
 
 
 def padded(at: int, fields: Sequence[tuple[str, int]]) -> tuple[str, int]:

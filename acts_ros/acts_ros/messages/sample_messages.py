@@ -12,8 +12,8 @@ import numpy as np
 from acts_core.errors import PacketError
 from acts_core.frames import SampleFrame, Scheme
 from acts_msgs.msg import TactileSamples
+from acts_ros.messages.stamps import NS_PER_S, ns_of, set_stamp
 
-_NS_PER_S = 1_000_000_000
 _US_PER_S = 1_000_000
 _SCHEMES = {int(scheme): scheme for scheme in Scheme}
 
@@ -42,8 +42,7 @@ class SamplesMessage:
             ROS time at the end of the last measurement [ns].
         """
         message = self._message
-        stamp = message.header.stamp
-        stamp.sec, stamp.nanosec = divmod(stamp_ns, _NS_PER_S)
+        set_stamp(message.header.stamp, stamp_ns)
         message.sequence = frame.sequence
         message.scheme = int(frame.scheme)
         message.rows = frame.rows
@@ -65,9 +64,9 @@ def stamp_ns_of(message: TactileSamples) -> int:
         When its nanoseconds are more than a second.
     """
     stamp = message.header.stamp
-    if stamp.nanosec >= _NS_PER_S:
-        raise PacketError(f"stamp of {stamp.nanosec} nanoseconds: a second has {_NS_PER_S}")
-    return int(stamp.sec * _NS_PER_S + stamp.nanosec)
+    if stamp.nanosec >= NS_PER_S:
+        raise PacketError(f"stamp of {stamp.nanosec} nanoseconds: a second has {NS_PER_S}")
+    return ns_of(stamp)
 
 
 def frame_of(message: TactileSamples) -> SampleFrame:

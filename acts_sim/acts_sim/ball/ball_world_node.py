@@ -29,7 +29,7 @@ from acts_ros.composition import parameters_from
 from acts_ros.diagnostics import ERROR, OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
 from acts_ros.log import log_of
-from acts_ros.messages import skin_frame
+from acts_ros.messages import set_stamp, skin_frame
 from acts_ros.parameters import declare, node_options
 from acts_sim.ball.joint_follower import JointFollower, JointSource
 from acts_sim.ball.world import Phase, World, WorldConfig, WorldState
@@ -37,7 +37,6 @@ from acts_sim.ball.world_loop import STEP_NS, LoopStatistics, WorldLoop
 from acts_sim.shared import Claim, TimedRingWriter, default_run_dir
 
 _NS_PER_MS = 1_000_000
-_NS_PER_S = 1_000_000_000
 
 
 @dataclass(frozen=True)
@@ -116,7 +115,7 @@ class BallWorld(Node):
             return
         stamp_ns = self.get_clock().now().nanoseconds + time_ns - time.monotonic_ns()
         message = self._message
-        message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp_ns, _NS_PER_S)
+        set_stamp(message.header.stamp, stamp_ns)
         message.point.x = state.ball.x_m
         message.point.y = state.ball.y_m
         self._truth.publish(message)

@@ -20,7 +20,7 @@ from acts_msgs.msg import SkinContact, SkinContacts
 from acts_msgs.msg import SkinState as StateMessage
 from acts_ros import qos
 from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
-from acts_ros.messages import header_of
+from acts_ros.messages import header_of, set_stamp
 from acts_ros.parameters import declare, node_options
 from acts_ros.polled import PollingNode
 from acts_skins.contacts.alignment import Aligned, AlignedSkin, Aligner, AlignmentConfig, SkinState
@@ -29,7 +29,6 @@ from acts_skins.contacts.messages import CONTACT_TYPES, skin_contact, touches
 from acts_skins.contacts.placing import Placement, Touch
 from acts_skins.skins_file import read_skins
 
-_NS_PER_S = 1_000_000_000
 _FRAMES_HZ = 1000.0
 # Queues hold the frames of this many cycles, and at least this many frames, in case the node is delayed.
 _CYCLES_KEPT = 4
@@ -127,13 +126,13 @@ class SkinContactsNode(PollingNode):
     def _message(self, aligned: Aligned[bytes]) -> SkinContacts:
         message = SkinContacts()
         message.header.frame_id = self._base_frame
-        message.header.stamp.sec, message.header.stamp.nanosec = divmod(aligned.time_ns, _NS_PER_S)
+        set_stamp(message.header.stamp, aligned.time_ns)
         skins: list[StateMessage] = []
         contacts: list[SkinContact] = []
         for skin in aligned.skins:
             state = StateMessage(name=skin.name, state=skin.state.value, age=skin.age_s)
             if skin.frame is not None and skin.stamp_ns is not None:
-                state.stamp.sec, state.stamp.nanosec = divmod(skin.stamp_ns, _NS_PER_S)
+                set_stamp(state.stamp, skin.stamp_ns)
                 for touch in self._touches(skin.name, skin.frame):
                     if not touch.can_be():
                         self._refused[skin.name, "with impossible values"] += 1

@@ -19,10 +19,9 @@ from acts_core.errors import ActsError, ArrayError, RecordingError
 from acts_msgs.msg import Baseline, TactileSamples
 from acts_recon.frame_recovery import FrameRecovery
 from acts_recon.settings import ReconstructionConfig, ReconstructionSettings
-from acts_ros.messages import frame_of, stamp_ns_of
+from acts_ros.messages import frame_of, ns_of, stamp_ns_of
 from acts_tools.bags.messages import image_counts, messages, parsed
 from acts_tools.export.tracks import Track, Values, contact_found, contacts_found
-from acts_tools.export.tracks import stamp_ns_of as header_stamp_ns
 
 # Without a taxel above it, an image says nothing of where the taxels lie.
 _TOUCH_COUNTS = 60
@@ -68,7 +67,7 @@ def recorded_frames(bag: Any, path: Path, topic: str) -> Iterator[Seen]:
         size = size or image.shape
         if image.shape != size:
             raise RecordingError(f"{where} is an image of {image.shape}, those before are of {size}")
-        yield Seen(header_stamp_ns(message), image)
+        yield Seen(ns_of(message.header.stamp), image)
 
 
 def recovered_frames(bag: Any, path: Path, topic: str, beside: str | None, layout: str) -> Iterator[Seen]:

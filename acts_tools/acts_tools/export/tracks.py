@@ -21,10 +21,10 @@ from acts_core.errors import RecordingError
 from acts_msgs.msg import Contact, Contacts
 from acts_recon.contacts import Contact as FoundContact
 from acts_recon.contacts import TrackedBlob
+from acts_ros.messages import ns_of
 from acts_tools.bags.messages import messages
 
 Values = NDArray[np.float64]
-_NS_PER_S = 1_000_000_000
 
 CONTACT_COLUMNS = ("in_contact", "x_m", "y_m", "force_n", "peak_counts", "area_m2", "spread_m")
 """Columns of the total contact; 0 without contact."""
@@ -65,12 +65,6 @@ class Track(Generic[_T]):
         """Stamp and value of the newest at or before a time, which must exist."""
         place = bisect_right(self.stamps_ns, stamp_ns) - 1
         return self.stamps_ns[place], self.values[place]
-
-
-def stamp_ns_of(message: Any) -> int:
-    """Stamp of a message's header [ns]."""
-    stamp = message.header.stamp
-    return int(stamp.sec) * _NS_PER_S + int(stamp.nanosec)
 
 
 def contact_track(bag: Any, path: Path, topic: str) -> Track[Values]:
@@ -122,7 +116,7 @@ def joint_track(bag: Any, path: Path, topic: str, *, numbers_only: bool = False)
     RecordingError
         A message has no stamp, so that nobody knows what it belongs to.
     """
-    told = [(stamp_ns_of(message), _joint_values(message)) for message in messages(bag, path, topic, JointState)]
+    told = [(ns_of(message.header.stamp), _joint_values(message)) for message in messages(bag, path, topic, JointState)]
     unstamped = sum(not stamp_ns for stamp_ns, _ in told)
     if unstamped:
         raise RecordingError(
@@ -236,5 +230,5 @@ def _track(bag: Any, path: Path, topic: str, kind: type, read: Callable[[Any], V
     track: Track[Values] = Track()
     read_messages: Iterator[Any] = messages(bag, path, topic, kind)
     for message in read_messages:
-        track.add(stamp_ns_of(message), read(message))
+        track.add(ns_of(message.header.stamp), read(message))
     return track

@@ -15,9 +15,8 @@ from rclpy.node import Node
 
 from acts_ros.bags.message_types import message_class
 from acts_ros.bags.qos import for_subscription
+from acts_ros.messages import ns_of
 from acts_tools.listen.arrivals import Arrivals
-
-_NS_PER_S = 1_000_000_000
 
 
 class Listener:
@@ -63,7 +62,7 @@ class Listener:
         header = getattr(message, "header", None)
         age_s = None
         if header is not None:
-            age_s = (now_ns - header.stamp.sec * _NS_PER_S - header.stamp.nanosec) / _NS_PER_S
+            age_s = (now_ns - ns_of(header.stamp)) * 1e-9
         arrivals.add(time.monotonic(), getattr(message, "sequence", None), age_s)
         if isinstance(message, DiagnosticArray):
             self._note_complaints(message)

@@ -14,9 +14,9 @@ from acts_core.errors import ArrayError, RecordingError
 from acts_driver.baseline import Baseline, BaselineSource
 from acts_msgs.msg import Baseline as BaselineMessage
 from acts_ros.bags.reading import open_bag
+from acts_ros.messages import ns_of
 
 _TYPE = "acts_msgs/msg/Baseline"
-_NS_PER_S = 1_000_000_000
 
 
 def read_baselines(path: Path, topic: str, rows: int, cols: int) -> tuple[list[Baseline], str]:
@@ -64,5 +64,5 @@ def _parsed(data: bytes, rows: int, cols: int) -> Baseline:
         noise_counts=np.asarray(message.noise, dtype=np.float32).reshape(rows, cols),
         valid=np.asarray(message.valid, dtype=np.bool_).reshape(rows, cols),
         source=BaselineSource.FILE,
-        time_ns=message.header.stamp.sec * _NS_PER_S + message.header.stamp.nanosec,
+        time_ns=ns_of(message.header.stamp),
     )

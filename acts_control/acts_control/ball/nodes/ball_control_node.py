@@ -27,8 +27,6 @@ from acts_control.names import (
     STATE_TOPIC,
     STATUS_TOPIC,
     TILT_TOPIC,
-    set_stamp,
-    to_ns,
 )
 from acts_control.robots import make_robot, with_robots
 from acts_control.robots.base import Robot
@@ -41,7 +39,7 @@ from acts_ros.composition import parameters_from
 from acts_ros.diagnostics import ERROR, OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
 from acts_ros.log import log_of
-from acts_ros.messages import skin_frame
+from acts_ros.messages import ns_of, set_stamp, skin_frame
 from acts_ros.parameters import declare, node_options, set_rate
 from acts_ros.qos import STATE, STREAM
 
@@ -159,13 +157,13 @@ class BallControlNode(Node):
     def _on_state(self, message: BallState) -> None:
         position, velocity = message.position, message.velocity
         self._loop.ball = BallReport(
-            to_ns(message.header.stamp), message.valid, Ball(position.x, position.y, velocity.x, velocity.y)
+            ns_of(message.header.stamp), message.valid, Ball(position.x, position.y, velocity.x, velocity.y)
         )
 
     def _on_reference(self, message: BallReference) -> None:
         position, velocity, acceleration = message.position, message.velocity, message.acceleration
         reference = Reference(position.x, position.y, velocity.x, velocity.y, acceleration.x, acceleration.y)
-        self._loop.reference = ReferenceReport(to_ns(message.header.stamp), reference)
+        self._loop.reference = ReferenceReport(ns_of(message.header.stamp), reference)
 
     def _on_step(self, now_ns: int, tilt_rad: tuple[float, float]) -> None:
         # From the loop's thread.

@@ -18,7 +18,7 @@ from typing import Any
 from geometry_msgs.msg import Vector3Stamped
 
 from acts_control.ball import Ball, BallEstimator, BallReport, ContactMeasurement, EstimatorConfig
-from acts_control.names import CLOCK_REASON, CONTACT_TOPIC, STATE_TOPIC, STATISTICS_TOPIC, TILT_TOPIC, set_stamp, to_ns
+from acts_control.names import CLOCK_REASON, CONTACT_TOPIC, STATE_TOPIC, STATISTICS_TOPIC, TILT_TOPIC
 from acts_core.errors import PacketError
 from acts_core.runtime import StreamCounter
 from acts_core.settings import Changeable, setting
@@ -28,7 +28,7 @@ from acts_ros.clocks import keep_system_clock, steady_timer
 from acts_ros.composition import parameters_from
 from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
-from acts_ros.messages import read_contact
+from acts_ros.messages import ns_of, read_contact, set_stamp
 from acts_ros.parameters import declare, node_options, set_rate
 from acts_ros.polled import PollingNode
 from acts_ros.qos import STATE, STREAM
@@ -128,7 +128,7 @@ class BallStateNode(PollingNode):
             self.update()
 
     def _on_tilt(self, message: Vector3Stamped) -> None:
-        self.set_tilt(to_ns(message.header.stamp), (message.vector.x, message.vector.y))
+        self.set_tilt(ns_of(message.header.stamp), (message.vector.x, message.vector.y))
 
     def _take(self, data: bytes, received_ns: int, is_heard: bool) -> None:
         # A thousand times a second: nothing here that is not needed.

@@ -18,7 +18,7 @@ from typing import Any
 from rclpy.node import Node
 
 from acts_control.ball import Phase, Reference, TimedReference, Trajectory, TrajectoryConfig
-from acts_control.names import CLOCK_REASON, REFERENCE_TOPIC, STATUS_TOPIC, set_stamp
+from acts_control.names import CLOCK_REASON, REFERENCE_TOPIC, STATUS_TOPIC
 from acts_core.runtime import RateLimit
 from acts_core.settings import Changeable, setting
 from acts_core.stop_signals import StopSignals
@@ -26,7 +26,7 @@ from acts_msgs.msg import BalanceStatus, BallReference
 from acts_ros.clocks import keep_system_clock, steady_timer
 from acts_ros.composition import parameters_from
 from acts_ros.executor import run
-from acts_ros.messages import skin_frame
+from acts_ros.messages import set_stamp, skin_frame
 from acts_ros.parameters import declare, node_options, set_rate
 from acts_ros.qos import STATE
 

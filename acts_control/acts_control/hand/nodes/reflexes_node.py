@@ -23,7 +23,6 @@ from acts_control.hand.description import HandKinematics, hand_description
 from acts_control.hand.motors import HandReading, with_motors
 from acts_control.hand.nodes.motor_node import MotorNode, MotorSettings, answered
 from acts_control.hand.reflexes import REFLEXES, HandState, make_reflexes, with_reflexes
-from acts_control.names import set_stamp
 from acts_core.errors import PacketError
 from acts_core.settings import setting
 from acts_core.stop_signals import StopSignals
@@ -32,7 +31,7 @@ from acts_ros.clocks import steady_timer
 from acts_ros.composition import parameters_from
 from acts_ros.diagnostics import OK, WARN, Report
 from acts_ros.executor import run
-from acts_ros.messages import RegionsFields, read_regions
+from acts_ros.messages import RegionsFields, read_regions, set_stamp
 from acts_ros.parameters import declare, node_options
 from acts_ros.polled import PolledSubscription
 from acts_ros.qos import STATE, STREAM

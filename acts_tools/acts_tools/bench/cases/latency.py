@@ -23,6 +23,7 @@ from acts_core.runtime import StreamCounter
 from acts_core.wire import StreamDecoder
 from acts_driver.port import SerialSource
 from acts_msgs.msg import TactileSamples
+from acts_ros.messages import ns_of
 from acts_ros.qos import STREAM
 from acts_tools.bench.result import Figure, Result
 from acts_tools.bench.rigs.graph import Graph
@@ -50,8 +51,7 @@ class Arrivals:
 
     def add(self, message: TactileSamples, time_ns: int) -> None:
         """Add one message."""
-        stamp = message.header.stamp
-        stamp_ns = stamp.sec * 1_000_000_000 + stamp.nanosec
+        stamp_ns = ns_of(message.header.stamp)
         self.counter.step(message.sequence, (time_ns - stamp_ns) * 1e-9)
         self.sequence.append(message.sequence)
         self.stamp_ns.append(stamp_ns)

@@ -11,9 +11,9 @@ import numpy as np
 
 from acts_core.runtime import StreamCounter
 from acts_msgs.msg import Contact
+from acts_ros.messages import ns_of
 from acts_tools.percentiles import percentiles
 
-_NS_PER_S = 1_000_000_000
 _KEYS = {"median": "median", "p99": "p99", "p99_9": "p999"}
 
 
@@ -39,8 +39,7 @@ class ContactStream:
     def take(self, message: Contact) -> None:
         """Count a contact: the callback of a subscription."""
         now_ns = time.time_ns()
-        stamp = message.header.stamp
-        self._counter.step(message.sequence, (now_ns - stamp.sec * _NS_PER_S - stamp.nanosec) * 1e-9)
+        self._counter.step(message.sequence, (now_ns - ns_of(message.header.stamp)) * 1e-9)
 
     def begin(self, now_s: float) -> None:
         """Start counting."""
