@@ -81,3 +81,29 @@ class ArrayGeometry:
     def row_of(self, y_m: ArrayLike) -> NDArray[np.float64]:
         """Fractional row of a y [m]; same shape as `y_m`."""
         return (self.rows - 1) / 2 - np.asarray(y_m, dtype=np.float64) / self.pitch_y_m
+
+
+def check_untouched(name: str, counts: NDArray[np.float32], valid: NDArray[np.bool_], size: int) -> None:
+    """Refuse what no board can read of untouched taxels.
+
+    Parameters
+    ----------
+    name : str
+        What it is, for the message: baseline or noise.
+    counts : np.ndarray [shape=(size,), dtype=float32]
+    valid : np.ndarray [shape=(size,), dtype=bool]
+        Where `counts` is known.
+    size : int
+        Number of taxels.
+
+    Raises
+    ------
+    ArrayError
+        For another size, or values beyond those of counts.
+    """
+    if counts.shape != (size,) or valid.shape != (size,):
+        raise ArrayError(f"{name} {counts.shape} and valid {valid.shape}: needed are {size} values of each")
+    known = counts[valid]
+    # Written so that NaN fails, too.
+    if not ((known >= 0).all() and (known <= COUNT_MAX).all()):
+        raise ArrayError(f"the {name} has values that are not within 0 to {COUNT_MAX} counts")

@@ -10,11 +10,12 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.array import check_untouched
 from acts_core.errors import ArrayError
 from acts_core.frames import SampleFrame
 from acts_core.runtime import SequenceNumbers
 from acts_recon.contacts import Contact
-from acts_recon.images import BaselineSubtraction, check_untouched
+from acts_recon.images import BaselineSubtraction
 from acts_recon.settings import ReconstructionConfig
 
 
@@ -34,6 +35,8 @@ class FramePipeline:
 
     Attributes
     ----------
+    size : (int, int)
+        Rows and columns of the array.
     recovery : Recovery
         With the image of the newest frame.
     every : SampleFrame or None
@@ -51,7 +54,7 @@ class FramePipeline:
 
     def __init__(self, settings: ReconstructionConfig, forget: Callable[[], None] | None = None) -> None:
         self.recovery = settings.recovery()
-        self._size = (settings.rows, settings.cols)
+        self.size = (settings.rows, settings.cols)
         self._forget_more = forget
         self._baseline = BaselineSubtraction(settings.rows * settings.cols)
         self._numbers = SequenceNumbers()
@@ -79,7 +82,7 @@ class FramePipeline:
         ArrayError
             One of the two cannot be; nothing is changed then.
         """
-        check_untouched("noise", noise_counts, valid, self._size[0] * self._size[1])
+        check_untouched("noise", noise_counts, valid, self.size[0] * self.size[1])
         self._baseline.set(counts, valid)
         self.recovery.set_noise(noise_counts, valid)
 
@@ -120,9 +123,9 @@ class FramePipeline:
 
     def count(self, frame: SampleFrame) -> int:
         """Check and count one frame without recovering it; parameters, result and errors as of `step`."""
-        if frame.rows != self._size[0] or frame.cols != self._size[1]:
+        if frame.rows != self.size[0] or frame.cols != self.size[1]:
             raise ArraySizeError(
-                f"frame of {frame.rows} x {frame.cols} taxels, expected are {self._size[0]} x {self._size[1]}"
+                f"frame of {frame.rows} x {frame.cols} taxels, expected are {self.size[0]} x {self.size[1]}"
             )
         if self._numbers.goes_back(frame.sequence):
             self._forget()

@@ -54,14 +54,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_core.array import COUNT_MAX, ArrayGeometry
+from acts_core.array import COUNT_MAX, ArrayGeometry, check_untouched
 from acts_core.errors import ArrayError
 from acts_core.settings import setting, validate
 from acts_core.skin import Layout
 from acts_recon.fusion.fusion_image_kernels import confidence
 from acts_recon.fusion.fusion_kernels import fuse
 from acts_recon.fusion.fusion_state import LEAST_NOISE_COUNTS, Tuning, expect_noise, forget, new_memory, state_of
-from acts_recon.images import PlacedSamples, borders_of, check_untouched
+from acts_recon.images import PlacedSamples, borders_of
 
 ASSUMED_NOISE_COUNTS = 2.0
 """Standard deviation of a reading where nobody has told it [counts]."""
@@ -172,7 +172,7 @@ class FusionEstimator:
         Raises
         ------
         ArrayError
-            See `check_untouched`.
+            See `acts_core.array.check_untouched`.
         """
         check_untouched("noise", noise_counts, valid, self._places.size)
         assumed = self.config.noise_counts or ASSUMED_NOISE_COUNTS

@@ -6,7 +6,7 @@
 In come frames and layouts; out come tables, checked samples, and images as bytes of messages.
 """
 
-from acts_recon.images.baseline import BaselineSubtraction, check_untouched
+from acts_recon.images.baseline import BaselineSubtraction
 from acts_recon.images.borders import Borders, borders_of, grown
 from acts_recon.images.image import mono16, rgb8
 from acts_recon.images.placed_samples import PlacedSamples
@@ -30,7 +30,6 @@ __all__ = [
     "PlacedSamples",
     "Variances",
     "borders_of",
-    "check_untouched",
     "force_of",
     "grown",
     "mono16",

@@ -8,8 +8,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_core.array import COUNT_MAX
-from acts_core.errors import ArrayError
+from acts_core.array import check_untouched
 from acts_core.kernels import kernel
 
 
@@ -31,32 +30,6 @@ def subtract_reference(
 ) -> NDArray[np.uint16]:
     """Reference implementation of `BaselineSubtraction.apply`, for frames that fit the array."""
     return np.floor(np.maximum(counts - baseline[indices] + np.float32(0.5), 0)).astype(np.uint16)
-
-
-def check_untouched(name: str, counts: NDArray[np.float32], valid: NDArray[np.bool_], size: int) -> None:
-    """Refuse what no board can read of untouched taxels.
-
-    Parameters
-    ----------
-    name : str
-        What it is, for the message: baseline or noise.
-    counts : np.ndarray [shape=(size,), dtype=float32]
-    valid : np.ndarray [shape=(size,), dtype=bool]
-        Where `counts` is known.
-    size : int
-        Number of taxels.
-
-    Raises
-    ------
-    ArrayError
-        For another size, or values beyond those of counts.
-    """
-    if counts.shape != (size,) or valid.shape != (size,):
-        raise ArrayError(f"{name} {counts.shape} and valid {valid.shape}: needed are {size} values of each")
-    known = counts[valid]
-    # Written so that NaN fails, too.
-    if not ((known >= 0).all() and (known <= COUNT_MAX).all()):
-        raise ArrayError(f"the {name} has values that are not within 0 to {COUNT_MAX} counts")
 
 
 class BaselineSubtraction:
@@ -88,7 +61,7 @@ class BaselineSubtraction:
         Raises
         ------
         ArrayError
-            See `check_untouched`.
+            See `acts_core.array.check_untouched`.
         """
         check_untouched("baseline", baseline, valid, self._baseline.size)
         # Put in place as a whole: a frame may be worked on by another thread.

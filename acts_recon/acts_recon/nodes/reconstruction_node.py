@@ -15,7 +15,6 @@ from collections import Counter, deque
 from collections.abc import Sequence
 from statistics import median
 
-import numpy as np
 from geometry_msgs.msg import PointStamped
 from rclpy.node import Node
 from std_msgs.msg import Header
@@ -41,7 +40,7 @@ from acts_ros.composition import parameters_from
 from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
 from acts_ros.log import log_of
-from acts_ros.messages import ContactFields, frame_of, set_stamp, stamp_ns_of, write_contact
+from acts_ros.messages import ContactFields, baseline_of, frame_of, set_stamp, stamp_ns_of, write_contact
 from acts_ros.parameters import declare, node_options
 from acts_ros.polled import PolledSubscription
 
@@ -234,18 +233,8 @@ class ReconstructionNode(Node):
             self._objects.publish(header, frame.sequence, frame.indices, frame.counts, end_s, duration_s)
 
     def _on_baseline(self, message: Baseline) -> None:
-        settings = self._settings
         try:
-            if (message.rows, message.cols) != (settings.rows, settings.cols):
-                raise ArrayError(
-                    f"baseline of {message.rows} x {message.cols}: the parameters rows and cols say "
-                    f"{settings.rows} x {settings.cols}"
-                )
-            self._pipeline.set_baseline(
-                np.asarray(message.baseline, dtype=np.float32),
-                np.asarray(message.noise, dtype=np.float32),
-                np.asarray(message.valid, dtype=np.bool_),
-            )
+            self._pipeline.set_baseline(*baseline_of(message, *self._pipeline.size))
         except ArrayError as error:
             self._rejected["bad_baseline"] += 1
             self.get_logger().warning(f"baseline not used: {error}", throttle_duration_sec=5.0)

@@ -3,9 +3,10 @@
 
 """Conversion of messages to and from serialised bytes and the types of acts_core.
 
-In come frames, contacts and regions; out come messages or their bytes, and back.
+In come frames, baselines, contacts and regions; out come messages or their bytes, and back.
 """
 
+from acts_ros.messages.baseline_messages import BaselineFields, baseline_of
 from acts_ros.messages.cdr import ContactFields, header_of, read_contact, write_contact
 from acts_ros.messages.contacts_cdr import (
     ContactsFields,
@@ -22,12 +23,14 @@ from acts_ros.messages.skin_frame import check_frame_id, skin_frame
 from acts_ros.messages.stamps import ns_of, seconds_of, set_stamp
 
 __all__ = [
+    "BaselineFields",
     "ContactFields",
     "ContactsFields",
     "ImageFields",
     "RegionsFields",
     "SamplesMessage",
     "SeriesFields",
+    "baseline_of",
     "check_frame_id",
     "frame_of",
     "header_of",

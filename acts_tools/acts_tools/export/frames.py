@@ -19,7 +19,7 @@ from acts_core.errors import ActsError, ArrayError, RecordingError
 from acts_msgs.msg import Baseline, TactileSamples
 from acts_recon.frame_recovery import FrameRecovery
 from acts_recon.settings import ReconstructionConfig, ReconstructionSettings
-from acts_ros.messages import frame_of, ns_of, stamp_ns_of
+from acts_ros.messages import baseline_of, frame_of, ns_of, stamp_ns_of
 from acts_tools.bags.messages import image_counts, messages, parsed
 from acts_tools.export.tracks import Track, Values, contact_found, contacts_found
 
@@ -179,11 +179,7 @@ def _settings(samples: TactileSamples, layout: str) -> ReconstructionConfig:
 
 def _subtract(recovery: FrameRecovery, message: Baseline, where: str) -> None:
     try:
-        recovery.set_baseline(
-            np.asarray(message.baseline, dtype=np.float32),
-            np.asarray(message.noise, dtype=np.float32),
-            np.asarray(message.valid, dtype=np.bool_),
-        )
+        recovery.set_baseline(*baseline_of(message, *recovery.size))
     except ArrayError as error:
         raise RecordingError(f"{where}: {error}") from error
 

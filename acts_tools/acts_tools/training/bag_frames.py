@@ -18,6 +18,7 @@ from acts_core.errors import ArrayError, RecordingError
 from acts_msgs.msg import Baseline, TactileSamples
 from acts_recon.images import BaselineSubtraction
 from acts_ros.bags import require_rosbags
+from acts_ros.messages import baseline_of
 from acts_tools.bags.messages import checked, image_counts, messages, parsed
 
 _IMAGE = "sensor_msgs/msg/Image"
@@ -129,7 +130,8 @@ def _rasters(bag: Any, path: Path, topic: str, types: dict[str, str]) -> Iterato
         if latest is not None and baseline is None:
             baseline = BaselineSubtraction(size)
             try:
-                baseline.set(np.asarray(latest.baseline, dtype=np.float32), np.asarray(latest.valid, dtype=np.bool_))
+                fields = baseline_of(latest, samples.rows, samples.cols)
+                baseline.set(fields.counts, fields.valid)
             except ArrayError as error:
                 raise RecordingError(f"{beside} in '{path}' does not fit {topic}: {error}") from error
         frame = np.zeros(size, dtype=np.uint16)

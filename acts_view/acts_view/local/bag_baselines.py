@@ -7,14 +7,13 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
 from rclpy.serialization import deserialize_message
 
 from acts_core.errors import ArrayError, RecordingError
 from acts_driver.baseline import Baseline, BaselineSource
 from acts_msgs.msg import Baseline as BaselineMessage
 from acts_ros.bags.reading import open_bag
-from acts_ros.messages import ns_of
+from acts_ros.messages import baseline_of, ns_of
 
 _TYPE = "acts_msgs/msg/Baseline"
 
@@ -57,12 +56,11 @@ def _in_order(baselines: list[Baseline]) -> list[Baseline]:
 
 def _parsed(data: bytes, rows: int, cols: int) -> Baseline:
     message = deserialize_message(data, BaselineMessage)
-    if (message.rows, message.cols) != (rows, cols):
-        raise ArrayError(f"a baseline of {message.rows} x {message.cols} taxels; the frames have {rows} x {cols}")
+    fields = baseline_of(message, rows, cols)
     return Baseline(
-        counts=np.asarray(message.baseline, dtype=np.float32).reshape(rows, cols),
-        noise_counts=np.asarray(message.noise, dtype=np.float32).reshape(rows, cols),
-        valid=np.asarray(message.valid, dtype=np.bool_).reshape(rows, cols),
+        counts=fields.counts.reshape(rows, cols),
+        noise_counts=fields.noise_counts.reshape(rows, cols),
+        valid=fields.valid.reshape(rows, cols),
         source=BaselineSource.FILE,
         time_ns=ns_of(message.header.stamp),
     )
