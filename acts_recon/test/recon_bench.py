@@ -22,10 +22,12 @@ from std_msgs.msg import Header
 
 from acts_core.frames import SampleFrame, Scheme
 from acts_msgs.msg import Contact, TactileSamples
+from acts_recon.nodes.frame_publisher import FramePublisher
 from acts_recon.nodes.reconstruction_node import ReconstructionNode
 from acts_ros import qos
 
 Added = TypeVar("Added", bound=Node)
+Publisher = TypeVar("Publisher", bound=FramePublisher)
 
 DEADLINE_S = 30.0
 FIRST_NS = 1_700_000_000_000_000_000
@@ -36,6 +38,11 @@ def timed(time_ms: int) -> dict[str, Any]:
     """Stamp and duration of a frame of 55 samples."""
     header = Header(frame_id="plate", stamp=Time(sec=100 + time_ms // 1000, nanosec=time_ms % 1000 * 1_000_000))
     return {"header": header, "duration": Duration(nanosec=983_235)}
+
+
+def publisher_of(node: ReconstructionNode, kind: type[Publisher]) -> Publisher:
+    """The publisher of a kind that the node has."""
+    return next(one for one in node._parts if isinstance(one, kind))
 
 
 class Peers:

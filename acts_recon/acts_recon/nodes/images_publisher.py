@@ -6,25 +6,24 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Collection
 
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from sensor_msgs.msg import Image
 
 from acts_core.runtime import RateLimit
-from acts_recon.contacts import Contact
 from acts_recon.images import mono16, rgb8
 from acts_recon.methods import Recovery
 from acts_recon.nodes.age_publisher import AgePublisher
+from acts_recon.nodes.frame_publisher import FramePublisher, RecoveredFrame
 from acts_recon.nodes.series_publisher import SeriesPublisher
 from acts_recon.settings import ReconstructionConfig
 from acts_ros import qos
 from acts_ros.messages import ImageFields, write_image
 
 
-class ImagesPublisher:
-    """Publishes images where somebody listens.
+class ImagesPublisher(FramePublisher):
+    """Publishes images.
 
     ``image_raw`` (sensor_msgs/Image, mono16, counts), ``confidence`` (mono8, with the method ``fusion``), and, when
     they are due, ``image`` (rgb8), ``view/image_raw``, ``view/confidence``, ``view/age`` (32FC1, see `AgePublisher`)
@@ -49,17 +48,15 @@ class ImagesPublisher:
         self._ages = AgePublisher(node)
         self._series = SeriesPublisher(node)
         self._raw_limit = RateLimit(settings.image_raw_rate_hz)
-        self.viewed: list[str] = []
-        """Topics for viewers that somebody listens to."""
-        self.look_for_subscribers()
+        self._send_raw = self._send_confidence = False
 
     def set_rates(self, settings: ReconstructionConfig) -> None:
-        """Put changed rates in force."""
+        """See `FramePublisher.set_rates`."""
         self._settings = settings
         self._raw_limit.set_rate(settings.image_raw_rate_hz)
 
     def look_for_subscribers(self) -> None:
-        """To be called now and then: whether somebody listens."""
+        """See `FramePublisher.look_for_subscribers`."""
         self._ages.look_for_subscribers()
         self._series.look_for_subscribers()
         self._send_raw = self._raw_publisher.get_subscription_count() > 0
@@ -74,28 +71,11 @@ class ImagesPublisher:
         self.viewed = [topic for topic, is_wanted in wanted.items() if is_wanted]
         self.is_wanted = self._send_raw or self._send_confidence or bool(self.viewed)
 
-    def publish(
-        self, stamp_ns: int, frame_id: str, sequence: int, duration_s: float, contact: Contact, due: Collection[str]
-    ) -> None:
-        """Publish what is wanted and due.
-
-        Parameters
-        ----------
-        stamp_ns : int
-            End of the frame's last measurement [ns].
-        frame_id : str
-            Frame of the skin.
-        sequence : int
-            The frame's number.
-        duration_s : float
-            How long the frame's measurements took [s].
-        contact : Contact
-            In the image.
-        due : collection of str
-            The topics for viewers to publish now.
-        """
+    def publish(self, frame: RecoveredFrame) -> None:
+        """See `FramePublisher.publish`."""
+        stamp_ns, frame_id, due = frame.stamp_ns, frame.header.frame_id, frame.due
         if self._series.is_wanted:
-            self._series.add(stamp_ns, sequence, contact)
+            self._series.add(stamp_ns, frame.sequence, frame.contact)
         if self._send_raw and self._raw_limit.due(time.monotonic()):
             self._publish_raw(self._raw_publisher, stamp_ns, frame_id)
         if self._send_confidence:
@@ -105,7 +85,7 @@ class ImagesPublisher:
         if "view/confidence" in due:
             self._publish_confidence(self._view_confidence_publisher, stamp_ns, frame_id)
         if "view/age" in due:
-            self._ages.publish(stamp_ns, frame_id, self._recovery, duration_s)
+            self._ages.publish(stamp_ns, frame_id, self._recovery, frame.duration_s)
         if "view/contact_series" in due:
             self._series.publish(frame_id)
         if "image" in due:

@@ -13,58 +13,41 @@ from rclpy.node import Node
 from std_msgs.msg import Header
 
 from acts_msgs.msg import Impact as ImpactMessage
-from acts_recon.impacts import Impact, ImpactDetector
+from acts_recon.impacts import Impact
 from acts_recon.methods import Recovery
-from acts_ros import qos
+from acts_recon.nodes.frame_publisher import RecoveredFrame, TopicPublisher
+from acts_recon.settings import ReconstructionConfig
 from acts_ros.messages import ns_of, set_stamp
 
 
-class ImpactsPublisher:
-    """Looks for touches in every image, and publishes acts_msgs/Impact, while somebody listens.
+class ImpactsPublisher(TopicPublisher):
+    """Looks for touches in every image, and publishes acts_msgs/Impact.
 
     Parameters
     ----------
     node : Node
-    detector : ImpactDetector
+    settings : ReconstructionConfig
+    recovery : Recovery
+        Holds the image.
     """
 
-    def __init__(self, node: Node, detector: ImpactDetector) -> None:
-        self._detector = detector
-        self._publisher = node.create_publisher(ImpactMessage, "impacts", **qos.overridable(qos.STREAM))
-        self.is_wanted = False
+    def __init__(self, node: Node, settings: ReconstructionConfig, recovery: Recovery) -> None:
+        super().__init__(node, ImpactMessage, "impacts", settings)
+        self._recovery = recovery
+        self._detector = settings.impact_detector(recovery)
 
     def reset(self) -> None:
-        """Forget all images: the next one is not of the same board, or long after."""
+        """See `FramePublisher.reset`."""
         self._detector.reset()
 
-    def look_for_subscribers(self) -> None:
-        """To be called now and then: whether somebody listens."""
-        send = self._publisher.get_subscription_count() > 0
-        if send and not self.is_wanted:
-            self._detector.reset()
-        self.is_wanted = send
-
-    def publish(self, header: Header, sequence: int, end_s: float, duration_s: float, recovery: Recovery) -> None:
-        """Look at the image of a frame, and publish what has begun and what is over.
-
-        Parameters
-        ----------
-        header : Header
-            Of the frame.
-        sequence : int
-            The frame's number.
-        end_s, duration_s : float
-            When the frame's last measurement ended, and how long all of them took [s].
-        recovery : Recovery
-            Holds the image.
-        """
-        if not self.is_wanted:
-            return
+    def publish(self, frame: RecoveredFrame) -> None:
+        """See `FramePublisher.publish`."""
+        recovery, end_s = self._recovery, frame.end_s
         found = self._detector.step(
-            end_s, duration_s, recovery.image, recovery.sigma, recovery.age_s, recovery.measured
+            end_s, frame.duration_s, recovery.image, recovery.sigma, recovery.age_s, recovery.measured
         )
         for impact in found:
-            self._publisher.publish(_message(header, sequence, end_s, impact))
+            self._publisher.publish(_message(frame.header, frame.sequence, end_s, impact))
 
 
 def _message(header: Header, sequence: int, end_s: float, impact: Impact) -> ImpactMessage:

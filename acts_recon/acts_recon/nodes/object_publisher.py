@@ -9,67 +9,48 @@ import time
 from array import array
 
 import numpy as np
-from numpy.typing import NDArray
 from rclpy.node import Node
-from std_msgs.msg import Header
 
-from acts_core.runtime import RateLimit
 from acts_msgs.msg import ObjectClass
 from acts_recon.classifiers import ObjectRecogniser
-from acts_ros import qos
+from acts_recon.nodes.frame_publisher import RecoveredFrame, TopicPublisher
+from acts_recon.settings import ReconstructionConfig
 
 
-class ObjectPublisher:
-    """Classifies frames and publishes acts_msgs/ObjectClass, while somebody listens.
+class ObjectPublisher(TopicPublisher):
+    """Classifies frames and publishes acts_msgs/ObjectClass.
 
     Parameters
     ----------
     node : Node
+    settings : ReconstructionConfig
     recogniser : ObjectRecogniser
-    rate_hz : float
-        Largest rate; 0: every frame.
     """
 
-    def __init__(self, node: Node, recogniser: ObjectRecogniser, rate_hz: float) -> None:
+    def __init__(self, node: Node, settings: ReconstructionConfig, recogniser: ObjectRecogniser) -> None:
+        super().__init__(node, ObjectClass, "object", settings)
         self._recogniser = recogniser
-        self._limit = RateLimit(rate_hz)
-        self._publisher = node.create_publisher(ObjectClass, "object", **qos.overridable(qos.STREAM))
         self._message = ObjectClass()
-        self.is_wanted = False
-
-    def set_rate(self, rate_hz: float) -> None:
-        """Change the largest rate; 0: every frame."""
-        self._limit.set_rate(rate_hz)
-
-    def look_for_subscribers(self) -> None:
-        """To be called now and then: whether somebody listens."""
-        self.is_wanted = self._publisher.get_subscription_count() > 0
 
     def reset(self) -> None:
-        """The board began anew: what it showed before counts no more."""
+        """See `FramePublisher.reset`."""
         self._recogniser.reset()
 
-    def publish(
-        self,
-        header: Header,
-        sequence: int,
-        indices: NDArray[np.uint16],
-        counts: NDArray[np.uint16],
-        end_s: float,
-        duration_s: float,
-    ) -> None:
-        """Classify a frame that has been recovered, and publish what it shows."""
-        if not self.is_wanted:
-            return
+    def publish(self, frame: RecoveredFrame) -> None:
+        """See `FramePublisher.publish`."""
+        samples = frame.once.indices, frame.once.counts, frame.end_s, frame.duration_s
         if not self._limit.due(time.monotonic()):
-            self._recogniser.update(indices, counts, end_s, duration_s)
+            self._recogniser.update(*samples)
             return
-        result = self._recogniser.step(indices, counts, end_s, duration_s)
+        result = self._recogniser.step(*samples)
         message = self._message
-        message.header = header
-        message.sequence = sequence
+        message.header = frame.header
+        message.sequence = frame.sequence
         message.class_number = result.best if result.touched else ObjectClass.NO_OBJECT
         message.name = self._recogniser.library.names[result.best] if result.touched else ""
         message.confidence = result.confidence
         message.residuals = array("f", result.residuals.astype(np.float32).tobytes())
         self._publisher.publish(message)
+
+    def _rate_hz(self, settings: ReconstructionConfig) -> float:
+        return settings.object_rate_hz

@@ -10,83 +10,58 @@ from array import array
 from concurrent.futures import Future
 
 import numpy as np
-from numpy.typing import NDArray
 from rclpy.node import Node
 from std_msgs.msg import Header
 
-from acts_core.runtime import RateLimit, background
+from acts_core.runtime import background
 from acts_msgs.msg import Outline as OutlineMessage
 from acts_recon.methods import Recovery
-from acts_recon.outlines import Outline, OutlineTracer, load
-from acts_ros import qos
+from acts_recon.nodes.frame_publisher import RecoveredFrame, TopicPublisher
+from acts_recon.outlines import Outline, load
+from acts_recon.settings import ReconstructionConfig
 
 
-class OutlinesPublisher:
-    """Finds the outlines in every image, and publishes acts_msgs/Outline, while somebody listens.
+class OutlinesPublisher(TopicPublisher):
+    """Finds the outlines in every image, and publishes acts_msgs/Outline.
+
+    The rate is limited while no contact is young.
 
     Parameters
     ----------
     node : Node
-    tracer : OutlineTracer
-    rate_hz : float
-        Largest rate while no contact is young [Hz]; 0: every frame.
+    settings : ReconstructionConfig
+    recovery : Recovery
+        Holds the image.
     """
 
-    def __init__(self, node: Node, tracer: OutlineTracer, rate_hz: float) -> None:
-        self._tracer = tracer
-        self._publisher = node.create_publisher(OutlineMessage, "outlines", **qos.overridable(qos.STREAM))
-        self._limit = RateLimit(rate_hz)
-        self.is_wanted = False
+    def __init__(self, node: Node, settings: ReconstructionConfig, recovery: Recovery) -> None:
+        super().__init__(node, OutlineMessage, "outlines", settings)
+        self._recovery = recovery
+        self._tracer = settings.outline_tracer(recovery)
         self._loaded: Future[None] | None = None
 
-    def set_rate(self, rate_hz: float) -> None:
-        """Change the largest rate while no contact is young [Hz]; 0: every frame."""
-        self._limit.set_rate(rate_hz)
-
     def reset(self) -> None:
-        """Forget all contacts: the next frame is not of the same board, or long after."""
+        """See `FramePublisher.reset`."""
         self._tracer.reset()
 
     def look_for_subscribers(self) -> None:
-        """To be called now and then: whether somebody listens."""
-        send = self._publisher.get_subscription_count() > 0
-        if send and self._loaded is None:
+        """See `FramePublisher.look_for_subscribers`; nothing is wanted before what it needs is imported."""
+        if self._loaded is None and self._publisher.get_subscription_count() > 0:
             # Importing takes longer than a frame.
             self._loaded = background.begin(load)
-        send = send and self._loaded is not None and self._loaded.done()
-        if send and not self.is_wanted:
-            self._tracer.reset()
-        self.is_wanted = send
+        if self._loaded is not None and self._loaded.done():
+            super().look_for_subscribers()
 
-    def publish(
-        self,
-        header: Header,
-        sequence: int,
-        indices: NDArray[np.uint16],
-        counts: NDArray[np.uint16],
-        end_s: float,
-        duration_s: float,
-        recovery: Recovery,
-    ) -> None:
-        """Find the outlines in a frame, and publish them.
+    def publish(self, frame: RecoveredFrame) -> None:
+        """See `FramePublisher.publish`."""
+        image, end_s = self._recovery.image, frame.end_s
+        if not self._limit.due(time.monotonic()) and self._tracer.skip(end_s, image):
+            return
+        for outline in self._tracer.step(frame.once.indices, frame.once.counts, end_s, frame.duration_s, image):
+            self._publisher.publish(_message(frame.header, frame.sequence, end_s, outline))
 
-        Parameters
-        ----------
-        header : Header
-            Of the frame.
-        sequence : int
-            The frame's number.
-        indices, counts, end_s, duration_s
-            Of the frame, as of `Method.step`, which has accepted them.
-        recovery : Recovery
-            Holds the image.
-        """
-        if not self.is_wanted:
-            return
-        if not self._limit.due(time.monotonic()) and self._tracer.skip(end_s, recovery.image):
-            return
-        for outline in self._tracer.step(indices, counts, end_s, duration_s, recovery.image):
-            self._publisher.publish(_message(header, sequence, end_s, outline))
+    def _rate_hz(self, settings: ReconstructionConfig) -> float:
+        return settings.outlines_rate_hz
 
 
 def _message(header: Header, sequence: int, end_s: float, outline: Outline) -> OutlineMessage:

@@ -26,13 +26,15 @@ from acts_core.runtime import LateFrames, RateLimit, Use, enter_realtime
 from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import Baseline, TactileSamples
 from acts_msgs.msg import Contact as ContactMessage
-from acts_recon.contacts import Contact
 from acts_recon.frame_pipeline import ArraySizeError, FramePipeline
-from acts_recon.nodes.abilities import Abilities
 from acts_recon.nodes.contacts_publisher import ContactsPublisher
+from acts_recon.nodes.frame_publisher import FramePublisher, RecoveredFrame
 from acts_recon.nodes.images_publisher import ImagesPublisher
+from acts_recon.nodes.impacts_publisher import ImpactsPublisher
 from acts_recon.nodes.object_publisher import ObjectPublisher
-from acts_recon.nodes.region_publisher import RegionsPublisher
+from acts_recon.nodes.outlines_publisher import OutlinesPublisher
+from acts_recon.nodes.regions_publisher import RegionsPublisher
+from acts_recon.nodes.spectra_publisher import SpectraPublisher
 from acts_recon.settings import ReconstructionConfig, ReconstructionSettings
 from acts_ros import qos
 from acts_ros.clocks import steady_timer
@@ -46,8 +48,6 @@ from acts_ros.polled import PolledSubscription
 
 _SUBSCRIBERS_PERIOD_S = 0.2
 
-_Part = ImagesPublisher | ContactsPublisher | Abilities | ObjectPublisher | RegionsPublisher
-
 
 class ReconstructionNode(Node):
     """Translates between topics and a `FramePipeline`.
@@ -55,7 +55,8 @@ class ReconstructionNode(Node):
     Subscribes ``samples`` (acts_msgs/TactileSamples), or takes frames by `take` from a driver in the same process.
     Publishes for every frame ``contact`` (acts_msgs/Contact), while in contact ``cop`` (geometry_msgs/PointStamped),
     and where somebody listens images (see `ImagesPublisher`), ``contacts`` and ``view/contacts`` (acts_msgs/Contacts),
-    what `Abilities` offers, with a layout of several patches, or of one on a link, ``regions``
+    as far as the parameters offer them ``impacts`` (acts_msgs/Impact), ``spectra`` (acts_msgs/Spectrum) and
+    ``outlines`` (acts_msgs/Outline), with a layout of several patches, or of one on a link, ``regions``
     (acts_msgs/RegionContacts), and, with an object library, ``object`` (acts_msgs/ObjectClass).
 
     Parameters
@@ -77,21 +78,9 @@ class ReconstructionNode(Node):
         # Filled anew for every frame: making messages costs more than sending them.
         self._header = Header()
         self._cop = PointStamped()
-        self._images = ImagesPublisher(self, self._settings, self._recovery)
         self._view_limit = RateLimit(self._settings.image_rate_hz)
         self._viewed: list[str] = []
-        recogniser = self._settings.recogniser(self._recovery)
-        self._objects: ObjectPublisher | None = None
-        if recogniser is not None:
-            self._objects = ObjectPublisher(self, recogniser, self._settings.object_rate_hz)
-        self._contacts = ContactsPublisher(
-            self, self._recovery.geometry, self._recovery.response, self._settings.blob_config(), self._recovery.borders
-        )
-        self._abilities = Abilities(self, self._settings, self._recovery)
-        regions = self._settings.regions(self._recovery)
-        self._regions: RegionsPublisher | None = None
-        if regions is not None:
-            self._regions = RegionsPublisher(self, regions, self._settings.regions_rate_hz)
+        self._parts = self._make_parts()
 
         self._frames = 0
         self._untold = 0
@@ -125,24 +114,37 @@ class ReconstructionNode(Node):
     def _change(self, settings: ReconstructionConfig) -> str:
         """Put changed parameters in force."""
         self._settings = settings
-        self._images.set_rates(settings)
         self._view_limit.set_rate(settings.image_rate_hz)
-        if self._objects is not None:
-            self._objects.set_rate(settings.object_rate_hz)
-        self._abilities.set_rates(settings)
-        if self._regions is not None:
-            self._regions.set_rate(settings.regions_rate_hz)
+        for part in self._parts:
+            part.set_rates(settings)
         return ""
+
+    def _make_parts(self) -> list[FramePublisher]:
+        """Those that the settings offer, in the order in which they publish."""
+        settings, recovery = self._settings, self._recovery
+        made: list[FramePublisher] = []
+        regions = settings.regions(recovery)
+        if regions is not None:
+            made.append(RegionsPublisher(self, settings, recovery, regions))
+        made += [ImagesPublisher(self, settings, recovery), ContactsPublisher(self, settings, recovery)]
+        if settings.impacts:
+            made.append(ImpactsPublisher(self, settings, recovery))
+        if settings.spectra:
+            made.append(SpectraPublisher(self, settings, recovery))
+        if settings.outlines:
+            made.append(OutlinesPublisher(self, settings, recovery))
+        recogniser = settings.recogniser(recovery)
+        if recogniser is not None:
+            made.append(ObjectPublisher(self, settings, recogniser))
+        return made
 
     def _look_for_subscribers(self) -> None:
         self._send_cop = self._cop_publisher.get_subscription_count() > 0
-        parts: list[_Part | None] = [self._images, self._contacts, self._abilities, self._objects, self._regions]
-        offered = [part for part in parts if part is not None]
-        for part in offered:
+        for part in self._parts:
             part.look_for_subscribers()
-        self._viewed = [*self._images.viewed, *self._contacts.viewed]
+        self._viewed = [topic for part in self._parts for topic in part.viewed]
         # Often nobody listens to any, and asking each of them for every frame takes long.
-        self._is_more_wanted = self._send_cop or any(part.is_wanted for part in offered)
+        self._is_more_wanted = self._send_cop or any(part.is_wanted for part in self._parts)
 
     def _on_samples(self, samples: TactileSamples) -> None:
         # With those that have come meanwhile: one by one, all that waits would be as late as the queue is long.
@@ -203,19 +205,13 @@ class ReconstructionNode(Node):
 
     def _publish(self, stamp_ns: int, frame_id: str) -> None:
         """Publish what has been found in the newest frame."""
-        frame, every, contact = self._pipeline.frame, self._pipeline.every, self._pipeline.contact
-        assert frame is not None
+        once, every, contact = self._pipeline.frame, self._pipeline.every, self._pipeline.contact
+        assert once is not None
         assert every is not None
-        fields = ContactFields(stamp_ns, frame_id, frame.sequence, *contact)
+        fields = ContactFields(stamp_ns, frame_id, once.sequence, *contact)
         self._contact_publisher.publish(write_contact(fields))
-        if self._is_more_wanted:
-            self._publish_more(frame, every, stamp_ns, frame_id, contact)
-
-    def _publish_more(
-        self, frame: SampleFrame, every: SampleFrame, stamp_ns: int, frame_id: str, contact: Contact
-    ) -> None:
-        """Publish what somebody listens to besides ``contact``; `every` has all samples, `frame` each taxel once."""
-        end_s, duration_s = stamp_ns * 1e-9, frame.duration_us * 1e-6
+        if not self._is_more_wanted:
+            return
         header = self._header
         header.frame_id = frame_id
         set_stamp(header.stamp, stamp_ns)
@@ -223,14 +219,11 @@ class ReconstructionNode(Node):
             self._cop.header = header
             self._cop.point.x, self._cop.point.y = contact.x_m, contact.y_m
             self._cop_publisher.publish(self._cop)
-        if self._regions is not None:
-            self._regions.publish(stamp_ns, frame_id, frame.sequence, self._recovery)
         due = self._viewed if self._viewed and self._view_limit.due(time.monotonic()) else ()
-        self._images.publish(stamp_ns, frame_id, frame.sequence, duration_s, contact, due)
-        self._contacts.publish(header, frame.sequence, self._recovery.image, self._recovery.sigma, due)
-        self._abilities.publish(header, frame, every, end_s)
-        if self._objects is not None:
-            self._objects.publish(header, frame.sequence, frame.indices, frame.counts, end_s, duration_s)
+        frame = RecoveredFrame(header, stamp_ns, once, every, contact, due)
+        for part in self._parts:
+            if part.is_wanted:
+                part.publish(frame)
 
     def _on_baseline(self, message: Baseline) -> None:
         try:
@@ -241,12 +234,8 @@ class ReconstructionNode(Node):
 
     def _forget(self) -> None:
         """Forget what is kept of all frames: the board of the next one counts from the start again."""
-        self._contacts.reset()
-        self._abilities.reset()
-        if self._objects is not None:
-            self._objects.reset()
-        if self._regions is not None:
-            self._regions.reset()
+        for part in self._parts:
+            part.reset()
 
     def _reject(self, kind: str, reason: str) -> None:
         self._rejected[kind] += 1

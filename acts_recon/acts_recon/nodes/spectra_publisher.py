@@ -13,66 +13,42 @@ from concurrent.futures import Future
 from rclpy.node import Node
 from std_msgs.msg import Header
 
-from acts_core.frames import SampleFrame
-from acts_core.runtime import RateLimit, background
+from acts_core.runtime import background
 from acts_msgs.msg import Spectrum as SpectrumMessage
-from acts_recon.spectra import Spectrum, SpectrumAnalyser
-from acts_ros import qos
-from acts_ros.messages import ns_of, set_stamp
+from acts_recon.methods import Recovery
+from acts_recon.nodes.frame_publisher import RecoveredFrame, TopicPublisher
+from acts_recon.settings import ReconstructionConfig
+from acts_recon.spectra import Spectrum
+from acts_ros.messages import set_stamp
 
 
-class SpectraPublisher:
-    """Keeps the samples of the last second, and publishes acts_msgs/Spectrum of each contact, while somebody listens.
+class SpectraPublisher(TopicPublisher):
+    """Keeps the samples of the last second, and publishes acts_msgs/Spectrum of each contact.
 
     A spectrum takes longer than a frame, so it is made on a thread of its own; it is published with the frame after.
 
     Parameters
     ----------
     node : Node
-    analyser : SpectrumAnalyser
-    rate_hz : float
-        Largest rate [Hz].
+    settings : ReconstructionConfig
+    recovery : Recovery
     """
 
-    def __init__(self, node: Node, analyser: SpectrumAnalyser, rate_hz: float) -> None:
-        self._analyser = analyser
-        self._publisher = node.create_publisher(SpectrumMessage, "spectra", **qos.overridable(qos.STREAM))
-        self._limit = RateLimit(rate_hz)
-        self.is_wanted = False
+    def __init__(self, node: Node, settings: ReconstructionConfig, recovery: Recovery) -> None:
+        super().__init__(node, SpectrumMessage, "spectra", settings)
+        self._analyser = settings.spectrum_analyser(recovery)
         self._work: Future[tuple[Spectrum, ...]] | None = None
         self._header, self._sequence = Header(), 0
 
-    def set_rate(self, rate_hz: float) -> None:
-        """Change the largest rate [Hz]."""
-        self._limit.set_rate(rate_hz)
-
     def reset(self) -> None:
-        """Forget all samples: the next ones are not of the same board, or long after."""
+        """See `FramePublisher.reset`."""
         self._analyser.reset()
         self._work = None
 
-    def look_for_subscribers(self) -> None:
-        """To be called now and then: whether somebody listens."""
-        send = self._publisher.get_subscription_count() > 0
-        if send and not self.is_wanted:
-            self.reset()
-        self.is_wanted = send
-
-    def publish(self, header: Header, frame: SampleFrame, end_s: float) -> None:
-        """Take the samples of a frame; publish what is ready.
-
-        Parameters
-        ----------
-        header : Header
-            Of the frame.
-        frame : SampleFrame
-            With all samples, less the baseline; `Method.step` has accepted what it has of each taxel.
-        end_s : float
-            Time of the last measurement [s].
-        """
-        if not self.is_wanted:
-            return
-        self._analyser.add(frame.indices, frame.counts, end_s, frame.duration_us * 1e-6, may_repeat=frame.repeats)
+    def publish(self, frame: RecoveredFrame) -> None:
+        """Take the samples of a frame; publish what is ready."""
+        every = frame.every
+        self._analyser.add(every.indices, every.counts, frame.end_s, every.duration_us * 1e-6, may_repeat=every.repeats)
         if self._work is not None:
             if not self._work.done():
                 return
@@ -82,10 +58,13 @@ class SpectraPublisher:
             self._work = None
         window = self._analyser.window() if self._limit.due(time.monotonic()) else ()
         if window:
-            self._header = Header(frame_id=header.frame_id)
-            set_stamp(self._header.stamp, ns_of(header.stamp))
+            self._header = Header(frame_id=frame.header.frame_id)
+            set_stamp(self._header.stamp, frame.stamp_ns)
             self._sequence = frame.sequence
             self._work = background.begin(lambda: self._analyser.spectra(window))
+
+    def _rate_hz(self, settings: ReconstructionConfig) -> float:
+        return settings.spectra_rate_hz
 
 
 def _message(header: Header, sequence: int, contact: int, contacts: int, spectrum: Spectrum) -> SpectrumMessage:

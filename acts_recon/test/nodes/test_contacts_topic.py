@@ -10,17 +10,19 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from rclpy.node import Node
-from recon_bench import Peers
+from recon_bench import Peers, publisher_of
 from recon_samples import bump
 from visualization_msgs.msg import Marker, MarkerArray
 
 from acts_core.array import ArrayGeometry
-from acts_core.skin import ForceResponse
 from acts_msgs.msg import Contacts, TactileSamples
-from acts_recon.contacts import MAX_BLOBS, BlobConfig, BlobTracker
+from acts_recon.contacts import MAX_BLOBS, BlobTracker, Contact
 from acts_recon.nodes.contacts_publisher import ContactsPublisher
+from acts_recon.nodes.frame_publisher import RecoveredFrame
 from acts_recon.nodes.reconstruction_node import ReconstructionNode
+from acts_recon.settings import ReconstructionSettings
 from acts_ros import qos
+from acts_ros.messages import frame_of, stamp_ns_of
 
 GEOMETRY = ArrayGeometry()
 
@@ -43,7 +45,7 @@ def test_the_node_publishes_contacts_with_numbers_that_last(make_peers: Callable
     publisher = peers.peer.create_publisher(TactileSamples, "samples", qos.STREAM)
     peers.until(lambda: publisher.get_subscription_count() == 1)
     peers.listen(Contacts, "contacts", qos.STREAM)
-    peers.until(lambda: node._contacts._send)
+    peers.until(lambda: publisher_of(node, ContactsPublisher)._send)
 
     images = [
         np.maximum(bump(GEOMETRY, 8, 6 + 0.4 * k), bump(GEOMETRY, 24, 26 - 0.4 * k, width=1.2)) for k in range(20)
@@ -79,7 +81,7 @@ def test_contacts_on_a_board_that_begins_anew_have_new_numbers(make_peers: Calla
     publisher = peers.peer.create_publisher(TactileSamples, "samples", qos.STREAM)
     peers.until(lambda: publisher.get_subscription_count() == 1)
     peers.listen(Contacts, "contacts", qos.STREAM)
-    peers.until(lambda: node._contacts._send)
+    peers.until(lambda: publisher_of(node, ContactsPublisher)._send)
 
     pressed = bump(GEOMETRY, 8, 6)
     for count, sequence in enumerate((5, 6, 7, 0, 1), start=1):
@@ -99,20 +101,28 @@ def test_contacts_on_a_board_that_begins_anew_have_new_numbers(make_peers: Calla
 def test_standard_deviations_and_markers_are_those_of_the_contact(make_peers: Callable[..., Peers]) -> None:
     peers = make_peers(121)
     node = peers.add(Node("maker", namespace="/plate", context=peers.context))
-    response = ForceResponse()
-    contacts = ContactsPublisher(node, GEOMETRY, response, BlobConfig())
+    settings = ReconstructionSettings()
+    recovery = settings.recovery()
+    contacts = ContactsPublisher(node, settings, recovery)
+
+    def frame_of_image(sequence: int, image: NDArray, due: list[str]) -> RecoveredFrame:
+        recovery.image[:] = image
+        samples = samples_of(image, sequence)
+        frame = frame_of(samples)
+        return RecoveredFrame(samples.header, stamp_ns_of(samples), frame, frame, Contact(), due)
+
     image = bump(GEOMETRY, 20.0, 12.0).astype(np.float32)
     sigma = np.full((32, 32), 5, dtype=np.float32)
-    # Nobody listens: nothing is found, and no number is used up.
-    contacts.publish(samples_of(image, 0).header, 0, image, sigma)
+    assert recovery.sigma is not None
+    recovery.sigma[:] = sigma
     peers.listen(Contacts, "contacts", qos.STREAM)
     peers.listen(Contacts, "view/contacts", qos.VIEW)
     peers.listen(MarkerArray, "contacts_view", qos.VIEW)
     viewed = ["view/contacts", "contacts_view"]
     peers.until(lambda: contacts.look_for_subscribers() or (contacts._send and contacts.viewed == viewed))
 
-    (expected,) = BlobTracker(GEOMETRY, response).step(image, 0.0, sigma)
-    contacts.publish(samples_of(image, 1).header, 1, image, sigma, due=viewed)
+    (expected,) = BlobTracker(GEOMETRY).step(image, 0.0, sigma)
+    contacts.publish(frame_of_image(1, image, viewed))
     peers.until(lambda: all(peers.received.values()))
     ((contact,),) = (message.contacts for message in peers.received["contacts"])
     assert contact.number == 1
@@ -138,7 +148,8 @@ def test_standard_deviations_and_markers_are_those_of_the_contact(make_peers: Ca
     # More than fit: said, and as many as fit are sent.
     many = np.zeros((32, 32), dtype=np.float32)
     many[::4, ::4] = 200
-    contacts.publish(samples_of(many, 2).header, 2, many)
+    recovery.sigma = None
+    contacts.publish(frame_of_image(2, many, []))
     peers.until(lambda: len(peers.received["contacts"]) == 2)
     assert len(peers.received["contacts"][1].contacts) == MAX_BLOBS
     assert len(peers.received["view/contacts"]) == 1

@@ -10,12 +10,13 @@ import numpy as np
 import pytest
 from builtin_interfaces.msg import Duration, Time
 from numpy.typing import NDArray
-from recon_bench import EVERYWHERE, Bench
+from recon_bench import EVERYWHERE, Bench, publisher_of
 from recon_samples import bump
 from std_msgs.msg import Header
 
 from acts_core.array import ArrayGeometry
 from acts_msgs.msg import Impact, TactileSamples
+from acts_recon.nodes.impacts_publisher import ImpactsPublisher
 from acts_ros import qos
 
 GEOMETRY = ArrayGeometry()
@@ -42,8 +43,7 @@ def bounce() -> list[NDArray]:
 
 def test_the_node_tells_a_touch_when_it_begins_and_when_it_is_over(make_bench: Callable[..., Bench]) -> None:
     bench = make_bench(208)
-    impacts = bench.node._abilities.impacts
-    assert impacts is not None
+    impacts = publisher_of(bench.node, ImpactsPublisher)
     bench.listen(Impact, "impacts", qos.STREAM)
     bench.until(lambda: impacts.is_wanted)
 
@@ -74,8 +74,7 @@ def test_the_node_tells_a_touch_when_it_begins_and_when_it_is_over(make_bench: C
 def test_a_long_press_of_images_without_times_is_told(make_bench: Callable[..., Bench]) -> None:
     """The method per_frame knows no time of a sample, so that the beginning is not followed back."""
     bench = make_bench(208, method="per_frame")
-    impacts = bench.node._abilities.impacts
-    assert impacts is not None
+    impacts = publisher_of(bench.node, ImpactsPublisher)
     bench.listen(Impact, "impacts", qos.STREAM)
     bench.until(lambda: impacts.is_wanted)
 

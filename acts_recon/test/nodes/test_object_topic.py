@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from recon_bench import Bench, timed
+from recon_bench import Bench, publisher_of, timed
 from recon_samples import bump, sample
 
 from acts_core.array import ArrayGeometry
@@ -17,6 +17,7 @@ from acts_core.errors import ObjectLibraryError
 from acts_core.skin import layout
 from acts_msgs.msg import ObjectClass
 from acts_recon.fusion import FusionEstimator
+from acts_recon.nodes.object_publisher import ObjectPublisher
 from acts_recon.objects import (
     Classifier,
     ClassifierConfig,
@@ -44,7 +45,7 @@ def library_of(frames: list[NDArray[np.uint16]]) -> ObjectLibrary:
 
 def listen(bench: Bench) -> None:
     bench.listen(ObjectClass, "object", qos.STREAM)
-    bench.until(lambda: bench.node._objects is not None and bench.node._objects.is_wanted)
+    bench.until(lambda: publisher_of(bench.node, ObjectPublisher).is_wanted)
 
 
 def test_per_frame_the_object_is_the_one_of_the_samples(make_bench: Callable[..., Bench], library_path: Path) -> None:

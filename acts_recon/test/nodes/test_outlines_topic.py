@@ -8,11 +8,12 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from recon_bench import Bench
+from recon_bench import Bench, publisher_of
 from recon_samples import bump
 
 from acts_core.array import ArrayGeometry
 from acts_msgs.msg import Outline
+from acts_recon.nodes.outlines_publisher import OutlinesPublisher
 from acts_ros import qos
 
 GEOMETRY = ArrayGeometry()
@@ -25,8 +26,7 @@ def counts_of(sequence: int) -> NDArray[np.floating]:
 
 def test_the_node_tells_outlines_while_somebody_listens(make_bench: Callable[..., Bench]) -> None:
     bench = make_bench(21)
-    outlines = bench.node._abilities.outlines
-    assert outlines is not None
+    outlines = publisher_of(bench.node, OutlinesPublisher)
     bench.take(0, counts_of(0))
     bench.listen(Outline, "outlines", qos.STREAM)
     bench.until(lambda: outlines.is_wanted)
@@ -50,8 +50,7 @@ def test_the_node_tells_outlines_while_somebody_listens(make_bench: Callable[...
 
 def test_a_short_touch_beside_an_old_contact_is_told_at_any_rate(make_bench: Callable[..., Bench]) -> None:
     bench = make_bench(21, outlines_rate_hz=0.1)
-    outlines = bench.node._abilities.outlines
-    assert outlines is not None
+    outlines = publisher_of(bench.node, OutlinesPublisher)
     bench.listen(Outline, "outlines", qos.STREAM)
     bench.until(lambda: outlines.is_wanted)
     old, touch = bump(GEOMETRY, 8.0, 8.0), bump(GEOMETRY, 24.0, 24.0)

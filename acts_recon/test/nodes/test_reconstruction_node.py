@@ -13,7 +13,7 @@ import pytest
 from geometry_msgs.msg import PointStamped
 from numpy.typing import NDArray
 from rclpy.parameter import Parameter
-from recon_bench import Bench, timed
+from recon_bench import Bench, publisher_of, timed
 from recon_samples import bump, sample
 from sensor_msgs.msg import Image
 
@@ -23,6 +23,7 @@ from acts_core.skin import ForceResponse, layout
 from acts_msgs.msg import Contact, ContactSeries
 from acts_recon.contacts.contact import find_contact
 from acts_recon.fusion import FusionEstimator
+from acts_recon.nodes.images_publisher import ImagesPublisher
 from acts_recon.settings import ReconstructionSettings
 from acts_recon.sparse import Dictionary, Reconstructor
 from acts_ros import qos
@@ -32,12 +33,13 @@ pytestmark = pytest.mark.slow
 
 def test_rates_of_images_change_while_it_runs(make_bench: Callable[..., Bench]) -> None:
     bench = make_bench(191)
+    images = publisher_of(bench.node, ImagesPublisher)
     parameters = {"image_raw_rate_hz": 20.0, "image_rate_hz": 5.0, "image_full_scale_counts": 500.0}
     results = bench.node.set_parameters([Parameter(name, value=value) for name, value in parameters.items()])
     assert all(result.successful for result in results)
-    assert [limit.due(0.0) for limit in (bench.node._images._raw_limit, bench.node._view_limit)] == [True, True]
-    assert not bench.node._images._raw_limit.due(0.049)
-    assert bench.node._images._raw_limit.due(0.051)
+    assert [limit.due(0.0) for limit in (images._raw_limit, bench.node._view_limit)] == [True, True]
+    assert not images._raw_limit.due(0.049)
+    assert images._raw_limit.due(0.051)
     assert not bench.node._view_limit.due(0.199)
     assert bench.node._view_limit.due(0.201)
     for refused in (Parameter("image_rate_hz", value=0.0), Parameter("rows", value=16)):
@@ -48,10 +50,11 @@ def test_contact_cop_and_images_are_those_of_the_samples(
     make_bench: Callable[..., Bench], dictionary: Dictionary
 ) -> None:
     bench = make_bench(40, method="per_frame", image_scale=4, image_rate_hz=1000.0)
+    images = publisher_of(bench.node, ImagesPublisher)
     bench.listen(PointStamped, "cop", qos.STREAM)
     bench.listen(Image, "image_raw", qos.STREAM)
     bench.listen(Image, "image", qos.VIEW)
-    bench.until(lambda: bench.node._send_cop and bench.node._images._send_raw and "image" in bench.node._images.viewed)
+    bench.until(lambda: bench.node._send_cop and images._send_raw and "image" in images.viewed)
 
     reconstructor = Reconstructor(ArrayGeometry(), dictionary)
     frame = sample(bump(ArrayGeometry(), 20.2, 11.7), 55)
@@ -94,9 +97,10 @@ def test_contact_cop_and_images_are_those_of_the_samples(
 
 def test_fusion_keeps_what_earlier_frames_showed_and_says_how_sure_it_is(make_bench: Callable[..., Bench]) -> None:
     bench = make_bench(110, layout="glove")
+    images = publisher_of(bench.node, ImagesPublisher)
     bench.listen(Image, "image_raw", qos.STREAM)
     bench.listen(Image, "confidence", qos.STREAM)
-    bench.until(lambda: bench.node._images._send_raw and bench.node._images._send_confidence)
+    bench.until(lambda: images._send_raw and images._send_confidence)
 
     glove = layout("glove")
     geometry = glove.geometry()
@@ -156,9 +160,10 @@ def test_a_dropout_and_a_restart_of_the_board_begin_anew(
 
 def test_images_and_contacts_are_those_of_the_layout(make_bench: Callable[..., Bench], dictionary: Dictionary) -> None:
     bench = make_bench(28, method="per_frame", layout="insole", image_scale=2, image_rate_hz=1000.0)
+    images = publisher_of(bench.node, ImagesPublisher)
     bench.listen(Image, "image_raw", qos.STREAM)
     bench.listen(Image, "image", qos.VIEW)
-    bench.until(lambda: bench.node._images._send_raw and "image" in bench.node._images.viewed)
+    bench.until(lambda: images._send_raw and "image" in images.viewed)
 
     insole = layout("insole")
     geometry = insole.geometry()
@@ -269,8 +274,9 @@ def test_the_viewer_image_keeps_its_rate_and_costs_nothing_unheard(make_bench: C
 
 def test_viewers_get_every_contact_in_a_few_messages(make_bench: Callable[..., Bench]) -> None:
     bench = make_bench(43, image_rate_hz=5.0)
+    images = publisher_of(bench.node, ImagesPublisher)
     bench.listen(ContactSeries, "view/contact_series", qos.VIEW)
-    bench.until(lambda: bench.node._images._series.is_wanted)
+    bench.until(lambda: images._series.is_wanted)
     series, pressed = bench.received["view/contact_series"], np.arange(320, 330)
     sequence = 0
     # 3 is missing.

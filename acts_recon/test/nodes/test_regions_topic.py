@@ -8,10 +8,11 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from rclpy.parameter import Parameter
-from recon_bench import Bench, timed
+from recon_bench import Bench, publisher_of, timed
 
 from acts_core.skin import ForceResponse, layout
 from acts_msgs.msg import RegionContacts
+from acts_recon.nodes.regions_publisher import RegionsPublisher
 from acts_recon.regions import Regions
 from acts_ros import qos
 from acts_ros.messages import read_regions
@@ -34,8 +35,7 @@ def test_regions_are_those_of_the_image_while_somebody_listens(make_bench: Calla
     everywhere = np.arange(1024)
     bench.send(0, everywhere, pressed(), **timed(0))
     bench.contact(0)
-    publisher = bench.node._regions
-    assert publisher is not None
+    publisher = publisher_of(bench.node, RegionsPublisher)
     assert not publisher.is_wanted
     raw: list[bytes] = []
     bench.peer.create_subscription(RegionContacts, "regions", raw.append, qos.STREAM, raw=True)
@@ -72,7 +72,7 @@ def test_regions_are_those_of_the_image_while_somebody_listens(make_bench: Calla
 
 def test_a_skin_of_one_patch_on_no_link_has_no_regions(make_bench: Callable[..., Bench]) -> None:
     bench = make_bench(213)
-    assert bench.node._regions is None
+    assert not any(isinstance(one, RegionsPublisher) for one in bench.node._parts)
     names = [name for name, _ in bench.peer.get_topic_names_and_types()]
     assert "/plate/contact" in names
     assert "/plate/regions" not in names

@@ -8,12 +8,13 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from recon_bench import Bench
+from recon_bench import Bench, publisher_of
 from recon_samples import bump
 
 from acts_core.array import ArrayGeometry
 from acts_core.skin import ForceResponse
 from acts_msgs.msg import Spectrum
+from acts_recon.nodes.spectra_publisher import SpectraPublisher
 from acts_ros import qos
 
 GEOMETRY = ArrayGeometry()
@@ -28,8 +29,7 @@ def counts_of(sequence: int) -> NDArray[np.floating]:
 
 def test_the_node_tells_how_a_contact_vibrates_while_somebody_listens(make_bench: Callable[..., Bench]) -> None:
     bench = make_bench(20, spectra_window_s=0.2, spectra_rate_hz=0.0)
-    spectra = bench.node._abilities.spectra
-    assert spectra is not None
+    spectra = publisher_of(bench.node, SpectraPublisher)
     bench.take(0, counts_of(0))
     assert not spectra._analyser._frames
     bench.listen(Spectrum, "spectra", qos.STREAM)
