@@ -15,7 +15,8 @@ from acts_core.settings import Changeable, default_of, describe, part_of, refuse
 from acts_core.skin import LAYOUTS, ForceResponse, Layout, MeasuredForceResponse, layout, layout_path
 from acts_recon.classifiers import AUTO, CLASSIFIERS, ObjectRecogniser, classifier_named
 from acts_recon.contacts import BlobConfig
-from acts_recon.fusion import ASSUMED_NOISE_COUNTS, FusionConfig
+from acts_recon.fusion import FusionConfig
+from acts_recon.images import LEAST_NOISE_COUNTS, NOISE_COUNTS
 from acts_recon.impacts import ImpactConfig, ImpactDetector
 from acts_recon.methods import METHODS, Recovery, SkinSetup
 from acts_recon.objects import load_object_library
@@ -27,9 +28,6 @@ from acts_recon.spectra import SpectraConfig, SpectrumAnalyser
 
 _ARRAY = ArrayGeometry()
 _RESPONSE = ForceResponse()
-
-# Of a reading in whole counts.
-_LEAST_NOISE_COUNTS = 0.3
 
 
 @dataclass(frozen=True)
@@ -261,7 +259,7 @@ class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig, ImpactCo
             hysteresis_counts=self.contacts_hysteresis_counts,
             bridge_s=self.contacts_bridge_s,
             memory_s=self.contacts_memory_s,
-            noise_counts=self.noise_counts or ASSUMED_NOISE_COUNTS,
+            noise_counts=self.noise_counts or NOISE_COUNTS,
         )
 
     def impact_detector(self, recovery: Recovery) -> ImpactDetector:
@@ -319,7 +317,7 @@ class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig, ImpactCo
         if len(arranged.patches) == 1 and not arranged.patches[0].link:
             return None
         # With next to no noise anything would be slip.
-        noise_counts = max(recovery.skin.assumed_noise_counts, _LEAST_NOISE_COUNTS)
+        noise_counts = max(recovery.skin.assumed_noise_counts, LEAST_NOISE_COUNTS)
         return Regions(
             arranged, recovery.response, self.touch_counts, noise_counts, self, self.regions_slip_rate_hz, self
         )

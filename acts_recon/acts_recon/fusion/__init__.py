@@ -7,7 +7,7 @@ In come samples, frame after frame; out come the image and the standard deviatio
 reference implementation in double precision are tested against one another.
 """
 
-from acts_recon.fusion.fusion import ASSUMED_NOISE_COUNTS, FusionConfig, FusionEstimator
+from acts_recon.fusion.fusion import FusionConfig, FusionEstimator
 from acts_recon.fusion.fusion_state import known_noise
 
-__all__ = ["ASSUMED_NOISE_COUNTS", "FusionConfig", "FusionEstimator", "known_noise"]
+__all__ = ["FusionConfig", "FusionEstimator", "known_noise"]

@@ -40,7 +40,7 @@ deviations. A low reading is noise if, lately in its tile, 0 was about as good a
 last one, and if the readings changed no more than the noise of fast measured taxels explains. A light steady pressure
 fails the first, slow changes of the skin the second. So on a skin with little noise readings of one count are shown.
 Noise of a known size is shown as 0, though it reads more in the mean: no reading is below 0. Where nobody has told the
-noise, it is taken for `ASSUMED_NOISE_COUNTS` at first, and the mean of the tile's low readings is shown: it may be what
+noise, it is taken for `NOISE_COUNTS` at first, and the mean of the tile's low readings is shown: it may be what
 is there.
 
 `fusion_kernels` does the work; `fusion_reference` is the reference implementation, in double precision.
@@ -60,11 +60,8 @@ from acts_core.settings import setting, validate
 from acts_core.skin import Layout
 from acts_recon.fusion.fusion_image_kernels import confidence
 from acts_recon.fusion.fusion_kernels import fuse
-from acts_recon.fusion.fusion_state import LEAST_NOISE_COUNTS, Tuning, expect_noise, forget, new_memory, state_of
-from acts_recon.images import PlacedSamples, borders_of
-
-ASSUMED_NOISE_COUNTS = 2.0
-"""Standard deviation of a reading where nobody has told it [counts]."""
+from acts_recon.fusion.fusion_state import Tuning, expect_noise, forget, new_memory, state_of
+from acts_recon.images import LEAST_NOISE_COUNTS, NOISE_COUNTS, PlacedSamples, borders_of
 
 
 @dataclass(frozen=True)
@@ -175,7 +172,7 @@ class FusionEstimator:
             See `acts_core.array.check_untouched`.
         """
         check_untouched("noise", noise_counts, valid, self._places.size)
-        assumed = self.config.noise_counts or ASSUMED_NOISE_COUNTS
+        assumed = self.config.noise_counts or NOISE_COUNTS
         noise = np.full(self.geometry.size, assumed, dtype=np.float32)
         noise[self._places[valid]] = noise_counts[valid]
         noise = np.maximum(noise, np.float32(LEAST_NOISE_COUNTS))

@@ -44,13 +44,13 @@ from acts_recon.fusion.fusion_kernels import (
 from acts_recon.fusion.fusion_motion_kernels import AROUND, RIDGE
 from acts_recon.fusion.fusion_state import (
     CLIPPED_CHANGE,
-    LEAST_NOISE_COUNTS,
     PRIOR_SAMPLES,
     QUIET_SIGMAS,
     TILE,
     UNKNOWN_COUNTS,
     Tuning,
 )
+from acts_recon.images import LEAST_NOISE_COUNTS
 
 Floats = NDArray[np.float64]
 

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_recon.images import Borders
+from acts_recon.images import LEAST_NOISE_COUNTS, Borders
 
 TILE = 4
 """Side of the tiles that have a velocity each [taxels]."""
@@ -20,9 +20,6 @@ PATCH_COLUMNS = 7
 
 UNKNOWN_COUNTS = 300.0
 """Sigma of a taxel that was never measured: about that of equally likely counts, ``1024 / sqrt(12)``."""
-
-LEAST_NOISE_COUNTS = 0.29
-"""Smallest standard deviation of a reading: whole counts are rounded, ``1 / sqrt(12)``."""
 
 
 def known_noise(noise_counts: float) -> float:

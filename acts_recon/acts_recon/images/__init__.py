@@ -13,6 +13,7 @@ from acts_recon.images.placed_samples import PlacedSamples
 from acts_recon.images.uncertainty import (
     ERR_TOGETHER,
     FAR,
+    LEAST_NOISE_COUNTS,
     NOISE_COUNTS,
     Variances,
     root_deviation,
@@ -24,6 +25,7 @@ from acts_recon.images.uncertainty_kernels import force_of, taxel_variances
 __all__ = [
     "ERR_TOGETHER",
     "FAR",
+    "LEAST_NOISE_COUNTS",
     "NOISE_COUNTS",
     "BaselineSubtraction",
     "Borders",

@@ -32,7 +32,10 @@ from acts_core.array import COUNT_MAX, ArrayGeometry
 from acts_core.skin import ForceResponse, MeasuredForceResponse, force_table
 
 NOISE_COUNTS = 2.0
-"""Standard deviation of a reading; what an image's is beyond it is that of a guess."""
+"""Standard deviation of a reading where nobody has told it; what an image's is beyond it is that of a guess."""
+
+LEAST_NOISE_COUNTS = 0.29
+"""Smallest standard deviation of a reading: whole counts are rounded, ``1 / sqrt(12)``."""
 
 ERR_TOGETHER = 5.0
 """Guesses that err together: as many as this are one independent error."""

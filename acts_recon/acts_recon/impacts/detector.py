@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from acts_core.array import ArrayGeometry
 from acts_core.skin import ForceResponse, MeasuredForceResponse
 from acts_recon.contacts import BlobConfig, BlobTracker, TrackedBlob
-from acts_recon.images import Borders, borders_of
+from acts_recon.images import LEAST_NOISE_COUNTS, Borders, borders_of
 from acts_recon.impacts.config import ImpactConfig
 from acts_recon.impacts.footprint_fit import Footprint
 from acts_recon.impacts.impact import UNKNOWN_DIRECTION_SD_RAD, Impact, Kind
@@ -70,7 +70,7 @@ class ImpactDetector:
         self._borders = borders or borders_of(geometry.rows, geometry.cols)
         self._tracker = BlobTracker(geometry, response, blobs, self._borders)
         memory_s = self.config.impact_longest_s + self.config.impact_quiet_s + 0.1
-        noise_counts = max(blobs.noise_counts, 0.3)  # of a reading in whole counts
+        noise_counts = max(blobs.noise_counts, LEAST_NOISE_COUNTS)
         self._samples = RecentSamples(geometry, response, float(blobs.touch_counts), noise_counts, memory_s)
         self._touches: list[Touch] = []
         self._next_number = 1

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
 from acts_core.skin import ForceResponse, Layout, MeasuredForceResponse
-from acts_recon.fusion import ASSUMED_NOISE_COUNTS, FusionConfig
-from acts_recon.images import PlacedSamples
+from acts_recon.fusion import FusionConfig
+from acts_recon.images import NOISE_COUNTS, PlacedSamples
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ class SkinSetup:
     @property
     def assumed_noise_counts(self) -> float:
         """`noise_counts`, or what is assumed where that is not known [counts]."""
-        return self.noise_counts or ASSUMED_NOISE_COUNTS
+        return self.noise_counts or NOISE_COUNTS
 
     def placed_samples(self) -> PlacedSamples:
         """What checks frames and tells where in the picture their samples lie."""

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError
 from acts_core.skin import ForceResponse, Layout, MeasuredForceResponse, force_table
-from acts_recon.images import PlacedSamples, borders_of
+from acts_recon.images import NOISE_COUNTS, PlacedSamples, borders_of
 from acts_recon.outlines.config import OutlinesConfig
 from acts_recon.outlines.contours import area, contours
 from acts_recon.outlines.edge_filter import EdgeFilter
@@ -82,7 +82,7 @@ class OutlineTracer:
         geometry: ArrayGeometry,
         response: ForceResponse | MeasuredForceResponse | None = None,
         touch_counts: float = 60.0,
-        noise_counts: float = 2.0,
+        noise_counts: float = NOISE_COUNTS,
         config: OutlinesConfig | None = None,
         layout: Layout | None = None,
     ) -> None:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from acts_core.errors import ArrayError
 from acts_core.skin import ForceResponse, Layout, MeasuredForceResponse, RegionContact, Vector, force_table
+from acts_recon.images import NOISE_COUNTS
 from acts_recon.regions import region_kernels as kernels
 from acts_recon.regions.sharpness import Sharpness, SharpnessConfig
 from acts_recon.slip import NO_SLIP, SMALLEST_SIDE, Slip, SlipConfig, SlipWatch
@@ -50,7 +51,7 @@ class Regions:
         layout: Layout,
         response: ForceResponse | MeasuredForceResponse,
         touch_counts: float = 60.0,
-        noise_counts: float = 2.0,
+        noise_counts: float = NOISE_COUNTS,
         slip: SlipConfig | None = None,
         slip_rate_hz: float = 250.0,
         sharpness: SharpnessConfig | None = None,

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from acts_core.skin import SkinPatch
 from acts_recon.slip.config import SlipConfig
-from acts_recon.slip.watch import Slip, SlipWatch
+from acts_recon.slip.watch import NOISE_COUNTS, Slip, SlipWatch
 
 __all__ = ["Slip", "SlipConfig", "SlipDetector"]
 
@@ -35,7 +35,7 @@ class SlipDetector:
     """
 
     def __init__(
-        self, rows: int, cols: int, pitch_m: float, config: SlipConfig | None = None, noise_counts: float = 1.5
+        self, rows: int, cols: int, pitch_m: float, config: SlipConfig | None = None, noise_counts: float = NOISE_COUNTS
     ) -> None:
         patch = SkinPatch("patch", 0, rows, 0, cols, pitch_m=pitch_m, row_pitch_m=pitch_m)
         self._watch = SlipWatch(rows, cols, [patch], config, noise_counts)

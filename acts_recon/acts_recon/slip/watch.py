@@ -28,6 +28,9 @@ from acts_recon.slip.motion import RIDGE, SMALLEST_SIDE, Motion
 _KEPT = 64
 _LONGEST_PAUSE_S = 0.5
 
+NOISE_COUNTS = 1.5
+"""Of the images that docs/slip.md has figures of; of a board whose noise nobody has told, the regions assume more."""
+
 
 class Slip(NamedTuple):
     """What one patch feels of motion.
@@ -80,7 +83,7 @@ class SlipWatch:
         cols: int,
         patches: Sequence[SkinPatch],
         config: SlipConfig | None = None,
-        noise_counts: float = 1.5,
+        noise_counts: float = NOISE_COUNTS,
         pressed_counts: float = 60.0,
     ) -> None:
         self.config = config = SlipConfig() if config is None else config

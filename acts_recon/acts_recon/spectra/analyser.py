@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
 from acts_core.skin import ForceResponse, Layout, MeasuredForceResponse, force_table
-from acts_recon.images import PlacedSamples, borders_of, slope_table
+from acts_recon.images import LEAST_NOISE_COUNTS, NOISE_COUNTS, PlacedSamples, borders_of, slope_table
 from acts_recon.spectra.config import SpectraConfig
 from acts_recon.spectra.spectrum import Spectrum
 from acts_recon.spectra.tones import Tones
@@ -23,7 +23,6 @@ Array = NDArray[np.float64]
 _LONGEST_PAUSE_S = 0.5
 # Of a window: with less there is no spectrum yet.
 _LEAST_SHARE = 0.5
-_LEAST_NOISE_COUNTS = 0.3  # of a reading in whole counts
 _LEAST_SLOPE_N = 1e-7  # a count, where a measured response is flat
 # A window is looked at in so many parts: whether the contact was there.
 _PARTS = 20
@@ -74,7 +73,7 @@ class SpectrumAnalyser:
         geometry: ArrayGeometry,
         response: ForceResponse | MeasuredForceResponse | None = None,
         touch_counts: float = 60.0,
-        noise_counts: float = 2.0,
+        noise_counts: float = NOISE_COUNTS,
         config: SpectraConfig | None = None,
         layout: Layout | None = None,
     ) -> None:
@@ -87,7 +86,7 @@ class SpectrumAnalyser:
         self._force_n[0] = 0.0
         self._slope_n = slope_table(self._force_n)
         self._touch_counts = touch_counts
-        self._noise_counts = max(noise_counts, _LEAST_NOISE_COUNTS)
+        self._noise_counts = max(noise_counts, LEAST_NOISE_COUNTS)
         self._frames: deque[PlacedFrame] = deque()
 
     def reset(self) -> None:

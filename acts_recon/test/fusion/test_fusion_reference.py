@@ -13,10 +13,10 @@ from recon_samples import layouts
 
 from acts_core.array import ArrayGeometry
 from acts_core.skin import NO_PATCH, Layout
-from acts_recon.fusion import ASSUMED_NOISE_COUNTS, FusionConfig, FusionEstimator
+from acts_recon.fusion import FusionConfig, FusionEstimator
 from acts_recon.fusion.fusion_patches_reference import PatchesReference
 from acts_recon.fusion.fusion_reference import FusionReference
-from acts_recon.images import borders_of
+from acts_recon.images import NOISE_COUNTS, borders_of
 
 pytestmark = pytest.mark.slow
 
@@ -81,7 +81,7 @@ def test_patches_are_skins_of_their_own(
 ) -> None:
     estimator = estimator_of(noise_counts, arranged)
     borders, tuning, is_known = borders_of(9, 13, arranged), estimator.config.tuning, noise_counts > 0
-    assumed = noise_counts or ASSUMED_NOISE_COUNTS
+    assumed = noise_counts or NOISE_COUNTS
     reference, last_s = PatchesReference(9, 13, borders, tuning, assumed, is_known=is_known), None
     for (indices, counts), end_s, duration_s in frames:
         image = estimator.step(indices, counts, end_s, duration_s)

@@ -13,8 +13,9 @@ from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError
 from acts_core.sampling import Sampler, SamplingConfig, measure_in
 from acts_core.skin import layout
-from acts_recon.fusion import ASSUMED_NOISE_COUNTS, FusionConfig, FusionEstimator
+from acts_recon.fusion import FusionConfig, FusionEstimator
 from acts_recon.fusion.fusion_reference import FusionReference
+from acts_recon.images import NOISE_COUNTS
 
 pytestmark = pytest.mark.slow
 
@@ -172,7 +173,7 @@ def test_kernels_equal_the_reference_while_noise_is_learnt(is_known: bool) -> No
     estimator = FusionEstimator(geometry)
     if is_known:
         estimator.set_noise(noise, np.ones(geometry.size, dtype=np.bool_))
-    told = noise.reshape(12, 20) if is_known else ASSUMED_NOISE_COUNTS
+    told = noise.reshape(12, 20) if is_known else NOISE_COUNTS
     reference = FusionReference(12, 20, estimator.config.tuning, told, is_known=is_known)
     r, c = np.indices((12, 20))
     differing = 0
