@@ -16,6 +16,9 @@ from acts_recon.images import FAR, force_of, taxel_variances
 RESULTS = 12
 """Numbers that `find_contact` writes."""
 
+X, Y, FORCE, PEAK, AREA, TAXELS, SPREAD, X_SD, Y_SD, FORCE_SD, AREA_SD, SPREAD_SD = range(RESULTS)
+"""Where each of them is: in the order of `acts_recon.contacts.contact.Contact`."""
+
 _TINY_N = 1e-30
 
 
@@ -85,14 +88,14 @@ def find_contact(
     mean_row = by_row / total
     x_square = max(by_col_square / total - mean_col * mean_col, 0.0) * pitch_m * pitch_m
     y_square = max(by_row_square / total - mean_row * mean_row, 0.0) * pitch_y_m * pitch_y_m
-    results[0] = (mean_col - (cols - 1) / 2) * pitch_m
-    results[1] = ((rows - 1) / 2 - mean_row) * pitch_y_m
-    results[2] = total
-    results[3] = peak
-    results[4] = pressed * pitch_m * pitch_y_m
-    results[5] = pressed
+    results[X] = (mean_col - (cols - 1) / 2) * pitch_m
+    results[Y] = ((rows - 1) / 2 - mean_row) * pitch_y_m
+    results[FORCE] = total
+    results[PEAK] = peak
+    results[AREA] = pressed * pitch_m * pitch_y_m
+    results[TAXELS] = pressed
     spread_square = x_square + y_square
-    results[6] = math.sqrt(spread_square)
+    results[SPREAD] = math.sqrt(spread_square)
     if sigma.shape[0] == 0:
         return
     x_var = y_var = force_var = taxels_var = spread_square_var = 0.0
@@ -116,12 +119,12 @@ def find_contact(
             force_var += square
             taxels_var += wrong
             spread_square_var += square * (x_away + y_away - spread_square) ** 2
-    results[7] = math.sqrt(x_var) / total
-    results[8] = math.sqrt(y_var) / total
-    results[9] = math.sqrt(force_var)
-    results[10] = math.sqrt(taxels_var) * pitch_m * pitch_y_m
+    results[X_SD] = math.sqrt(x_var) / total
+    results[Y_SD] = math.sqrt(y_var) / total
+    results[FORCE_SD] = math.sqrt(force_var)
+    results[AREA_SD] = math.sqrt(taxels_var) * pitch_m * pitch_y_m
     # As `acts_recon.images.uncertainty.root_deviation`.
-    results[11] = math.sqrt(spread_square + math.sqrt(spread_square_var) / total) - math.sqrt(spread_square)
+    results[SPREAD_SD] = math.sqrt(spread_square + math.sqrt(spread_square_var) / total) - math.sqrt(spread_square)
 
 
 @kernel(inline="always")

@@ -16,8 +16,9 @@ from acts_recon.images import force_of
 RESULTS = 19
 """Numbers of a patch that `find_regions` writes."""
 
-COUNTS = 12
-"""Where among them the sum of the counts is."""
+PRESSED, FORCE, CENTRE, NORMAL, AREA, PEAK, SPREAD, CONCENTRATION, COUNTS = 0, 1, 2, 5, 8, 9, 10, 11, 12
+ALONG_COLS, ALONG_ROWS = 13, 16
+"""Where each of them is; of centre, normal and the steps along the skin, the first of three."""
 
 _TINY_N = 1e-30
 
@@ -81,11 +82,11 @@ def find_regions(
             continue
         touched += 1
         total = max(total, _TINY_N)
-        found[0] = pressed
-        found[1] = total
-        found[8] = pressed * taxel_area_m2[p]
-        found[9] = peak
-        found[11] = peak / total
+        found[PRESSED] = pressed
+        found[FORCE] = total
+        found[AREA] = pressed * taxel_area_m2[p]
+        found[PEAK] = peak
+        found[CONCENTRATION] = peak / total
         found[COUNTS] = counts
         _place(by_row / total, by_col / total, bounds[p], points_m, normals, found)
         square = 0.0
@@ -95,9 +96,9 @@ def find_regions(
                 if value > touch_counts:
                     away = 0.0
                     for axis in range(3):
-                        away += (points_m[row, col, axis] - found[2 + axis]) ** 2
+                        away += (points_m[row, col, axis] - found[CENTRE + axis]) ** 2
                     square += force_of(value, force_n) * away
-        found[10] = math.sqrt(square / total)
+        found[SPREAD] = math.sqrt(square / total)
     return touched
 
 
@@ -120,15 +121,15 @@ def _place(
     for axis in range(3):
         above = (1.0 - across) * points_m[top, left, axis] + across * points_m[top, right, axis]
         below = (1.0 - across) * points_m[bottom, left, axis] + across * points_m[bottom, right, axis]
-        found[2 + axis] = (1.0 - down) * above + down * below
-        found[16 + axis] = below - above
-        found[13 + axis] = (1.0 - down) * (points_m[top, right, axis] - points_m[top, left, axis]) + down * (
+        found[CENTRE + axis] = (1.0 - down) * above + down * below
+        found[ALONG_ROWS + axis] = below - above
+        found[ALONG_COLS + axis] = (1.0 - down) * (points_m[top, right, axis] - points_m[top, left, axis]) + down * (
             points_m[bottom, right, axis] - points_m[bottom, left, axis]
         )
         above = (1.0 - across) * normals[top, left, axis] + across * normals[top, right, axis]
         below = (1.0 - across) * normals[bottom, left, axis] + across * normals[bottom, right, axis]
-        found[5 + axis] = (1.0 - down) * above + down * below
-        length += found[5 + axis] ** 2
+        found[NORMAL + axis] = (1.0 - down) * above + down * below
+        length += found[NORMAL + axis] ** 2
     length = math.sqrt(length)
     for axis in range(3):
-        found[5 + axis] /= max(length, _TINY_N)
+        found[NORMAL + axis] /= max(length, _TINY_N)

@@ -146,7 +146,8 @@ class Regions:
             return regions
         sharpness = self._sharpness.of(image).tolist()
         for p, numbers in enumerate(results.tolist()):
-            regions[p] = self._region(p, numbers, sharpness[p]) if numbers[0] else self._untouched[p]
+            pressed = numbers[kernels.PRESSED]
+            regions[p] = self._region(p, numbers, sharpness[p]) if pressed else self._untouched[p]
         return regions
 
     def _look_for_slip(self, time_s: float, values: NDArray[np.float32], age_s: NDArray[np.float32] | None) -> None:
@@ -156,7 +157,7 @@ class Regions:
             self._slips[p] = slip
 
     def _region(self, patch: int, numbers: list[float], sharpness: float) -> RegionContact:
-        pressed, force_n, x, y, z, nx, ny, nz, area_m2, peak_n, spread_m, share, _, *steps = numbers
+        pressed, force_n, x, y, z, nx, ny, nz, area_m2, peak_n, spread_m, share, _, *steps_m = numbers
         slip = self._slips[patch]
         return RegionContact(
             *self._untouched[patch][:2],
@@ -169,20 +170,20 @@ class Regions:
             spread_m,
             share,
             sharpness,
-            self._velocity(slip, steps),
+            self._velocity(slip, steps_m[:3], steps_m[3:]),
             slip.distance_m,
             slip.slipping,
         )
 
-    def _velocity(self, slip: Slip, steps: list[float]) -> Vector:
-        """Along the skin in the link's frame [m/s]; `steps` is one taxel along the columns, and one along the rows."""
+    def _velocity(self, slip: Slip, col_m: list[float], row_m: list[float]) -> Vector:
+        """Along the skin in the link's frame [m/s]; given are steps of one taxel along the columns and the rows."""
         motion = slip.motion
         # Written so that it holds for no NaN, which counts beyond all that a board sends lead to.
         if motion is None or not motion.distance_taxels >= self._sigmas * motion.sd_taxels:
             return 0.0, 0.0, 0.0
         cols, rows = motion.cols / slip.elapsed_s, motion.rows / slip.elapsed_s
         return (
-            cols * steps[0] + rows * steps[3],
-            cols * steps[1] + rows * steps[4],
-            cols * steps[2] + rows * steps[5],
+            cols * col_m[0] + rows * row_m[0],
+            cols * col_m[1] + rows * row_m[1],
+            cols * col_m[2] + rows * row_m[2],
         )

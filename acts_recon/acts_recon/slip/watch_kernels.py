@@ -14,7 +14,10 @@ from acts_core.kernels import kernel
 from acts_recon.slip.motion_kernels import cut, normal_equations, solve
 
 RESULTS = 8
-"""Numbers that `watch` writes of a patch: whether there is a motion, its five numbers, in what time [s], and `cut`."""
+"""Numbers that `watch` writes of a patch."""
+
+HAS_MOTION, COLS, ROWS, SD_TAXELS, GAIN, GROWTH, ELAPSED_S, CUT = range(RESULTS)
+"""Where each of them is: the motion, see `acts_recon.slip.motion.Motion`, in what time, and what `cut` says."""
 
 # Times differ by more where a taxel was measured anew [s].
 _SAME_TIME_S = 1e-5
@@ -167,14 +170,14 @@ def watch(
                 right_by, down_by, deviation, gain, growth = solve(
                     memory.matrix, memory.inverse, squares, taxels, tuning.noise_counts, tuning.ridge
                 )
-                results[p, 0] = 1.0
-                results[p, 1] = right_by
-                results[p, 2] = down_by
-                results[p, 3] = deviation
-                results[p, 4] = gain
-                results[p, 5] = growth
-                results[p, 6] = moment_s - past_s[p, reference]
-                results[p, 7] = cut(then, now)
+                results[p, HAS_MOTION] = 1.0
+                results[p, COLS] = right_by
+                results[p, ROWS] = down_by
+                results[p, SD_TAXELS] = deviation
+                results[p, GAIN] = gain
+                results[p, GROWTH] = growth
+                results[p, ELAPSED_S] = moment_s - past_s[p, reference]
+                results[p, CUT] = cut(then, now)
         if moment_s - youngest_s >= tuning.keep_s:
             newest[p] = (newest[p] + 1) % kept
             past[newest[p], top:end, left:right] = now
