@@ -289,7 +289,12 @@ class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig, ImpactCo
         """
         skin = recovery.skin
         return SpectrumAnalyser(
-            skin.geometry, skin.response, float(self.touch_counts), skin.assumed_noise_counts, self, skin.layout
+            skin.geometry,
+            skin.response,
+            touch_counts=float(self.touch_counts),
+            noise_counts=skin.assumed_noise_counts,
+            config=part_of(SpectraConfig, self),
+            layout=skin.layout,
         )
 
     def outline_tracer(self, recovery: Recovery) -> OutlineTracer:
@@ -302,7 +307,12 @@ class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig, ImpactCo
         """
         skin = recovery.skin
         return OutlineTracer(
-            skin.geometry, skin.response, float(self.touch_counts), skin.assumed_noise_counts, self, skin.layout
+            skin.geometry,
+            skin.response,
+            touch_counts=float(self.touch_counts),
+            noise_counts=skin.assumed_noise_counts,
+            config=part_of(OutlinesConfig, self),
+            layout=skin.layout,
         )
 
     def regions(self, recovery: Recovery) -> Regions | None:
@@ -316,10 +326,15 @@ class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig, ImpactCo
         arranged = self.arranged()
         if len(arranged.patches) == 1 and not arranged.patches[0].link:
             return None
-        # With next to no noise anything would be slip.
-        noise_counts = max(recovery.skin.assumed_noise_counts, LEAST_NOISE_COUNTS)
         return Regions(
-            arranged, recovery.response, self.touch_counts, noise_counts, self, self.regions_slip_rate_hz, self
+            arranged,
+            recovery.response,
+            touch_counts=float(self.touch_counts),
+            # With next to no noise anything would be slip.
+            noise_counts=max(recovery.skin.assumed_noise_counts, LEAST_NOISE_COUNTS),
+            slip=part_of(SlipConfig, self),
+            slip_rate_hz=self.regions_slip_rate_hz,
+            sharpness=part_of(SharpnessConfig, self),
         )
 
     def recogniser(self, recovery: Recovery) -> ObjectRecogniser | None:
