@@ -19,7 +19,7 @@ from acts_recon.images import ERR_TOGETHER, NOISE_COUNTS, Borders, Variances, bo
 
 @dataclass(frozen=True)
 class BlobConfig:
-    """Settings of contacts with numbers."""
+    """Settings of contacts with numbers; the node sets all but `err_together`, which is no parameter."""
 
     touch_counts: int = setting(60, "counts above which a taxel becomes pressed", minimum=0, maximum=COUNT_MAX)
     hysteresis_counts: int = setting(

@@ -66,7 +66,11 @@ from acts_recon.images import LEAST_NOISE_COUNTS, NOISE_COUNTS, PlacedSamples, b
 
 @dataclass(frozen=True)
 class FusionConfig:
-    """Settings of the fusion of samples over time."""
+    """Settings of the fusion of samples over time.
+
+    The node and `acts evaluate` set `noise_counts` alone; the others are no parameters, and as the figures in docs/
+    have them.
+    """
 
     noise_counts: float = setting(
         0.0,

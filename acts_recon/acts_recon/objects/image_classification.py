@@ -64,7 +64,11 @@ _LEAST_WEIGHT = 0.01
 
 @dataclass(frozen=True)
 class ImageClassifierConfig:
-    """Settings of the classification of images."""
+    """Settings of the classification of images.
+
+    The node sets `touch_counts` and `src_weight` alone; the others are no parameters, and as the figures in docs/ have
+    them.
+    """
 
     touch_counts: int = setting(15, "counts above which a taxel is pressed; others are 0", minimum=0, maximum=COUNT_MAX)
     noise_counts: float = setting(6.0, "standard deviation of a fresh, unpressed taxel", minimum=0.1, maximum=COUNT_MAX)
