@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What launch files write on the command line of a node reaches it, and what it does not know is refused; domain 224."""
+"""What launch files write on the command line of a node reaches it, the rest is refused; ROS_DOMAIN_ID 224."""
 
 from __future__ import annotations
 
