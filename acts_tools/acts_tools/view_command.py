@@ -76,6 +76,9 @@ def run(arguments: argparse.Namespace) -> int:
     signals = StopSignals()
     if arguments.bag or arguments.npz or arguments.board:
         return _show_local(arguments, signals)
+    for name in arguments.skins:
+        if Path(name).exists():
+            print(f"[view] {name} is taken for a namespace; the recording of that name: --bag {name}", flush=True)
     # Imported here, because it is slow to import and other commands do not need it. Ctrl-C meanwhile is not lost in a
     # module written in C.
     with signals.interrupting():

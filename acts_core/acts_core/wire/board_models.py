@@ -143,6 +143,6 @@ def _fitting(model: BoardModel) -> BoardModel:
     if len(model.payload) > MODEL_CAPACITY:
         raise ArrayError(
             f"a model of {model.rows} x {model.columns} has {len(model.payload)} bytes; a board holds "
-            f"{MODEL_CAPACITY}: use fewer columns"
+            f"{MODEL_CAPACITY}: use fewer columns (`acts library --presses`, `acts train --atoms`)"
         )
     return model

@@ -123,7 +123,7 @@ def _summarise(recorder: Recorder, bag: BagWriter, started_s: float, ended_s: fl
             _say(f"ended before: {record.topic} came regularly, but not in the last {silence_s:.1f} s")
     total = sum(record.received for record in records)
     if not total:
-        _say("nothing was recorded; the bag is empty")
+        _say("nothing was recorded; the bag is empty and can be deleted")
     _say(f"{total} messages in {ended_s - started_s:.1f} s, {bag.size_bytes() / 1e6:.1f} MB in {bag.path}")
 
 

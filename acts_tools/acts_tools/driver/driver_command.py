@@ -62,7 +62,9 @@ def run(arguments: argparse.Namespace) -> int:
     """
     is_set = arguments.what == "set"
     if bool(arguments.values) != is_set:
-        raise SettingsError("`acts driver set` takes parameters, such as m=128; the others take none")
+        raise SettingsError(
+            "`acts driver set` takes parameters, such as m=128; the others take none; -n NAMESPACE says which driver"
+        )
     values = parameters_of(arguments.values)
     namespace = arguments.namespace.strip("/")
     node = f"{full_name(namespace, 'namespace')}/driver" if namespace else "/driver"

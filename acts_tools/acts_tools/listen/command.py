@@ -35,8 +35,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser = subparsers.add_parser(
         "listen",
         help="measure loss and delay of a topic on this machine",
-        description="Count the messages of topics that arrive and those that are missing by their numbers, and "
-        "measure their age. Topics may appear later. Ctrl-C ends it.",
+        description="Count the messages of topics that arrive, of samples and contact also those that are missing by "
+        "their numbers, and measure their age. Topics may appear later. Ctrl-C ends it.",
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )

@@ -13,10 +13,13 @@ from typing import Any
 from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.node import Node
 
+from acts_msgs.msg import Contact, TactileSamples
 from acts_ros.bags.message_types import message_class
 from acts_ros.bags.qos import for_subscription
 from acts_ros.messages import ns_of
 from acts_tools.listen.arrivals import Arrivals
+
+_OF_EVERY_FRAME = (TactileSamples, Contact)
 
 
 class Listener:
@@ -63,7 +66,9 @@ class Listener:
         age_s = None
         if header is not None:
             age_s = (now_ns - ns_of(header.stamp)) * 1e-9
-        arrivals.add(time.monotonic(), getattr(message, "sequence", None), age_s)
+        # Of the others that have the number of a frame not every frame has a message.
+        number = message.sequence if isinstance(message, _OF_EVERY_FRAME) else None
+        arrivals.add(time.monotonic(), number, age_s)
         if isinstance(message, DiagnosticArray):
             self._note_complaints(message)
 

@@ -16,11 +16,12 @@ import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from rclpy.node import Node
 
-from acts_msgs.msg import Contact
+from acts_msgs.msg import Contact, Contacts, Impact, Outline, RegionContacts, TactileSamples
 from acts_ros.qos import STREAM
 from acts_tools.cli import main
 from acts_tools.listen.arrivals import Arrivals
 from acts_tools.listen.command import in_words
+from acts_tools.listen.listener import Listener
 from acts_tools.testing.probe import Probe
 
 pytestmark = pytest.mark.slow
@@ -50,6 +51,24 @@ def test_messages_without_number_or_stamp_are_only_counted() -> None:
     arrivals.add(1.5, None, None)
     interval = arrivals.take(2.0)
     assert (interval.received, interval.lost, interval.median_ms) == (1, None, None)
+
+
+def test_only_what_has_a_message_of_every_frame_can_miss_some() -> None:
+    lost = {}
+    for kind in (TactileSamples, Contact, Contacts, Impact, Outline, RegionContacts):
+        arrivals = Arrivals(0.0)
+        listener = Listener(None, [])  # type: ignore[arg-type]
+        for sequence in (1, 2, 5):
+            listener._note(arrivals, kind(sequence=sequence))
+        lost[kind.__name__] = arrivals.take(1.0).lost
+    assert lost == {
+        "TactileSamples": 2,
+        "Contact": 2,
+        "Contacts": None,
+        "Impact": None,
+        "Outline": None,
+        "RegionContacts": None,
+    }
 
 
 def test_what_arrives_is_put_into_words() -> None:
