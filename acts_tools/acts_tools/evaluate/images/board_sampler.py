@@ -8,7 +8,6 @@ from __future__ import annotations
 import ctypes
 import itertools
 import math
-import os
 from functools import lru_cache
 from pathlib import Path
 
@@ -19,23 +18,9 @@ from acts_core.array import COUNT_MAX
 from acts_core.errors import ArrayError, SettingsError
 from acts_core.sampling import Sampler, SamplingConfig, SkinMap
 from acts_core.wire import BoardSettings
+from acts_tools.firmware.library import library_path
 
 _LIBRARY = "libacts_sampler.so"
-
-
-def library_path() -> Path:
-    """Path of the installed library with the firmware's sampler.
-
-    Raises
-    ------
-    SettingsError
-        When it is not built.
-    """
-    prefixes = [Path(prefix) for prefix in os.environ.get("AMENT_PREFIX_PATH", "").split(":") if prefix]
-    path = next((p for prefix in prefixes if (p := prefix / "lib" / _LIBRARY).is_file()), None)
-    if path is None:
-        raise SettingsError(f"{_LIBRARY} of package acts_firmware is in none of {prefixes}: build the workspace")
-    return path
 
 
 @lru_cache(maxsize=4)
@@ -83,7 +68,7 @@ class BoardSampler:
         skin_map: SkinMap | None = None,
     ) -> None:
         self.config = config
-        self._library = _library(library or library_path())
+        self._library = _library(library or library_path(_LIBRARY))
         taxels = config.rows * config.cols
         self._indices = np.zeros(taxels, dtype=np.uint16)
         self._counts = np.zeros(taxels, dtype=np.uint16)
@@ -175,13 +160,13 @@ def sampler_of(
 
 def scheme_table(library: Path | None = None) -> str:
     """Table of the firmware's schemes; see `acts_sampler_schemes` in acts_firmware/host."""
-    table: bytes = _library(library or library_path()).acts_sampler_schemes()
+    table: bytes = _library(library or library_path(_LIBRARY)).acts_sampler_schemes()
     return table.decode()
 
 
 def firmware_takes(scheme: int, rows: int, cols: int, m: int) -> bool:
     """Whether the firmware supports a scheme, by its number, with `m` taxels per frame."""
-    return bool(_library(library_path()).acts_sampler_takes(scheme, rows, cols, m))
+    return bool(_library(library_path(_LIBRARY)).acts_sampler_takes(scheme, rows, cols, m))
 
 
 def _check_frames(config: SamplingConfig, frames: NDArray[np.uint16]) -> None:

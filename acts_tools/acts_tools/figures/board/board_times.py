@@ -6,24 +6,18 @@
 from __future__ import annotations
 
 import ctypes
-import os
 from functools import lru_cache
-from pathlib import Path
 
-from acts_core.errors import SettingsError
 from acts_core.sampling import SCHEMES, SamplingConfig
 from acts_core.wire import OUTPUTS, BoardSettings
+from acts_tools.firmware.library import library_path
 
 _LIBRARY = "libacts_board_times.so"
 
 
 @lru_cache(maxsize=1)
 def _library() -> ctypes.CDLL:
-    prefixes = [Path(prefix) for prefix in os.environ.get("AMENT_PREFIX_PATH", "").split(":") if prefix]
-    path = next((p for prefix in prefixes if (p := prefix / "lib" / _LIBRARY).is_file()), None)
-    if path is None:
-        raise SettingsError(f"{_LIBRARY} of package acts_firmware is in none of {prefixes}: build the workspace")
-    library = ctypes.CDLL(str(path))
+    library = ctypes.CDLL(str(library_path(_LIBRARY)))
     library.acts_board_sampling_us.restype = ctypes.c_double
     library.acts_board_sampling_us.argtypes = [ctypes.c_char_p, ctypes.c_size_t]
     library.acts_board_output_us.restype = ctypes.c_double
