@@ -6,7 +6,7 @@
 In come frames or images and a library of known objects; out comes a class with its confidence, or that none is known.
 """
 
-from acts_recon.objects.classification import Classification, Classifier, ClassifierConfig
+from acts_recon.objects.classification import BOARD_COLUMNS, Classification, Classifier, ClassifierConfig
 from acts_recon.objects.image_classification import ImageClassifier, ImageClassifierConfig
 from acts_recon.objects.object_library import (
     ObjectLibrary,
@@ -16,6 +16,7 @@ from acts_recon.objects.object_library import (
 )
 
 __all__ = [
+    "BOARD_COLUMNS",
     "Classification",
     "Classifier",
     "ClassifierConfig",

@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
 from acts_core.errors import DictionaryError, SettingsError
-from acts_recon.methods import Method, SkinSetup
+from acts_recon.methods import METHODS, Method, SkinSetup
 from acts_recon.sparse import Dictionary, load_dictionary, shipped_dictionary_path
 from acts_tools.evaluate.estimators.dictionaries import cosine_dictionary, dictionary_named, haar_dictionary
-from acts_tools.evaluate.estimators.methods import METHODS, method_named
+from acts_tools.evaluate.estimators.methods import ALIASES, FACTORIES, method_named
 
 pytestmark = pytest.mark.slow
 
@@ -31,7 +31,7 @@ def step(method: Method, field: NDArray[np.uint16], indices: NDArray[np.uint16])
     return method.step(indices, field.ravel()[indices], 0.001, 0.001)
 
 
-@pytest.mark.parametrize("name", METHODS)
+@pytest.mark.parametrize("name", FACTORIES)
 def test_every_method_keeps_what_was_measured_and_shows_nothing_on_an_untouched_skin(
     name: str, shipped: Dictionary
 ) -> None:
@@ -53,8 +53,15 @@ def test_every_method_keeps_what_was_measured_and_shows_nothing_on_an_untouched_
 
 
 def test_an_unknown_method_is_refused() -> None:
-    with pytest.raises(SettingsError, match=r"'magic'.*paper"):
+    with pytest.raises(SettingsError, match=r"'magic'.*paper.*fusion, per_frame"):
         method_named("magic")
+
+
+def test_the_names_of_the_node_mean_the_same_methods() -> None:
+    assert {name: method_named(name) for name in METHODS if name in ALIASES} == {
+        "fusion": FACTORIES["acts"],
+        "per_frame": FACTORIES["paper"],
+    }
 
 
 def test_linear_continues_a_plane_beyond_what_was_measured(shipped: Dictionary) -> None:
@@ -62,14 +69,14 @@ def test_linear_continues_a_plane_beyond_what_was_measured(shipped: Dictionary) 
     plane = (100 + 10 * row + 5 * col).astype(np.uint16)
     inner = (row >= 4) & (row <= 25) & (col >= 6) & (col <= 20)
     indices = np.random.default_rng(2).permutation(np.flatnonzero(inner))[:60].astype(np.uint16)
-    image = step(METHODS["linear"](SKIN, shipped, {}), plane, indices)
+    image = step(FACTORIES["linear"](SKIN, shipped, {}), plane, indices)
     np.testing.assert_allclose(image, plane, atol=1e-3)
 
 
 def test_linear_takes_the_nearest_where_there_is_no_triangle(shipped: Dictionary) -> None:
     field = np.zeros((32, 32), dtype=np.uint16)
     field[:, 16:] = 300
-    image = step(METHODS["linear"](SKIN, shipped, {}), field, np.arange(32, dtype=np.uint16))
+    image = step(FACTORIES["linear"](SKIN, shipped, {}), field, np.arange(32, dtype=np.uint16))
     np.testing.assert_array_equal(image, field)
 
 
@@ -77,7 +84,7 @@ def test_the_gaussian_process_is_exact_with_everything_near_measured(shipped: Di
     row, col = np.indices((32, 32))
     field = (600 * np.exp(-((row - 15) ** 2 + (col - 15) ** 2) / 30)).astype(np.uint16)
     indices = np.flatnonzero((row + col) % 2 == 0).astype(np.uint16)
-    image = step(METHODS["gp"](SKIN, shipped, {}), field, indices)
+    image = step(FACTORIES["gp"](SKIN, shipped, {}), field, indices)
     assert np.linalg.norm(image - field) < 0.03 * np.linalg.norm(field)
 
 
@@ -85,7 +92,7 @@ def test_last_value_remembers_and_zero_fill_does_not(shipped: Dictionary) -> Non
     field = np.full((32, 32), 77, dtype=np.uint16)
     first, second = np.array([1, 2], dtype=np.uint16), np.array([3], dtype=np.uint16)
     for name, seen in (("last", 3), ("zero", 1)):
-        method = METHODS[name](SKIN, shipped, {})
+        method = FACTORIES[name](SKIN, shipped, {})
         step(method, field, first)
         assert np.count_nonzero(step(method, field, second)) == seen
         method.reset()
@@ -131,7 +138,7 @@ def test_patches_may_lie_closer(shipped: Dictionary) -> None:
     indices = np.random.default_rng(1).permutation(1024)[:256].astype(np.uint16)
     errors = []
     for patch_step in (4, 1):
-        method = METHODS["paper"](SKIN, shipped, {"patch_step": patch_step})
+        method = FACTORIES["paper"](SKIN, shipped, {"patch_step": patch_step})
         errors.append(np.linalg.norm(step(method, field, indices) - field))
     # Each taxel then is the mean of up to 64 patches, not of 4.
     assert errors[1] < errors[0]

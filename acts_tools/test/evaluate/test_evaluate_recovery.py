@@ -78,6 +78,16 @@ def test_every_scheme_m_and_method_has_its_line(tmp_path: Path, capsys: pytest.C
     assert out.err == ""
 
 
+def test_reports_name_a_method_by_one_of_its_names(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    results = command(tmp_path, still(5, PRESSED), "--m", "64", "--method", "fusion", "per_frame", "acts")
+    assert [result["method"] for result in results] == ["acts", "paper", "acts"]
+    assert results[0]["relative_error"] == results[2]["relative_error"]
+    with pytest.raises(SystemExit):
+        main(["evaluate", "recovery", "--presses", "1", "--method", "magic"])
+    refusal = capsys.readouterr().err
+    assert all(name in refusal for name in ("acts", "paper", "fusion", "per_frame"))
+
+
 def test_options_that_are_given_again_add_to_one_another(tmp_path: Path) -> None:
     words = ["--m", "42", "--method", "zero", "--m", "64", "--method", "last"]
     results = command(tmp_path, still(30, PRESSED), *words)

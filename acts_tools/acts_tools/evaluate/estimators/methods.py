@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 
 from acts_core.errors import SettingsError
 from acts_core.settings import SettingValue, describe
-from acts_recon.methods import METHODS as REGISTERED
-from acts_recon.methods import Fusion, Method, NoSettings, PerFrame, SkinSetup
+from acts_recon.methods import METHODS, Fusion, Method, NoSettings, PerFrame, SkinSetup
 from acts_recon.sparse import Dictionary
 from acts_tools.evaluate.estimators.dictionaries import cosine_dictionary, haar_dictionary
 from acts_tools.evaluate.estimators.interpolation import GaussianProcess, Linear
@@ -70,7 +69,7 @@ def _config(kind: type[Method], settings: Mapping[str, SettingValue]) -> Any:
     return kind.Config(**{name: value for name, value in settings.items() if name in describe(kind.Config)})
 
 
-METHODS: dict[str, MethodFactory] = {
+FACTORIES: dict[str, MethodFactory] = {
     "paper": lambda skin, dictionary, settings: PerFrame(skin, _config(PerFrame, settings), dictionary),
     "acts": _registered(Fusion),
     "dct": lambda skin, dictionary, settings: PerFrame(skin, _config(PerFrame, settings), cosine_dictionary()),
@@ -82,10 +81,18 @@ METHODS: dict[str, MethodFactory] = {
 }
 """The node's two methods by their names in reports, and baselines."""
 
+ALIASES = {"fusion": "acts", "per_frame": "paper"}
+"""The node's names of these two, and what reports call them."""
+
 
 def method_names() -> tuple[str, ...]:
-    """Names of all methods: `METHODS`, and further ones of the node (docs/extending.md)."""
-    return *METHODS, *(name for name, kind in REGISTERED.items() if kind not in (Fusion, PerFrame))
+    """Names of all methods: `FACTORIES`, further ones of the node (docs/extending.md), and `ALIASES`."""
+    return *FACTORIES, *(name for name in METHODS if name not in ALIASES), *ALIASES
+
+
+def report_name(name: str) -> str:
+    """What reports call a method; a name that is not among `ALIASES` stays as it is."""
+    return ALIASES.get(name, name)
 
 
 def method_named(name: str) -> MethodFactory:
@@ -96,8 +103,9 @@ def method_named(name: str) -> MethodFactory:
     SettingsError
         When there is none; the message names those that exist.
     """
-    if name in METHODS:
-        return METHODS[name]
-    if name in REGISTERED:
-        return _registered(REGISTERED[name])
+    known_as = report_name(name)
+    if known_as in FACTORIES:
+        return FACTORIES[known_as]
+    if known_as in METHODS:
+        return _registered(METHODS[known_as])
     raise SettingsError(f"method {name!r}: allowed is one of {', '.join(method_names())}")

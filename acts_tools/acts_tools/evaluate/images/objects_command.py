@@ -15,7 +15,6 @@ from acts_core.errors import RecordingError
 from acts_sim.pressing import OBJECTS, PRESS_RATE_HZ, ContactModel, FoamConfig, object_named, press_over_time
 from acts_tools.arguments import at_least_one, taxels
 from acts_tools.evaluate import report
-from acts_tools.evaluate.estimators.methods import method_names
 from acts_tools.evaluate.images import options
 from acts_tools.evaluate.images.recovery import Recording
 from acts_tools.evaluate.images.tasks import evaluate_all
@@ -36,7 +35,7 @@ def add_parser(commands: Any) -> None:
     )
     parser.add_argument("--m", nargs="+", type=taxels, default=list(_M), help="taxels per frame (default: %(default)s)")
     parser.add_argument("--objects", nargs="+", default=list(OBJECTS), metavar="NAME", help="default: all 30")
-    parser.add_argument("--ours", default=options.METHOD, choices=method_names(), help="default: %(default)s")
+    parser.add_argument("--ours", default=options.METHOD, **options.method_argument())
     parser.add_argument(
         "--presses", type=at_least_one, default=1, metavar="N", help="per object (default: %(default)s)"
     )

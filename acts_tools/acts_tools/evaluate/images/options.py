@@ -8,16 +8,17 @@ from __future__ import annotations
 import argparse
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from acts_core.array import COUNT_MAX
 from acts_core.errors import SettingsError
 from acts_core.sampling import OWN_SETTINGS, SCHEMES, SamplingConfig
 from acts_core.settings import SettingValue, default_of, describe, from_text, unknown_key_message
-from acts_recon.methods import METHODS as REGISTERED
+from acts_recon.methods import METHODS
 from acts_recon.sparse import Dictionary, shipped_dictionary_path
 from acts_tools.arguments import at_least_one, random_seed, real, taxels
 from acts_tools.evaluate.estimators.dictionaries import dictionary_named
-from acts_tools.evaluate.estimators.methods import method_names
+from acts_tools.evaluate.estimators.methods import ALIASES, method_names, report_name
 from acts_tools.evaluate.images.recovery import FOLLOW_COUNTS, Task
 
 METHOD = "acts"
@@ -32,8 +33,14 @@ def add_arguments(parser: argparse.ArgumentParser, **defaults: float) -> None:
     # Repeated options accumulate; `tasks` sets the defaults, which argparse would extend otherwise.
     parser.add_argument("--scheme", nargs="+", action="extend", choices=tuple(SCHEMES), help=f"default: {_SCHEME}")
     parser.add_argument("--m", nargs="+", action="extend", type=taxels, help=f"taxels per frame (default: {_M})")
-    parser.add_argument("--method", nargs="+", action="extend", choices=method_names(), help=f"default: {METHOD}")
+    parser.add_argument("--method", nargs="+", action="extend", **method_argument())
     add_common_arguments(parser, **defaults)
+
+
+def method_argument() -> dict[str, Any]:
+    """What the options have in common by which a method is chosen; they give its name in reports."""
+    same = ", ".join(f"{alias} = {name}" for alias, name in ALIASES.items())
+    return {"choices": method_names(), "type": report_name, "help": f"default: {METHOD}; by the node's names: {same}"}
 
 
 def add_common_arguments(parser: argparse.ArgumentParser, **defaults: float) -> None:
@@ -112,7 +119,7 @@ def add_m(parser: argparse.ArgumentParser, default: Sequence[int]) -> None:
 def _method_setting(word: str) -> tuple[str, SettingValue]:
     """``NAME=VALUE`` of a setting of a registered method, for argparse."""
     name, _, text = word.partition("=")
-    configs = {key: kind.Config for kind in REGISTERED.values() for key in describe(kind.Config)}
+    configs = {key: kind.Config for kind in METHODS.values() for key in describe(kind.Config)}
     known = [key for key in configs if key not in _OPTIONS_OF_THEIR_OWN]
     if name not in known:
         raise argparse.ArgumentTypeError(unknown_key_message(name, known, "settings of methods"))

@@ -64,7 +64,7 @@ class Task:
     sampling : SamplingConfig
         Settings of the sampling; its `threshold_counts` is that of the search.
     method : str
-        See `acts_tools.evaluate.estimators.methods.METHODS`.
+        See `acts_tools.evaluate.estimators.methods.method_names`.
     rate_hz, touch_counts, sample_us, noise_counts, onset_s, patch_step : see below
     settings : tuple of (str, value)
         Further settings of the method.

@@ -45,7 +45,7 @@ TOUCH_COUNTS = 60
 
 TIMES_MS = (2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 25, 30, 40, 50, 60, 80)
 MIDDLE_MS = 60.0
-"""Time after contact at which a press is held, for the accuracy over M [s]."""
+"""Time after contact at which a press is held, for the accuracy over M [ms]."""
 
 M_OVER_TIME = 64
 MS = (42, 48, 56, 64, 88, 128, 256, 512)

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from acts_core.sampling import SamplingConfig
-from acts_recon.objects import Classifier, ClassifierConfig, build_object_library
+from acts_recon.objects import BOARD_COLUMNS, Classifier, ClassifierConfig, build_object_library
 from acts_sim.pressing import OBJECTS, PressingArm
 from acts_tools.evaluate.images.board_sampler import BoardSampler
 from acts_tools.evaluate.images.recovery import Recording
@@ -34,7 +34,6 @@ _PATCHES, _FRAMES = 1492, 300
 """Patches that a dictionary is learnt from, as in the paper, and presses that they are cut from."""
 
 _PRESSES, _PRESSES_FAST = 90, 10
-_BOARD_COLUMNS_CHOSEN = 2
 _SLOWEST_HZ, _FASTEST_HZ = 10.0, 5000.0
 """Ends of the maps' colour scale."""
 
@@ -124,7 +123,7 @@ def _measure_accuracy(run: Run) -> Any:
         for number, size in enumerate(sizes):
             chosen = [k for k in range(len(known)) if k % columns_each < size // objects]
             library = build_object_library(known[chosen], [names[k] for k in chosen], touch_counts=TOUCH_COUNTS)
-            config = ClassifierConfig(touch_counts=TOUCH_COUNTS, max_columns=_BOARD_COLUMNS_CHOSEN)
+            config = ClassifierConfig(touch_counts=TOUCH_COUNTS, max_columns=BOARD_COLUMNS)
             classifier = Classifier(library, config)
             row = []
             for m in ms:
