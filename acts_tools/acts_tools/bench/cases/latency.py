@@ -37,7 +37,7 @@ DRIFT_PPM = 30.0
 _PERIOD_US = 1000
 # The driver's clock estimate includes the drift after 2.5 s, and has settled after 5 s.
 _SETTLE_S = 6.0
-_NAMES = {"median": "median", "p99": "99 % within", "p99_9": "99.9 % within"}
+_NAMES = {"median": "median", "p99": "99 % within", "p999": "99.9 % within"}
 
 
 @dataclass

@@ -38,7 +38,7 @@ JUDGED_S = 300.0
 _SETTLE_S = 3.0
 _MB = 1e6
 _COUNTERS = ("frames", "lost", "overruns", "discarded", "crc_errors", "malformed", "repeated", "restarts", "reconnects")
-_NAMES = {"median": "stamp to reception, median", "p99": "    99 % within", "p99_9": "    99.9 % within"}
+_NAMES = {"median": "stamp to reception, median", "p99": "    99 % within", "p999": "    99.9 % within"}
 
 
 @dataclass

@@ -14,7 +14,6 @@ from acts_msgs.msg import Contact
 from acts_ros.messages import ns_of
 from acts_tools.percentiles import percentiles
 
-_KEYS = {"median": "median", "p99": "p99", "p99_9": "p999"}
 
 
 class ContactStream:
@@ -72,6 +71,6 @@ class ContactStream:
     def take_latencies_ms(self) -> dict[str, float | None]:
         """``median``, ``p99``, ``p999`` and ``max`` from stamp to callback since `begin` [ms]; to be called once."""
         latencies_ms = np.asarray(self._counter.take_latencies(), dtype=np.float64) * 1e3
-        summed = {_KEYS[name]: value for name, value in percentiles(latencies_ms).items()}
+        summed = percentiles(latencies_ms)
         summed["max"] = round(float(latencies_ms.max()), 3) if latencies_ms.size else None
         return summed

@@ -29,6 +29,7 @@ from acts_tools.demo.claims import claimed_folder, claimed_robot
 from acts_tools.demo.launched import launched
 from acts_tools.demo.watcher import Watcher
 from acts_tools.output_file import require_writable
+from acts_tools.percentiles import percentiles
 from acts_tools.process_load import LoadMeter
 from acts_tools.ros_domain import use_free_domain
 from acts_tools.run_folder import shared_memory
@@ -79,17 +80,12 @@ def _line(collector: Collector, total_s: float) -> str:
     else:
         words.append(collector.reason)
     if collector.latency_s.size:
-        median_ms, worst_ms = (float(value) * 1000 for value in _median_and_p99(collector))
+        latency_ms = percentiles(1e3 * collector.latency_s, ("median", "p99"))
         words.append(f"{collector.rate_hz:6.1f} contacts/s")
-        words.append(f"latency {median_ms:.2f} ms (p99 {worst_ms:.2f})")
+        words.append(f"latency {latency_ms['median']:.2f} ms (p99 {latency_ms['p99']:.2f})")
     if collector.ball_m is not None:
         words.append(f"ball {collector.ball_m[0] * 1000:+6.1f} {collector.ball_m[1] * 1000:+6.1f} mm")
     return " | ".join(words)
-
-
-def _median_and_p99(collector: Collector) -> tuple[float, float]:
-    ordered = sorted(collector.latency_s.tolist())
-    return ordered[len(ordered) // 2], ordered[min(len(ordered) - 1, int(len(ordered) * 0.99))]
 
 
 def check_robot_ip(robot_ip: str) -> None:

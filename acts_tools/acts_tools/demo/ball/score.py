@@ -135,7 +135,7 @@ def table(results: dict[str, Any]) -> str:
     latency = results["latency_ms"]
     row("latency, last measurement to the control node's process, median", latency["median"], "ms")
     row("    99 % of all within", latency["p99"], "ms")
-    row("    99.9 % within", latency["p99_9"], "ms")
+    row("    99.9 % within", latency["p999"], "ms")
     age = results["touch_age_ms"]
     row("newest touch when a control step used it, median", age["median"], "ms")
     row("    99 % of all within", age["p99"], "ms")

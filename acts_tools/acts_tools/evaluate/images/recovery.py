@@ -9,7 +9,7 @@ docs/recovery.md explains the scores.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -26,6 +26,7 @@ from acts_tools.evaluate.images import calibration
 from acts_tools.evaluate.images.board_sampler import sampler_of
 from acts_tools.evaluate.images.scores import FRAME_SCORES, INVENTED, FrameScores, score_image
 from acts_tools.evaluate.images.truth import ContactStart, contact_starts, interpolate
+from acts_tools.percentiles import percentiles
 
 SAMPLE_US = 17.877
 """Published time of one measurement [us]: 55,936 per second."""
@@ -226,11 +227,11 @@ def evaluate(
         "method": task.method,
         **settled.summary(),
         "sigma": calibration.summary(settled_errors),
-        "notice_ms": _percentiles(first_ms + further_ms, 50, 99),
-        "notice_further_ms": _percentiles(further_ms, 50, 99),
+        "notice_ms": percentiles(first_ms + further_ms, ("p50", "p99"), decimals=None),
+        "notice_further_ms": percentiles(further_ms, ("p50", "p99"), decimals=None),
         "contacts": len(first_ms) + len(further_ms),
         "contacts_missed": missed,
-        "frame_us": _median(contact_us or untouched_us),
+        "frame_us": percentiles(contact_us or untouched_us, ("median", "p99"), decimals=None),
         "rate_hz": 1.0 / task.period_s,
         "onset": {**onset.summary(), "sigma": calibration.summary(onset_errors)},
         "untouched": {
@@ -280,15 +281,3 @@ def _play(recording: Recording, task: Task, method: Method) -> Iterator[_Frame]:
         yield _Frame(image, end_s, spent_us, scores, errors, in_contact, end_s - (contact_since_s or 0.0))
         number += 1
         begin_s = number * task.period_s
-
-
-def _median(durations_us: Sequence[float]) -> dict[str, float | None]:
-    return {"median": _percentile(durations_us, 50), "p99": _percentile(durations_us, 99)}
-
-
-def _percentiles(values: Sequence[float], low: int, high: int) -> dict[str, float | None]:
-    return {f"p{low}": _percentile(values, low), f"p{high}": _percentile(values, high)}
-
-
-def _percentile(values: Sequence[float], percent: int) -> float | None:
-    return float(np.percentile(values, percent)) if len(values) else None

@@ -38,6 +38,7 @@ from acts_sim.pressing import ContactObject, FoamConfig, PressingArm, PressingCo
 from acts_tools.evaluate.images.board_sampler import BoardSampler
 from acts_tools.evaluate.images.recovery import SAMPLE_US
 from acts_tools.evaluate.shares import wilson
+from acts_tools.percentiles import percentiles
 
 PAPER, ACTS = "paper", "acts"
 TOUCH_COUNTS = 60
@@ -371,7 +372,7 @@ def run_trials(
         },
         "over_time": {method: score.summary(times_ms, "time_ms") for method, score in over_time.items()},
         "frame_us": {
-            method: {"median": float(np.median(spent)), "p99": float(np.percentile(spent, 99))} if spent else None
+            method: percentiles(spent, ("median", "p99"), decimals=None) if spent else None
             for method, spent in spent_us.items()
         },
     }
