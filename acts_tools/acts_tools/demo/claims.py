@@ -10,11 +10,11 @@ from __future__ import annotations
 
 import fcntl
 import os
-import socket
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from pathlib import Path
 
+from acts_control.claims import Claim, ClaimedError
 from acts_core.errors import LaunchError
 
 
@@ -48,15 +48,17 @@ def claimed_robot(robot_ip: str) -> Iterator[None]:
     Raises
     ------
     LaunchError
-        Another demonstration uses it.
+        Another demonstration uses it, which the message names, or it cannot be claimed.
     """
-    # An abstract socket name, which exists in memory and in this network namespace only.
-    with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as name:
-        try:
-            name.bind(f"\0acts_demo_robot_{robot_ip}")
-        except OSError:
-            raise LaunchError(
-                f"another demonstration is running with its robot at {robot_ip}; wait for it, or choose another "
-                "address: --robot-ip 127.0.0.2"
-            ) from None
+    try:
+        # Not the controller's own claim of a robot: that one it takes itself, later.
+        claim = Claim("demo_robot", robot_ip)
+    except ClaimedError as error:
+        raise LaunchError(
+            f"another demonstration is running with its robot at {robot_ip}: {error}; wait for it, or choose another "
+            "address: --robot-ip 127.0.0.2"
+        ) from None
+    except OSError as error:
+        raise LaunchError(f"the robot's address {robot_ip} cannot be claimed ({error.strerror})") from error
+    with closing(claim):
         yield

@@ -3,6 +3,7 @@
 
 """A second demonstration in the same folder, or with the same robot, is told before anything is started."""
 
+import os
 from pathlib import Path
 
 import pytest
@@ -26,7 +27,8 @@ def test_a_folder_has_one_demonstration_at_a_time(tmp_path: Path) -> None:
 
 def test_a_robot_has_one_demonstration_at_a_time_also_before_it_is_there(tmp_path: Path) -> None:
     with claimed_robot(ADDRESS):
-        with pytest.raises(LaunchError, match=f"another demonstration is running with its robot at {ADDRESS}"):
+        named = f"another demonstration is running with its robot at {ADDRESS}: process {os.getpid()} "
+        with pytest.raises(LaunchError, match=named):
             run(10.0, tmp_path, ADDRESS)
         with claimed_robot("127.0.6.13"):
             pass
