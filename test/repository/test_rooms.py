@@ -141,6 +141,25 @@ def test_modules_do_not_import_one_another_in_circles() -> None:
         pytest.fail(" -> ".join(error.args[1]))
 
 
+def test_folders_side_by_side_in_acts_tools_do_not_import_one_another_in_circles() -> None:
+    """A folder and one within it may: the command of a folder loads what these do, and they share its modules."""
+    graphs: dict[str, dict[str, set[str]]] = {}
+    for edge in edges():
+        importer, source = room_of(edge.importer).split("."), room_of(edge.source).split(".")
+        # The first folder of each that is not the other's, too.
+        apart = next((n for n, (one, other) in enumerate(zip(importer, source, strict=False)) if one != other), 0)
+        if apart and importer[0] == "acts_tools":
+            graphs.setdefault(".".join(importer[:apart]), {}).setdefault(importer[apart], set()).add(source[apart])
+    assert {"acts_tools", "acts_tools.bench", "acts_tools.evaluate", "acts_tools.figures"} <= set(graphs)
+    circles = {}
+    for folder, graph in graphs.items():
+        try:
+            TopologicalSorter(graph).prepare()
+        except CycleError as error:
+            circles[folder] = " -> ".join(error.args[1])
+    assert circles == {}
+
+
 @pytest.mark.parametrize("room", sorted(room for room in ROOMS if room.split(".")[0] in LIBRARIES and "." in room))
 def test_a_room_says_what_it_is_for_and_exports_what_exists(room: str) -> None:
     tree = ast.parse(MODULES[room].read_text())

@@ -30,7 +30,7 @@ import numpy as np
 from acts_core.sampling import SamplingConfig, Sampler, measure_in
 from acts_core.wire import BoardSettings
 from acts_driver.settings import DriverSettings
-from acts_tools.evaluate.images.board_sampler import BoardSampler, scheme_table
+from acts_tools.firmware.board_sampler import BoardSampler, scheme_table
 from acts_tools.cli import main
 
 library = Path(sys.argv[1])
@@ -127,7 +127,7 @@ def test_driver_and_board_refuse_what_exists_in_python_only(tmp_path: Path) -> N
 
 def test_a_scheme_without_a_number_is_sampled_in_python_beside_those_of_the_firmware(tmp_path: Path) -> None:
     asked = "from acts_core.sampling import SamplingConfig\n"
-    asked += "from acts_tools.evaluate.images.board_sampler import sampler_of\n"
+    asked += "from acts_tools.firmware.board_sampler import sampler_of\n"
     asked += "print(type(sampler_of(SamplingConfig('tracking', 32, 32, 55))).__name__)\n"
     asked += "print(type(sampler_of(SamplingConfig('page_comb', 32, 32, 55))).__name__)"
     result = run([asked], with_example(tmp_path, without_number(python_code())))

@@ -74,7 +74,7 @@ def play(path: Path, rate: float, loop: bool, topics: list[str] | None, delay_s:
     from acts_ros import middleware
     from acts_ros.bags.reading import open_bag
     from acts_tools.bags.player import Player
-    from acts_tools.bags.stopping import StopFlag
+    from acts_tools.running.stopping import StopFlag
 
     with open_bag(path) as bag, StopFlag() as stop:
         if bag.note is not None:

@@ -80,7 +80,7 @@ def record(path: Path, topics: list[str] | None, duration_s: float | None) -> in
     from acts_ros.bags.recorder import Recorder
     from acts_ros.bags.writing import BagWriter
     from acts_ros.executor import make_executor, spin_for
-    from acts_tools.bags.stopping import StopFlag
+    from acts_tools.running.stopping import StopFlag
 
     bag = BagWriter(path, f"acts record {__version__}")
     with StopFlag() as stop:

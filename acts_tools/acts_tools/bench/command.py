@@ -65,9 +65,9 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _measure(arguments: argparse.Namespace) -> dict[str, Any]:
-    from acts_tools.bags.stopping import StopFlag
     from acts_tools.bench import runner
     from acts_tools.ros_domain import use_free_domain
+    from acts_tools.running.stopping import StopFlag
 
     names = runner.choose(arguments.names)
     path = _file(arguments, "bench.json")

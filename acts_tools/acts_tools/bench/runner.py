@@ -15,11 +15,11 @@ from pathlib import Path
 from typing import Any
 
 from acts_core.errors import ActsError
-from acts_tools.bags.stopping import StopFlag
 from acts_tools.bench import machine
 from acts_tools.bench.registry import MEASUREMENTS, Entry
 from acts_tools.bench.workbench import Workbench
 from acts_tools.run_folder import shared_memory
+from acts_tools.running.stopping import StopFlag
 
 OTHERS_WARNING_PERCENT = 10.0
 """Load by others above which the report warns [% of one core]."""

@@ -9,7 +9,7 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-from acts_tools.bags.stopping import StopFlag
+from acts_tools.running.stopping import StopFlag
 
 
 @dataclass(frozen=True)

@@ -84,7 +84,7 @@ def _heard(timeout_s: float) -> Statuses:
 
     from acts_ros import middleware
     from acts_ros.executor import spin_for
-    from acts_tools.bags.stopping import StopFlag
+    from acts_tools.running.stopping import StopFlag
 
     statuses = Statuses(_TOPICS)
     with StopFlag() as stop:

@@ -59,8 +59,8 @@ def run(arguments: argparse.Namespace) -> int:
 
     from acts_ros import middleware
     from acts_ros.executor import make_executor, spin_for
-    from acts_tools.bags.stopping import StopFlag
     from acts_tools.listen.listener import Listener
+    from acts_tools.running.stopping import StopFlag
 
     end_s = None if arguments.duration is None else time.monotonic() + arguments.duration
     with StopFlag() as stop:

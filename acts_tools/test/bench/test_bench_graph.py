@@ -10,9 +10,9 @@ from pathlib import Path
 import pytest
 from std_msgs.msg import UInt32
 
-from acts_tools.bags.stopping import StopFlag
 from acts_tools.bench.rigs.graph import Graph
 from acts_tools.bench.workbench import Workbench
+from acts_tools.running.stopping import StopFlag
 
 
 def test_a_slice_ends_and_the_wish_to_stop_is_heard_where_messages_never_cease(

@@ -14,10 +14,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from acts_tools.bags.stopping import StopFlag
 from acts_tools.bench.cases import driver_cpu, frame_rate, latency
 from acts_tools.bench.result import Result
 from acts_tools.bench.workbench import Workbench
+from acts_tools.running.stopping import StopFlag
 
 pytestmark = pytest.mark.slow
 

@@ -13,10 +13,10 @@ import pytest
 
 from acts_recon.learning import KsvdConfig
 from acts_recon.sparse import fast_omp, patch_layout
-from acts_tools.bags.stopping import StopFlag
 from acts_tools.bench.cases import recovery, train
 from acts_tools.bench.references import multiply_adds, peers
 from acts_tools.bench.workbench import Workbench
+from acts_tools.running.stopping import StopFlag
 
 
 @pytest.fixture

@@ -9,10 +9,11 @@ from pathlib import Path
 
 import pytest
 
-from acts_tools.bags.stopping import StopFlag
-from acts_tools.bench.cases.soak import JUDGED_S, Memory, measure, problems
+from acts_tools.bench.cases.soak import measure, problems
 from acts_tools.bench.registry import MEASUREMENTS
+from acts_tools.bench.rigs.memory import JUDGED_S, Memory
 from acts_tools.bench.workbench import Workbench
+from acts_tools.running.stopping import StopFlag
 
 pytestmark = pytest.mark.slow
 

@@ -9,10 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from acts_tools.bags.stopping import StopFlag
 from acts_tools.bench.cases.view import measure
 from acts_tools.bench.rigs import view_browser
 from acts_tools.bench.workbench import Workbench
+from acts_tools.running.stopping import StopFlag
 
 pytestmark = pytest.mark.slow
 

@@ -18,7 +18,7 @@ from typing import cast
 import numpy as np
 import pytest
 
-import acts_tools.live_hand.rig
+import acts_tools.hand_rigs.live_rig
 from acts_core.skin import RegionContact, layout
 from acts_sim.hand import HandWorld, HandWorldConfig
 from acts_tools.cli import main
@@ -27,9 +27,9 @@ from acts_tools.demo.hand.picture import draw
 from acts_tools.demo.hand.run import exit_code
 from acts_tools.demo.hand.score import rows, score, table
 from acts_tools.evaluate.hand.scenario import Outcome
-from acts_tools.live_hand.live import HandRefusalError
-from acts_tools.live_hand.recording import HandRecording, StatusSample
-from acts_tools.live_hand.rig import LiveRig, LiveSupervisor
+from acts_tools.hand_rigs.live import HandRefusalError
+from acts_tools.hand_rigs.live_rig import LiveRig, LiveSupervisor
+from acts_tools.hand_rigs.recording import HandRecording, StatusSample
 
 pytestmark = pytest.mark.slow
 
@@ -195,6 +195,6 @@ def test_a_hand_whose_touch_is_late_at_one_moment_is_asked_again(monkeypatch: py
     rig = RigOfLateTouch(refusals=3)
     LiveSupervisor(cast(LiveRig, rig)).grasp()
     assert rig.asked == 4
-    monkeypatch.setattr(acts_tools.live_hand.rig, "_REFUSED_S", 0.0)
+    monkeypatch.setattr(acts_tools.hand_rigs.live_rig, "_REFUSED_S", 0.0)
     with pytest.raises(HandRefusalError, match="no touch for"):
         LiveSupervisor(cast(LiveRig, RigOfLateTouch(refusals=10**9))).grasp()

@@ -15,9 +15,9 @@ from acts_control.hand.description import LEAP_RIGHT
 from acts_control.hand.reflexes import HandState
 from acts_core.skin import layout
 from acts_sim.hand import COLUMN, HandWorldConfig, row_width
-from acts_tools.live_hand.live import LiveHand
-from acts_tools.live_hand.recording import HandRecording, StatusSample
-from acts_tools.live_hand.rig import LiveRig
+from acts_tools.hand_rigs.live import LiveHand
+from acts_tools.hand_rigs.live_rig import LiveRig
+from acts_tools.hand_rigs.recording import HandRecording, StatusSample
 
 STEP_S = 0.002
 OPEN_RAD = np.array(LEAP_RIGHT.postures["open"])

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from acts_core.errors import ArrayError, SettingsError
 from acts_core.sampling import NEIGHBOURS, SCHEME_NUMBERS, Measure, Sampler, SamplingConfig, SkinMap
 from acts_core.skin import layout
-from acts_tools.evaluate.images.board_sampler import BoardSampler, PythonSampler
+from acts_tools.firmware.board_sampler import BoardSampler, PythonSampler
 
 
 def measure_while_it_moves(frames: NDArray[np.uint16], position: float, step: float) -> Measure:

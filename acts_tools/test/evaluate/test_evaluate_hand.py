@@ -18,8 +18,8 @@ from acts_recon.settings import ReconstructionSettings
 from acts_sim.hand import HandWorldConfig, PatchTruth
 from acts_tools.cli import main
 from acts_tools.evaluate.hand import scenarios, slip, sphere
-from acts_tools.evaluate.hand.rig import HandRig, RigOptions
 from acts_tools.evaluate.hand.scenario import Outcome, Run
+from acts_tools.hand_rigs.rig import HandRig, RigOptions
 
 pytestmark = pytest.mark.slow
 

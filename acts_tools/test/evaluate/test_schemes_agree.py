@@ -7,7 +7,7 @@ import pytest
 
 from acts_core.errors import SettingsError
 from acts_core.sampling import OWN_SETTINGS, SCHEME_NUMBERS, SCHEMES, OwnSetting, Share
-from acts_tools.evaluate.images.board_sampler import firmware_takes, scheme_table
+from acts_tools.firmware.board_sampler import firmware_takes, scheme_table
 
 pytestmark = pytest.mark.slow
 

@@ -26,7 +26,7 @@ from acts_sim.pressing import (
     object_named,
     press_over_time,
 )
-from acts_tools.evaluate.images.board_sampler import BoardSampler
+from acts_tools.firmware.board_sampler import BoardSampler
 
 GEOMETRY = ArrayGeometry()
 SAMPLE_S = 17.877e-6

@@ -12,7 +12,6 @@ from __future__ import annotations
 import time
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass, field
 
 import numpy as np
 import psutil
@@ -24,6 +23,7 @@ from acts_ros.messages import seconds_of
 from acts_ros.qos import STREAM
 from acts_tools.bench.result import Figure, Result
 from acts_tools.bench.rigs.graph import Graph
+from acts_tools.bench.rigs.memory import GROWTH_MAX_MB_PER_H, JUDGED_S, Memory
 from acts_tools.bench.rigs.processes import NAMESPACE, START_TIMEOUT_S, check_alive, driver, virtual_board
 from acts_tools.bench.rigs.skin import pressed
 from acts_tools.bench.workbench import Workbench
@@ -31,40 +31,10 @@ from acts_tools.driver.driver_status import driver_values
 from acts_tools.percentiles import percentiles
 from acts_tools.process_load import cpu_s
 
-GROWTH_MAX_MB_PER_H = 10.0
-"""Growth of the driver's memory that counts as a leak; checked in runs of `JUDGED_S` or more."""
-
-JUDGED_S = 300.0
 _SETTLE_S = 3.0
 _MB = 1e6
 _COUNTERS = ("frames", "lost", "overruns", "discarded", "crc_errors", "malformed", "repeated", "restarts", "reconnects")
 _NAMES = {"median": "stamp to reception, median", "p99": "    99 % within", "p999": "    99.9 % within"}
-
-
-@dataclass
-class Memory:
-    """Resident memory of a process over time.
-
-    Attributes
-    ----------
-    time_s, mb : list of float
-        Time since the start of the measurement, and memory at that time (1 MB is 1e6 bytes).
-    """
-
-    time_s: list[float] = field(default_factory=list)
-    mb: list[float] = field(default_factory=list)
-
-    def at(self, time_s: float) -> float:
-        """The value nearest to a time [MB]."""
-        return self.mb[int(np.argmin(np.abs(np.array(self.time_s) - time_s)))]
-
-    def growth_mb_per_h(self) -> float:
-        """Slope of a line fitted to the values after the first tenth [MB/h]; 0 where there is only one."""
-        time_s = np.array(self.time_s)
-        behind = time_s >= 0.1 * time_s[-1]
-        if behind.sum() < 2:
-            return 0.0
-        return float(np.polyfit(time_s[behind], np.array(self.mb)[behind], 1)[0] * 3600.0)
 
 
 def measure(workbench: Workbench) -> Result:

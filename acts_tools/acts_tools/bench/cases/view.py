@@ -26,7 +26,7 @@ from acts_ros.messages import seconds_of
 from acts_ros.processes.packages import executable
 from acts_ros.qos import STREAM
 from acts_tools.bench.result import Figure, Result
-from acts_tools.bench.rigs import view_browser
+from acts_tools.bench.rigs import realtime, view_browser
 from acts_tools.bench.rigs.graph import Graph
 from acts_tools.bench.rigs.processes import (
     NAMESPACE,
@@ -39,7 +39,6 @@ from acts_tools.bench.rigs.processes import (
 )
 from acts_tools.bench.rigs.skin import pressed
 from acts_tools.bench.rigs.view_clients import Watched
-from acts_tools.bench.skins import realtime
 from acts_tools.bench.workbench import Workbench
 from acts_tools.percentiles import percentiles
 from acts_tools.process_load import cpu_s

@@ -13,16 +13,17 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
-from acts_tools.bags.stopping import StopFlag
 from acts_tools.bench import runner
+from acts_tools.bench.rigs import realtime
 from acts_tools.bench.rigs.processes import M
-from acts_tools.bench.skins import judgement, realtime
+from acts_tools.bench.skins import judgement
 from acts_tools.bench.skins.measurement import SETTLE_S, measure
 from acts_tools.bench.skins.options import NAME, SECONDS, SUMMARY, options_from
 from acts_tools.bench.skins.processes import RATE_HZ
 from acts_tools.bench.workbench import Workbench
 from acts_tools.ros_domain import use_free_domain
 from acts_tools.run_folder import shared_memory
+from acts_tools.running.stopping import StopFlag
 
 
 def run(arguments: argparse.Namespace, path: Path) -> dict[str, Any]:

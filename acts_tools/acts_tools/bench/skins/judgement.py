@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from acts_tools.bench.cases.soak import GROWTH_MAX_MB_PER_H
+from acts_tools.bench.rigs.memory import GROWTH_MAX_MB_PER_H
 from acts_tools.bench.runner import OTHERS_WARNING_PERCENT
 from acts_tools.bench.skins.processes import BENCH, RATE_HZ
 

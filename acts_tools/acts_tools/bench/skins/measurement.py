@@ -19,8 +19,8 @@ from acts_msgs.msg import Contact
 from acts_ros.executor import settle
 from acts_ros.qos import STREAM
 from acts_tools.bench.machine import BusyMeter
+from acts_tools.bench.rigs import realtime
 from acts_tools.bench.rigs.graph import Graph
-from acts_tools.bench.skins import realtime
 from acts_tools.bench.skins.options import SkinsOptions
 from acts_tools.bench.skins.processes import BENCH, Consumption, Watched, computing, running_skins
 from acts_tools.bench.skins.reports import added, next_counts

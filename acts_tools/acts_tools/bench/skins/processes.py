@@ -16,11 +16,11 @@ from pathlib import Path
 import psutil
 
 from acts_core.errors import LaunchError
-from acts_tools.bench.cases.soak import JUDGED_S, Memory
+from acts_tools.bench.rigs.memory import JUDGED_S, Memory
 from acts_tools.bench.rigs.processes import check_alive, command_line, tactile, virtual_board
+from acts_tools.bench.rigs.realtime import board_options, tactile_options
 from acts_tools.bench.rigs.skin import pressed
 from acts_tools.bench.skins.options import SkinsOptions
-from acts_tools.bench.skins.realtime import board_options, tactile_options
 from acts_tools.process_load import cpu_s
 
 RATE_HZ = 1000.0

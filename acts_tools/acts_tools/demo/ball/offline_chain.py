@@ -37,7 +37,7 @@ from acts_recon.settings import ReconstructionSettings
 from acts_sim.ball import JointMotion, Phase, World, WorldConfig
 from acts_sim.ur import JointState, Servo
 from acts_tools.demo.ball.recording import Recording
-from acts_tools.evaluate.images.board_sampler import BoardSampler
+from acts_tools.firmware.board_sampler import BoardSampler
 
 STEP_S = 0.001
 _SPEED_LIMIT_RAD_S = np.pi

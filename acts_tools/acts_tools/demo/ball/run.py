@@ -20,19 +20,19 @@ from acts_core.errors import ActsError, LaunchError
 from acts_core.runtime import is_loopback
 from acts_msgs.msg import BalanceStatus
 from acts_ros import middleware
-from acts_tools.bags.stopping import StopFlag
 from acts_tools.demo.ball.collector import Collector
 from acts_tools.demo.ball.picture import draw
 from acts_tools.demo.ball.recording import Recording
 from acts_tools.demo.ball.score import score, table
 from acts_tools.demo.claims import claimed_folder, claimed_robot
-from acts_tools.demo.launched import launched
-from acts_tools.demo.watcher import Watcher
 from acts_tools.output_file import require_writable
 from acts_tools.percentiles import percentiles
 from acts_tools.process_load import LoadMeter
 from acts_tools.ros_domain import use_free_domain
 from acts_tools.run_folder import shared_memory
+from acts_tools.running.launched import launched
+from acts_tools.running.stopping import StopFlag
+from acts_tools.running.watcher import Watcher
 
 # On a busy machine that compiles the kernels for the first time, a minute was not enough.
 _START_TIMEOUT_S = 180.0

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from acts_sim.hand import HandTruth, HandWorldConfig
 from acts_tools.evaluate.hand.scenario import Outcome
-from acts_tools.live_hand.recording import HandRecording
+from acts_tools.hand_rigs.recording import HandRecording
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ from acts_msgs.msg import HandStatus
 from acts_sim.hand import HandWorld, held_object
 from acts_sim.hand.pictures import HandPicture, draw_hand
 from acts_tools.demo.hand.act import Act, Moment
-from acts_tools.live_hand.recording import column, patch_column
+from acts_tools.hand_rigs.recording import column, patch_column
 
 mpl.use("Agg")
 from matplotlib import pyplot as plt

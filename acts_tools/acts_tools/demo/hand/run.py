@@ -12,18 +12,18 @@ from pathlib import Path
 from typing import Any
 
 from acts_core.errors import ActsError, LaunchError
-from acts_tools.bags.stopping import StopFlag
 from acts_tools.demo.claims import claimed_folder
 from acts_tools.demo.hand.act import Act
 from acts_tools.demo.hand.picture import draw
 from acts_tools.demo.hand.score import score, table
 from acts_tools.evaluate.hand.scenario import Run
 from acts_tools.evaluate.hand.scenarios import SCENARIOS
-from acts_tools.live_hand.collector import HandCollector
-from acts_tools.live_hand.live import STATES
-from acts_tools.live_hand.rigs import LiveRigs
+from acts_tools.hand_rigs.collector import HandCollector
+from acts_tools.hand_rigs.live import STATES
+from acts_tools.hand_rigs.live_rigs import LiveRigs
 from acts_tools.output_file import require_writable
 from acts_tools.ros_domain import use_free_domain
+from acts_tools.running.stopping import StopFlag
 
 TITLES = {
     "sphere": "a sphere is brought to the palm's centre",

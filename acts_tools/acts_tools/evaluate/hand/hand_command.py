@@ -135,9 +135,9 @@ def _counted(scenario: str, one: Run) -> tuple[Outcome, dict[str, Any]]:
 
 def _live(scenario: str, one: Run) -> tuple[Outcome, dict[str, Any]]:
     """The same over the real interfaces, also with durations of cycles and the latency from measurement to goals."""
-    from acts_tools.bags.stopping import StopFlag
-    from acts_tools.live_hand.rigs import LiveRigs
+    from acts_tools.hand_rigs.live_rigs import LiveRigs
     from acts_tools.ros_domain import use_free_domain
+    from acts_tools.running.stopping import StopFlag
 
     use_free_domain()
     with tempfile.TemporaryDirectory(prefix="acts_evaluate_") as folder, StopFlag() as stop:

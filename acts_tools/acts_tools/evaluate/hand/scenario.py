@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from acts_sim.hand import HandWorldConfig
-from acts_tools.evaluate.hand.rig import HandRig, RigOptions
+from acts_tools.hand_rigs.rig import HandRig, RigOptions
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ class Run:
     settings : mapping
         Settings of supervisor and reflexes that are not the defaults; they override those of the scenario.
     rig : callable
-        Makes the hand: `HandRig`, or its equivalent over the real interfaces (`acts_tools.live_hand.rigs`).
+        Makes the hand: `HandRig`, or its equivalent over the real interfaces (`acts_tools.hand_rigs.live_rigs`).
     """
 
     seed: int

@@ -12,8 +12,8 @@ import numpy as np
 from acts_control.hand.description import LEAP_RIGHT
 from acts_control.hand.reflexes import HandState
 from acts_sim.hand import HandWorldConfig
-from acts_tools.evaluate.hand.rig import HandRig
 from acts_tools.evaluate.hand.scenario import Outcome, Run
+from acts_tools.hand_rigs.rig import HandRig
 
 # The thumb closes around large spheres from above; for small ones it waits at the side.
 _POSTURES = {"sphere": "round", "small_sphere": "cup"}

@@ -23,9 +23,9 @@ from acts_recon.methods import Method, SkinSetup
 from acts_recon.sparse import Dictionary
 from acts_tools.evaluate.estimators.methods import method_named
 from acts_tools.evaluate.images import calibration
-from acts_tools.evaluate.images.board_sampler import sampler_of
 from acts_tools.evaluate.images.scores import FRAME_SCORES, INVENTED, FrameScores, score_image
 from acts_tools.evaluate.images.truth import ContactStart, contact_starts, interpolate
+from acts_tools.firmware.board_sampler import sampler_of
 from acts_tools.percentiles import percentiles
 
 SAMPLE_US = 17.877

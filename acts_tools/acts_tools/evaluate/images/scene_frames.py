@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.sampling import SCHEMES, SamplingConfig, SkinMap
-from acts_tools.evaluate.images.board_sampler import sampler_of
 from acts_tools.evaluate.images.recovery import SAMPLE_US
+from acts_tools.firmware.board_sampler import sampler_of
 
 
 @dataclass(frozen=True)

@@ -35,9 +35,9 @@ from acts_recon.objects import (
 )
 from acts_sim.pressing import RATE_HZ as RECORDED_HZ
 from acts_sim.pressing import ContactObject, FoamConfig, PressingArm, PressingConfig
-from acts_tools.evaluate.images.board_sampler import BoardSampler
 from acts_tools.evaluate.images.recovery import SAMPLE_US
 from acts_tools.evaluate.shares import wilson
+from acts_tools.firmware.board_sampler import BoardSampler
 from acts_tools.percentiles import percentiles
 
 PAPER, ACTS = "paper", "acts"

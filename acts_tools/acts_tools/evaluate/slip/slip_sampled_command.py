@@ -27,7 +27,7 @@ from acts_recon.regions import Regions
 from acts_recon.slip import SlipConfig
 from acts_tools.arguments import at_least_one, given_settings, real, taxels
 from acts_tools.evaluate import report
-from acts_tools.evaluate.images.board_sampler import BoardSampler
+from acts_tools.firmware.board_sampler import BoardSampler
 
 _NOTICED_M = 0.0002
 _NOISE_COUNTS = 2.0

@@ -7,11 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from acts_tools.figures.board.board_times import sampling_us
 from acts_tools.figures.figure import Figure
 from acts_tools.figures.published import PublishedData
 from acts_tools.figures.run import Run
 from acts_tools.figures.sheet import OTHERS, OURS, SAME, Curve, Panel
+from acts_tools.firmware.board_times import sampling_us
 
 _M = (36, 42, 48, 49, 55, 56, 64, 66, 77, 88, 96, 112, 121, 128, 160, 176, 192, 224, 256, 352, 512)
 _FILE = "fig4/M_fs.fig"

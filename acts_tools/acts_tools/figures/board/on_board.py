@@ -13,15 +13,15 @@ import numpy as np
 from acts_core.sampling import SamplingConfig
 from acts_recon.objects import BOARD_COLUMNS, Classifier, ClassifierConfig, build_object_library
 from acts_sim.pressing import OBJECTS, PressingArm
-from acts_tools.evaluate.images.board_sampler import BoardSampler
 from acts_tools.evaluate.images.recovery import Recording
 from acts_tools.evaluate.objects.classification import TOUCH_COUNTS
-from acts_tools.figures.board.board_times import output_us, sampling_us
 from acts_tools.figures.figure import Figure
 from acts_tools.figures.published import PublishedData
 from acts_tools.figures.recovery import presses
 from acts_tools.figures.run import Run
 from acts_tools.figures.sheet import OURS, PUBLISHED, SAME, Contours, Curve, Panel, Picture
+from acts_tools.firmware.board_sampler import BoardSampler
+from acts_tools.firmware.board_times import output_us, sampling_us
 from acts_tools.train import model_frames
 
 _M = (50, 100, 200, 300, 400, 500)

@@ -23,12 +23,12 @@ from acts_sim.pressing import (
     prism,
 )
 from acts_tools.evaluate.estimators.methods import method_named
-from acts_tools.evaluate.images.board_sampler import sampler_of
 from acts_tools.figures.figure import Figure
 from acts_tools.figures.recovery import presses
 from acts_tools.figures.run import Run
 from acts_tools.figures.sheet import Panel
 from acts_tools.figures.skin_images import skin_panel
+from acts_tools.firmware.board_sampler import sampler_of
 
 _M = 64
 _OURS_S = 0.046

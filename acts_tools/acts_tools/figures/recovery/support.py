@@ -14,7 +14,6 @@ from acts_core.array import ArrayGeometry
 from acts_recon.methods import SkinSetup
 from acts_sim.pressing import FoamConfig, PressingArm, object_named
 from acts_tools.evaluate.estimators.methods import method_named
-from acts_tools.evaluate.images.board_sampler import sampler_of
 from acts_tools.figures.figure import Figure
 from acts_tools.figures.published import PublishedData
 from acts_tools.figures.recovery import presses
@@ -22,6 +21,7 @@ from acts_tools.figures.recovery.presses import SCHEMES
 from acts_tools.figures.run import Run
 from acts_tools.figures.sheet import OURS, PUBLISHED, SAME, Curve, Panel
 from acts_tools.figures.skin_images import skin_panel
+from acts_tools.firmware.board_sampler import sampler_of
 
 _M_LABEL, _SUPPORT = "taxels measured per frame, M", "support accuracy"
 _PUBLISHED_SCHEMES = {"adaptive": "Binary Sampling", "uniform": "Down Sampling", "random": "Random Sampling"}

@@ -30,7 +30,7 @@ from acts_recon.regions import Regions
 from acts_recon.slip import SlipConfig
 from acts_sim.dynamixel import RAD_PER_TICK
 from acts_sim.hand import STEP_S, HandWorld, HandWorldConfig
-from acts_tools.evaluate.images.board_sampler import BoardSampler
+from acts_tools.firmware.board_sampler import BoardSampler
 
 _CURRENT_BASED_POSITION = 5
 _FRAMES = 2

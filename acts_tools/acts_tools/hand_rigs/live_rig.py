@@ -23,8 +23,8 @@ from acts_control.hand.reflexes import HandState
 from acts_core.errors import LaunchError
 from acts_core.skin import RegionContact
 from acts_sim.hand import HandTruth, HandWorldConfig, held_object
-from acts_tools.live_hand.live import HandRefusalError, LiveHand
-from acts_tools.live_hand.recording import Array
+from acts_tools.hand_rigs.live import HandRefusalError, LiveHand
+from acts_tools.hand_rigs.recording import Array
 
 _SILENCE_S = 10.0
 _PAUSE_S = 0.3

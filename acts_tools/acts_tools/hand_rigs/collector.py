@@ -20,7 +20,7 @@ from acts_ros.messages import read_regions, seconds_of
 from acts_ros.polled import PollingNode
 from acts_sim.hand import TruthFollower
 from acts_sim.shared import TimedRingReader
-from acts_tools.live_hand.recording import HandRecording, StatusSample
+from acts_tools.hand_rigs.recording import HandRecording, StatusSample
 
 # Twice the number of messages per second of the most frequent topic.
 _DEPTH = 2048

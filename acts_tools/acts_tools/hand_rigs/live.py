@@ -17,12 +17,12 @@ from acts_core.errors import ActsError, LaunchError
 from acts_msgs.msg import HandStatus
 from acts_ros import middleware
 from acts_sim.dynamixel import ControlClient
-from acts_tools.bags.stopping import StopFlag
-from acts_tools.demo.launched import launched
-from acts_tools.demo.watcher import Watcher
-from acts_tools.live_hand.collector import HandCollector
-from acts_tools.live_hand.recording import HandRecording
+from acts_tools.hand_rigs.collector import HandCollector
+from acts_tools.hand_rigs.recording import HandRecording
 from acts_tools.process_load import LoadMeter
+from acts_tools.running.launched import launched
+from acts_tools.running.stopping import StopFlag
+from acts_tools.running.watcher import Watcher
 
 # On a busy machine that compiles the kernels for the first time, a minute was not enough.
 _START_TIMEOUT_S = 180.0

@@ -16,13 +16,13 @@ import yaml
 from ament_index_python.packages import get_package_share_directory
 
 from acts_sim.hand import HandWorldConfig
-from acts_tools.bags.stopping import StopFlag
-from acts_tools.evaluate.hand.rig import RigOptions
-from acts_tools.live_hand.collector import HandCollector
-from acts_tools.live_hand.live import NAMESPACE, live_hand
-from acts_tools.live_hand.recording import HandRecording
-from acts_tools.live_hand.rig import LiveRig
+from acts_tools.hand_rigs.collector import HandCollector
+from acts_tools.hand_rigs.live import NAMESPACE, live_hand
+from acts_tools.hand_rigs.live_rig import LiveRig
+from acts_tools.hand_rigs.recording import HandRecording
+from acts_tools.hand_rigs.rig import RigOptions
 from acts_tools.run_folder import shared_memory
+from acts_tools.running.stopping import StopFlag
 
 
 class LiveRigs:

@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Wait for events of a demonstration with a status line, and notice when its launch ends."""
+"""Wait for events of what was launched with a status line, and notice when its launch ends."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import time
 from collections.abc import Callable
 
 from acts_core.errors import LaunchError
-from acts_tools.bags.stopping import StopFlag
+from acts_tools.running.stopping import StopFlag
 
 _STEP_S = 0.1
 _REFRESH_S = 0.2
