@@ -96,7 +96,7 @@ class LiveRigs:
 def _params_file(folder: Path, options: RigOptions) -> Path:
     """Write a params file with the shipped parameters and those of the options."""
     shipped = Path(get_package_share_directory("acts_config")) / "params" / "hand_reflexes.yaml"
-    felt = {"touch_counts": round(options.touch_counts), "noise_counts": options.noise_counts, **asdict(options.slip)}
+    felt = {"touch_counts": options.touch_counts, "noise_counts": options.noise_counts, **asdict(options.slip)}
     own = {"reconstruction": felt}
     if options.settings:
         own["hand_reflexes"] = dict(options.settings)

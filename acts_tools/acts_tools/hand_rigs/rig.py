@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -24,9 +24,9 @@ from acts_control.hand.reflexes import REFLEXES, HandState, Reflex
 from acts_core.array import COUNT_MAX
 from acts_core.sampling import SamplingConfig, SkinMap
 from acts_core.settings import describe
-from acts_core.skin import ForceResponse, RegionContact
-from acts_recon.fusion import FusionConfig, FusionEstimator, known_noise
-from acts_recon.regions import Regions
+from acts_core.skin import RegionContact
+from acts_recon.fusion import known_noise
+from acts_recon.settings import ReconstructionSettings
 from acts_recon.slip import SlipConfig
 from acts_sim.dynamixel import RAD_PER_TICK
 from acts_sim.hand import STEP_S, HandWorld, HandWorldConfig
@@ -52,7 +52,7 @@ class RigOptions:
         Names of active reflexes in the registry.
     sampling : SamplingConfig
         Settings of the board, as in config/params/hand_reflexes.yaml.
-    touch_counts : float
+    touch_counts : int
         A taxel above it is pressed.
     noise_counts : float
         Standard deviation of a measurement: of the board's, and as the reconstruction takes it [counts].
@@ -67,7 +67,7 @@ class RigOptions:
     sampling: SamplingConfig = field(
         default_factory=lambda: SamplingConfig(scheme="tracking", m=55, threshold_counts=20, search_share=0.4)
     )
-    touch_counts: float = 8.0
+    touch_counts: int = 8
     noise_counts: float = 1.5
     slip: SlipConfig = field(
         default_factory=lambda: SlipConfig(slip_distance_taxels=0.03, slip_sigmas=4.0, slip_together_share=0.7)
@@ -107,11 +107,17 @@ class HandRig:
         self.supervisor = HandSupervisor(_KINEMATICS, self.reflexes, config)
         self.supervisor.restart(recovered=False)
         layout, noise_counts = self.world.layout, options.noise_counts
-        self._finder = Regions(layout, ForceResponse(), options.touch_counts, noise_counts, options.slip)
         self._board = BoardSampler(
             replace(options.sampling, seed=world.seed + 1), noise_counts, skin_map=SkinMap.of(layout)
         )
-        self._fusion = FusionEstimator(layout.geometry(), FusionConfig(noise_counts=known_noise(noise_counts)), layout)
+        settings = ReconstructionSettings(
+            layout=layout.name,
+            touch_counts=options.touch_counts,
+            noise_counts=known_noise(noise_counts),
+            **asdict(options.slip),
+        )
+        self._recovery = settings.recovery()
+        self._finder = settings.regions(self._recovery)
         self._counts = self._matrix()
         self._period_s = 1.0 / options.rate_hz
         self._due_s = self._last_s = 0.0
@@ -176,13 +182,13 @@ class HandRig:
     def _feel(self) -> None:
         """Sample and recover the frames of a step of the world."""
         before, self._counts = self._counts, self._matrix()
-        field, fusion = np.stack((before, self._counts)), self._fusion
+        field, recovery = np.stack((before, self._counts)), self._recovery
         duration_s = STEP_S / _FRAMES
         for k in range(_FRAMES):
             indices, counts = self._board.frame(field, k / _FRAMES, 1.0 / (_FRAMES * self._board.config.m))
             end_s = self.time_s - (_FRAMES - 1 - k) * duration_s
-            fusion.step(indices, counts, end_s, duration_s)
-            self.regions = list(self._finder.step(end_s, fusion.image, fusion.measured, fusion.age_s))
+            recovery.step(indices, counts, end_s, duration_s)
+            self.regions = list(self._finder.step(end_s, recovery.image, recovery.measured, recovery.age_s))
 
     def _matrix(self) -> NDArray[np.uint16]:
         layout = self.world.layout

@@ -35,3 +35,8 @@ def test_limits_can_be_set(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -
     assert set(report["results"][0]["delay_ms"]) == {None}
     assert main(["evaluate", "slip-sampled", "--set", "slip_sigma=4"]) != 0
     assert "slip_sigmas" in capsys.readouterr().err
+
+
+def test_a_skin_of_which_the_node_tells_no_slip_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["evaluate", "slip-sampled", "--layout", "square", "--seeds", "1"]) != 0
+    assert "--layout square: the reconstruction tells no slip" in capsys.readouterr().err

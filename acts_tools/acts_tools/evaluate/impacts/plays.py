@@ -7,10 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from acts_core.array import ArrayGeometry
-from acts_recon.contacts import BlobConfig
-from acts_recon.fusion import FusionConfig, FusionEstimator, known_noise
-from acts_recon.impacts import Impact, ImpactDetector
+from acts_recon.fusion import known_noise
+from acts_recon.impacts import Impact
+from acts_recon.settings import ReconstructionSettings
 from acts_sim.impacts import SCENE_RATE_HZ, Scene
 from acts_tools.evaluate.images.recovery import FOLLOW_COUNTS
 from acts_tools.evaluate.images.scene_frames import Frame, frames_of
@@ -48,24 +47,22 @@ class Ours:
     """
 
     def __init__(self, scheme: str, m: int, noise_counts: float) -> None:
-        geometry = ArrayGeometry()
         self.scheme = scheme
         self._m, self._noise_counts = m, noise_counts
-        self._fusion = FusionEstimator(geometry, FusionConfig(noise_counts=known_noise(noise_counts)))
-        self._detector = ImpactDetector(
-            geometry, blobs=BlobConfig(touch_counts=TOUCH_COUNTS, noise_counts=noise_counts)
-        )
+        settings = ReconstructionSettings(touch_counts=TOUCH_COUNTS, noise_counts=known_noise(noise_counts))
+        self._recovery = settings.recovery()
+        self._detector = settings.impact_detector(self._recovery)
 
     def play(self, scene: Scene, seed: int) -> list[tuple[float, Impact]]:
         """What is told of a scene, each with the end of the frame that told it [s]."""
-        self._fusion.reset()
+        recovery = self._recovery
+        recovery.reset()
         self._detector.reset()
-        fusion = self._fusion
         told: list[tuple[float, Impact]] = []
         for frame in sampled(scene, self.scheme, self._m, FOLLOW_COUNTS, self._noise_counts, seed):
-            image = fusion.step(frame.indices, frame.counts, frame.end_s, frame.duration_s)
+            recovery.step(frame.indices, frame.counts, frame.end_s, frame.duration_s)
             found = self._detector.step(
-                frame.end_s, frame.duration_s, image, fusion.sigma, fusion.age_s, fusion.measured
+                frame.end_s, frame.duration_s, recovery.image, recovery.sigma, recovery.age_s, recovery.measured
             )
             told += [(frame.end_s, impact) for impact in found]
         return told

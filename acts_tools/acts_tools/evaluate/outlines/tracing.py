@@ -12,9 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
-from acts_recon.fusion import FusionConfig, FusionEstimator, known_noise
+from acts_recon.fusion import known_noise
 from acts_recon.methods import PerFrame, PerFrameConfig, SkinSetup
-from acts_recon.outlines import Outline, OutlineTracer, area, contours, mean_distance_m
+from acts_recon.outlines import Outline, area, contours, mean_distance_m
+from acts_recon.settings import ReconstructionSettings
 from acts_sim.deforming import Meeting
 from acts_sim.impacts import SCENE_RATE_HZ
 from acts_tools.evaluate.images.recovery import FOLLOW_COUNTS
@@ -58,13 +59,13 @@ class Traced:
 
 def our_outlines(shown: Meeting, m: int, noise_counts: float, seed: int, scheme: str = SCHEME) -> list[Outline]:
     """All that `OutlineTracer` tells of a scene."""
-    geometry = ArrayGeometry()
-    fusion = FusionEstimator(geometry, FusionConfig(noise_counts=known_noise(noise_counts)))
-    tracer = OutlineTracer(geometry, touch_counts=TOUCH_COUNTS, noise_counts=noise_counts)
+    settings = ReconstructionSettings(touch_counts=TOUCH_COUNTS, noise_counts=known_noise(noise_counts))
+    recovery = settings.recovery()
+    tracer = settings.outline_tracer(recovery)
     found: list[Outline] = []
     for frame in frames_of(shown.frames, SCENE_RATE_HZ, scheme, m, FOLLOW_COUNTS, noise_counts, seed):
-        image = fusion.step(frame.indices, frame.counts, frame.end_s, frame.duration_s)
-        found += tracer.step(frame.indices, frame.counts, frame.end_s, frame.duration_s, image)
+        recovery.step(frame.indices, frame.counts, frame.end_s, frame.duration_s)
+        found += tracer.step(frame.indices, frame.counts, frame.end_s, frame.duration_s, recovery.image)
     return found
 
 

@@ -20,10 +20,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.errors import SettingsError
 from acts_core.sampling import SamplingConfig
-from acts_core.skin import ForceResponse, Layout, SkinPatch, layout
-from acts_recon.fusion import FusionConfig, FusionEstimator
-from acts_recon.regions import Regions
+from acts_core.skin import Layout, SkinPatch, layout
+from acts_recon.fusion import known_noise
+from acts_recon.settings import ReconstructionSettings
 from acts_recon.slip import SlipConfig
 from acts_tools.arguments import at_least_one, given_settings, real, taxels
 from acts_tools.evaluate import report
@@ -129,8 +130,11 @@ def told(
     """Time [s] and patch of every start of slip."""
     config = SamplingConfig(scheme="tracking", m=m, threshold_counts=50, seed=seed + 1)
     sampler = BoardSampler(config, _NOISE_COUNTS)
-    fusion = FusionEstimator(skin.geometry(), FusionConfig(noise_counts=_NOISE_COUNTS), skin)
-    regions = Regions(skin, ForceResponse(), noise_counts=_NOISE_COUNTS, slip=slip)
+    settings = ReconstructionSettings(layout=skin.name, noise_counts=known_noise(_NOISE_COUNTS), **asdict(slip))
+    recovery = settings.recovery()
+    regions = settings.regions(recovery)
+    if regions is None:
+        raise SettingsError(f"--layout {skin.name}: the reconstruction tells no slip of a skin of one patch on no link")
     found: list[tuple[float, int]] = []
     slipping = [False] * len(skin.patches)
     before = np.rint(skin.matrix(picture_at(0.0))).astype(np.uint16)
@@ -138,9 +142,9 @@ def told(
         time_s = k * _FRAME_S
         after = np.rint(skin.matrix(picture_at(time_s))).astype(np.uint16)
         indices, counts = sampler.frame(np.stack((before, after)), 1.0 / m, 1.0 / m)
-        fusion.step(indices, counts, time_s, 0.95 * _FRAME_S)
+        recovery.step(indices, counts, time_s, 0.95 * _FRAME_S)
         before = after
-        for p, region in enumerate(regions.step(time_s, fusion.image, fusion.measured, fusion.age_s)):
+        for p, region in enumerate(regions.step(time_s, recovery.image, recovery.measured, recovery.age_s)):
             if region.slipping and not slipping[p]:
                 found.append((time_s, p))
             slipping[p] = region.slipping

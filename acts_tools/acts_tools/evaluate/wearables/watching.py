@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from acts_core.sampling import SkinMap
 from acts_core.skin import Layout
-from acts_recon.contacts import BlobConfig
-from acts_recon.fusion import FusionConfig, FusionEstimator, known_noise
+from acts_recon.fusion import known_noise
 from acts_recon.images import BaselineSubtraction
-from acts_recon.impacts import Impact, ImpactDetector
+from acts_recon.impacts import Impact
+from acts_recon.settings import ReconstructionSettings
 from acts_sim.wearables import WORN_RATE_HZ, WornScene
 from acts_tools.evaluate.images.scene_frames import Frame, frames_of
 
@@ -37,17 +37,16 @@ class Watcher:
 
     def __init__(self, arranged: Layout, noise_counts: float) -> None:
         self.skin_map = None if arranged.is_matrix else SkinMap.of(arranged)
-        geometry = arranged.geometry()
-        self.fusion = FusionEstimator(
-            geometry, FusionConfig(noise_counts=known_noise(noise_counts)), None if arranged.is_matrix else arranged
+        settings = ReconstructionSettings(
+            rows=arranged.matrix_rows,
+            cols=arranged.matrix_cols,
+            layout=arranged.name,
+            touch_counts=TOUCH_COUNTS,
+            noise_counts=known_noise(noise_counts),
         )
+        self.recovery = settings.recovery()
         self._baseline = BaselineSubtraction(arranged.taxels.size)
-        self._detector = ImpactDetector(
-            geometry,
-            blobs=BlobConfig(touch_counts=TOUCH_COUNTS, noise_counts=noise_counts),
-            borders=self.fusion.borders,
-            stood_on=arranged.stood_on,
-        )
+        self._detector = settings.impact_detector(self.recovery)
 
     def set_baseline(self, counts: NDArray[np.float32]) -> None:
         """What each taxel of the matrix reads untouched; np.ndarray [shape=(size,), dtype=float32]."""
@@ -55,15 +54,17 @@ class Watcher:
 
     def reset(self) -> None:
         """Forget all frames."""
-        self.fusion.reset()
+        self.recovery.reset()
         self._detector.reset()
 
     def step(self, frame: Frame) -> tuple[Impact, ...]:
         """What is told after the next frame."""
-        fusion = self.fusion
+        recovery = self.recovery
         counts = self._baseline.apply(frame.indices, frame.counts)
-        image = fusion.step(frame.indices, counts, frame.end_s, frame.duration_s)
-        return self._detector.step(frame.end_s, frame.duration_s, image, fusion.sigma, fusion.age_s, fusion.measured)
+        recovery.step(frame.indices, counts, frame.end_s, frame.duration_s)
+        return self._detector.step(
+            frame.end_s, frame.duration_s, recovery.image, recovery.sigma, recovery.age_s, recovery.measured
+        )
 
     def watch(self, shown: WornScene, m: int, noise_counts: float, seed: int) -> list[tuple[float, Impact]]:
         """What is told of a scene, each with the end of the frame that told it [s]."""

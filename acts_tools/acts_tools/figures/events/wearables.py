@@ -75,7 +75,7 @@ def _panels(shown: WornScene, watcher: Watcher) -> list[Panel]:
         shown.frames, WORN_RATE_HZ, SCHEME, _M, THRESHOLD_COUNTS, _NOISE_COUNTS, 1, watcher.skin_map
     ):
         onsets += [1e3 * one.onset_s for one in watcher.step(frame) if one.is_over]
-        image = watcher.fusion.image
+        image = watcher.recovery.image
         force_n = float(response.force_n(np.where(image > TOUCH_COUNTS, image, 0.0)).sum())
         if force_n > max(forces, default=0.0):
             peak = image.copy()
