@@ -16,7 +16,8 @@ from acts_sim.pressing import PressingArm, object_named
 from acts_tools import library
 from acts_tools.cli import Parser
 from acts_tools.evaluate import command
-from acts_tools.evaluate.objects.classification import ACTS, FusedImage, Trials, accuracy, contenders, run_trials
+from acts_tools.evaluate.objects.classification import Trials, accuracy, run_trials
+from acts_tools.evaluate.objects.contenders import ACTS, contenders
 
 pytestmark = pytest.mark.slow
 
@@ -57,14 +58,13 @@ def test_the_noise_of_recorded_presses_is_not_known() -> None:
     pressed = np.zeros((1, 32, 32), dtype=np.uint16)
     pressed[0, 14:18, 14:18] = 500
     ours = contenders(*2 * [build_object_library(pressed, ["block"])], 64)[ACTS]
-    assert isinstance(ours, FusedImage)
     rng = np.random.default_rng(1)
     for number in range(600):
         taxels = rng.permutation(1024)[:64].astype(np.uint16)
         counts = np.abs(np.rint(rng.normal(0.0, 0.5, 64))).astype(np.uint16)
         ours.update(taxels, counts, 100.0 + 0.00115 * number, 0.00115)
     # Where it is known how much untouched taxels vary, 0 is shown; where it is not, the mean of what they read.
-    assert ours._estimator.image.mean() == pytest.approx(0.32, abs=0.1)
+    assert ours.recovery.image.mean() == pytest.approx(0.32, abs=0.1)
 
 
 def test_ours_is_above_the_papers_method_on_the_same_presses() -> None:

@@ -3,46 +3,30 @@
 
 """Accuracy of the paper's SRC and of ours on the same presses of simulated objects, over M and over time.
 
-The paper's method: adaptive sampling, each frame alone (`Classifier`). Ours: tracking sampling, and the fused image of
-several frames (`ImageClassifier`). Both sample the same recordings by the firmware's sampler with frames that begin at
-the same times, and have libraries from the same presses.
+The paper's method: adaptive sampling, each frame alone (the node's classifier ``src``). Ours: tracking sampling, and
+the fused image of several frames (``fused_image``). Both sample the same recordings by the firmware's sampler with
+frames that begin at the same times, and have libraries from the same presses.
 """
 
 from __future__ import annotations
 
-import time
 from collections import defaultdict
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_core.array import ArrayGeometry
-from acts_core.sampling import SamplingConfig
-from acts_recon.classifiers import CLASSIFIERS, FusedImageRecogniser, ObjectRecogniser, SrcRecogniser
-from acts_recon.fusion import FusionConfig, FusionEstimator, known_noise
-from acts_recon.methods import Fusion, SkinSetup
-from acts_recon.objects import (
-    Classification,
-    Classifier,
-    ClassifierConfig,
-    ImageClassifier,
-    ImageClassifierConfig,
-    ObjectLibrary,
-    build_object_library,
-)
+from acts_recon.fusion import known_noise
+from acts_recon.objects import ImageClassifierConfig, ObjectLibrary, build_object_library
 from acts_sim.pressing import RATE_HZ as RECORDED_HZ
 from acts_sim.pressing import ContactObject, FoamConfig, PressingArm, PressingConfig
 from acts_tools.evaluate.images.recovery import SAMPLE_US
+from acts_tools.evaluate.objects.contenders import TOUCH_COUNTS, Contender, contenders
 from acts_tools.evaluate.shares import wilson
 from acts_tools.firmware.board_sampler import BoardSampler
 from acts_tools.percentiles import percentiles
-
-PAPER, ACTS = "paper", "acts"
-TOUCH_COUNTS = 60
-"""The paper's touch threshold: its library, samples and search ignore lower counts. Contact begins there."""
 
 TIMES_MS = (2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 25, 30, 40, 50, 60, 80)
 MIDDLE_MS = 60.0
@@ -53,165 +37,8 @@ MS = (42, 48, 56, 64, 88, 128, 256, 512)
 _BEFORE_S = 0.100
 """Time without touch before a press, in which tracking scans the skin [s]."""
 
-UNKNOWN_NOISE = FusionConfig().noise_counts
-"""What methods assume of a recording whose noise is not known [counts]."""
-
 _LISTEN_S = 0.025
 """Time for which our method classifies before the first scored answer [s]; its memory is shorter."""
-
-
-class Contender(Protocol):
-    """A method of sampling and classification."""
-
-    sampling: SamplingConfig
-    spent_us: list[float]
-    """Processor time of each answer in contact, without the recovery of its image [us]."""
-
-    def reset(self) -> None:
-        """Prepare for another recording."""
-
-    def update(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float) -> None:
-        """Update by a frame of samples, without an answer."""
-
-    def answer(
-        self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float
-    ) -> int | None:
-        """Update by a frame of samples and return the class; None without a contact."""
-
-
-class PerFrameSrc:
-    """The paper's method: SRC on the samples of one frame, of adaptive sampling or another of its schemes."""
-
-    def __init__(
-        self, library: ObjectLibrary, m: int, *, touch_counts: int = TOUCH_COUNTS, scheme: str = "adaptive"
-    ) -> None:
-        self.sampling = SamplingConfig(
-            scheme=scheme, rows=library.rows, cols=library.cols, m=m, threshold_counts=touch_counts
-        )
-        self._classifier = Classifier(library, ClassifierConfig(touch_counts=touch_counts))
-        self.spent_us: list[float] = []
-
-    def reset(self) -> None:
-        """Nothing is kept."""
-
-    def update(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float) -> None:
-        """Nothing is kept."""
-
-    def answer(
-        self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float
-    ) -> int | None:
-        """See `Contender`."""
-        began_s = time.thread_time()
-        result = self._classifier.step(indices, counts)
-        return _answer(result, began_s, self.spent_us)
-
-
-class FusedImage:
-    """Our method: tracking sampling, classification of the fused image; told the noise, as by a calibration."""
-
-    def __init__(
-        self,
-        library: ObjectLibrary,
-        m: int,
-        config: ImageClassifierConfig | None = None,
-        *,
-        period_s: float,
-        noise_counts: float = UNKNOWN_NOISE,
-    ) -> None:
-        self._classifier = ImageClassifier(library, config)
-        self.sampling = SamplingConfig(
-            scheme="tracking",
-            rows=library.rows,
-            cols=library.cols,
-            m=m,
-            threshold_counts=self._classifier.config.touch_counts,
-        )
-        self._period_s = period_s
-        geometry = ArrayGeometry(rows=library.rows, cols=library.cols)
-        self._estimator = FusionEstimator(geometry, FusionConfig(noise_counts=noise_counts))
-        self.spent_us: list[float] = []
-
-    def reset(self) -> None:
-        """See `Contender`."""
-        self._estimator.reset()
-        self._classifier.reset()
-
-    def update(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float) -> None:
-        """See `Contender`."""
-        self._estimator.step(indices, counts, end_s, duration_s)
-
-    def answer(
-        self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float
-    ) -> int | None:
-        """See `Contender`."""
-        image = self._estimator.step(indices, counts, end_s, duration_s)
-        began_s = time.thread_time()
-        result = self._classifier.step(image, self._estimator.sigma, self._estimator.age_s, self._period_s)
-        return _answer(result, began_s, self.spent_us)
-
-
-class Registered:
-    """Any other classifier of the node (docs/extending.md), with tracking sampling and fusion like `FusedImage`."""
-
-    def __init__(
-        self, kind: type[ObjectRecogniser], library: ObjectLibrary, m: int, *, noise_counts: float = UNKNOWN_NOISE
-    ) -> None:
-        config = ImageClassifierConfig()
-        self.sampling = SamplingConfig(
-            scheme="tracking", rows=library.rows, cols=library.cols, m=m, threshold_counts=config.touch_counts
-        )
-        geometry = ArrayGeometry(rows=library.rows, cols=library.cols)
-        skin = SkinSetup(geometry, touch_counts=config.touch_counts, noise_counts=noise_counts)
-        self._method = Fusion(skin)
-        self._recogniser = kind(library, kind.Config(), skin, self._method)
-        self.spent_us: list[float] = []
-
-    def reset(self) -> None:
-        """See `Contender`."""
-        self._method.reset()
-        self._recogniser.reset()
-
-    def update(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float) -> None:
-        """See `Contender`."""
-        self._method.step(indices, counts, end_s, duration_s)
-        self._recogniser.update(indices, counts, end_s, duration_s)
-
-    def answer(
-        self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float
-    ) -> int | None:
-        """See `Contender`."""
-        self._method.step(indices, counts, end_s, duration_s)
-        began_s = time.thread_time()
-        return _answer(self._recogniser.step(indices, counts, end_s, duration_s), began_s, self.spent_us)
-
-
-def contenders(
-    coarse: ObjectLibrary, fine: ObjectLibrary, m: int, *, noise_counts: float = UNKNOWN_NOISE
-) -> dict[str, Contender]:
-    """All classifiers by name: the paper's, ours, and further ones of the node.
-
-    Parameters
-    ----------
-    coarse, fine : ObjectLibrary
-        Libraries of the same presses: without counts below the paper's touch threshold, and with them.
-    m : int
-        Taxels per frame.
-    noise_counts : float
-        Standard deviation of a reading [counts]; 0: not known, as of recorded presses.
-    """
-    own = {name: kind for name, kind in CLASSIFIERS.items() if kind not in (SrcRecogniser, FusedImageRecogniser)}
-    return {
-        PAPER: PerFrameSrc(coarse, m),
-        ACTS: FusedImage(fine, m, period_s=frame_period_s(m), noise_counts=noise_counts),
-        **{name: Registered(kind, fine, m, noise_counts=noise_counts) for name, kind in own.items()},
-    }
-
-
-def _answer(result: Classification, began_s: float, spent_us: list[float]) -> int | None:
-    if not result.touched:
-        return None
-    spent_us.append(1e6 * (time.thread_time() - began_s))
-    return result.best
 
 
 def frame_period_s(m: int, rate_hz: float = 1000.0) -> float:

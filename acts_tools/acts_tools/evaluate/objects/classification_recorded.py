@@ -14,12 +14,8 @@ import numpy as np
 from acts_core.errors import RecordingError
 from acts_core.files import FramesFile, without_contact
 from acts_recon.objects import ImageClassifierConfig, build_object_library
-from acts_tools.evaluate.objects.classification import (
-    TOUCH_COUNTS,
-    accuracy,
-    answers,
-    contenders,
-)
+from acts_tools.evaluate.objects.classification import accuracy, answers
+from acts_tools.evaluate.objects.contenders import TOUCH_COUNTS, contenders
 
 NEAREST = "nearest"
 _RUN_UP_S = 1.0

@@ -13,16 +13,8 @@ import numpy as np
 from acts_recon.fusion import known_noise
 from acts_sim.pressing import OBJECTS
 from acts_tools.evaluate.images.recovery import SAMPLE_US
-from acts_tools.evaluate.objects.classification import (
-    MIDDLE_MS,
-    FusedImage,
-    PerFrameSrc,
-    Trials,
-    answers,
-    arm_of,
-    frame_period_s,
-    press_of,
-)
+from acts_tools.evaluate.objects.classification import MIDDLE_MS, Trials, answers, arm_of, press_of
+from acts_tools.evaluate.objects.contenders import ours, papers
 from acts_tools.evaluate.shares import wilson
 from acts_tools.figures.figure import Figure
 from acts_tools.figures.published import PublishedData
@@ -76,9 +68,9 @@ def _measure_all(run: Run) -> dict[str, Any]:
             arm, coarse, fine = arm_of(trials, number)
             names = list(coarse.names)
             judged = {
-                f"{scheme} {m}": FusedImage(fine, m, period_s=frame_period_s(m), noise_counts=noise_counts)
+                f"{scheme} {m}": ours(fine, m, noise_counts=noise_counts)
                 if scheme == OUR_KEY
-                else PerFrameSrc(coarse, m, scheme="raster" if m == ALL else scheme)
+                else papers(coarse, m, "raster" if m == ALL else scheme)
                 for scheme, m, _ in asked
             }
             for item in range(count):
