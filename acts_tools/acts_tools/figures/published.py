@@ -75,15 +75,13 @@ class PublishedData:
         named: str,
         beside: str = "",
         scheme: str = "",
-        axes: int = 0,
         scale: float = 1.0,
-        x_scale: float = 1.0,
     ) -> Curve:
-        """A curve to be drawn as `named`, its points multiplied by the scales."""
-        points = self.points(figure, label, axes)
+        """A curve to be drawn as `named`, its values multiplied by a scale."""
+        points = self.points(figure, label)
         return Curve(
             named,
-            (points[:, 0] * x_scale).tolist(),
+            points[:, 0].tolist(),
             (points[:, 1] * scale).tolist(),
             PUBLISHED,
             scheme,

@@ -24,6 +24,7 @@ from acts_tools.hand_rigs.recording import HandRecording, StatusSample
 
 # Twice the number of messages per second of the most frequent topic.
 _DEPTH = 2048
+_LAYOUT = "leap_right"
 # One in this many messages of regions is decoded: at 1 kHz a hundred a second.
 _EVERY = 10
 _FRESH_S = 0.1
@@ -40,8 +41,6 @@ class HandCollector(PollingNode):
         Folder of the rings of `hand_world`.
     recording : HandRecording
         Recording to fill.
-    layout_name : str
-        Name of the skin's layout.
 
     Attributes
     ----------
@@ -53,16 +52,14 @@ class HandCollector(PollingNode):
         Time for which the hand has reported fresh touch [s].
     """
 
-    def __init__(
-        self, namespace: str, run_dir: Path, recording: HandRecording, layout_name: str = "leap_right"
-    ) -> None:
+    def __init__(self, namespace: str, run_dir: Path, recording: HandRecording) -> None:
         super().__init__("live_hand", namespace=namespace)
         self.recording = recording
         self.status: StatusSample | None = None
         self.touch_age_s = float("inf")
         self.fresh_s = 0.0
         self._stale_s = 0.0
-        skin = layout(layout_name, 32, 32)
+        skin = layout(_LAYOUT, 32, 32)
         recording.patches = tuple(patch.name for patch in skin.patches)
         self._taxels = int(skin.taxels.size)
         # Stamps are of the system's clock, the world's times of CLOCK_MONOTONIC.

@@ -15,7 +15,6 @@ from acts_ros.messages import ns_of
 from acts_tools.percentiles import percentiles
 
 
-
 class ContactStream:
     """Receives the contacts of a skin like an ordinary subscriber, and stores four bytes of each.
 

@@ -37,19 +37,19 @@ def dictionary_named(word: str) -> Dictionary:
     return Dictionary(atoms, math.isqrt(atoms.shape[0]), {}, word)
 
 
-def cosine_dictionary(side: int = _SIDE, atoms: int = _ATOMS) -> Dictionary:
+def cosine_dictionary() -> Dictionary:
     """Overcomplete discrete cosine transform of a patch's pixels as one sequence, as in the paper's comparison (S8).
 
     Atom k is ``cos(pi * k * pixel / atoms)`` over the pixels of the patch, column by column, minus its mean (except
     atom 0), and normalised.
     """
-    pixel, k = np.arange(side**2)[:, None], np.arange(atoms)[None, :]
-    waves = np.cos(np.pi * k * pixel / atoms)
+    pixel, k = np.arange(_SIDE**2)[:, None], np.arange(_ATOMS)[None, :]
+    waves = np.cos(np.pi * k * pixel / _ATOMS)
     waves[:, 1:] -= waves[:, 1:].mean(axis=0)
-    return Dictionary((waves / np.linalg.norm(waves, axis=0)).astype(np.float32), side, {}, "overcomplete DCT")
+    return Dictionary((waves / np.linalg.norm(waves, axis=0)).astype(np.float32), _SIDE, {}, "overcomplete DCT")
 
 
-def haar_dictionary(side: int = _SIDE, atoms: int = _ATOMS) -> Dictionary:
+def haar_dictionary(atoms: int = _ATOMS) -> Dictionary:
     """Overcomplete Haar: products of boxes and steps of 1, 2, 4, ... pixels at every position along rows and columns.
 
     There are 1156 products for a patch of 8 x 8; those `atoms` that cover most pixels are used, normalised.
@@ -57,17 +57,15 @@ def haar_dictionary(side: int = _SIDE, atoms: int = _ATOMS) -> Dictionary:
     Raises
     ------
     DictionaryError
-        When a patch of this side has fewer of them.
+        When there are fewer of them.
     """
-    line = _haar_line(side)
+    line = _haar_line(_SIDE)
     products = np.array([np.kron(along_cols, along_rows) for along_cols in line for along_rows in line])
     if len(products) < atoms:
-        raise DictionaryError(
-            f"{atoms} Haar atoms: a patch of {side} x {side} has {len(products)}; use larger patches or fewer atoms"
-        )
+        raise DictionaryError(f"{atoms} Haar atoms: a patch of {_SIDE} x {_SIDE} has {len(products)}; use fewer atoms")
     widest = np.argsort(-np.count_nonzero(products, axis=1), kind="stable")[:atoms]
     chosen = products[widest].T
-    return Dictionary((chosen / np.linalg.norm(chosen, axis=0)).astype(np.float32), side, {}, "overcomplete Haar")
+    return Dictionary((chosen / np.linalg.norm(chosen, axis=0)).astype(np.float32), _SIDE, {}, "overcomplete Haar")
 
 
 def _haar_line(side: int) -> NDArray[np.float64]:

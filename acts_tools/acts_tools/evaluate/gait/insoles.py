@@ -114,11 +114,9 @@ class FoundSteps:
     force: tuple[Array, ...]
 
 
-def find_steps(
-    recording: InsoleRecording, length_m: float, width_m: float, config: GaitConfig | None = None
-) -> FoundSteps:
+def find_steps(recording: InsoleRecording, length_m: float, width_m: float) -> FoundSteps:
     """Find the steps of a recording; the size is that of the insoles [m]."""
-    config = config or GaitConfig()
+    config = GaitConfig()
     tracker = GaitTracker(config)
     feet = [force_and_centre(recording.frames[:, foot], length_m, width_m) for foot in range(recording.frames.shape[1])]
     rows = [list(zip(*(column.tolist() for column in foot), strict=True)) for foot in feet]

@@ -9,13 +9,10 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from acts_recon.gait import GaitConfig, Step
 from acts_sim.walking import Footfall, Walk, Walking, walk
 from acts_tools.evaluate.gait.insoles import FoundSteps, InsoleRecording, find_steps
-
-Array = NDArray[np.float64]
 
 _DURATION_S = 20.0
 _NEAR_S = 0.15

@@ -41,9 +41,9 @@ _LISTEN_S = 0.025
 """Time for which our method classifies before the first scored answer [s]; its memory is shorter."""
 
 
-def frame_period_s(m: int, rate_hz: float = 1000.0) -> float:
-    """Time between frames [s]: that of `rate_hz`, or that of `m` measurements if it is longer."""
-    return max(1 / rate_hz, m * SAMPLE_US * 1e-6)
+def _frame_period_s(m: int) -> float:
+    """Time between frames [s]: a millisecond, or that of `m` measurements if it is longer."""
+    return max(1e-3, m * SAMPLE_US * 1e-6)
 
 
 def answers(
@@ -76,7 +76,7 @@ def answers(
         Classes; None where no contact was detected.
     """
     m = contender.sampling.m
-    period_s, step_s = frame_period_s(m), SAMPLE_US * 1e-6
+    period_s, step_s = _frame_period_s(m), SAMPLE_US * 1e-6
     run_up_s = contact_s if run_up_s is None else run_up_s
     contender.reset()
     sampler = BoardSampler(contender.sampling)

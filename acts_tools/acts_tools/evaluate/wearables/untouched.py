@@ -15,7 +15,7 @@ from acts_core.frames import SampleFrame, Scheme
 from acts_core.sampling import SamplingConfig
 from acts_core.skin import layout
 from acts_driver.baseline import BaselineConfig, BaselineTracker
-from acts_sim.wearables import RestConfig, RestingSkin
+from acts_sim.wearables import RestingSkin
 from acts_tools.evaluate.images.recovery import SAMPLE_US
 from acts_tools.evaluate.images.scene_frames import Frame
 from acts_tools.evaluate.wearables.watching import SCHEME, THRESHOLD_COUNTS, Watcher
@@ -51,7 +51,6 @@ def watch_untouched(
     m: int,
     noise_counts: float,
     rng: np.random.Generator,
-    rest: RestConfig | None = None,
     show: Callable[[int], None] = lambda _: None,
 ) -> Untouched:
     """Calibrate an untouched skin in its first seconds, as the driver does, and watch it.
@@ -65,14 +64,13 @@ def watch_untouched(
     noise_counts : float
         Of a reading.
     rng : np.random.Generator
-    rest : RestConfig, optional
     show : callable
         Called with the number of seconds so far.
     """
     arranged = layout(layout_name)
     watcher = Watcher(arranged, noise_counts)
     rows, cols = arranged.matrix_rows, arranged.matrix_cols
-    resting = RestingSkin(rows * cols, rng, rest)
+    resting = RestingSkin(rows * cols, rng)
     config = SamplingConfig(scheme=SCHEME, m=m, threshold_counts=THRESHOLD_COUNTS, seed=int(rng.integers(1, 2**31)))
     sampler = sampler_of(config, noise_counts, watcher.skin_map)
     tracker = BaselineTracker(rows, cols, BaselineConfig())
