@@ -14,6 +14,7 @@ import pytest
 import yaml
 from ament_index_python.packages import get_package_share_directory
 
+from acts_control.hand.description import LEAP_RIGHT
 from acts_recon.settings import ReconstructionSettings
 from acts_sim.hand import HandWorldConfig, PatchTruth
 from acts_tools.cli import main
@@ -106,6 +107,22 @@ def test_sliding_is_the_mean_over_the_patches_weighted_by_force() -> None:
     assert slip.sliding_m_s(replace(truth, patches={})) == 0.0
     patches = {"palm": PatchTruth(force_n=3.0, sliding_m_s=0.001), "index_distal": PatchTruth(1.0, 0.5, 0.005, 0.0)}
     assert slip.sliding_m_s(replace(truth, patches=patches)) == pytest.approx(0.002)
+
+
+@pytest.mark.parametrize("size_m", [0.018, 0.025])
+def test_a_sphere_that_was_brought_to_the_centre_stays_there_and_does_not_slip(size_m: float) -> None:
+    """It rocked to and fro: joints went back to where they had been before they brought it there."""
+    world = HandWorldConfig(seed=1, object="sphere", object_size_m=size_m)
+    rig = HandRig(world, RigOptions(reflexes=("sharp", "slip", "sphere")))
+    rig.run(0.5)
+    assert rig.grasp()
+    rig.run(2.0)
+    at, slips = rig.object_m(), rig.reflexes["slip"].events
+    rig.run(1.0)
+    assert np.linalg.norm(rig.object_m() - at) < 0.0005
+    assert rig.reflexes["slip"].events == slips
+    palm = LEAP_RIGHT.regions["palm"]
+    assert np.linalg.norm((rig.object_m() - palm.centre_m)[:2]) < 0.005
 
 
 def test_the_command_runs_seeds_and_writes_shares_with_intervals(

@@ -71,7 +71,7 @@ class SphereBalancingConfig:
     )
     sphere_return_per_s: float = setting(
         1.5,
-        "how fast joints that do not close a finger go back to where they were at first [1/s]",
+        "how fast joints that do not close a finger go back to where they were when the sphere was centred [1/s]",
         minimum=0.0,
         maximum=50.0,
     )
@@ -94,8 +94,8 @@ class SphereBalancingState:
 
     Attributes
     ----------
-    first_rad : np.ndarray or None
-        Goals of the joints when the hand began to hold [rad].
+    rest_rad : np.ndarray or None
+        Goals of the joints when the sphere was last at the palm's centre, at first when the hand began to hold [rad].
     ball : Ball or None
         The sphere, in the frame of the hand's base.
     rolling : Rolling or None
@@ -110,7 +110,7 @@ class SphereBalancingState:
         For each region of a finger, the joint that moves its link and closes the finger.
     """
 
-    first_rad: Array | None = None
+    rest_rad: Array | None = None
     ball: Ball | None = None
     rolling: Rolling | None = None
     pinching: Pinching | None = None
@@ -199,9 +199,9 @@ class SphereBalancing(Reflex):
         touched = {finger: _outermost(sensed, finger) for finger in sensed.hand.fingers}
         if not any(touched.values()) or sum(one.in_contact for one in sensed.regions.values()) < 2:
             return None
-        if state.first_rad is None:
-            state.first_rad = sensed.goal_rad.copy()
-        rates = config.sphere_return_per_s * (state.first_rad - sensed.goal_rad) * (_all_closing(sensed) == 0.0)
+        if state.rest_rad is None or not state.is_off:
+            state.rest_rad = sensed.goal_rad.copy()
+        rates = config.sphere_return_per_s * (state.rest_rad - sensed.goal_rad) * (_all_closing(sensed) == 0.0)
         rates += self._follow_all(sensed, ball)
         parts = aiming.approaches(sensed, ball.foot_m, ball.up)
         for finger, region in touched.items():
