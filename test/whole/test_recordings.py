@@ -25,7 +25,7 @@ from acts_msgs.msg import Contact, TactileSamples
 from acts_recon.contacts.contact import find_contact
 from acts_recon.sparse import Reconstructor, load_dictionary, shipped_dictionary_path
 from acts_ros import qos
-from acts_sim.pressing.recording import export_recording
+from acts_sim.pressing import export_recording
 from acts_tools.testing.launch_runner import launched
 
 mpl.use("Agg")

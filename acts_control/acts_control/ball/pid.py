@@ -91,14 +91,12 @@ class Ball(NamedTuple):
 
 @dataclass
 class PidState:
-    """What the law remembers and did.
+    """What the law remembers.
 
     Attributes
     ----------
     integral_x_m_s2, integral_y_m_s2 : float
         The integral's part of the wanted acceleration [m/s^2].
-    acceleration_x_m_s2, acceleration_y_m_s2 : float
-        All of it [m/s^2].
     saturated : bool
         Whether the tilt was limited.
     resistance : float
@@ -107,8 +105,6 @@ class PidState:
 
     integral_x_m_s2: float = 0.0
     integral_y_m_s2: float = 0.0
-    acceleration_x_m_s2: float = 0.0
-    acceleration_y_m_s2: float = 0.0
     saturated: bool = False
     resistance: float = 0.0
 
@@ -172,7 +168,6 @@ class BallPid:
         ay = reference.ay_m_s2 + resist_y + config.kp * ez_y + config.kd * ev_y
         ax += state.integral_x_m_s2
         ay += state.integral_y_m_s2
-        state.acceleration_x_m_s2, state.acceleration_y_m_s2 = ax, ay
         wanted = tilt_for(ax, ay, self.max_tilt_rad)
         state.saturated = hypot(*wanted) >= self.max_tilt_rad * (1.0 - 1e-9)
         # Anti-windup: no integration where the plate cannot follow or the ball is still far away.

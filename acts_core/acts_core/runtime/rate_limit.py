@@ -21,18 +21,15 @@ class RateLimit:
     def __init__(self, rate_hz: float) -> None:
         self.set_rate(rate_hz)
         self._next_s = 0.0
-        self.taken = 0
-        """Frames that were due so far."""
 
     def set_rate(self, rate_hz: float) -> None:
         """Change the rate, from the next due frame on."""
         self._period_s = 1.0 / rate_hz if rate_hz > 0 else 0.0
 
     def due(self, now_s: float) -> bool:
-        """Whether the frame that came at `now_s` (monotonic) is due; if so, it counts as taken."""
+        """Whether the frame that came at `now_s` (monotonic) is due; if so, the next one is due a period later."""
         if now_s < self._next_s:
             return False
         on_time = now_s < self._next_s + self._period_s
         self._next_s = (self._next_s if on_time else now_s) + self._period_s
-        self.taken += 1
         return True

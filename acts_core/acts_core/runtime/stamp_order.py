@@ -32,15 +32,9 @@ class StampOrder:
 
     A single wrong stamp, a second ahead or a year back, is left out and changes nothing. Where a clock was set, or the
     stream has paused, five messages in a row follow one another, and are followed from the fifth on.
-
-    Attributes
-    ----------
-    strays : int
-        Stamps that were not to be used.
     """
 
     def __init__(self) -> None:
-        self.strays = 0
         self._newest_ns: int | None = None
         self._gap_ns = _GAP_NS
         self._stray_ns = 0
@@ -58,7 +52,6 @@ class StampOrder:
         is_in_a_row = self._strays_in_a_row > 0 and 0 < interval_ns <= _SLOWEST_NS
         self._strays_in_a_row = self._strays_in_a_row + 1 if is_in_a_row else 1
         if self._strays_in_a_row < _CONFIRMED:
-            self.strays += 1
             return Order.STRAY
         self._newest_ns, self._strays_in_a_row = stamp_ns, 0
         self._gap_ns = max(_GAP_NS, _GAP_INTERVALS * interval_ns)

@@ -94,7 +94,7 @@ def decode_message(packet: bytes) -> BoardMessage:
 
 
 def encode_image(image: BoardImage) -> bytes:
-    """Encode an image as the board does, delimiter included."""
+    """Encode an image as the board does, delimiter included: for boards in Python, as tests have them."""
     rows, cols = image.counts.shape
     head = _IMAGE.pack(image.sequence, image.board_us, image.duration_us, rows, cols, 0)
     return seal(PacketType.IMAGE, head + image.counts.astype(_U2).tobytes())
@@ -115,7 +115,7 @@ def _decode_image(content: bytes) -> BoardImage:
 
 
 def encode_object(message: BoardObject) -> bytes:
-    """Encode a classification as the board does, delimiter included."""
+    """Encode a classification as the board does, delimiter included: for boards in Python, as tests have them."""
     number = _NO_OBJECT if message.number is None else message.number
     head = _OBJECT.pack(message.sequence, message.board_us, message.duration_us, number, len(message.residuals), 0)
     return seal(PacketType.OBJECT, head + message.residuals.astype(_F4).tobytes())

@@ -110,6 +110,7 @@ class HeldModel:
 
 
 NO_MODEL = HeldModel(ModelKind.NONE, 0, 0, 0, 0, 0, 0)
+"""What a board without a model reports."""
 
 
 @dataclass(frozen=True)
@@ -271,7 +272,7 @@ def _command(kind: PacketType, request: int, body: bytes = b"") -> bytes:
 
 
 def encode_reply(reply: Reply) -> bytes:
-    """Encode a reply as the board does, delimiter included."""
+    """Encode a reply as the board does, delimiter included: for boards in Python, as tests have them."""
     state = reply.state
     model = state.model
     head = _REPLY_HEAD.pack(

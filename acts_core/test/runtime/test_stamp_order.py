@@ -34,7 +34,6 @@ def test_strays_that_do_not_follow_one_another_change_nothing() -> None:
         assert order.step(NOW_NS + k * MS) is Order.NEXT
         for stray_ns in (NOW_NS - 7 * k * MS, NOW_NS + 3_600_000 * MS):
             assert order.step(stray_ns) is Order.STRAY
-    assert order.strays == 198
 
 
 @pytest.mark.parametrize("interval_ms", [1, 40, 200, 900])

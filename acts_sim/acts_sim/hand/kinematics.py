@@ -104,12 +104,6 @@ LINKS: tuple[Link, ...] = (
 
 PALM_MASS_KG = 0.237
 
-TIPS: dict[str, Triple] = {
-    **{f"{finger}_distal": (0.0, -0.0480, 0.0150) for finger in FINGERS},
-    "thumb_distal": (0.0, -0.0600, -0.0150),
-}
-"""Fingertips in their links' frames [m]."""
-
 
 @dataclass(frozen=True)
 class Solid:
@@ -141,9 +135,6 @@ SKIN_THICKNESS_M = 0.003
 
 PALM_SURFACE_Z_M = -0.0345
 """z of the surface of the palm's skin, in the palm's frame [m]."""
-
-FINGER_SKIN_RADIUS_M = _CORE_RADIUS_M + SKIN_THICKNESS_M
-"""Radius of the skin of fingers and thumb about their centre lines [m]."""
 
 
 def _finger_solids(name: str) -> tuple[Solid, ...]:

@@ -11,7 +11,7 @@ import pytest
 
 from acts_core.skin import layout
 from acts_sim.hand import SOLIDS, kinematics, model
-from acts_sim.hand.kinematics import FINGER_SKIN_RADIUS_M, LINKS, PALM_SURFACE_Z_M
+from acts_sim.hand.kinematics import FINGERS, LINKS, PALM_SURFACE_Z_M, SKIN_THICKNESS_M
 
 # Motor, anchor [m] and axis of its joint in the palm's frame with all joints at 0, from the published body offsets.
 PUBLISHED = [
@@ -30,6 +30,11 @@ PUBLISHED = [
     (14, (-0.0823, 0.0301, -0.0071), (0, 0, -1)),
     (15, (-0.0823, 0.0767, -0.0069), (0, 0, -1)),
 ]
+# Fingertips in the frames of their links, and in the palm's with all joints at 0 [m].
+TIPS_ON_LINKS = {
+    **{f"{finger}_distal": (0.0, -0.0480, 0.0150) for finger in FINGERS},
+    "thumb_distal": (0.0, -0.0600, -0.0150),
+}
 TIPS = {
     "index_distal": (0.1302, 0.0076, -0.0195),
     "middle_distal": (0.1301, -0.0378, -0.0195),
@@ -63,7 +68,7 @@ def test_tips_are_where_they_are_published_and_close_towards_the_palm(
     made, data = hand
     for link, tip_m in TIPS.items():
         body = mujoco.mj_name2id(made, mujoco.mjtObj.mjOBJ_BODY, link)
-        there = data.xpos[body] + data.xmat[body].reshape(3, 3) @ kinematics.TIPS[link]
+        there = data.xpos[body] + data.xmat[body].reshape(3, 3) @ TIPS_ON_LINKS[link]
         assert there == pytest.approx(tip_m, abs=1.5e-4)
         for one in LINKS:
             if one.name.split("_")[0] == link.split("_")[0] and one.motor_id in CLOSING:
@@ -108,8 +113,9 @@ def test_the_skin_lies_on_the_solids_of_its_links(hand: tuple[mujoco.MjModel, mu
         start, end = np.array(solid.start_m), np.array(solid.end_m)
         along = (end - start) / np.linalg.norm(end - start)
         out = (points - start) - np.outer((points - start) @ along, along)
-        assert np.linalg.norm(out, axis=1) == pytest.approx(FINGER_SKIN_RADIUS_M, abs=2e-5)
-        assert (out * normals).sum(axis=1) == pytest.approx(FINGER_SKIN_RADIUS_M, abs=2e-5)
+        radius_m = solid.radius_m + SKIN_THICKNESS_M
+        assert np.linalg.norm(out, axis=1) == pytest.approx(radius_m, abs=2e-5)
+        assert (out * normals).sum(axis=1) == pytest.approx(radius_m, abs=2e-5)
         inwards = (1, 0, 0) if patch.name.startswith("thumb") else (0, 0, -1)
         middle = normals.mean(axis=0) / np.linalg.norm(normals.mean(axis=0))
         assert middle == pytest.approx(inwards, abs=1e-6)

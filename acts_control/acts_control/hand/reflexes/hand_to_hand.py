@@ -57,18 +57,12 @@ class HandToHandState:
 
     Attributes
     ----------
-    largest_n : float
-        Largest force that a phalanx has pressed with [N].
-    yielded : int
-        Steps in which a finger gave way.
     phalanges : int
         Phalanges in touch at the last step.
     moves : dict
         For each region of a finger, the joint that moves its link and closes the finger.
     """
 
-    largest_n: float = 0.0
-    yielded: int = 0
     phalanges: int = 0
     moves: dict[str, int] = field(default_factory=dict)
 
@@ -99,10 +93,7 @@ class HandToHand(Reflex):
             if not any(one.in_contact for one in regions):
                 continue
             closing = sensed.closing(finger)
-            pressed = max(regions, key=lambda one: one.force_n)
-            state.largest_n = max(state.largest_n, pressed.force_n)
             if at_palm or any(map(self._is_too_much, regions)):
-                state.yielded += 1
                 steps -= config.hand_to_hand_max_steps * closing
                 why = f"{finger} gives way"
                 continue
