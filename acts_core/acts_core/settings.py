@@ -22,6 +22,7 @@ import difflib
 import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from decimal import ROUND_CEILING, Context, Decimal
 from enum import Enum
 from typing import Any, TypeVar, cast
@@ -167,6 +168,8 @@ def checked(name: str, value: Any, default: SettingValue, info: SettingInfo) -> 
 def from_text(settings_class: type, name: str, text: str) -> SettingValue:
     """The value of one setting as a person writes it on a command line: words as they stand, all else as in YAML.
 
+    Beyond YAML, 1e-3 is a number, and a list needs no brackets: ``1, 2`` or ``1 2``.
+
     Raises
     ------
     SettingsError
@@ -174,12 +177,22 @@ def from_text(settings_class: type, name: str, text: str) -> SettingValue:
     """
     default = default_of(settings_class, name)
     value: Any = text
-    if not isinstance(default, str):
-        try:
-            value = yaml.safe_load(text)
-        except yaml.YAMLError:
-            value = text
+    if isinstance(default, tuple) and not text.lstrip().startswith("["):
+        value = [_from_yaml(word) for word in text.replace(",", " ").split()]
+    elif not isinstance(default, str):
+        value = _from_yaml(text)
     return checked(name, value, default, describe(settings_class)[name])
+
+
+def _from_yaml(text: str) -> Any:
+    try:
+        value = yaml.safe_load(text)
+    except yaml.YAMLError:
+        return text
+    if isinstance(value, str):
+        with suppress(ValueError):
+            return float(value)
+    return value
 
 
 def _converted(value: Any, default: SettingValue) -> SettingValue:

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from acts_core.errors import SettingsError
-from acts_core.settings import describe, from_mapping, rounded_up, setting, validate
+from acts_core.settings import describe, from_mapping, from_text, rounded_up, setting, validate
 
 
 @dataclass(frozen=True)
@@ -64,6 +64,39 @@ def test_a_wrong_value_is_refused_with_what_is_allowed(key: str, value: Any, wor
     assert key in str(error.value)
     assert repr(value) in str(error.value)
     assert words in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "value"),
+    [
+        ("rate_hz", "1e2", 100.0),
+        ("rate_hz", "7", 7.0),
+        ("depth", "9007199254740993", 9007199254740993),
+        ("enabled", "false", False),
+        ("protocol", "binary", "binary"),
+        ("home_rad", "[1, -2.5]", (1.0, -2.5)),
+        ("home_rad", "1, -2.5", (1.0, -2.5)),
+        ("home_rad", "1 -2.5e-1", (1.0, -0.25)),
+    ],
+)
+def test_settings_are_read_as_people_write_them(name: str, text: str, value: Any) -> None:
+    assert from_text(Example, name, text) == value
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("rate_hz", "fast"),
+        ("rate_hz", "[1"),
+        ("rate_hz", "inf"),
+        ("depth", "1e-3"),
+        ("enabled", "1"),
+        ("home_rad", "1"),
+    ],
+)
+def test_a_wrong_text_is_refused_by_the_name_of_its_setting(name: str, text: str) -> None:
+    with pytest.raises(SettingsError, match=f"^{name} = "):
+        from_text(Example, name, text)
 
 
 def test_an_unknown_key_names_its_neighbour() -> None:

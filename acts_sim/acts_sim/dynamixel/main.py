@@ -23,6 +23,7 @@ from acts_sim.dynamixel.faults import Faults
 from acts_sim.dynamixel.joints import FreeJoints
 from acts_sim.dynamixel.motor import Motor
 from acts_sim.dynamixel.port import BusPort
+from acts_sim.shared import add_settings, own_words, settings_from
 
 _STEP_S = 0.002
 
@@ -41,12 +42,8 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
         "--range-rad", type=float, default=math.pi, help="range of each joint to both sides of pi [rad]"
     )
     parser.add_argument("--control", type=Path, help="Unix socket for faults, one per line: lose 3, unplug ...")
-    parser.add_argument("--realtime-priority", type=int, default=0, help="SCHED_FIFO priority; 0: ordinary scheduling")
-    parser.add_argument("--cpu-affinity", default="", help="cores to run on, as in 0,2-3")
-    own = list(arguments)
-    if "--ros-args" in own:
-        del own[own.index("--ros-args") :]
-    options = parser.parse_args(own)
+    add_settings(parser, RealtimeConfig)
+    options = parser.parse_args(own_words(arguments))
     for name, low, high in (("motors", 1, 100), ("return_delay", 0, 254), ("baud", 0, 10_000_000)):
         value = getattr(options, name)
         if not low <= value <= high:
@@ -64,7 +61,7 @@ def run(options: argparse.Namespace, signals: StopSignals) -> None:
     ActsError
         When the port or the control socket cannot be made.
     """
-    scheduling = RealtimeConfig(realtime_priority=options.realtime_priority, cpu_affinity=options.cpu_affinity)
+    scheduling = settings_from(options, RealtimeConfig)
     motors = [Motor(MODELS[options.model], number, options.return_delay) for number in range(options.motors)]
     bus = Bus(motors)
     limits = [(math.pi - options.range_rad, math.pi + options.range_rad)] * len(motors)

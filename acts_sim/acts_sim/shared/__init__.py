@@ -1,13 +1,24 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Communication of simulated processes: a private folder, rings in shared memory, lines of text over sockets.
+"""What simulated processes share: options, a private folder, rings in shared memory, lines of text over sockets.
 
-In come arrays with their times; out come those of any time in the last 128 ms.
+Into a ring come arrays with their times; out come those of any time in the last 128 ms.
 """
 
 from acts_sim.shared.lines import LineSession
+from acts_sim.shared.options import add_settings, own_words, settings_from
 from acts_sim.shared.run_folder import Claim, default_run_dir, make_private
 from acts_sim.shared.timed_ring import TimedRingReader, TimedRingWriter
 
-__all__ = ["Claim", "LineSession", "TimedRingReader", "TimedRingWriter", "default_run_dir", "make_private"]
+__all__ = [
+    "Claim",
+    "LineSession",
+    "TimedRingReader",
+    "TimedRingWriter",
+    "add_settings",
+    "default_run_dir",
+    "make_private",
+    "own_words",
+    "settings_from",
+]

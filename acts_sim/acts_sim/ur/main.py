@@ -19,9 +19,8 @@ import numpy as np
 
 from acts_core.errors import ActsError, exit_code
 from acts_core.runtime import RealtimeConfig, enter_realtime
-from acts_core.settings import default_of, describe, from_mapping
 from acts_core.stop_signals import StopSignals
-from acts_sim.shared import Claim, LineSession, TimedRingWriter
+from acts_sim.shared import Claim, LineSession, TimedRingWriter, add_settings, own_words, settings_from
 from acts_sim.ur import Controller, ControllerConfig
 from acts_sim.ur.ports import Port, RtdePort, ScriptSession, Server, dashboard, hooks
 
@@ -67,27 +66,8 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     parser.add_argument(
         "--hook-port", type=int, default=0, help="port of the test hooks; 0: none. Lines: protective_stop, state ..."
     )
-    for name, info in describe(ControllerSettings).items():
-        default = default_of(ControllerSettings, name)
-        allowed = f" ({info.allowed})" if info.allowed else ""
-        parser.add_argument(
-            _option(name),
-            default=default,
-            type=_floats if isinstance(default, tuple) else type(default),
-            help=info.description + allowed,
-        )
-    own = list(arguments)
-    if "--ros-args" in own:
-        del own[own.index("--ros-args") :]
-    return parser.parse_args(own)
-
-
-def _option(setting_name: str) -> str:
-    return "--q0" if setting_name == "q0_rad" else "--" + setting_name.replace("_", "-")
-
-
-def _floats(text: str) -> tuple[float, ...]:
-    return tuple(float(word) for word in text.replace(",", " ").split())
+    add_settings(parser, ControllerSettings)
+    return parser.parse_args(own_words(arguments))
 
 
 def run(options: argparse.Namespace, signals: StopSignals) -> None:
@@ -98,9 +78,7 @@ def run(options: argparse.Namespace, signals: StopSignals) -> None:
     ActsError
         When a setting is out of range, a port is taken or the ring cannot be written.
     """
-    names = describe(ControllerSettings)
-    values = {name: getattr(options, "q0" if name == "q0_rad" else name) for name in names}
-    config = from_mapping(ControllerSettings, values, "ur_controller")
+    config = settings_from(options, ControllerSettings)
     log = _Log(options.host)
     controller = Controller(config, log)
     rtde = RtdePort(controller)

@@ -16,17 +16,14 @@ from pathlib import Path
 
 from acts_core.errors import SettingsError
 from acts_core.runtime import RealtimeConfig, enter_realtime
-from acts_core.settings import default_of, describe, from_text
 from acts_core.stop_signals import StopSignals
 from acts_sim.dynamixel import BusPort, ControlSocket, state
 from acts_sim.hand import STEP_S, HandWorld, HandWorldConfig, carry_out, row_width
 from acts_sim.hand.process.loop import HandLoop
-from acts_sim.shared import Claim, TimedRingWriter, default_run_dir
+from acts_sim.shared import Claim, TimedRingWriter, add_settings, default_run_dir, own_words, settings_from
 
 TRUTH_SLOTS = 8192
 """Number of steps of truth in the ring: 16 s."""
-
-_OWN = ("link", "field_ring", "truth_ring", "control", "baud", "lead_ms", "realtime_priority", "cpu_affinity")
 
 
 def parse(arguments: Sequence[str]) -> tuple[argparse.Namespace, HandWorldConfig]:
@@ -41,19 +38,9 @@ def parse(arguments: Sequence[str]) -> tuple[argparse.Namespace, HandWorldConfig
     parser.add_argument("--control", type=Path, help=f"Unix socket for commands; hand.control {folder}")
     parser.add_argument("--baud", type=int, default=4_000_000, help="simulated baud rate; 0: packets take no time")
     parser.add_argument("--lead-ms", type=float, default=4.0, help="how far the world is ahead of the clock (2 to 20)")
-    parser.add_argument("--realtime-priority", type=int, default=0, help="SCHED_FIFO priority; 0: ordinary scheduling")
-    parser.add_argument("--cpu-affinity", default="", help="cores to run on, as in 0,2-3")
-    world = parser.add_argument_group("the world")
-    for name, info in describe(HandWorldConfig).items():
-        allowed = f" ({info.allowed})" if info.allowed else ""
-        default = default_of(HandWorldConfig, name)
-        world.add_argument(
-            f"--{name.replace('_', '-')}", dest=name, metavar="VALUE", help=f"{info.description}{allowed}; {default}"
-        )
-    own = list(arguments)
-    if "--ros-args" in own:
-        del own[own.index("--ros-args") :]
-    options = parser.parse_args(own)
+    add_settings(parser, RealtimeConfig)
+    add_settings(parser.add_argument_group("the world"), HandWorldConfig)
+    options = parser.parse_args(own_words(arguments))
     for name, low, high in (("baud", 0, 10_000_000), ("lead_ms", 2.0, 20.0)):
         value = getattr(options, name)
         if not low <= value <= high:
@@ -63,12 +50,7 @@ def parse(arguments: Sequence[str]) -> tuple[argparse.Namespace, HandWorldConfig
     options.field_ring = options.field_ring or run_dir / "field.ring"
     options.truth_ring = options.truth_ring or run_dir / "truth.ring"
     options.control = options.control or run_dir / "hand.control"
-    given = {
-        name: from_text(HandWorldConfig, name, text)
-        for name, text in vars(options).items()
-        if name not in _OWN and text is not None
-    }
-    return options, HandWorldConfig(**given)  # type: ignore[arg-type]
+    return options, settings_from(options, HandWorldConfig)
 
 
 def run(options: argparse.Namespace, config: HandWorldConfig, signals: StopSignals) -> None:
@@ -79,7 +61,7 @@ def run(options: argparse.Namespace, config: HandWorldConfig, signals: StopSigna
     ActsError
         When a ring, the port or the control socket cannot be made, or another process uses it.
     """
-    scheduling = RealtimeConfig(realtime_priority=options.realtime_priority, cpu_affinity=options.cpu_affinity)
+    scheduling = settings_from(options, RealtimeConfig)
     with contextlib.ExitStack() as stack:
         stack.enter_context(contextlib.closing(Claim(options.field_ring)))
         # Its kernels are compiled here where they are new, which takes long.

@@ -1,0 +1,51 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Options of a simulated program's command line: one for each setting of a dataclass."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from typing import TypeVar
+
+from acts_core.settings import default_of, describe, from_text
+
+T = TypeVar("T")
+
+
+def own_words(arguments: Sequence[str]) -> list[str]:
+    """The arguments before ``--ros-args``: ``ros2 launch`` adds that and more to every program."""
+    words = list(arguments)
+    return words[: words.index("--ros-args")] if "--ros-args" in words else words
+
+
+def add_settings(parser: argparse._ActionsContainer, settings_class: type) -> None:
+    """Add an option for each setting: ``--lead-ms`` for ``lead_ms``. `settings_from` reads them.
+
+    Parameters
+    ----------
+    parser : argparse.ArgumentParser or a group of its options
+    settings_class : type
+        A dataclass of `acts_core.settings.setting` fields.
+    """
+    for name, info in describe(settings_class).items():
+        allowed = f" ({info.allowed})" if info.allowed else ""
+        default = default_of(settings_class, name)
+        otherwise = "" if default == "" else f"; {default}"
+        text = f"{info.description}{allowed}{otherwise}".replace("%", "%%")
+        parser.add_argument(f"--{name.replace('_', '-')}", dest=name, metavar="VALUE", help=text)
+
+
+def settings_from(options: argparse.Namespace, settings_class: type[T]) -> T:
+    """The settings that were given, and the defaults of the others.
+
+    Raises
+    ------
+    SettingsError
+        Where type or range of one do not fit.
+    """
+    given = {name: getattr(options, name) for name in describe(settings_class)}
+    return settings_class(
+        **{name: from_text(settings_class, name, text) for name, text in given.items() if text is not None}
+    )

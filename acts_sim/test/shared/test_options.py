@@ -1,0 +1,63 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Options that are made from settings classes."""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import dataclass
+
+import pytest
+
+from acts_core.errors import SettingsError
+from acts_core.settings import setting, validate
+from acts_sim.shared import add_settings, own_words, settings_from
+
+
+@dataclass(frozen=True)
+class Config:
+    """One setting of each type."""
+
+    is_on: bool = setting(True, "whether 100 % are on")
+    steps: int = setting(3, "steps", minimum=1, maximum=9)
+    lead_ms: float = setting(4.0, "lead [ms]", minimum=0.0)
+    cores: str = setting("", "cores")
+    q_rad: tuple[float, ...] = setting((0.0, 0.0), "angles [rad]", length=2)
+
+    def __post_init__(self) -> None:
+        validate(self)
+
+
+def read(*words: str) -> Config:
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--other", type=int)
+    add_settings(parser, Config)
+    return settings_from(parser.parse_args(words), Config)
+
+
+def test_each_setting_has_an_option() -> None:
+    assert read("--other", "1") == Config()
+    given = read("--is-on", "false", "--steps", "4", "--lead-ms", "1e-3", "--cores", "0,2-3", "--q-rad", "0.1, -2")
+    assert given == Config(False, 4, 1e-3, "0,2-3", (0.1, -2.0))
+
+
+@pytest.mark.parametrize("words", ["--steps 10", "--steps 1.5", "--is-on 1", "--lead-ms nan", "--q-rad 1"])
+def test_what_does_not_fit_is_refused_by_its_name(words: str) -> None:
+    option, value = words.split()
+    with pytest.raises(SettingsError, match=option[2:].replace("-", "_")):
+        read(option, value)
+
+
+def test_help_says_what_is_allowed(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        read("--help")
+    told = " ".join(capsys.readouterr().out.split())
+    assert "--steps VALUE steps (1 to 9); 3" in told
+    assert "whether 100 % are on; True" in told
+    assert "--cores VALUE cores --q-rad" in told
+
+
+def test_words_of_ros_are_left_out() -> None:
+    assert own_words(["--a", "1", "--ros-args", "-r", "__node:=x", "--", "--b"]) == ["--a", "1"]
+    assert own_words(["--a"]) == ["--a"]
