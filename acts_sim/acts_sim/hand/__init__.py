@@ -10,7 +10,7 @@ The world depends on no clock and no process: the same seed gives the same bits.
 from acts_sim.hand.commands import carry_out
 from acts_sim.hand.kinematics import PALM, SOLIDS, frames, rotation_of
 from acts_sim.hand.objects import HeldObject, Piece, held_object
-from acts_sim.hand.skin_kernels import BOX, CAPSULE, CYLINDER
+from acts_sim.hand.solid_kernels import BOX, CAPSULE, CYLINDER
 from acts_sim.hand.tip import BLUNT_RADIUS_M, LARGEST_RADIUS_M, SHARP_RADIUS_M
 from acts_sim.hand.truth import COLUMN, PATCH_COLUMNS, PATCHES_FROM, HandTruth, PatchTruth, TruthFollower, row_width
 from acts_sim.hand.world import STEP_S, HandWorld, HandWorldConfig

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from acts_sim.hand.kinematics import FINGERS, LINKS, PALM, PALM_MASS_KG, SOLIDS, Solid, frames
 from acts_sim.hand.objects import HeldObject, Piece
-from acts_sim.hand.skin_kernels import BOX, CAPSULE, CYLINDER
+from acts_sim.hand.solid_kernels import BOX, CAPSULE, CYLINDER
 
 OBJECT = "object"
 TIP = "tip"

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_sim.hand.kinematics import PALM_SURFACE_Z_M
-from acts_sim.hand.skin_kernels import BOX, CAPSULE, CYLINDER, SPHERE
+from acts_sim.hand.kinematics import PALM_SURFACE_Z_M, rotation_of
+from acts_sim.hand.solid_kernels import BOX, CAPSULE, CYLINDER, SOLID, SPHERE, TIP
 
 # Rotations of the z axis to y and to x: quaternions w, x, y, z.
 _Z_TO_Y = (0.5**0.5, -(0.5**0.5), 0.0, 0.0)
@@ -31,9 +31,9 @@ class Piece:
     Attributes
     ----------
     kind : int
-        Kind of solid as in `skin_kernels`.
+        Kind of solid as in `solid_kernels`.
     size_m : tuple of float
-        Dimensions as in `skin_kernels`.
+        Dimensions as in `solid_kernels.SOLID`.
     offset_m : tuple of float
         Position in the object's frame; `quaternion` (w, x, y, z) is the orientation.
     """
@@ -116,3 +116,30 @@ def _other_hand(radius_m: float) -> tuple[Piece, ...]:
         Piece(CAPSULE, across, (0.0, 0.025, -0.5 * radius_m), _Z_TO_X),
         Piece(CAPSULE, across, (0.0, 0.050, -0.5 * radius_m), _Z_TO_X),
     )
+
+
+def solids_of(thing: HeldObject | None, thing_body: int, tip_body: int, unevenness_m: float) -> NDArray[np.void]:
+    """The pieces of an object, and last a tip that is not there yet.
+
+    Parameters
+    ----------
+    thing : HeldObject or None
+    thing_body, tip_body : int
+        Bodies of the model.
+    unevenness_m : float
+        The setting.
+
+    Returns
+    -------
+    np.ndarray [shape=(pieces + 1,), dtype=SOLID]
+        Without waves, which `Skin` draws.
+    """
+    pieces = () if thing is None else thing.pieces
+    solids = np.zeros(len(pieces) + 1, SOLID)
+    for solid, piece in zip(solids, pieces, strict=False):
+        solid["kind"], solid["body"], solid["there"] = piece.kind, thing_body, True
+        solid["pos"], solid["mat"] = piece.offset_m, rotation_of(piece.quaternion)
+        solid["size"][: len(piece.size_m)] = piece.size_m
+        solid["uneven"] = thing.unevenness * unevenness_m if thing else 0.0
+    solids[-1]["kind"], solids[-1]["body"], solids[-1]["mat"] = TIP, tip_body, np.eye(3)
+    return solids

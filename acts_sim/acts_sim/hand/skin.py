@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -16,8 +17,8 @@ from numpy.typing import NDArray
 from acts_core.settings import setting, validate
 from acts_core.skin import ForceResponse, Layout, SkinPatch
 from acts_sim.hand.kinematics import SKIN_THICKNESS_M
-from acts_sim.hand.skin_kernels import PATCH_RESULTS, WAVES, press
-from acts_sim.hand.solids import Solids
+from acts_sim.hand.skin_kernels import BLOCK, FOAM, PATCH_RESULTS, POINT, press
+from acts_sim.hand.solid_kernels import NEAR, PATCH, WAVES, Bodies
 
 # Largest distance between points of the foam along the side of a taxel.
 _POINT_SPACING_M = 0.0018
@@ -66,8 +67,8 @@ class Skin:
     model : mujoco.MjModel
         With a body for each link of the layout.
     layout : Layout
-    solids : Solids
-        The pieces of the object and the tip.
+    solids : np.ndarray [shape=(solids,), dtype=SOLID]
+        The pieces of the object and the tip; their waves are drawn here.
     config : SkinConfig
     rng : np.random.Generator
         Source of the random sensitivities and unevenness.
@@ -84,7 +85,7 @@ class Skin:
         self,
         model: mujoco.MjModel,
         layout: Layout,
-        solids: Solids,
+        solids: NDArray[np.void],
         config: SkinConfig,
         rng: np.random.Generator,
         response: ForceResponse | None = None,
@@ -96,81 +97,52 @@ class Skin:
         self._gain = np.maximum(1.0 + config.gain_spread * rng.standard_normal(taxels), 0.1)
         self._counts = np.zeros(taxels)
         self._solids = solids
-        parts = [_foam_of(patch, layout, config) for patch in layout.patches]
-        self._patch_body = np.array([_body(model, patch.link) for patch in layout.patches])
-        middles = np.array([part.point_m.mean(axis=0) for part in parts])
-        self._patch_middle = middles
-        self._patch_reach = np.array(
-            [np.linalg.norm(part.point_m - middle, axis=1).max() for part, middle in zip(parts, middles, strict=True)]
-        )
-        self._patch_first = np.cumsum([0, *(patch.rows * patch.cols for patch in layout.patches)])
-        blocks = [
-            block
-            for part, patch in zip(parts, layout.patches, strict=True)
-            for block in np.split(part.point_m, patch.rows * patch.cols)
-        ]
-        self._block_first = np.cumsum([0, *(len(block) for block in blocks)])
-        self._block_middle = np.array([block.mean(axis=0) for block in blocks])
-        self._block_reach = np.array([np.linalg.norm(block - block.mean(axis=0), axis=1).max() for block in blocks])
-        self._point = np.concatenate([part.point_m for part in parts])
-        self._normal = np.concatenate([part.normal for part in parts])
-        self._area = np.concatenate([part.area_m2 for part in parts])
-        self._taxel = np.concatenate([part.taxel for part in parts])
-        self._share = np.concatenate([part.share for part in parts])
-        self._bristle = np.zeros((len(self._point), 3))
-        self._block_touched = np.zeros(len(blocks), dtype=np.bool_)
-        self._foam = np.array(
-            [
-                config.foam_stiffness_n_per_m3,
-                2.0 / 3.0 * SKIN_THICKNESS_M,
-                5.0,  # densified foam
-                config.foam_damping_s_m,
-                config.foam_shear_share * config.foam_stiffness_n_per_m3,
-                0.005,  # damping of the shear [s]
-                config.friction,
-                config.cover_m,
-            ]
-        )
-        self._wave = _waves(solids, config, rng)
+        self._root_of = np.asarray(model.body_rootid, dtype=np.int64)
+        parts = [_points_of(patch, layout, config) for patch in layout.patches]
+        self._points = np.concatenate(parts)
+        self._patches = np.zeros(len(parts), PATCH)
+        self._patches["body"] = [_body(model, patch.link) for patch in layout.patches]
+        self._patches["middle"], self._patches["reach"] = _spheres(parts)
+        taxels_of = [patch.rows * patch.cols for patch in layout.patches]
+        self._patches["first"], self._patches["end"] = _ends(taxels_of)
+        blocks = [block for part, count in zip(parts, taxels_of, strict=True) for block in np.split(part, count)]
+        self._blocks = np.zeros(len(blocks), BLOCK)
+        self._blocks["middle"], self._blocks["reach"] = _spheres(blocks)
+        self._blocks["first"], self._blocks["end"] = _ends([len(block) for block in blocks])
+        self._foam = np.zeros(1, FOAM)
+        self._foam["stiffness_n_per_m3"] = config.foam_stiffness_n_per_m3
+        self._foam["dense_depth_m"] = 2.0 / 3.0 * SKIN_THICKNESS_M
+        self._foam["dense_factor"] = 5.0
+        self._foam["damping_s_m"] = config.foam_damping_s_m
+        self._foam["shear_n_per_m3"] = config.foam_shear_share * config.foam_stiffness_n_per_m3
+        self._foam["shear_damping_s"] = 0.005
+        self._foam["friction"] = config.friction
+        self._foam["cover_m"] = config.cover_m
+        self._near = np.zeros((len(parts), len(solids)), NEAR)
+        _draw_waves(solids, config, rng)
 
     def press(self, data: mujoco.MjData, dt_s: float) -> None:
         """Compute the contact for the poses in `data`; adds the forces of the skin to ``data.xfrc_applied``."""
-        solids = self._solids
+        bodies = Bodies(
+            pos=data.xpos,
+            mat=data.xmat,
+            velocity=data.cvel,
+            centre=data.xipos,
+            root_centre=data.subtree_com,
+            root_of=self._root_of,
+            wrench=data.xfrc_applied,
+        )
         press(
-            data.xpos,
-            data.xmat,
-            data.cvel,
-            data.xipos,
-            data.subtree_com,
-            solids.root_of,
-            self._patch_body,
-            self._patch_middle,
-            self._patch_reach,
-            self._patch_first,
-            self._block_first,
-            self._block_middle,
-            self._block_reach,
-            self._point,
-            self._normal,
-            self._area,
-            self._taxel,
-            self._share,
-            self._bristle,
-            self._block_touched,
+            *bodies,
+            self._patches,
+            self._blocks,
+            self._points,
             self._foam,
-            solids.kind,
-            solids.body,
-            solids.pos,
-            solids.mat,
-            solids.size,
-            solids.there,
-            solids.travel,
-            solids.uneven,
-            self._wave,
+            self._solids,
+            self._near,
             dt_s,
             self.forces_n,
             self.results,
-            data.xfrc_applied,
         )
 
     def counts(self) -> NDArray[np.float64]:
@@ -184,30 +156,33 @@ class Skin:
         return above
 
 
-def _waves(solids: Solids, config: SkinConfig, rng: np.random.Generator) -> NDArray[np.float64]:
-    """Plane waves of the object's unevenness in the frame of each solid; see `skin_kernels.press`."""
+def _draw_waves(solids: NDArray[np.void], config: SkinConfig, rng: np.random.Generator) -> None:
+    """Fill the waves of solids with plane waves of the object's unevenness, in the frame of each."""
     direction = rng.standard_normal((WAVES, 3))
     direction /= config.unevenness_wavelength_m * np.linalg.norm(direction, axis=1, keepdims=True)
     phase = rng.uniform(0.0, 1.0, WAVES)
-    waves = np.empty((len(solids.kind), WAVES, 4))
-    for k, (offset, mat) in enumerate(zip(solids.pos, solids.mat, strict=True)):
-        waves[k, :, :3] = direction @ mat.reshape(3, 3)
-        waves[k, :, 3] = phase + direction @ offset
-    return waves
+    for solid in solids:
+        solid["wave"][:, :3] = direction @ np.ascontiguousarray(solid["mat"])
+        solid["wave"][:, 3] = phase + direction @ np.ascontiguousarray(solid["pos"])
 
 
-@dataclass(frozen=True)
-class _Foam:
-    """Points of the foam of one patch, ordered by taxel; see `skin_kernels.press`."""
+def _spheres(groups: Sequence[NDArray[np.void]]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Centres of groups of points [shape=(groups, 3)], and the radii about them that hold all [shape=(groups,)]."""
+    positions = [np.ascontiguousarray(group["pos"]) for group in groups]
+    middles = [position.mean(axis=0) for position in positions]
+    reach = [
+        np.linalg.norm(position - middle, axis=1).max() for position, middle in zip(positions, middles, strict=True)
+    ]
+    return np.array(middles), np.array(reach)
 
-    point_m: NDArray[np.float64]
-    normal: NDArray[np.float64]
-    area_m2: NDArray[np.float64]
-    taxel: NDArray[np.int64]
-    share: NDArray[np.float64]
+
+def _ends(lengths: Sequence[int]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Where parts of such lengths, one behind the other, begin and end."""
+    ends = np.cumsum(np.array(lengths, dtype=np.int64))
+    return ends - lengths, ends
 
 
-def _foam_of(patch: SkinPatch, layout: Layout, config: SkinConfig) -> _Foam:
+def _points_of(patch: SkinPatch, layout: Layout, config: SkinConfig) -> NDArray[np.void]:
     across = math.ceil(patch.pitch_m / _POINT_SPACING_M)
     down = math.ceil(patch.row_pitch_m / _POINT_SPACING_M)
     fine = replace(
@@ -226,15 +201,17 @@ def _foam_of(patch: SkinPatch, layout: Layout, config: SkinConfig) -> _Foam:
         return np.ascontiguousarray(whole.swapaxes(1, 2)).reshape(fine.rows * fine.cols, -1)
 
     normal = by_taxel(fine.normals())
-    point_m = by_taxel(fine.points_m()) - config.cover_m * normal
+    pos = by_taxel(fine.points_m()) - config.cover_m * normal
     col, col_share = _spreading(patch.cols, across, patch.pitch_m, config.foam_spread_m)
     row, row_share = _spreading(patch.rows, down, patch.row_pitch_m, config.foam_spread_m)
     matrix = patch.of(layout.taxels).astype(np.int64)
     # For every point of the fine grid: three rows by three columns of taxels.
     taxel = matrix[row[:, None, :, None], col[None, :, None, :]]
     share = row_share[:, None, :, None] * col_share[None, :, None, :]
-    area_m2 = np.full(len(point_m), fine.geometry.taxel_area_m2)
-    return _Foam(point_m, normal, area_m2, by_taxel(taxel), by_taxel(share))
+    points = np.zeros(len(pos), POINT)
+    points["pos"], points["normal"], points["area"] = pos, normal, fine.geometry.taxel_area_m2
+    points["taxel"], points["share"] = by_taxel(taxel), by_taxel(share)
+    return points
 
 
 def _spreading(

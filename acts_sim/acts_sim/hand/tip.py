@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 
 from acts_core.skin import Layout, SkinPatch
 from acts_sim.hand import model as hand_model
-from acts_sim.hand.solids import Solids
 
 SHARP_RADIUS_M = 0.0005
 """Radius of a tip of 1 mm diameter [m]."""
@@ -37,10 +36,12 @@ class Tip:
         Depth of its end below the untouched surface of that patch [m]; negative above it, NaN without a tip.
     """
 
-    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, solids: Solids, layout: Layout) -> None:
+    def __init__(
+        self, model: mujoco.MjModel, data: mujoco.MjData, solid: np.void, layout: Layout, cover_m: float
+    ) -> None:
         self.patch = ""
         self.depth_m = math.nan
-        self._model, self._data, self._solids = model, data, solids
+        self._model, self._data, self._solid, self._cover_m = model, data, solid, cover_m
         self._patches = {patch.name: patch for patch in layout.patches}
         self._mocap = int(model.body_mocapid[_id(model, mujoco.mjtObj.mjOBJ_BODY, hand_model.TIP)])
         self._geom = _id(model, mujoco.mjtObj.mjOBJ_GEOM, hand_model.TIP)
@@ -86,14 +87,15 @@ class Tip:
         self._speed_m_s, self._left_m = speed_m_s, start_m + travel_m
         self._model.geom_size[self._geom, :2] = radius_m, (_ROD_M - 2.0 * radius_m) / 2.0
         self._model.geom_rbound[self._geom] = _ROD_M / 2.0
-        self._solids.set_tip(radius_m, _ROD_M)
+        self._solid["size"][:2] = radius_m + self._cover_m, _ROD_M
+        self._solid["there"] = True
         self._place()
 
     def withdraw(self) -> None:
         """Remove the tip."""
         self.patch, self.depth_m = "", math.nan
         self._end, self._left_m = np.array(hand_model.PARKED_M), 0.0
-        self._solids.remove_tip()
+        self._solid["there"] = False
         self._place()
 
     def advance(self, dt_s: float) -> None:
@@ -103,7 +105,7 @@ class Tip:
         step_m = min(self._speed_m_s * dt_s, self._left_m)
         self._left_m -= step_m
         self._end = self._end + step_m * self._along
-        self._solids.travel[-1] = step_m / dt_s * self._along
+        self._solid["travel"] = step_m / dt_s * self._along
         self._place()
 
     def measure(self) -> None:

@@ -23,9 +23,8 @@ from acts_sim.hand import model as hand_model
 from acts_sim.hand.disturbances import Disturbances
 from acts_sim.hand.holder import Holder
 from acts_sim.hand.kinematics import LINKS, PALM
-from acts_sim.hand.objects import OBJECTS, HeldObject, held_object
+from acts_sim.hand.objects import OBJECTS, HeldObject, held_object, solids_of
 from acts_sim.hand.skin import Skin, SkinConfig
-from acts_sim.hand.solids import Solids
 from acts_sim.hand.tip import Tip
 from acts_sim.hand.truth import COLUMN, PATCH_COLUMNS, PATCHES_FROM, HandTruth, row_width
 
@@ -146,9 +145,9 @@ class HandWorld:
         # The object's joint is the last one of the model.
         self._body = _body(self._model, hand_model.OBJECT)
         tip_body = _body(self._model, hand_model.TIP)
-        solids = Solids(self._model, self._thing, max(self._body, 0), tip_body, config.cover_m, config.unevenness_m)
+        solids = solids_of(self._thing, max(self._body, 0), tip_body, config.unevenness_m)
         self._skin = Skin(self._model, self.layout, solids, config, rng)
-        self.tip = Tip(self._model, self._data, solids, self.layout)
+        self.tip = Tip(self._model, self._data, solids[-1], self.layout, config.cover_m)
         inertia_kg_m2 = float(self._model.body_inertia[self._body].min()) if self._thing else 0.0
         self.holder = Holder(self._thing.mass_kg if self._thing else 0.0, inertia_kg_m2)
         self.disturbances = Disturbances(self.weight_n, self.down)
