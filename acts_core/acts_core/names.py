@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Names of nodes, topics and namespaces in ROS, as people write them."""
+"""Names of nodes, topics, namespaces and frames in ROS, and of skins and patches, as people write them."""
 
 from __future__ import annotations
 
@@ -14,6 +14,11 @@ from acts_core.errors import SettingsError
 ALLOWED = "letters, digits (not first) and _"
 """What a part of a name consists of, for messages."""
 
+RULE = "consists of letters, digits and _, and does not begin with a digit"
+"""The same, as the end of a sentence about a name."""
+
+_LENGTH_MAX = 64
+
 _NAME = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 _FULL_NAME = re.compile(r"(/[A-Za-z_]\w*)+", re.ASCII)
 _REMAP = re.compile(r"(?:[^:]*:)?(__ns|__node|__name):=(.*)", re.DOTALL)
@@ -22,6 +27,16 @@ _REMAP = re.compile(r"(?:[^:]*:)?(__ns|__node|__name):=(.*)", re.DOTALL)
 def is_name(text: str) -> bool:
     """Whether a node may have this name."""
     return _NAME.fullmatch(text) is not None
+
+
+def is_short_name(name: object) -> bool:
+    """Whether a skin or a patch may have this name: that of a node, of up to 64 characters."""
+    return isinstance(name, str) and len(name) <= _LENGTH_MAX and is_name(name)
+
+
+def is_frame_name(name: object) -> bool:
+    """Whether a frame may have this name: parts as in `is_name`, with a slash between them."""
+    return isinstance(name, str) and is_full_name(f"/{name}")
 
 
 def is_full_name(text: str) -> bool:

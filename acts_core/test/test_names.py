@@ -8,12 +8,31 @@ from __future__ import annotations
 import pytest
 
 from acts_core.errors import SettingsError
-from acts_core.names import check_remaps, full_name
+from acts_core.names import check_remaps, full_name, is_frame_name, is_short_name
 
 
 @pytest.mark.parametrize("given", ["plate/contact", "/plate/contact", "/plate/contact/"])
 def test_a_name_gets_one_slash_before_it(given: str) -> None:
     assert full_name(given) == "/plate/contact"
+
+
+@pytest.mark.parametrize("name", ["palm", "_1", "a" * 64])
+def test_names_of_skins_and_patches_are_also_those_of_frames(name: str) -> None:
+    assert is_short_name(name)
+    assert is_frame_name(name)
+    assert is_frame_name(f"{name}/{name}")
+    assert not is_short_name(f"{name}/{name}")
+
+
+@pytest.mark.parametrize("name", ["", "9a", "a-b", "a//b", "/a", "a/", "a\n", "é", True, None, 5])
+def test_what_is_no_name_of_a_skin_is_none_of_a_frame(name: object) -> None:
+    assert not is_short_name(name)
+    assert not is_frame_name(name)
+
+
+def test_only_the_names_of_skins_and_patches_have_a_largest_length() -> None:
+    assert not is_short_name("a" * 65)
+    assert is_frame_name("a" * 65)
 
 
 @pytest.mark.parametrize("given", ["", "/", "9a", "a-b", "a//b", "a b", "plate/9a", "Prüfung"])

@@ -9,20 +9,19 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from acts_core.errors import ActsError, SettingsError
-from acts_core.files import Section, is_number, path_of, read_yaml
+from acts_core.files import Section, path_of, read_yaml
+from acts_core.names import RULE, is_frame_name, is_short_name
 from acts_core.skin import LAYOUTS, layout_path
 from acts_core.transforms import Transform
 from acts_skins.frame_tree import FrameTree, Pose
 
-_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,63}")
-_FRAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*")
+_FRAME_RULE = f"the name of a frame {RULE}"
 
 _NODES_OF: dict[str, tuple[str, ...]] = {
     "rows": ("driver", "reconstruction"),
@@ -147,11 +146,10 @@ def read_skins(path: Path) -> SkinsFile:
     top = read_yaml(path)
     top.check_keys(_FILE_KEYS)
     frames_section = top.section("frames", "")
-    frames = {
-        name: _pose(frames_section.section(name, f"frame {name}")) for name in _names(frames_section, _FRAME, "frame")
-    }
+    frame_names = frames_section.names(is_frame_name, "frame")
+    frames = {name: _pose(frames_section.section(name, f"frame {name}")) for name in frame_names}
     skins_section = top.section("skins", "")
-    names = _names(skins_section, _NAME, "skin")
+    names = skins_section.names(is_short_name, "skin")
     if not names:
         raise top.error("skins: there has to be at least one", "skins")
     skins = tuple(_skin(name, skins_section.section(name, f"skin {name}")) for name in names)
@@ -161,8 +159,8 @@ def read_skins(path: Path) -> SkinsFile:
     _check_ports(skins)
     base_frame = top.text("base_frame", "base_link")
     assert base_frame is not None
-    if _FRAME.fullmatch(base_frame) is None:
-        raise top.error(f"base_frame = {base_frame!r}: {_allowed_name('frame')}", "base_frame")
+    if not is_frame_name(base_frame):
+        raise top.error(f"base_frame = {base_frame!r}: {_FRAME_RULE}", "base_frame")
     read = SkinsFile(path, base_frame, skins, frames)
     try:
         FrameTree(read.poses())
@@ -171,27 +169,12 @@ def read_skins(path: Path) -> SkinsFile:
     return read
 
 
-def _allowed_name(what: str) -> str:
-    return f"the name of a {what} consists of letters, digits and _, and does not begin with a digit"
-
-
-def _names(section: Section, allowed: re.Pattern[str], what: str) -> list[str]:
-    for name in section.values:
-        if not isinstance(name, str) or allowed.fullmatch(name) is None:
-            raise section.error(f"{what} {name!r}: {_allowed_name(what)} (no, yes, on and off in quotes)", str(name))
-    return list(section.values)
-
-
 def _skin(name: str, section: Section) -> Skin:
     section.check_keys(_SKIN_KEYS)
     port = section.text("port")
     if port is not None and "replay" in section.values:
         raise section.error("port and replay: samples come either from a board or from a recording", "replay")
-    rate_hz = section.values.get("recording_rate_hz", 1000.0)
-    if not is_number(rate_hz) or not 0.0 < rate_hz <= 1e6:
-        raise section.error(
-            f"recording_rate_hz = {rate_hz!r}: allowed is a number above 0 to 1000000", "recording_rate_hz"
-        )
+    rate_hz = section.number("recording_rate_hz", 1000.0, highest=1_000_000)
     if "pose" not in section.values:
         raise section.error("pose is missing: parent, position_m and rpy_rad or quaternion_xyzw of the skin's frame")
     return Skin(
@@ -200,7 +183,7 @@ def _skin(name: str, section: Section) -> Skin:
         port,
         _file(section, "replay"),
         _file(section, "recording"),
-        float(rate_hz),
+        rate_hz,
         _parameters(section, "driver"),
         _parameters(section, "reconstruction"),
         section,
@@ -257,8 +240,8 @@ def _parameters(section: Section, node: str) -> dict[str, Any]:
 def _pose(section: Section) -> Pose:
     section.check_keys(_POSE_KEYS)
     parent = section.text("parent")
-    if parent is None or _FRAME.fullmatch(parent) is None:
-        raise section.error(f"parent = {parent!r}: needed is the name of a frame; {_allowed_name('frame')}", "parent")
+    if parent is None or not is_frame_name(parent):
+        raise section.error(f"parent = {parent!r}: needed is the name of a frame; {_FRAME_RULE}", "parent")
     return Pose(parent, section.transform())
 
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import reprlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -16,6 +16,7 @@ import yaml
 
 from acts_core.errors import SettingsError
 from acts_core.files.regular_file import read_text
+from acts_core.names import RULE
 from acts_core.settings import unknown_key_message
 from acts_core.transforms import Quaternion, Transform, Vector
 
@@ -87,6 +88,59 @@ class Section:
         if not isinstance(value, str) or not value.strip():
             raise self.error(f"{key} = {shown(value)}: allowed is text; put it in quotes", key)
         return value.strip()
+
+    def one_of(self, key: str, known: Iterable[str]) -> str:
+        """The text at a key, which has to be given and one of those known."""
+        text, allowed = self.text(key), list(known)
+        if text is None:
+            raise self.error(f"{key} is missing", key)
+        if text not in allowed:
+            raise self.error(f"{key} = {text!r}: allowed is one of {', '.join(sorted(allowed))}", key)
+        return text
+
+    def flag(self, key: str) -> bool | None:
+        """What is at a key, true or false; None where it is missing."""
+        value = self.values.get(key)
+        if value is not None and not isinstance(value, bool):
+            raise self.error(f"{key} = {shown(value)}: allowed is true or false", key)
+        return value
+
+    def whole(self, key: str, default: int | None = None) -> int:
+        """The whole number at a key; without a default it has to be given."""
+        value = self.values.get(key, default)
+        if isinstance(value, bool) or not isinstance(value, int):
+            raise self.error(f"{key} = {shown(value)}: needed is a whole number", key)
+        return value
+
+    def number(self, key: str, default: float | None = None, highest: float = math.inf, unit: str = "") -> float:
+        """The finite number at a key; without a default it has to be given.
+
+        Parameters
+        ----------
+        key : str
+        default : float or None
+        highest : float
+            Where it is given, the number has to be above 0, too.
+        unit : str
+            For the message, such as ``" [m]"``.
+        """
+        value: Any = self.values.get(key, default)
+        if not is_number(value):
+            allowed = "needed is a finite number"
+        elif highest < math.inf and not 0.0 < value <= highest:
+            allowed = f"allowed is a number above 0 to {highest}"
+        else:
+            return float(value)
+        raise self.error(f"{key} = {shown(value)}: {allowed}{unit}", key)
+
+    def names(self, is_allowed: Callable[[object], bool], what: str) -> list[str]:
+        """All keys, which are names of something, such as ``skin``; `is_allowed` is of `acts_core.names`."""
+        for name in self.values:
+            if not is_allowed(name):
+                raise self.error(
+                    f"{what} {shown(name)}: the name of a {what} {RULE} (no, yes, on and off in quotes)", str(name)
+                )
+        return list(self.values)
 
     def numbers(self, key: str, default: tuple[float, ...]) -> tuple[float, ...]:
         """As many finite numbers as `default` has."""

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from acts_core.array import MAX_SIDE, ArrayGeometry
 from acts_core.errors import ArrayError
 from acts_core.files import Section, is_number, read_yaml, shown
+from acts_core.names import is_short_name
 from acts_core.skin.skin_patch import SkinPatch
 from acts_core.transforms import Transform
 
@@ -29,7 +30,6 @@ _PATCH_KEYS = ("at", "wires", "link", "pose", "pitch_m", "row_pitch_m", "radius_
 _WIRES_KEYS = ("down", "across")
 _POSE_KEYS = ("position_m", "rpy_rad", "quaternion_xyzw")
 
-_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,63}")
 _LINK = re.compile(r"[A-Za-z_][A-Za-z0-9_/]{0,127}")
 _WIRES = re.compile(r"(rows|cols)(.*)")
 _RANGE = re.compile(r"([0-9]{1,2})(?: +to +([0-9]{1,2})(?: +by +([0-9]{1,2}))?)?")
@@ -77,16 +77,9 @@ def read_layout(path: Path, rows: int | None, cols: int | None) -> LayoutFile:
     pitch_m = _length(top, "pitch_m", ArrayGeometry().pitch_m)
     row_pitch_m = _length(top, "row_pitch_m", pitch_m)
     patches = top.section("patches", "")
-    names = list(patches.values)
-    if not 1 <= len(names) <= MAX_PATCHES:
-        raise top.error(f"patches: {len(names)} of them; allowed are 1 to {MAX_PATCHES}", "patches")
-    for name in names:
-        if not isinstance(name, str) or _NAME.fullmatch(name) is None:
-            raise patches.error(
-                f"patch {shown(name)}: a name consists of letters, digits and _, and does not begin with a digit "
-                "(no, yes, on and off in quotes)",
-                str(name),
-            )
+    if not 1 <= len(patches.values) <= MAX_PATCHES:
+        raise top.error(f"patches: {len(patches.values)} of them; allowed are 1 to {MAX_PATCHES}", "patches")
+    names = patches.names(is_short_name, "patch")
     wired = [
         _patch(name, patches.section(name, f"patch {name}"), (rows, cols), (pitch_m, row_pitch_m)) for name in names
     ]
@@ -118,15 +111,8 @@ def read_layout(path: Path, rows: int | None, cols: int | None) -> LayoutFile:
         row_pitch_m,
         tuple(one.patch if "pose" in one.section.values else _in_picture(one.patch, geometry) for one in wired),
         patch_of,
-        _stood_on(top),
+        top.flag("stood_on"),
     )
-
-
-def _stood_on(top: Section) -> bool | None:
-    value = top.values.get("stood_on")
-    if value is not None and not isinstance(value, bool):
-        raise top.error(f"stood_on = {shown(value)}: allowed is true or false", "stood_on")
-    return value
 
 
 def _matrix(top: Section, rows: int | None, cols: int | None) -> tuple[int, int]:
@@ -155,10 +141,7 @@ def _are_whole(given: object) -> bool:
 
 
 def _length(section: Section, key: str, default: float) -> float:
-    value = section.values.get(key, default)
-    if not is_number(value) or not 0.0 < value <= 1.0:
-        raise section.error(f"{key} = {shown(value)}: allowed is a number above 0 to 1 [m]", key)
-    return float(value)
+    return section.number(key, default, highest=1, unit=" [m]")
 
 
 def _patch(name: str, section: Section, matrix: tuple[int, int], pitches_m: tuple[float, float]) -> _Wired:

@@ -6,14 +6,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
 
 from acts_control.hand.description.description import ROLES, Finger, HandDescription, Joint, Link, Region
 from acts_core.errors import SettingsError
-from acts_core.files import Section, is_number, is_there, read_yaml, shown
+from acts_core.files import Section, is_there, read_yaml
 from acts_core.transforms import Vector
 
 _SHIPPED = Path(__file__).parent / "hands"
@@ -69,13 +67,13 @@ def _joint(one: Section, name: str) -> Joint:
     try:
         return Joint(
             name,
-            _whole(one, "motor"),
+            one.whole("motor"),
             lower,
             upper,
-            _number(one, "zero_rad", math.pi),
-            _whole(one, "direction", 1),
-            _number(one, "gain_scale", 1.0),
-            _number(one, "step_scale", 1.0),
+            one.number("zero_rad", math.pi),
+            one.whole("direction", 1),
+            one.number("gain_scale", 1.0),
+            one.number("step_scale", 1.0),
         )
     except SettingsError as error:
         raise one.error(str(error)) from error
@@ -84,7 +82,7 @@ def _joint(one: Section, name: str) -> Joint:
 def _link(one: Section, name: str, parents: list[str], joints: set[str]) -> Link:
     one.check_keys(("parent", "joint", "position_m", "rpy_rad", "quaternion_xyzw", "axis"))
     axis = _unit(one, "axis")
-    return Link(name, _one_of(one, "parent", parents), _one_of(one, "joint", joints), one.transform(), axis)
+    return Link(name, one.one_of("parent", parents), one.one_of("joint", joints), one.transform(), axis)
 
 
 def _finger(one: Section, name: str, links: set[str], joints: set[str]) -> Finger:
@@ -95,21 +93,19 @@ def _finger(one: Section, name: str, links: set[str], joints: set[str]) -> Finge
     for joint in closes.values:
         if joint not in joints:
             raise closes.error(f"{joint!r} is no joint of this hand", joint)
-    shares = {joint: _number(closes, joint) for joint in closes.values}
+    shares = {joint: closes.number(joint) for joint in closes.values}
     for joint, share in shares.items():
         if share <= 0.0:
             raise closes.error(f"{joint} = {share:g}: how much a joint takes part in closing is above 0", joint)
-    opposes = one.values.get("opposes", False)
-    if not isinstance(opposes, bool):
-        raise one.error(f"opposes is {shown(opposes)}; allowed is true or false", "opposes")
+    opposes = bool(one.flag("opposes"))
     tip_m = _vector(one, "tip_m", (0.0, 0.0, 0.0))
-    return Finger(name, shares, _one_of(one, "tip_link", links), tip_m, opposes)
+    return Finger(name, shares, one.one_of("tip_link", links), tip_m, opposes)
 
 
 def _region(one: Section, name: str, links: set[str], fingers: dict[str, Finger]) -> Region:
     one.check_keys(("link", "finger", "role", "centre_m", "normal"))
     finger = one.text("finger", "") or ""
-    role = next(known for known in ROLES if known == _one_of(one, "role", ROLES))
+    role = next(known for known in ROLES if known == one.one_of("role", ROLES))
     if bool(finger) == (role == "palm") or (finger and finger not in fingers):
         raise one.error(f"finger = {finger!r}: a palm has none, all else has one of {', '.join(fingers)}", "finger")
     if role == "palm":
@@ -118,14 +114,14 @@ def _region(one: Section, name: str, links: set[str], fingers: dict[str, Finger]
                 raise one.error(f"{needed} is missing; a palm has it")
     normal = _unit(one, "normal") if "normal" in one.values else (0.0, 0.0, 0.0)
     centre_m = _vector(one, "centre_m", (0.0, 0.0, 0.0))
-    return Region(name, _one_of(one, "link", links), finger, role, centre_m, normal)
+    return Region(name, one.one_of("link", links), finger, role, centre_m, normal)
 
 
 def _posture(one: Section, joints: tuple[Joint, ...]) -> tuple[float, ...]:
     one.check_keys([joint.name for joint in joints])
     angles = []
     for joint in joints:
-        angle = _number(one, joint.name, joint.clipped(0.0))
+        angle = one.number(joint.name, joint.clipped(0.0))
         if angle != joint.clipped(angle):
             raise one.error(
                 f"{joint.name} = {angle:g}: allowed is {joint.lower_rad:g} to {joint.upper_rad:g}", joint.name
@@ -150,28 +146,6 @@ def _text(one: Section, key: str) -> str:
     if text is None:
         raise one.error(f"{key} is missing", key)
     return text
-
-
-def _one_of(one: Section, key: str, known: Iterable[str]) -> str:
-    text = _text(one, key)
-    allowed = list(known)
-    if text not in allowed:
-        raise one.error(f"{key} = {text!r}: allowed is one of {', '.join(sorted(allowed))}", key)
-    return text
-
-
-def _number(one: Section, key: str, default: float | None = None) -> float:
-    value: Any = one.values.get(key, default)
-    if not is_number(value):
-        raise one.error(f"{key} = {shown(value)}: needed is a finite number", key)
-    return float(value)
-
-
-def _whole(one: Section, key: str, default: int | None = None) -> int:
-    value = one.values.get(key, default)
-    if isinstance(value, bool) or not isinstance(value, int):
-        raise one.error(f"{key} = {shown(value)}: needed is a whole number", key)
-    return value
 
 
 def _unit(one: Section, key: str) -> Vector:

@@ -1,0 +1,49 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Single values of YAML files: what is allowed, and the messages with the place."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from acts_core.errors import SettingsError
+from acts_core.files import Section, read_yaml
+
+TEXT = "a: 2\nb: 0.5\nc: true\nd: left\n"
+
+
+@pytest.fixture
+def section(tmp_path: Path) -> Section:
+    (tmp_path / "x.yaml").write_text(TEXT)
+    return read_yaml(tmp_path / "x.yaml")
+
+
+def test_values_are_read_and_absent_ones_have_defaults(section: Section) -> None:
+    assert (section.whole("a"), section.whole("z", 7)) == (2, 7)
+    assert (section.number("a"), section.number("b", highest=1), section.number("z", 0.0)) == (2.0, 0.5, 0.0)
+    assert (section.flag("c"), section.flag("z")) == (True, None)
+    assert section.one_of("d", ["left", "right"]) == "left"
+
+
+@pytest.mark.parametrize(
+    ("read", "message"),
+    [
+        (lambda one: one.whole("b"), "x.yaml:2: b = 0.5: needed is a whole number"),
+        (lambda one: one.whole("c"), "x.yaml:3: c = True: needed is a whole number"),
+        (lambda one: one.number("d"), "x.yaml:4: d = 'left': needed is a finite number"),
+        (lambda one: one.number("z"), "z = None: needed is a finite number"),
+        (lambda one: one.number("a", highest=1, unit=" [m]"), r"x.yaml:1: a = 2: allowed .* above 0 to 1 \[m\]"),
+        (lambda one: one.flag("a"), "x.yaml:1: a = 2: allowed is true or false"),
+        (lambda one: one.one_of("d", ["up", "down"]), "x.yaml:4: d = 'left': allowed is one of down, up"),
+        (lambda one: one.one_of("z", ["up"]), "z is missing"),
+    ],
+)
+def test_what_is_not_allowed_is_refused_with_its_line(
+    section: Section, read: Callable[[Section], object], message: str
+) -> None:
+    with pytest.raises(SettingsError, match=message):
+        read(section)
