@@ -12,7 +12,7 @@ from acts_core.errors import SettingsError
 from acts_core.files import path_of
 from acts_core.runtime import RealtimeConfig
 from acts_core.settings import Changeable, default_of, describe, part_of, refuse_doubles, setting
-from acts_core.skin import LAYOUTS, ForceResponse, Layout, MeasuredForceResponse, layout, layout_path
+from acts_core.skin import LAYOUTS, ForceResponse, Layout, MeasuredForceResponse, Response, layout, layout_path
 from acts_recon.classifiers import AUTO, CLASSIFIERS, ObjectRecogniser, classifier_named
 from acts_recon.contacts import BlobConfig
 from acts_recon.fusion import FusionConfig
@@ -247,9 +247,9 @@ class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig, ImpactCo
         kind, skin = METHODS[self.method], self.skin()
         return Recovery(kind(skin, part_of(kind.Config, self)), skin)
 
-    def _response(self) -> ForceResponse | MeasuredForceResponse:
+    def _response(self) -> Response:
         if self.force_response:
-            return ForceResponse.from_file(path_of(self.force_response, error=SettingsError))
+            return MeasuredForceResponse.from_file(path_of(self.force_response, error=SettingsError))
         return ForceResponse(self.force_full_scale_counts, self.force_dead_n, self.force_half_n)
 
     def blob_config(self) -> BlobConfig:

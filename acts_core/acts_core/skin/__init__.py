@@ -8,7 +8,7 @@ other packages learn where a taxel lies and what it reads. `RegionContact` is wh
 `TrackedBlob` a contact that is followed from image to image.
 """
 
-from acts_core.skin.force import ForceResponse, MeasuredForceResponse, force_table
+from acts_core.skin.force import ForceResponse, MeasuredForceResponse, Response, force_table
 from acts_core.skin.layouts import LAYOUTS, NO_PATCH, Layout, layout, layout_path
 from acts_core.skin.region_contact import RegionContact, Vector
 from acts_core.skin.skin_patch import SkinPatch
@@ -21,6 +21,7 @@ __all__ = [
     "Layout",
     "MeasuredForceResponse",
     "RegionContact",
+    "Response",
     "SkinPatch",
     "TrackedBlob",
     "Vector",

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -50,17 +51,6 @@ class ForceResponse:
         if not (np.isfinite(self.half_n) and self.half_n > 0):
             raise SettingsError(f"half_n = {self.half_n}: allowed is above 0 N")
 
-    @classmethod
-    def from_file(cls, path: Path) -> MeasuredForceResponse:
-        """A response measured by a lab, from a csv or npz file of newtons and counts; see `read_force_points`.
-
-        Raises
-        ------
-        SettingsError
-            When the file cannot be read or does not hold a response.
-        """
-        return MeasuredForceResponse(*read_force_points(path))
-
     def counts(self, force_n: ArrayLike) -> NDArray[np.float64]:
         """Counts (fractional, before noise and rounding) of forces on single taxels [N]; same shape."""
         above = np.maximum(np.asarray(force_n, dtype=np.float64) - self.dead_n, 0.0)
@@ -94,6 +84,17 @@ class MeasuredForceResponse:
     newtons: NDArray[np.float64]
     counts_at: NDArray[np.float64]
 
+    @classmethod
+    def from_file(cls, path: Path) -> MeasuredForceResponse:
+        """A response measured by a lab, from a csv or npz file of newtons and counts; see `read_force_points`.
+
+        Raises
+        ------
+        SettingsError
+            When the file cannot be read or does not hold a response.
+        """
+        return cls(*read_force_points(path))
+
     def __post_init__(self) -> None:
         newtons, counts = self.newtons, self.counts_at
         # The last of the leading zeros is where the response begins.
@@ -118,7 +119,11 @@ class MeasuredForceResponse:
         return np.where(values > 0, np.interp(values, self.counts_at, self.newtons), 0.0)
 
 
-def force_table(response: ForceResponse | MeasuredForceResponse) -> NDArray[np.float64]:
+Response: TypeAlias = ForceResponse | MeasuredForceResponse
+"""What a taxel reads at a force, by a formula or by measured points."""
+
+
+def force_table(response: Response) -> NDArray[np.float64]:
     """Force of a pressed taxel by its counts, for kernels that look it up and interpolate.
 
     Returns

@@ -69,7 +69,7 @@ def test_a_measured_response_is_read_and_interpolated(tmp_path: Path, suffix: st
     else:
         points = "".join(f"{n}, {c}, x\n" for n, c in zip(newtons, counts, strict=True))
         path.write_text("# measured on a Monday\nnewtons, counts, note\n" + points)
-    response = ForceResponse.from_file(path)
+    response = MeasuredForceResponse.from_file(path)
     assert response.counts([0.0, 0.01, 0.015, 0.06, 0.5, 0.7]) == pytest.approx([0, 0, 5, 105, 600, 800])
     assert response.force_n([0, 5, 105, 600, 800]) == pytest.approx([0, 0.015, 0.06, 0.5, 0.7])
     # Beyond the ADC's full scale there is nothing to read.
@@ -105,7 +105,7 @@ def test_points_that_are_no_response_are_refused(
 ) -> None:
     np.savez(tmp_path / "bad.npz", newtons=newtons, counts=counts)
     with pytest.raises(SettingsError, match=words):
-        ForceResponse.from_file(tmp_path / "bad.npz")
+        MeasuredForceResponse.from_file(tmp_path / "bad.npz")
 
 
 def test_files_that_are_no_response_are_refused(tmp_path: Path) -> None:
@@ -113,7 +113,7 @@ def test_files_that_are_no_response_are_refused(tmp_path: Path) -> None:
         if content is not None:
             (tmp_path / name).write_bytes(content)
         with pytest.raises(SettingsError) as caught:
-            ForceResponse.from_file(tmp_path / name)
+            MeasuredForceResponse.from_file(tmp_path / name)
         assert name in str(caught.value)
         return str(caught.value)
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
-from acts_core.skin import ForceResponse, MeasuredForceResponse, TrackedBlob
+from acts_core.skin import Response, TrackedBlob
 from acts_recon.contacts.blob_motion_kernels import (
     ACCELERATION_M_S2,
     FIRST_SPEED_M_S,
@@ -69,7 +69,7 @@ class BlobTrackerReference:
     Parameters
     ----------
     geometry : ArrayGeometry
-    response : ForceResponse or MeasuredForceResponse
+    response : Response
     config : BlobConfig
     borders : Borders, optional
     """
@@ -77,7 +77,7 @@ class BlobTrackerReference:
     def __init__(
         self,
         geometry: ArrayGeometry,
-        response: ForceResponse | MeasuredForceResponse,
+        response: Response,
         config: BlobConfig,
         borders: Borders | None = None,
     ) -> None:

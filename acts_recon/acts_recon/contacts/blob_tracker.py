@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError
-from acts_core.skin import ForceResponse, MeasuredForceResponse, TrackedBlob, force_table
+from acts_core.skin import ForceResponse, Response, TrackedBlob, force_table
 from acts_recon.contacts import blob_kernels, blob_track_kernels
 from acts_recon.contacts.blob_kernels import MAX_BLOBS
 from acts_recon.contacts.blob_tracks import FREE, MAX_TRACKS, TRACK
@@ -28,7 +28,7 @@ class BlobTracker:
     ----------
     geometry : ArrayGeometry
         Of the image.
-    response : ForceResponse or MeasuredForceResponse, optional
+    response : Response, optional
         From counts to newtons.
     config : BlobConfig, optional
     borders : Borders, optional
@@ -38,7 +38,7 @@ class BlobTracker:
     def __init__(
         self,
         geometry: ArrayGeometry,
-        response: ForceResponse | MeasuredForceResponse | None = None,
+        response: Response | None = None,
         config: BlobConfig | None = None,
         borders: Borders | None = None,
     ) -> None:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX, ArrayGeometry
 from acts_core.settings import setting, validate
-from acts_core.skin import ForceResponse, MeasuredForceResponse
+from acts_core.skin import Response
 from acts_recon.contacts.blob_kernels import MAX_BLOBS
 from acts_recon.images import ERR_TOGETHER, NOISE_COUNTS, Borders, Variances, borders_of, grown, variances
 
@@ -90,7 +90,7 @@ class Blob:
 def find_blobs(
     image: NDArray[np.floating],
     geometry: ArrayGeometry,
-    response: ForceResponse | MeasuredForceResponse,
+    response: Response,
     config: BlobConfig | None = None,
     *,
     sigma: NDArray[np.floating] | None = None,
@@ -110,7 +110,7 @@ def find_blobs(
     image : np.ndarray [shape=(rows, cols), dtype=float]
         Counts.
     geometry : ArrayGeometry
-    response : ForceResponse or MeasuredForceResponse
+    response : Response
     config : BlobConfig, optional
     sigma : np.ndarray [shape=(rows, cols), dtype=float], optional
         Standard deviations of the taxels [counts]; without them variances are 0.

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
-from acts_core.skin import ForceResponse, MeasuredForceResponse
+from acts_core.skin import Response
 from acts_recon.images import (
     ERR_TOGETHER,
     NOISE_COUNTS,
@@ -71,7 +71,7 @@ NO_CONTACT = Contact()
 def find_contact(
     image: NDArray[np.floating],
     geometry: ArrayGeometry,
-    response: ForceResponse | MeasuredForceResponse,
+    response: Response,
     *,
     touch_counts: float = 60.0,
     sigma: NDArray[np.floating] | None = None,
@@ -91,7 +91,7 @@ def find_contact(
     image : np.ndarray [shape=(rows, cols), dtype=float]
         Counts, finite.
     geometry : ArrayGeometry
-    response : ForceResponse or MeasuredForceResponse
+    response : Response
         From counts to newtons.
     touch_counts : float
     sigma : np.ndarray [shape=(rows, cols), dtype=float], optional

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
-from acts_core.skin import ForceResponse, MeasuredForceResponse, force_table
+from acts_core.skin import Response, force_table
 from acts_recon.contacts import contact_kernels
 from acts_recon.contacts.contact import NO_CONTACT, Contact
 from acts_recon.images import ERR_TOGETHER, NOISE_COUNTS, Borders, borders_of, slope_table
@@ -24,7 +24,7 @@ class ContactFinder:
     ----------
     geometry : ArrayGeometry
         Of the images.
-    response : ForceResponse or MeasuredForceResponse
+    response : Response
         From counts to newtons.
     touch_counts : float
         A taxel above it is pressed.
@@ -37,7 +37,7 @@ class ContactFinder:
     def __init__(
         self,
         geometry: ArrayGeometry,
-        response: ForceResponse | MeasuredForceResponse,
+        response: Response,
         touch_counts: float,
         noise_counts: float = NOISE_COUNTS,
         err_together: float = ERR_TOGETHER,

@@ -29,7 +29,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX, ArrayGeometry
-from acts_core.skin import ForceResponse, MeasuredForceResponse, force_table
+from acts_core.skin import Response, force_table
 
 NOISE_COUNTS = 2.0
 """Standard deviation of a reading where nobody has told it; what an image's is beyond it is that of a guess."""
@@ -63,7 +63,7 @@ def variances(
     edge: NDArray[np.bool_],
     least: float,
     geometry: ArrayGeometry,
-    response: ForceResponse | MeasuredForceResponse,
+    response: Response,
     noise_counts: float = NOISE_COUNTS,
     err_together: float = ERR_TOGETHER,
 ) -> Variances:
@@ -78,7 +78,7 @@ def variances(
     least : float
         Threshold between the two [counts].
     geometry : ArrayGeometry
-    response : ForceResponse or MeasuredForceResponse
+    response : Response
     noise_counts, err_together : float
         See above.
     """

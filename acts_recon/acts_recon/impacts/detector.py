@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
-from acts_core.skin import ForceResponse, MeasuredForceResponse
+from acts_core.skin import ForceResponse, Response
 from acts_recon.contacts import BlobConfig, BlobTracker, TrackedBlob
 from acts_recon.images import LEAST_NOISE_COUNTS, Borders, borders_of
 from acts_recon.impacts.config import ImpactConfig
@@ -41,7 +41,7 @@ class ImpactDetector:
     ----------
     geometry : ArrayGeometry
         Of the images.
-    response : ForceResponse or MeasuredForceResponse, optional
+    response : Response, optional
         From counts to newtons.
     blobs : BlobConfig, optional
         What is a contact in an image, and the noise of a reading.
@@ -55,7 +55,7 @@ class ImpactDetector:
     def __init__(
         self,
         geometry: ArrayGeometry,
-        response: ForceResponse | MeasuredForceResponse | None = None,
+        response: Response | None = None,
         blobs: BlobConfig | None = None,
         config: ImpactConfig | None = None,
         borders: Borders | None = None,

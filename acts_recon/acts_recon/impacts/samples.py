@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
-from acts_core.skin import ForceResponse, MeasuredForceResponse, force_table
+from acts_core.skin import Response, force_table
 from acts_recon.images import slope_table
 from acts_recon.impacts.footprint_fit import Footprint, fit_footprint
 from acts_recon.impacts.onset_fit import Rise
@@ -38,7 +38,7 @@ class RecentSamples:
     Parameters
     ----------
     geometry : ArrayGeometry
-    response : ForceResponse or MeasuredForceResponse
+    response : Response
     touch_counts : float
         A sample above is of a pressed taxel.
     noise_counts : float
@@ -50,7 +50,7 @@ class RecentSamples:
     def __init__(
         self,
         geometry: ArrayGeometry,
-        response: ForceResponse | MeasuredForceResponse,
+        response: Response,
         touch_counts: float,
         noise_counts: float,
         memory_s: float,

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
-from acts_core.skin import ForceResponse, Layout, MeasuredForceResponse
+from acts_core.skin import ForceResponse, Layout, Response
 from acts_recon.fusion import FusionConfig
 from acts_recon.images import NOISE_COUNTS, PlacedSamples
 
@@ -28,7 +28,7 @@ class SkinSetup:
         Of the picture; without a layout that is the matrix itself.
     layout : Layout or None
         Where the taxels of the matrix lie in the picture.
-    response : ForceResponse or MeasuredForceResponse
+    response : Response
         From counts to newtons.
     touch_counts : int
         A taxel above it is pressed.
@@ -38,7 +38,7 @@ class SkinSetup:
 
     geometry: ArrayGeometry
     layout: Layout | None = None
-    response: ForceResponse | MeasuredForceResponse = field(default_factory=ForceResponse)
+    response: Response = field(default_factory=ForceResponse)
     touch_counts: int = 60
     noise_counts: float = FusionConfig().noise_counts
 

@@ -30,7 +30,7 @@ class Recovery:
         Of the image.
     borders : Borders
         Likewise.
-    response : ForceResponse or MeasuredForceResponse
+    response : Response
         From counts to newtons.
     image, sigma, age_s, measured
         See `Method`.

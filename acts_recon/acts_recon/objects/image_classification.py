@@ -33,7 +33,7 @@ from numpy.typing import NDArray
 from acts_core.array import COUNT_MAX
 from acts_core.errors import ArrayError
 from acts_core.settings import setting, validate
-from acts_core.skin import ForceResponse, MeasuredForceResponse
+from acts_core.skin import ForceResponse, Response
 from acts_core.wire import confidence_of
 from acts_recon.objects import image_classification_kernels as kernels
 from acts_recon.objects import image_src_kernels
@@ -91,14 +91,14 @@ class ImageClassifierConfig:
 
 
 def shallower_patterns(
-    library: ObjectLibrary, response: ForceResponse | MeasuredForceResponse | None = None
+    library: ObjectLibrary, response: Response | None = None
 ) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.int64]]:
     """Every column of a library at all `LEVELS`.
 
     Parameters
     ----------
     library : ObjectLibrary
-    response : ForceResponse or MeasuredForceResponse, optional
+    response : Response, optional
         From counts to newtons and back.
 
     Returns
@@ -151,7 +151,7 @@ def classify_image(
     image: NDArray[np.floating],
     sigma: NDArray[np.floating],
     config: ImageClassifierConfig | None = None,
-    response: ForceResponse | MeasuredForceResponse | None = None,
+    response: Response | None = None,
 ) -> Classification:
     """Classify one image of a skin at rest, without earlier images; see `ImageClassifier.step`."""
     # Here: half the time a node takes to start would go by importing it, and nodes use the kernels.
@@ -200,7 +200,7 @@ class ImageClassifier:
     library : ObjectLibrary
         Best of frames whose counts above some 15 are kept: also faint parts tell objects apart.
     config : ImageClassifierConfig, optional
-    response : ForceResponse or MeasuredForceResponse, optional
+    response : Response, optional
         From counts to newtons and back: how the library's objects look less deep.
     """
 
@@ -208,7 +208,7 @@ class ImageClassifier:
         self,
         library: ObjectLibrary,
         config: ImageClassifierConfig | None = None,
-        response: ForceResponse | MeasuredForceResponse | None = None,
+        response: Response | None = None,
     ) -> None:
         self.library = library
         self.config = config or ImageClassifierConfig()

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError
-from acts_core.skin import ForceResponse, Layout, MeasuredForceResponse, force_table
+from acts_core.skin import ForceResponse, Layout, Response, force_table
 from acts_recon.images import NOISE_COUNTS, PlacedSamples, borders_of
 from acts_recon.outlines.config import OutlinesConfig
 from acts_recon.outlines.contours import area, contours
@@ -66,7 +66,7 @@ class OutlineTracer:
     ----------
     geometry : ArrayGeometry
         Of the images.
-    response : ForceResponse or MeasuredForceResponse, optional
+    response : Response, optional
         From counts to newtons.
     touch_counts : float
         A taxel above is pressed.
@@ -80,7 +80,7 @@ class OutlineTracer:
     def __init__(
         self,
         geometry: ArrayGeometry,
-        response: ForceResponse | MeasuredForceResponse | None = None,
+        response: Response | None = None,
         touch_counts: float = 60.0,
         noise_counts: float = NOISE_COUNTS,
         config: OutlinesConfig | None = None,

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import ArrayError
-from acts_core.skin import ForceResponse, Layout, MeasuredForceResponse, RegionContact, Vector, force_table
+from acts_core.skin import Layout, RegionContact, Response, Vector, force_table
 from acts_recon.images import NOISE_COUNTS
 from acts_recon.regions import region_kernels as kernels
 from acts_recon.regions.sharpness import Sharpness, SharpnessConfig
@@ -29,7 +29,7 @@ class Regions:
     Parameters
     ----------
     layout : Layout
-    response : ForceResponse or MeasuredForceResponse
+    response : Response
         From counts to newtons.
     touch_counts : float
         A taxel above it is pressed.
@@ -49,7 +49,7 @@ class Regions:
     def __init__(
         self,
         layout: Layout,
-        response: ForceResponse | MeasuredForceResponse,
+        response: Response,
         touch_counts: float = 60.0,
         noise_counts: float = NOISE_COUNTS,
         slip: SlipConfig | None = None,

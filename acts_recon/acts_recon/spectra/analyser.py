@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
-from acts_core.skin import ForceResponse, Layout, MeasuredForceResponse, force_table
+from acts_core.skin import ForceResponse, Layout, Response, force_table
 from acts_recon.images import LEAST_NOISE_COUNTS, NOISE_COUNTS, PlacedSamples, borders_of, slope_table
 from acts_recon.spectra.config import SpectraConfig
 from acts_recon.spectra.spectrum import Spectrum
@@ -57,7 +57,7 @@ class SpectrumAnalyser:
     ----------
     geometry : ArrayGeometry
         Of the picture.
-    response : ForceResponse or MeasuredForceResponse, optional
+    response : Response, optional
         From counts to newtons.
     touch_counts : float
         A taxel is touched whose mean is above.
@@ -71,7 +71,7 @@ class SpectrumAnalyser:
     def __init__(
         self,
         geometry: ArrayGeometry,
-        response: ForceResponse | MeasuredForceResponse | None = None,
+        response: Response | None = None,
         touch_counts: float = 60.0,
         noise_counts: float = NOISE_COUNTS,
         config: SpectraConfig | None = None,

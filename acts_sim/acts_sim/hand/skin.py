@@ -147,6 +147,7 @@ class Skin:
 
     def counts(self) -> NDArray[np.float64]:
         """Counts of the taxels before noise and rounding; shape (taxels,), overwritten by the next call."""
+        # As `ForceResponse.counts`, but in place. The order of the operations decides about the last digit.
         response = self._response
         above = np.multiply(self.forces_n, self._gain, out=self._counts)
         above -= response.dead_n

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from acts_core.array import MAX_SIDE
 from acts_core.errors import ActsError, ArrayError
-from acts_core.skin import LAYOUTS, ForceResponse, Layout, force_table, layout
+from acts_core.skin import LAYOUTS, ForceResponse, Layout, MeasuredForceResponse, force_table, layout
 from acts_view.skin.arrangement import arrangement
 from acts_view.skin.history import COLUMNS
 from acts_view.web.codec import encode
@@ -192,7 +192,7 @@ def _force_n(shape: SkinShape) -> list[float] | None:
     """Force of a taxel at 0 to 1023 counts [N]; None where its measured response is not on this machine."""
     try:
         response = (
-            ForceResponse.from_file(Path(shape.force_response))
+            MeasuredForceResponse.from_file(Path(shape.force_response))
             if shape.force_response
             else ForceResponse(shape.force_full_scale_counts, shape.force_dead_n, shape.force_half_n)
         )
