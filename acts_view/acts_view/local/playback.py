@@ -69,6 +69,10 @@ class Playback:
         self._position_us = 0
         self._problem = ""
         self._zero_us: int | None = None
+        # Of the thread alone: what is still to be read, the first of it, and when the recording's time was 0.
+        self._frames: Iterator[SampleFrame] = iter(())
+        self._coming: SampleFrame | None = None
+        self._anchor_us = 0.0
         self._thread = threading.Thread(target=self._run, name="acts_playback", daemon=True)
 
     @property
@@ -116,55 +120,67 @@ class Playback:
             self._changed.notify()
 
     def _run(self) -> None:
-        frames: Iterator[SampleFrame] = iter(())
-        coming: SampleFrame | None = None
-        anchor_us = 0.0
         while True:
             with self._changed:
-                while not (self._is_stopped or self._is_playing or self._seek_us is not None):
-                    self._changed.wait()
-                    anchor_us = _now_us() - self._position_us
+                self._wait_while_held()
                 if self._is_stopped:
                     return
                 seek_us, self._seek_us = self._seek_us, None
             try:
                 if seek_us is not None:
-                    frames = self._recording.frames(max(seek_us - _RUN_UP_US, 0))
-                    coming = next(frames, None)
-                    if coming is not None and self._zero_us is None:
-                        self._zero_us = coming.board_us
-                    self._on_jump()
-                    shown: list[SampleFrame] = []
-                    while coming is not None and (not shown or self._place_us(coming) <= seek_us):
-                        shown.append(coming)
-                        coming = next(frames, None)
-                    if shown:
-                        self._on_frames(shown)
-                    self._set_position(seek_us)
-                    anchor_us = _now_us() - seek_us
+                    self._jump(seek_us)
                     continue
-                due: list[SampleFrame] = []
-                now_us = _now_us()
-                late_us = 0.0 if coming is None else now_us - anchor_us - self._place_us(coming)
-                if late_us > _LATE_MAX_S * 1e6:
-                    anchor_us += late_us
-                # Up to a time that stands still: after one that moves on, slow reading would run for ever.
-                while coming is not None and self._place_us(coming) <= now_us - anchor_us:
-                    due.append(coming)
-                    coming = next(frames, None)
-                    if _now_us() - now_us > _READ_MAX_US:
-                        break
+                due = self._take_due()
             except RecordingError as error:
                 self._end(str(error))
                 continue
             if due:
                 self._hand_on(due)
-            if coming is None:
+            if self._coming is None:
                 self._end("")
             else:
-                with self._changed:
-                    if self._seek_us is None and not self._is_stopped:
-                        self._changed.wait(_TURN_S)
+                self._wait_a_turn()
+
+    def _wait_while_held(self) -> None:
+        while not (self._is_stopped or self._is_playing or self._seek_us is not None):
+            self._changed.wait()
+            self._anchor_us = _now_us() - self._position_us
+
+    def _wait_a_turn(self) -> None:
+        with self._changed:
+            if self._seek_us is None and not self._is_stopped:
+                self._changed.wait(_TURN_S)
+
+    def _jump(self, seek_us: int) -> None:
+        """Go to a time: hand on the frame there, and those shortly before it."""
+        self._frames = self._recording.frames(max(seek_us - _RUN_UP_US, 0))
+        self._coming = next(self._frames, None)
+        if self._coming is not None and self._zero_us is None:
+            self._zero_us = self._coming.board_us
+        self._on_jump()
+        shown: list[SampleFrame] = []
+        while self._coming is not None and (not shown or self._place_us(self._coming) <= seek_us):
+            shown.append(self._coming)
+            self._coming = next(self._frames, None)
+        if shown:
+            self._on_frames(shown)
+        self._set_position(seek_us)
+        self._anchor_us = _now_us() - seek_us
+
+    def _take_due(self) -> list[SampleFrame]:
+        """The frames whose time has come."""
+        due: list[SampleFrame] = []
+        now_us = _now_us()
+        late_us = 0.0 if self._coming is None else now_us - self._anchor_us - self._place_us(self._coming)
+        if late_us > _LATE_MAX_S * 1e6:
+            self._anchor_us += late_us
+        # Up to a time that stands still: after one that moves on, slow reading would run for ever.
+        while self._coming is not None and self._place_us(self._coming) <= now_us - self._anchor_us:
+            due.append(self._coming)
+            self._coming = next(self._frames, None)
+            if _now_us() - now_us > _READ_MAX_US:
+                break
+        return due
 
     def _place_us(self, frame: SampleFrame) -> int:
         return frame.board_us - (self._zero_us or 0)
