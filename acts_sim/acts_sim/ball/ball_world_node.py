@@ -19,7 +19,7 @@ from typing import Any
 from geometry_msgs.msg import PointStamped
 from rclpy.node import Node
 
-from acts_core.errors import ActsError, SettingsError
+from acts_core.errors import ActsError
 from acts_core.runtime import RealtimeConfig, enter_realtime
 from acts_core.settings import setting
 from acts_core.stop_signals import StopSignals
@@ -52,14 +52,12 @@ class BallWorldSettings(RealtimeConfig, WorldConfig):
         "joints.ring in the folder /dev/shm/acts-USER",
     )
     frame_id: str = setting("", "frame of the skin; empty or none: the name of the namespace, with _ for /")
-    truth_every: int = setting(
-        8, "milliseconds between publications of the ball's true position, an even number", minimum=2, maximum=1000
+    truth_period_s: float = setting(
+        0.008, "time between publications of the ball's true position, in steps of 2 ms [s]", minimum=0.002, maximum=1.0
     )
 
     def __post_init__(self) -> None:
         RealtimeConfig.__post_init__(self)
-        if self.truth_every % 2:
-            raise SettingsError(f"truth_every = {self.truth_every}: allowed is an even number, a step takes 2 ms")
 
 
 class BallWorld(Node):
@@ -108,7 +106,7 @@ class BallWorld(Node):
 
     def _publish(self, time_ns: int, state: WorldState) -> None:
         self._steps += 1
-        every_steps = self._settings.truth_every * _NS_PER_MS // STEP_NS
+        every_steps = round(self._settings.truth_period_s * 1e9 / STEP_NS)
         if state.phase is not Phase.ROLLING or self._steps % every_steps:
             return
         if not self._truth.get_subscription_count():
