@@ -27,7 +27,7 @@ class ClaimedError(ActsError):
     """Another program has it; the message is that program."""
 
 
-class Claim:
+class MachineClaim:
     """Taken from now on, until `close` or the process's end, however it ends.
 
     A socket of an abstract name stands for the thing: Linux gives a name to one process of a machine (or container with

@@ -19,7 +19,7 @@ from acts_core.errors import ActsError, SettingsError
 from acts_core.stop_signals import StopSignals
 from acts_ros.processes.console import Console
 from acts_ros.processes.launcher import Launcher
-from acts_sim.shared import Claim, default_run_dir
+from acts_sim.shared import FileClaim, default_run_dir
 from acts_skins.skin_processes import SkinProcesses
 from acts_skins.skins_file import read_skins
 
@@ -54,7 +54,7 @@ def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) 
             return launcher.run(plan)
 
 
-def _claim(run_dir: Path) -> contextlib.closing[Claim]:
+def _claim(run_dir: Path) -> contextlib.closing[FileClaim]:
     """Use a folder for simulated boards alone.
 
     Raises
@@ -63,7 +63,7 @@ def _claim(run_dir: Path) -> contextlib.closing[Claim]:
         Another program `skins` uses it: boards would be started in vain again and again.
     """
     try:
-        return contextlib.closing(Claim(run_dir / "skins"))
+        return contextlib.closing(FileClaim(run_dir / "skins"))
     except ActsError as error:
         raise SettingsError(str(error)) from error
 

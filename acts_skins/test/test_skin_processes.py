@@ -27,7 +27,7 @@ from rclpy.node import Node
 from acts_core.errors import REFUSED_EXIT_CODE, SettingsError
 from acts_msgs.msg import Contact
 from acts_ros import qos
-from acts_sim.shared import Claim
+from acts_sim.shared import FileClaim
 from acts_skins.skin_processes import SkinProcesses
 from acts_skins.skins_file import read_skins
 
@@ -197,7 +197,7 @@ def test_where_contacts_are_merged_a_skin_that_cannot_be_placed_keeps_all_from_s
 
 def test_a_folder_in_which_other_skins_are_simulated_is_refused_with_who_has_it(tmp_path: Path) -> None:
     with (
-        contextlib.closing(Claim(tmp_path / "run" / "skins")),
+        contextlib.closing(FileClaim(tmp_path / "run" / "skins")),
         running(tmp_path, skins_yaml(tmp_path), 162) as skins,
     ):
         assert skins.process.wait(DEADLINE_S) == REFUSED_EXIT_CODE

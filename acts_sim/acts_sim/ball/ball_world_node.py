@@ -34,7 +34,7 @@ from acts_ros.parameters import declare, node_options
 from acts_sim.ball.joint_follower import JointFollower, JointSource
 from acts_sim.ball.world import Phase, World, WorldConfig, WorldState
 from acts_sim.ball.world_loop import STEP_NS, LoopStatistics, WorldLoop
-from acts_sim.shared import Claim, TimedRingWriter, default_run_dir
+from acts_sim.shared import FileClaim, TimedRingWriter, default_run_dir
 
 _NS_PER_MS = 1_000_000
 
@@ -87,7 +87,7 @@ class BallWorld(Node):
     def begin(self) -> None:
         """Make the ring, and start the world."""
         settings = self._settings
-        self._undo.enter_context(closing(Claim(self._field_ring)))
+        self._undo.enter_context(closing(FileClaim(self._field_ring)))
         ring = self._undo.enter_context(TimedRingWriter(self._field_ring, settings.rows * settings.cols))
         self._loop = WorldLoop(self._world, self._joints, ring, self._publish, on_running=self._enter_realtime)
         self._undo.callback(self._loop.stop)

@@ -57,7 +57,7 @@ def make_private(folder: Path) -> None:
         raise SettingsError(f"anybody may write to the folder {folder}; `chmod o-w {folder}`, or {_OTHER}")
 
 
-class Claim:
+class FileClaim:
     """Exclusive use of a file in such a folder, until `close` or the end of the process, however it ends.
 
     Parameters

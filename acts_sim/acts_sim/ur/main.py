@@ -20,7 +20,7 @@ import numpy as np
 from acts_core.errors import ActsError, exit_code
 from acts_core.runtime import RealtimeConfig, enter_realtime
 from acts_core.stop_signals import StopSignals
-from acts_sim.shared import Claim, LineSession, TimedRingWriter, add_settings, own_words, settings_from
+from acts_sim.shared import FileClaim, LineSession, TimedRingWriter, add_settings, own_words, settings_from
 from acts_sim.ur import Controller, ControllerConfig
 from acts_sim.ur.ports import Port, RtdePort, ScriptSession, Server, dashboard, hooks
 
@@ -111,7 +111,7 @@ def run(options: argparse.Namespace, signals: StopSignals) -> None:
         # A client that was interrupted together with the robot is to bring it to rest first.
         signals.on_stop(lambda: server.stop(after_clients=signals.first is not signal.SIGTERM))
         if options.joint_ring is not None:
-            stack.enter_context(contextlib.closing(Claim(options.joint_ring)))
+            stack.enter_context(contextlib.closing(FileClaim(options.joint_ring)))
             ring = stack.enter_context(TimedRingWriter(options.joint_ring, JOINT_RING_WIDTH))
         # All present objects live as long as the process: exempt them from garbage collection.
         gc.freeze()

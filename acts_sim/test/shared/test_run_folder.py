@@ -12,13 +12,13 @@ from pathlib import Path
 import pytest
 
 from acts_core.errors import ActsError, SettingsError
-from acts_sim.shared import Claim, default_run_dir, make_private
+from acts_sim.shared import FileClaim, default_run_dir, make_private
 
 HOLDER = """
 import sys
 from pathlib import Path
-from acts_sim.shared.run_folder import Claim
-claim = Claim(Path(sys.argv[1]))
+from acts_sim.shared.run_folder import FileClaim
+claim = FileClaim(Path(sys.argv[1]))
 print("claimed", flush=True)
 sys.stdin.read()
 """
@@ -80,13 +80,13 @@ def test_a_file_in_place_of_the_folder_is_refused(tmp_path: Path) -> None:
 
 def test_what_is_claimed_is_refused_to_others_by_the_holders_name_until_it_is_given_up(tmp_path: Path) -> None:
     ring = tmp_path / "field.ring"
-    claim = Claim(ring)
+    claim = FileClaim(ring)
     with pytest.raises(SettingsError, match=rf"{ring} is in use by process {os.getpid()} \(.*\); end that program"):
-        Claim(ring)
-    Claim(tmp_path / "joints.ring").close()
+        FileClaim(ring)
+    FileClaim(tmp_path / "joints.ring").close()
     claim.close()
     claim.close()
-    Claim(ring).close()
+    FileClaim(ring).close()
     assert list(tmp_path.iterdir()) == []
 
 
@@ -97,10 +97,10 @@ def test_a_killed_process_has_no_claim_any_more(tmp_path: Path) -> None:
         assert holder.stdout is not None
         assert holder.stdout.readline() == b"claimed\n"
         with pytest.raises(ActsError, match=f"process {holder.pid} "):
-            Claim(ring)
+            FileClaim(ring)
         holder.kill()
         holder.wait()
-        Claim(ring).close()
+        FileClaim(ring).close()
 
 
 def test_a_program_that_is_just_ending_is_waited_for(tmp_path: Path) -> None:
@@ -111,7 +111,7 @@ def test_a_program_that_is_just_ending_is_waited_for(tmp_path: Path) -> None:
         assert holder.stdout is not None
         assert holder.stdout.readline() == b"claimed\n"
         holder.stdin.close()
-        Claim(ring).close()
+        FileClaim(ring).close()
 
 
 def test_a_link_in_place_of_the_lock_is_not_followed(tmp_path: Path) -> None:
@@ -119,7 +119,7 @@ def test_a_link_in_place_of_the_lock_is_not_followed(tmp_path: Path) -> None:
     victim.write_text("kept")
     (tmp_path / "field.ring.lock").symlink_to(victim)
     with pytest.raises(ActsError, match="cannot be locked"):
-        Claim(tmp_path / "field.ring")
+        FileClaim(tmp_path / "field.ring")
     assert victim.read_text() == "kept"
 
 
@@ -132,6 +132,6 @@ def test_a_full_folder_is_told_and_nothing_of_the_lock_stays(tmp_path: Path, mon
         with pytest.raises(
             ActsError, match=r"field.ring.lock cannot be written \(No space left on device\); .*run_dir:="
         ):
-            Claim(tmp_path / "field.ring")
+            FileClaim(tmp_path / "field.ring")
     assert list(tmp_path.iterdir()) == []
-    Claim(tmp_path / "field.ring").close()
+    FileClaim(tmp_path / "field.ring").close()

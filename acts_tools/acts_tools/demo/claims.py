@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from pathlib import Path
 
-from acts_control.claims import Claim, ClaimedError
+from acts_control.claims import ClaimedError, MachineClaim
 from acts_core.errors import LaunchError
 
 
@@ -52,7 +52,7 @@ def claimed_robot(robot_ip: str) -> Iterator[None]:
     """
     try:
         # Not the controller's own claim of a robot: that one it takes itself, later.
-        claim = Claim("demo_robot", robot_ip)
+        claim = MachineClaim("demo_robot", robot_ip)
     except ClaimedError as error:
         raise LaunchError(
             f"another demonstration is running with its robot at {robot_ip}: {error}; wait for it, or choose another "

@@ -8,7 +8,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from acts_control.claims import Claim, ClaimedError
+from acts_control.claims import ClaimedError, MachineClaim
 from acts_control.hand.motors.bus import HandError
 from acts_control.hand.motors.port_words import held
 
@@ -26,7 +26,7 @@ class PortClaim:
 
     def __init__(self, port: str) -> None:
         self._port = port
-        self._claims: dict[str, Claim] = {}
+        self._claims: dict[str, MachineClaim] = {}
 
     def take(self) -> None:
         """Claim the names that the port has now; to be called whenever it is to be opened.
@@ -49,9 +49,9 @@ class PortClaim:
         while self._claims:
             self._claims.popitem()[1].close()
 
-    def _claim(self, name: str) -> Claim:
+    def _claim(self, name: str) -> MachineClaim:
         try:
-            return Claim("hand", name)
+            return MachineClaim("hand", name)
         except ClaimedError as error:
             raise HandError(held(self._port, str(error))) from error
         except OSError as error:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import socket
 
-from acts_control.claims import Claim, ClaimedError
+from acts_control.claims import ClaimedError, MachineClaim
 from acts_core.errors import RobotError
 
 
@@ -16,7 +16,7 @@ class RobotTakenError(RobotError):
 
 
 class RobotClaim:
-    """Taken from now on, until `close` or the process's end, however it ends; see `Claim`.
+    """Taken from now on, until `close` or the process's end, however it ends; see `MachineClaim`.
 
     The robot itself refuses a second program too, but cannot say who the first one is, and takes the second as soon as
     the first has gone.
@@ -34,7 +34,7 @@ class RobotClaim:
 
     def __init__(self, address: str) -> None:
         try:
-            self._claim = Claim("robot", _numeric(address))
+            self._claim = MachineClaim("robot", _numeric(address))
         except ClaimedError as error:
             raise RobotTakenError(
                 f"robot {address} is controlled by {error}; end that program, then call start"

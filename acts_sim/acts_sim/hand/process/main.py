@@ -20,7 +20,7 @@ from acts_core.stop_signals import StopSignals
 from acts_sim.dynamixel import BusPort, ControlSocket, state
 from acts_sim.hand import STEP_S, HandWorld, HandWorldConfig, carry_out, row_width
 from acts_sim.hand.process.loop import HandLoop
-from acts_sim.shared import Claim, TimedRingWriter, add_settings, default_run_dir, own_words, settings_from
+from acts_sim.shared import FileClaim, TimedRingWriter, add_settings, default_run_dir, own_words, settings_from
 
 TRUTH_SLOTS = 8192
 """Number of steps of truth in the ring: 16 s."""
@@ -63,7 +63,7 @@ def run(options: argparse.Namespace, config: HandWorldConfig, signals: StopSigna
     """
     scheduling = settings_from(options, RealtimeConfig)
     with contextlib.ExitStack() as stack:
-        stack.enter_context(contextlib.closing(Claim(options.field_ring)))
+        stack.enter_context(contextlib.closing(FileClaim(options.field_ring)))
         # Its kernels are compiled here where they are new, which takes long.
         with signals.interrupting():
             world = HandWorld(config)
