@@ -26,10 +26,19 @@ _LARGEST_STEP = 0.05
 _HISTORY_STEP_NS = 10 * _NS_PER_S
 _HISTORY_STEPS = 6
 
+# Readings of a taxel that a calibration needs.
+_LEAST_READINGS = 8
+# A reading farther from the baseline than this is no drift: counts, or standard deviations of the taxel's noise.
+_FREEZE_COUNTS = 20.0
+_FREEZE_SIGMAS = 6.0
+
 
 @dataclass(frozen=True)
 class BaselineConfig:
-    """Settings of `BaselineTracker`."""
+    """Settings of `BaselineTracker`.
+
+    The driver sets `touch_counts` and `tau_s` alone; the others are no parameters, and shorter in tests.
+    """
 
     touch_counts: int = setting(
         60, "counts above its baseline at which a taxel is pressed", minimum=1, maximum=COUNT_MAX
@@ -40,14 +49,9 @@ class BaselineConfig:
     calibration_blocks: int = setting(
         8, "shortest untouched time a calibration is made from, in times tare_s", minimum=1, maximum=100
     )
-    least_readings: int = setting(8, "readings of a taxel that a calibration needs", minimum=2, maximum=10_000)
     tau_s: float = setting(
         60.0, "time constant of following the drift of untouched taxels [s]; 0: the baseline stays", minimum=0.0
     )
-    freeze_counts: float = setting(
-        20.0, "a reading farther from the baseline than this is no drift, nor one beyond freeze_sigmas", minimum=1.0
-    )
-    freeze_sigmas: float = setting(6.0, "the same in standard deviations of the taxel's noise", minimum=1.0)
     hold_s: float = setting(1.0, "how long a baseline stays frozen after the touch [s]", minimum=0.0)
 
     def __post_init__(self) -> None:
@@ -169,10 +173,10 @@ class BaselineTracker:
                     f"{needed * self.config.tare_s:g} s: wait and call again"
                 )
             readings = _readings(self._blocks)
-            measured = readings.n >= self.config.least_readings
+            measured = readings.n >= _LEAST_READINGS
             if not measured.any():
                 raise CalibrationError(
-                    f"no taxel was measured {self.config.least_readings} times in the last "
+                    f"no taxel was measured {_LEAST_READINGS} times in the last "
                     f"{needed * self.config.tare_s:g} s: raise the frame rate"
                 )
             touched = self._touched(readings)
@@ -312,11 +316,10 @@ class BaselineTracker:
         valid: NDArray[np.bool_],
         source: BaselineSource,
     ) -> None:
-        config = self.config
         self._baseline[:] = np.where(valid, counts, 0.0)
         self._noise[:] = np.where(valid, noise, 0.0)
-        drift = np.maximum(config.freeze_counts, config.freeze_sigmas * self._noise)
-        self._freeze[:] = np.where(valid, np.minimum(drift, max(config.touch_counts, config.freeze_counts)), -1.0)
+        drift = np.maximum(_FREEZE_COUNTS, _FREEZE_SIGMAS * self._noise)
+        self._freeze[:] = np.where(valid, np.minimum(drift, max(self.config.touch_counts, _FREEZE_COUNTS)), -1.0)
         self._frozen_until_ns[:] = 0
         self._source = source
         self._history.clear()

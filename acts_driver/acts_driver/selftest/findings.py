@@ -49,7 +49,10 @@ class Finding:
 
 @dataclass(frozen=True)
 class Thresholds:
-    """What counts as a fault. `docs/selftest.md` says how each is used."""
+    """What counts as a fault. `docs/selftest.md` says how each is used.
+
+    They are no parameters: a class, so that the result can hold them.
+    """
 
     noise_ratio: float = setting(3.0, "noise over that of the median taxel that is a warning", minimum=1.0)
     noise_warn_counts: float = setting(5.0, "and at least so much", minimum=0.0)

@@ -13,27 +13,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from acts_core.settings import setting, validate
 from acts_driver.stream.envelope import LowerEnvelope
 
-_NS_PER_S = 1e9
-
-
-@dataclass(frozen=True)
-class ClockFilterConfig:
-    """Settings of `ClockFilter`."""
-
-    window_s: float = setting(10.0, "time over which offset and drift are estimated", minimum=1.0, maximum=600.0)
-    drift_from_s: float = setting(2.0, "time after which drift is estimated", minimum=0.1, maximum=60.0)
-    drift_max_ppm: float = setting(500.0, "largest drift of a quartz, faulty ones included", minimum=0.0, maximum=1e5)
-    jump_s: float = setting(0.05, "difference from the expected delay that means a clock has jumped", minimum=1e-3)
-    jump_confirm_s: float = setting(2.0, "how long frames must be late by that much, since a stall passes", minimum=0.1)
-    backlog_s: float = setting(
-        0.003, "board time in one read that shows a backlog: lateness is then no sign of a jump", minimum=1e-3
-    )
-
-    def __post_init__(self) -> None:
-        validate(self)
+# Time over which offset and drift are estimated, and after which drift is [ns].
+_WINDOW_NS = 10_000_000_000
+_DRIFT_FROM_NS = 2_000_000_000
+# Largest drift of a quartz, faulty ones included: 500 ppm.
+_DRIFT_MAX = 500e-6
+# Difference from the expected delay that means a clock has jumped, and how long frames must be late by that much, since
+# a stall passes [ns].
+_JUMP_NS = 50_000_000
+_JUMP_CONFIRM_NS = 2_000_000_000
+# Board time in one read that shows a backlog: lateness is then no sign of a jump [us].
+_BACKLOG_US = 3_000.0
 
 
 @dataclass(frozen=True)
@@ -64,7 +56,7 @@ class ClockFilter:
     Stamps increase strictly and never lie after the arrival. Only where the host's own clock is set back do they follow
     it. A jump of either clock starts the estimate anew. This is at once where the board's clock jumps forwards,
     where the host's jumps backwards, and where `host_was_set` tells of it. Other jumps look like a stall in transport:
-    these count after `jump_confirm_s` without a backlog. A host that is too slow reads its backlog in large pieces, and
+    these count after two seconds without a backlog. A host that is too slow reads its backlog in large pieces, and
     what it reads is as old as it looks.
 
     Attributes
@@ -73,11 +65,7 @@ class ClockFilter:
         Transport delay of the newest frame, beyond the shortest one [ns].
     """
 
-    def __init__(self, config: ClockFilterConfig | None = None) -> None:
-        self._config = config if config is not None else ClockFilterConfig()
-        self._jump_ns = int(self._config.jump_s * _NS_PER_S)
-        self._confirm_ns = int(self._config.jump_confirm_s * _NS_PER_S)
-        self._backlog_us = self._config.backlog_s * 1e6
+    def __init__(self) -> None:
         self._resets = 0
         self._envelope: LowerEnvelope | None = None
         # Points of the envelope are relative to the first frame, so that they stay small.
@@ -148,7 +136,7 @@ class ClockFilter:
         return stamps
 
     def _stamps(self, board_us: Sequence[int], arrival_ns: int, room: int, restarted: bool) -> list[int]:
-        is_backlog = board_us[-1] - board_us[0] > self._backlog_us
+        is_backlog = board_us[-1] - board_us[0] > _BACKLOG_US
         envelope = self._observe(board_us[-1], arrival_ns, restarted, is_backlog)
         self._last_board_us = board_us[-1]
         stamps = []
@@ -174,32 +162,29 @@ class ClockFilter:
         y_ns = arrival_ns - board_us * 1000 - self._origin_delay_ns
         if is_backlog:
             late_ns = y_ns - self._envelope.at(x_ns)
-            if late_ns > self._jump_ns:
+            if late_ns > _JUMP_NS:
                 # Says nothing about the clocks, however long it lasts.
                 self.delay_ns = late_ns
                 self._late_since_ns = None
                 return self._envelope
         height_ns = self._envelope.observe(x_ns, y_ns)
         self.delay_ns = height_ns if height_ns > 0 else 0
-        if height_ns < -self._jump_ns:
+        if height_ns < -_JUMP_NS:
             return self._restart(board_us, arrival_ns)
-        if height_ns <= self._jump_ns:
+        if height_ns <= _JUMP_NS:
             self._late_since_ns = None
         elif self._late_since_ns is None:
             self._late_since_ns = arrival_ns
-        elif arrival_ns - self._late_since_ns > self._confirm_ns:
+        elif arrival_ns - self._late_since_ns > _JUMP_CONFIRM_NS:
             return self._restart(board_us, arrival_ns)
         return self._envelope
 
     def _start(self, board_us: int, arrival_ns: int) -> LowerEnvelope:
-        config = self._config
         self._origin_board_ns = board_us * 1000
         self._origin_delay_ns = arrival_ns - self._origin_board_ns
         self._late_since_ns = None
         self.delay_ns = 0
-        self._envelope = LowerEnvelope(
-            int(config.window_s * _NS_PER_S), int(config.drift_from_s * _NS_PER_S), config.drift_max_ppm * 1e-6, (0, 0)
-        )
+        self._envelope = LowerEnvelope(_WINDOW_NS, _DRIFT_FROM_NS, _DRIFT_MAX, (0, 0))
         return self._envelope
 
     def _restart(self, board_us: int, arrival_ns: int) -> LowerEnvelope:

@@ -10,9 +10,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from simulated_channel import EPOCH_NS, Channel, simulate
 
-from acts_core.errors import SettingsError
 from acts_driver.stream import ClockFilter
-from acts_driver.stream.clock import ClockFilterConfig
 from acts_driver.stream.envelope import hull_slope
 
 pytestmark = pytest.mark.slow
@@ -138,8 +136,3 @@ def test_slope_of_the_lower_hull() -> None:
     assert hull_slope([(0, 5)]) == 0
     assert hull_slope([(0, 0), (1, 9), (2, 2), (3, 9), (4, 4)]) == 1
     assert hull_slope([(0, 4), (2, 0), (3, 50), (8, 6)]) == 1
-
-
-def test_settings_are_checked() -> None:
-    with pytest.raises(SettingsError, match="window_s"):
-        ClockFilterConfig(window_s=0.0)
