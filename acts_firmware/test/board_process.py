@@ -10,6 +10,7 @@ import os
 import select
 import signal
 import subprocess
+import termios
 import time
 import tty
 from collections.abc import Callable
@@ -60,10 +61,19 @@ class BoardProcess:
         assert self.process.stdout is not None
         return json.loads(self.process.stdout.readline())
 
+    def leave(self, last: SampleFrame) -> None:
+        """Close the port and wait until the board has noticed; `last` came through it."""
+        self.close_port()
+        status = self.status()
+        # A line may have waited since before the port was opened.
+        while status["connected"] or status["frames"] <= last.sequence:
+            status = self.status()
+
     def open_port(self) -> int:
         self.close_port()
         self._port = os.open(self.link, os.O_RDWR | os.O_NOCTTY)
-        tty.setraw(self._port)
+        # At once: by default it throws away what the board has sent since the port was opened.
+        tty.setraw(self._port, termios.TCSANOW)
         self.decoder.reset()
         return self._port
 

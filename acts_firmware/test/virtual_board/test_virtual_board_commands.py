@@ -89,9 +89,7 @@ def test_settings_outlive_the_host(tmp_path: Path) -> None:
     settings = BoardSettings(scheme="uniform", m=64, led="touch")
     with BoardProcess(tmp_path, "--status-period-s", 0.02) as board:
         Host(board).ask(encode_configure(1, settings))
-        board.close_port()
-        while board.status()["connected"]:
-            pass
+        board.leave(board.read_frames(1)[0])
         host = Host(board)
         (reply,) = host.ask(encode_query(2))
         assert reply.state.settings == settings
