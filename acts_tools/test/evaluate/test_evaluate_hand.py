@@ -93,13 +93,13 @@ def test_a_cylinder_that_is_pulled_by_twice_its_weight_is_held() -> None:
     assert outcome.offset_mm < 10.0
 
 
-def test_an_object_that_the_fingers_yield_to_has_not_slipped() -> None:
+def test_an_object_that_the_fingers_yield_to_moves_farther_than_it_slides() -> None:
     outcome = slip.run(Run(190))
     assert outcome.offset_mm is not None
     assert outcome.offset_mm > 0.25
     assert outcome.details["slid_mm"] < 0.2
     assert outcome.noticed_ms is None
-    assert outcome.ok
+    assert not outcome.ok, "0.2 mm of motion has to be noticed, however it comes about"
 
 
 def test_sliding_is_the_mean_over_the_patches_weighted_by_force() -> None:

@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -22,7 +21,7 @@ _LARGEST_N = HandToHandConfig().hand_to_hand_max_force_n
 _OPENED_MS = 100.0
 _MOVED_MM = 3.0
 
-# Up to here an object may slide before that has to be noticed.
+# Up to here an object may move before its slip has to be noticed.
 _NOTICEABLE_MM = 0.2
 
 
@@ -55,8 +54,8 @@ def rows(act: Act) -> list[Row]:
     if failed:
         return [Row("not played", failed)]
     if act.name == "slip":
-        noticed = _at_most(15, "slip noticed after 0.2 mm of sliding", outcome.noticed_ms, "ms")
-        if details.get("slid_mm", math.inf) <= _NOTICEABLE_MM:
+        noticed = _at_most(15, "slip noticed after 0.2 mm of motion", outcome.noticed_ms, "ms")
+        if outcome.offset_mm is not None and outcome.offset_mm <= _NOTICEABLE_MM:
             noticed = noticed._replace(is_met=True)
         return [
             Row("load within 50 ms", details.get("load"), "x weight"),

@@ -59,7 +59,7 @@ class Outcome:
     ok : bool
         Whether all criteria of the scenario were met.
     noticed_ms : float or None
-        Time from 0.2 mm of sliding over the skin, or from the contact of the tip, until the reflex acted.
+        Time from 0.2 mm of motion, or from the contact of the tip, until the reflex acted.
     stopped_ms : float or None
         Time from then until the object stopped, or the joints began to open.
     kept : bool or None

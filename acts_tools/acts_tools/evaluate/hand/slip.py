@@ -59,17 +59,16 @@ def run(one: Run) -> Outcome:
             break
     outcome.kept = not rig.world.truth.object_lost and farthest_m < 0.02
     outcome.offset_mm = 1e3 * farthest_m
+    if moved_s is not None and noticed_s is not None:
+        outcome.noticed_ms = 1e3 * (noticed_s - moved_s)
+    # An object moves without sliding where foam and fingers give way, and a touch that moves along cannot tell.
     outcome.details["slid_mm"] = 1e3 * slid_m
-    if noticed_s is not None:
-        # A touch that moves with what it touches cannot tell: it counts from when the object slides over the skin.
-        if slid_s is not None:
-            outcome.noticed_ms = 1e3 * (noticed_s - slid_s)
-        if moved_s is not None:
-            outcome.details["noticed_after_motion_ms"] = 1e3 * (noticed_s - moved_s)
+    if slid_s is not None and noticed_s is not None:
+        outcome.details["noticed_after_sliding_ms"] = 1e3 * (noticed_s - slid_s)
     if noticed_s is not None and stood_s is not None:
         outcome.stopped_ms = 1e3 * (stood_s - noticed_s)
     outcome.details["max_grip_n"] = sum(one.force_n for one in rig.regions)
-    noticed_well = slid_s is None or (outcome.noticed_ms is not None and outcome.noticed_ms <= _NOTICED_MS)
+    noticed_well = moved_s is None or (outcome.noticed_ms is not None and outcome.noticed_ms <= _NOTICED_MS)
     outcome.ok = outcome.kept and farthest_m < _ALLOWED_M and (noticed_well or not one.reflex)
     return outcome
 
