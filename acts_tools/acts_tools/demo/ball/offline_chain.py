@@ -94,7 +94,7 @@ def run(chain: Chain, limit_s: float = 60.0, show: Callable[[float], None] = lam
         balancing.estimate(now_ms)
         if now_ms % control_every == 0:
             wanted = balancing.command(now_ms, control_every * STEP_S)
-            if balancing.has_ended(now_ms, wanted):
+            if balancing.record(now_ms, wanted):
                 break
     return balancing.recording
 
@@ -172,7 +172,7 @@ class _Run:
         self._commands.append((now_ms + self._chain.command_delay_ms, q_rad))
         return wanted
 
-    def has_ended(self, now_ms: int, wanted: TimedReference) -> bool:
+    def record(self, now_ms: int, wanted: TimedReference) -> bool:
         """Record where the ball is and is to be; whether that was the end, well or not."""
         recording = self.recording
         if self._controller.state.phase.name != "BALANCING":
