@@ -9,6 +9,7 @@ import csv
 import threading
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -75,6 +76,8 @@ class Player:
         shape: SkinShape | None = None,
         port: int = 0,
         change: Callable[[Frame], Frame] = lambda frame: frame,
+        *,
+        is_silent: bool = False,
     ) -> None:
         self.server = ViewServer("127.0.0.1", port, on_clients=lambda _: None, log=lambda *_: None)
         self.url = self.server.address.url
@@ -84,6 +87,9 @@ class Player:
         self._change = change
         self.status: dict[str, Any] = {}
         """What each status says besides."""
+        self.is_silent = is_silent
+        """Whether only what controls the skins says something."""
+        self._last: dict[str, Frame] = {}
         self._stopped = threading.Event()
         self._thread = threading.Thread(target=self._play, daemon=True)
         self._thread.start()
@@ -95,7 +101,11 @@ class Player:
         while not self._stopped.wait(PERIOD_S):
             for name in self._names:
                 _, frame, samples = pressed(name, begin_s + number * 0.033)
-                self.server.show_frame(name, self._change(frame), samples)
+                frame = self._change(frame)
+                if self.is_silent:
+                    frame, samples = replace(self._last.get(name, Frame()), ball=frame.ball), []
+                self._last[name] = frame
+                self.server.show_frame(name, frame, samples)
             if number % 30 == 0:
                 self.server.show_status({"skins": list(self._names), "diagnostics": [node], **self.status})
             number += 1

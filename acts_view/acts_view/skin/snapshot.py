@@ -222,10 +222,13 @@ def _age_steps(age_s: NDArray[np.float32]) -> NDArray[np.uint16]:
     return np.fmin(steps, _AGE_STEPS_MAX).astype(np.uint16)
 
 
-def encode_frame(name: str, frame: Frame, history: NDArray[np.float64], life: int) -> bytes:
+def encode_frame(
+    name: str, frame: Frame, history: NDArray[np.float64], life: int, silent_s: float | None = 0.0
+) -> bytes:
     """The newest state of a skin and what is new of its history, as one message.
 
-    Times of the history are offsets from ``base_s``: the seconds since 1970 do not fit 32 bits.
+    Times of the history are offsets from ``base_s``: the seconds since 1970 do not fit 32 bits. `silent_s` is how long
+    ago the skin was heard of [s], None where it never was: what controls it may go on without it.
     """
     # The newest: where a clock was set forward, what is before that may be days away, and is no longer in any plot.
     base_s = float(history[-1, 0]) if len(history) else 0.0
@@ -250,6 +253,7 @@ def encode_frame(name: str, frame: Frame, history: NDArray[np.float64], life: in
         "type": "frame",
         "skin": name,
         "stamp_s": frame.stamp_s,
+        "silent_s": silent_s,
         "base_s": base_s,
         "life": life,
         "touch": frame.touch,

@@ -9,6 +9,7 @@ the history that is new to it. So no client costs memory, or holds up another.
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterator, Sequence
 from typing import Any
 
@@ -25,7 +26,8 @@ class _Skin:
         self.shape: SkinShape | None = None
         self.description = b""
         self._name = name
-        self._made: tuple[int, Place, bytes, Place] | None = None
+        self._heard_s: float | None = None
+        self._made: tuple[tuple[int, Place, float | None], bytes, Place] | None = None
         self.describe(SkinShape())
 
     def describe(self, shape: SkinShape) -> None:
@@ -33,14 +35,24 @@ class _Skin:
             self.shape = shape
             self.description = encode(describe_skin(self._name, shape))
 
+    def take(self, frame: Frame, samples: Sequence[Sample]) -> None:
+        """Take the newest state, and what has come since the last one."""
+        for sample in samples:
+            self.history.add(*sample)
+        # Else only what controls the skin has said something.
+        if samples or frame.image is not self.frame.image:
+            self._heard_s = time.monotonic()
+        self.frame = frame
+        self.frames += 1
+
     def message(self, place: Place) -> tuple[bytes, Place]:
         """The newest frame for who has read so far; clients that keep up share it."""
-        made = self._made
-        if made is None or made[:2] != (self.frames, place):
+        silent_s = None if self._heard_s is None else round(time.monotonic() - self._heard_s, 1)
+        key = self.frames, place, silent_s
+        if self._made is None or self._made[0] != key:
             rows, after = self.history.since(place)
-            made = self.frames, place, encode_frame(self._name, self.frame, rows, after.life), after
-            self._made = made
-        return made[2:]
+            self._made = key, encode_frame(self._name, self.frame, rows, after.life, silent_s), after
+        return self._made[1:]
 
 
 class Display:
@@ -60,11 +72,7 @@ class Display:
 
     def show_frame(self, name: str, frame: Frame, samples: Sequence[Sample]) -> None:
         """Take the newest state of a skin, and what has come since the last one."""
-        skin = self._skin(name)
-        for sample in samples:
-            skin.history.add(*sample)
-        skin.frame = frame
-        skin.frames += 1
+        self._skin(name).take(frame, samples)
 
     def forget(self, name: str) -> None:
         """What comes of a skin does not follow on what has come."""

@@ -91,7 +91,8 @@ export class Panel {
 
   /** The newest state. */
   take(message) {
-    this.heard_ms = performance.now();
+    // What controls the skin is in messages too, and may go on without it.
+    if (message.silent_s !== null) this.heard_ms = performance.now() - 1000 * message.silent_s;
     this.history.take(message);
     if (this.isHeld) return;
     this.message = message;
@@ -137,13 +138,19 @@ export class Panel {
     const silent_ms = now_ms - this.heard_ms;
     const pill = this.find(".pill");
     const isSilent = silent_ms > SILENT_MS;
-    const state = this.isHeld ? "held" : isGone || !this.message ? "waiting" : isStill ? "held" : isSilent ? "silent" : "live";
+    const state = this.isHeld ? "held" : isGone || !this.#isHeard ? "waiting" : isStill ? "held" : isSilent ? "silent" : "live";
     const words = { held: "paused", waiting: "waiting", silent: `silent for ${Math.round(silent_ms / 1000)} s`, live: "live" }[state];
     if (pill.textContent !== words) pill.textContent = words;
     pill.dataset.state = state;
     this.element.dataset.gone = String(isGone && !this.isHeld);
+    this.element.dataset.silent = String(state === "silent");
     this.plots.draw();
     if (!this.isHeld && now_ms - this.numbers_ms > NUMBERS_EVERY_MS) this.#showFigures(now_ms);
+  }
+
+  /** Whether the skin itself has said something to this server. */
+  get #isHeard() {
+    return this.message !== null && this.message.silent_s !== null;
   }
 
   /** Save what is shown; before the first message there is nothing. */
@@ -181,15 +188,16 @@ export class Panel {
     const [, frames] = history.sums(FRAMES, 1);
     const [, lost] = history.sums(LOST, 60);
     const [, latencies] = history.extremes(LATENCY, 1, 1);
+    const nothing = (words) => (this.#isHeard ? words : "–");
     const values = {
-      force: touch ? force_n.toFixed(2) : "0.00",
+      force: touch ? force_n.toFixed(2) : nothing("0.00"),
       x: touch ? rounded(1000 * x_m, 1) : "–",
       y: touch ? rounded(1000 * y_m, 1) : "–",
-      peak: touch ? peak.toFixed(0) : "0",
-      area: touch ? (1e6 * area_m2).toFixed(0) : "0",
+      peak: touch ? peak.toFixed(0) : nothing("0"),
+      area: touch ? (1e6 * area_m2).toFixed(0) : nothing("0"),
       rate: frames.length ? (frames.reduce((sum, count) => sum + count, 0) / (frames.length * BIN_S)).toFixed(0) : "–",
       latency: latencies.length ? Math.max(...latencies).toFixed(1) : "–",
-      lost: lost.reduce((sum, count) => sum + count, 0).toFixed(0),
+      lost: nothing(lost.reduce((sum, count) => sum + count, 0).toFixed(0)),
     };
     for (const [key, text] of Object.entries(values)) {
       if (this.outputs[key].textContent !== text) this.outputs[key].textContent = text;

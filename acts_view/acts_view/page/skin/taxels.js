@@ -10,6 +10,8 @@ const COUNT_MAX = 1023;
 const FIXED_TOP_COUNTS = 768; // of a scale in newtons: above it a count stands for ever more force
 const LEAST_TOP_COUNTS = 100; // an adaptive scale does not show noise as touch
 
+const FADED = 40; // opacity of what is not known, of 255
+
 const COUNTS = Uint16Array.from({ length: COUNT_MAX + 1 }, (_, counts) => counts);
 
 export class Taxels {
@@ -42,11 +44,12 @@ export class Taxels {
     this.most = Math.max(largest, 0.97 * this.most);
   }
 
-  /** Draw counts; with a confidence of 0 to 255 of each, what is not sure fades. Both may be null. */
+  /** Draw counts; with a confidence of 0 to 255 of each, what is not sure fades. Both may be null: no counts fade whole. */
   draw(image, confidence) {
     const context = this.canvas.getContext("2d");
     const colours = table(settings.colours);
     const values = this.valuesOf();
+    const opacity = image ? 255 : FADED;
     this.#scale(image);
     context.clearRect(0, 0, this.canvas.width, this.canvas.height);
     context.imageSmoothingEnabled = settings.smooth;
@@ -59,7 +62,8 @@ export class Taxels {
           const value = image ? values[image[place]] : 0;
           const colour = colours[Math.min(STEPS - 1, Math.round((value / this.top) * (STEPS - 1)))];
           // The upper byte is opacity.
-          words[at] = confidence ? ((colour & 0xffffff) | ((40 + 0.843 * confidence[place]) << 24)) >>> 0 : colour;
+          const own = confidence ? FADED + 0.843 * confidence[place] : opacity;
+          words[at] = ((colour & 0xffffff) | (own << 24)) >>> 0;
         }
       }
       tile.putImageData(pixels, 0, 0);
