@@ -9,7 +9,7 @@ const ADVICE = [
   [/crc|malformed|damaged/i, "Bytes are damaged on the way: try another cable or port, without a hub; see docs/faults.md."],
   [/not in force/i, "The board does not answer: its firmware may be another one (parameter protocol), or the line only goes one way."],
   [/do not fit/i, "Driver and reconstruction must have the same rows and cols; what does not fit is in the log."],
-  [/lost|overrun|late/i, "The machine is too busy, or the port too slow: acts doctor tells what it lacks; see docs/real_time.md."],
+  [/lost|overrun|\blate\b|cycles missed/i, "The machine is too busy, or the port too slow: acts doctor tells what it lacks; see docs/real_time.md."],
   [/no samples/i, "Does the driver of this skin run and have a board? Its own line says."],
   [/no contact messages|no touch/i, "Does the reconstruction of this skin run? Its own line says."],
   [/stopped|given up/i, "Motion has ended. Mend the reason that is told, then start it again."],
@@ -22,5 +22,7 @@ const STALE = "The node has ended or hangs: look where it was started, and start
 export function advice(level, message) {
   if (level === "ok") return "";
   if (level === "stale") return STALE;
-  return ADVICE.find(([pattern]) => pattern.test(message))?.[1] ?? "";
+  // Without the names of topics and ports, which may hold any word: there is "late" in /plate.
+  const words = message.replace(/(^|\s)\/\S+/g, "");
+  return ADVICE.find(([pattern]) => pattern.test(words))?.[1] ?? "";
 }

@@ -36,9 +36,18 @@ function onMessage(message) {
     controls.show(message);
     byId("note").textContent = message.note ?? "";
     panels.offer(message.skins ?? []);
+    showWhyEmpty(message.skins ?? []);
   }
   // Before the first status nobody knows whether there is a skin.
   if (panels.size || message.type === "status") byId("empty").hidden = panels.size > 0;
+}
+
+/** What to do where there is no panel: of skins that the server waits for, something else than without any. */
+function showWhyEmpty(names) {
+  const [none, named] = [".none", ".named"].map((part) => byId("empty").querySelector(part));
+  none.hidden = names.length > 0;
+  named.hidden = !none.hidden;
+  named.querySelector("strong").textContent = names.join(", ");
 }
 
 function onState(state) {

@@ -253,6 +253,37 @@ def test_without_a_skin_it_tells_how_to_start_one(play: Callable[..., Player], o
     expect(page.locator("#empty")).to_contain_text("acts launch acts_bringup tactile.launch.xml")
 
 
+def test_of_a_skin_that_is_waited_for_it_asks_for_its_name_and_nodes(
+    play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    player = play(())
+    player.status = {"skins": ["/foot"]}
+    page = open_page(player, is_live=False)
+    empty = page.locator("#empty")
+    expect(empty).to_contain_text("Nothing has come from /foot yet. Is the name right")
+    # There may be other skins.
+    assert "Nobody publishes touch" not in empty.inner_text()
+
+
+@pytest.mark.parametrize(
+    ("message", "advice"),
+    [
+        # "late" is in the name of the topic only.
+        ("no contact messages on /plate/contact", "Does the reconstruction of this skin run? Its own line says."),
+        ("9 frames were late", "The machine is too busy"),
+        ("7 cycles missed", "The machine is too busy"),
+    ],
+)
+def test_what_to_do_follows_from_what_is_complained_of(
+    message: str, advice: str, play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    player = play()
+    player.status = {"diagnostics": [{"name": "a", "level": 1, "message": message, "age_s": 0.1, "values": []}]}
+    page = open_page(player)
+    expect(page.locator("#diagnostics .message")).to_have_text(message)
+    expect(page.locator("#diagnostics .advice")).to_contain_text(advice)
+
+
 @pytest.mark.parametrize(("width", "height"), [(1280, 800), (1920, 1080)])
 def test_picture_and_legend_fit_the_window_and_nothing_leaves_its_card(
     play: Callable[..., Player], open_page: Callable[..., Page], width: int, height: int
