@@ -38,8 +38,10 @@ TRIGGERS = {
 
 _TRIGGER_TYPE = "std_srvs/srv/Trigger"
 _SET, _GET = "driver/set_parameters", "driver/get_parameters"
-_RANGES = {"m": (0, MAX_SIDE**2), "threshold_counts": (-1, COUNT_MAX)}
-_PARAMETERS = ("scheme", *_RANGES)
+RANGES = {"m": (0, MAX_SIDE**2), "threshold_counts": (-1, COUNT_MAX)}
+"""Lowest and highest value of each number that can be set."""
+
+_PARAMETERS = ("scheme", *RANGES)
 _PATIENCE_S = 10.0
 _WAITING_MAX = 32
 # Anybody in the domain can make up more.
@@ -201,8 +203,8 @@ def _parameter(request: Request) -> Parameter:
     name, value = request.name, request.value
     if name == "scheme" and isinstance(value, str) and value in ("", *SCHEME_NUMBERS):
         return Parameter(name=name, value=ParameterValue(type=ParameterType.PARAMETER_STRING, string_value=value))
-    if name in _RANGES and isinstance(value, int | float) and math.floor(value) == value:
-        lowest, highest = _RANGES[name]
+    if name in RANGES and isinstance(value, int | float) and math.floor(value) == value:
+        lowest, highest = RANGES[name]
         if lowest <= value <= highest:
             number = ParameterValue(type=ParameterType.PARAMETER_INTEGER, integer_value=int(value))
             return Parameter(name=name, value=number)

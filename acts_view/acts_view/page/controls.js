@@ -14,17 +14,19 @@ const BUTTONS = [
   { do: "release", title: "Release", moves: true },
   { do: "stop_grasp", title: "Stop the hand", stops: true },
 ];
+// As acts_view/nodes/control.py has them.
 const FIELDS = [
   { name: "scheme", title: "Scheme" },
-  { name: "m", title: "Taxels a frame", least: 0, note: "0: the board's own" },
-  { name: "threshold_counts", title: "Threshold", least: -1, note: "counts; -1: the board's own" },
+  { name: "m", title: "Taxels a frame", least: 0, most: 4096, note: "0: the board's own" },
+  { name: "threshold_counts", title: "Threshold", least: -1, most: 1023, note: "counts; -1: the board's own" },
 ];
 
 export class Controls {
   constructor(element) {
     this.element = element;
-    this.groups = new Map();
+    this.groups = element.querySelector(".groups");
     this.key = "";
+    this.schemes = "";
   }
 
   /** The newest of what can be asked for; hidden where that is nothing. */
@@ -39,20 +41,24 @@ export class Controls {
   }
 
   #build(offers, schemes) {
-    this.groups.clear();
-    for (const of of [...new Set(offers.map(([, namespace]) => namespace))].sort()) {
-      const group = document.createElement("div");
-      group.className = "group";
-      group.dataset.of = of;
-      const title = document.createElement("h3");
-      title.textContent = of || "/";
-      group.append(title);
+    if (String(schemes) !== this.schemes) this.groups.replaceChildren();
+    this.schemes = String(schemes);
+    arrange(this.groups, [...new Set(offers.map(([, namespace]) => namespace))].sort(), (of) => this.#group(of));
+    for (const group of this.groups.children) {
+      const { of } = group.dataset;
       const offered = new Set(offers.filter(([, namespace]) => namespace === of).map(([what]) => what));
-      for (const button of BUTTONS) if (offered.has(button.do)) group.append(this.#button(of, button));
-      if (offered.has("set")) for (const field of FIELDS) group.append(...this.#field(of, field, schemes));
-      this.groups.set(of, group);
+      const makers = new Map([["title", () => title(of)]]);
+      for (const button of BUTTONS) if (offered.has(button.do)) makers.set(button.do, () => this.#button(of, button));
+      if (offered.has("set")) for (const field of FIELDS) makers.set(field.name, () => this.#field(of, field, schemes));
+      arrange(group, [...makers.keys()], (part) => makers.get(part)());
     }
-    this.element.querySelector(".groups").replaceChildren(...this.groups.values());
+  }
+
+  #group(of) {
+    const group = document.createElement("div");
+    group.className = "group";
+    group.dataset.of = of;
+    return group;
   }
 
   #button(of, { do: what, title, moves, stops }) {
@@ -66,7 +72,7 @@ export class Controls {
     return button;
   }
 
-  #field(of, { name, title, least, note }, schemes) {
+  #field(of, { name, title, least, most, note }, schemes) {
     const label = document.createElement("label");
     label.textContent = title;
     const field = document.createElement(name === "scheme" ? "select" : "input");
@@ -74,7 +80,7 @@ export class Controls {
     if (name === "scheme") {
       for (const scheme of ["", ...schemes]) field.add(new Option(scheme || "the board's own", scheme));
     } else {
-      Object.assign(field, { type: "number", step: 1, min: least, title: note });
+      Object.assign(field, { type: "number", step: 1, min: least, max: most, title: note });
     }
     const refused = document.createElement("span");
     refused.className = "refused";
@@ -84,17 +90,22 @@ export class Controls {
       const value = name === "scheme" ? field.value : field.valueAsNumber;
       // An empty field is NaN.
       const isNone = name !== "scheme" && !(Number.isInteger(value) && value >= least);
-      refused.textContent = isNone ? `not set: needed is a whole number from ${least} on` : "";
-      if (isNone) return;
+      const isTooLarge = value > most;
+      refused.textContent = isNone ? `not set: needed is a whole number from ${least} on` : isTooLarge ? `not set: the largest is ${most}` : "";
+      if (isNone || isTooLarge) return;
       this.#ask(`${title}, ${of || "/"}`, "set", { skin: of, name, value });
     };
     label.append(field);
-    return [label, refused];
+    const both = document.createElement("span");
+    both.className = "field";
+    both.append(label, refused);
+    return both;
   }
 
   #showValues(of, values) {
+    const group = [...this.groups.children].find((one) => one.dataset.of === of);
     for (const [name, value] of Object.entries(values)) {
-      const field = this.groups.get(of)?.querySelector(`[data-name=${name}]`);
+      const field = group?.querySelector(`[data-name=${name}]`);
       if (field && document.activeElement !== field) field.value = value;
     }
   }
@@ -107,4 +118,25 @@ export class Controls {
     line.dataset.done = String(done);
     line.textContent = `${title}: ${text}`;
   }
+}
+
+/**
+ * Children for these keys, in their order, which is always the same: what is there stays where it is, since a person
+ * may be about to press it, or typing in it.
+ */
+function arrange(parent, keys, make) {
+  for (const child of [...parent.children]) if (!keys.includes(child.dataset.key)) child.remove();
+  keys.forEach((key, index) => {
+    const present = parent.children[index];
+    if (present?.dataset.key === key) return;
+    const made = make(key);
+    made.dataset.key = key;
+    parent.insertBefore(made, present ?? null);
+  });
+}
+
+function title(of) {
+  const element = document.createElement("h3");
+  element.textContent = of || "/";
+  return element;
 }

@@ -12,6 +12,7 @@ import pytest
 from view_browser import expect, needs_browser
 from view_player import Player
 
+from acts_view.nodes.control import RANGES
 from acts_view.web.server import READ_ONLY
 
 if TYPE_CHECKING:
@@ -28,6 +29,8 @@ pytestmark = [needs_browser, pytest.mark.slow]
         ("m", "2.5", "not set: needed is a whole number from 0 on"),
         ("threshold_counts", "", "not set: needed is a whole number from -1 on"),
         ("threshold_counts", "-2", "not set: needed is a whole number from -1 on"),
+        ("m", "4097", "not set: the largest is 4096"),
+        ("threshold_counts", "1024", "not set: the largest is 1023"),
     ],
 )
 def test_a_number_that_is_none_is_refused_beside_its_field(
@@ -53,3 +56,44 @@ def test_a_number_that_is_none_is_refused_beside_its_field(
     field.blur()
     expect(refused).to_be_hidden()
     expect(answer).to_contain_text(READ_ONLY)
+
+
+def test_what_one_is_about_to_press_or_types_stays_where_nodes_come_and_go(
+    play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    player = play()
+    settings = {"settings": {"/plate": {"m": 55, "threshold_counts": 40}}}
+    player.status = {"offers": [["tare", "/plate"], ["stop_balancing", "/plate"], ["set", "/plate"]], **settings}
+    page = open_page(player)
+    parts, names = page.locator("#controls [data-of='/plate'] > *"), page.locator("#controls h3")
+    expect(parts).to_have_count(6)
+    field = page.locator("#controls [data-name=m]")
+    field.focus()
+    page.keyboard.press("ControlOrMeta+A")
+    page.keyboard.type("12")
+    # Another driver comes, and a service of this one and what stops go.
+    player.status = {
+        "offers": [["tare", "/arm"], ["calibrate", "/plate"], ["set", "/plate"], ["tare", "/zone"]],
+        **settings,
+    }
+    expect(names).to_have_text(["/arm", "/plate", "/zone"])
+    expect(parts.nth(1)).to_have_text("Calibrate")
+    expect(parts).to_have_count(5)
+    expect(field).to_be_focused()
+    page.keyboard.type("8")
+    expect(field).to_have_value("128")
+    page.focus("#controls [data-do=calibrate]")
+    player.status = {"offers": [["tare", "/plate"], ["calibrate", "/plate"]]}
+    expect(names).to_have_text(["/plate"])
+    expect(parts).to_have_text(["/plate", "Tare", "Calibrate"])
+    expect(page.locator("#controls [data-do=calibrate]")).to_be_focused()
+
+
+def test_the_limits_are_those_of_the_server(play: Callable[..., Player], open_page: Callable[..., Page]) -> None:
+    player = play()
+    player.status |= {"offers": [["set", "/plate"]]}
+    page = open_page(player)
+    for name, (least, most) in RANGES.items():
+        field = page.locator(f"#controls [data-name={name}]")
+        expect(field).to_have_attribute("min", str(least))
+        expect(field).to_have_attribute("max", str(most))
