@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import http.client
+import itertools
 import json
 import os
 import re
@@ -134,6 +135,44 @@ def test_a_board_without_a_graph_is_recorded_by_its_page(tmp_path: Path) -> None
     frames = list(open_recording(ReplayOptions(bag)).frames())
     assert [frame.sequence - frames[0].sequence for frame in frames] == list(range(len(frames)))
     assert len(frames) > 100
+
+
+def test_a_board_that_says_nothing_more_is_not_tared(tmp_path: Path) -> None:
+    with virtual_board(tmp_path) as board, start("--board", str(board.link), "--port", "0") as process:
+        try:
+            assert process.stdout is not None
+            found = next(
+                found for line in process.stdout if (found := re.search(r"open (http://127\.0\.0\.1:\d+)", line))
+            )
+            with connect(f"ws{found[1][4:]}/stream", origin=found[1], compression=None) as page:  # type: ignore[arg-type]
+
+                def tare(number: int) -> dict[str, Any]:
+                    page.send(json.dumps({"id": number, "do": "tare"}))
+                    while True:
+                        message = bytes(page.recv(DEADLINE_S))  # type: ignore[arg-type]
+                        header = json.loads(message[4 : 4 + int.from_bytes(message[:4], "little")])
+                        if header.get("id") == number:
+                            assert isinstance(header, dict)
+                            return header
+
+                def until(condition: Callable[[dict[str, Any]], bool], first: int) -> None:
+                    deadline_s = time.monotonic() + DEADLINE_S
+                    for number in itertools.count(first):
+                        answer = tare(number)
+                        if condition(answer):
+                            return
+                        assert time.monotonic() < deadline_s, answer
+
+                until(lambda answer: answer["done"], 1)
+                board.process.send_signal(signal.SIGSTOP)
+                until(lambda answer: not answer["done"] and answer["text"].startswith("no frames for"), 1_000_000)
+                board.process.send_signal(signal.SIGCONT)
+                until(lambda answer: answer["done"], 2_000_000)
+            process.send_signal(signal.SIGINT)
+            assert process.wait(DEADLINE_S) == 0
+        finally:
+            board.process.send_signal(signal.SIGCONT)
+            process.kill()
 
 
 @pytest.mark.parametrize(

@@ -37,6 +37,8 @@ _NS_PER_US = 1000
 _FULL_HZ = 200.0
 _FULL_M = 220
 _TRACKED_COUNTS = 30
+# Older frames do not show the present skin [s]; as of the driver.
+_FRESH_S = 0.5
 _RECORD_BYTES_MAX = int(1e6 * ViewSettings.record_max_mb)
 
 
@@ -224,6 +226,7 @@ class BoardSource:
         self._intake = Intake(driver, self._source, self._take, log=log, on_board=lambda _: None)
         self._told: dict[str, Any] = {}
         self._told_s = -_DIAGNOSTICS_PERIOD_S
+        self._heard_s = time.monotonic()
         self._feed: BoardFeed | None = None
         self._recording = (
             None if record_dir is None else Recording(record_dir, _RECORD_BYTES_MAX, lambda: [name], self._begin, log)
@@ -270,6 +273,11 @@ class BoardSource:
         return None if self._recording is None else self._recording.file(name)
 
     def _tare(self) -> str:
+        silent_s = time.monotonic() - self._heard_s
+        if silent_s > _FRESH_S:
+            raise ViewRequestError(
+                f"no frames for {silent_s:.1f} s: the line of the driver tells why; tare when they are back"
+            )
         try:
             baseline = self._tracker.tare()
         except ActsError as error:
@@ -288,6 +296,8 @@ class BoardSource:
         return self._feed
 
     def _take(self, frames: Sequence[tuple[SampleFrame, int]], _results: object) -> None:
+        if frames:
+            self._heard_s = time.monotonic()
         self._tracker.observe(frames)
         self.skin.take(frames, time.time_ns())
         feed = self._feed
