@@ -75,10 +75,13 @@ function show() {
 }
 
 for (const name of ["scale", "unit", "colours", "window"]) {
+  let isByKeys = false;
+  byId(name).onkeydown = () => { isByKeys = true; };
+  byId(name).onpointerdown = () => { isByKeys = false; };
   byId(name).onchange = (event) => {
     set(name, event.target.value);
-    // The next key is one of the page again.
-    event.target.blur();
+    // The next key is one of the page again, but where keys chose, the next one may choose on.
+    if (!isByKeys) event.target.blur();
   };
 }
 for (const name of ["smooth", "contacts", "outlines", "unsure", "measured", "theme"]) byId(name).onclick = () => next(name);

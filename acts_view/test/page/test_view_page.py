@@ -248,6 +248,17 @@ def test_a_pause_holds_the_figures_and_a_skin_that_appears_in_it(
     expect(page.locator("[data-skin='/late'] [data-number=peak]")).to_have_text("800")
 
 
+def test_keys_go_through_a_list_and_then_on(play: Callable[..., Player], open_page: Callable[..., Page]) -> None:
+    page = open_page(play())
+    colours = page.locator("#colours")
+    colours.focus()
+    page.keyboard.press("ArrowDown")
+    page.keyboard.press("ArrowDown")
+    expect(colours).to_have_value("greys")
+    page.keyboard.press("Tab")
+    expect(page.locator("#window")).to_be_focused()
+
+
 def test_without_a_skin_it_tells_how_to_start_one(play: Callable[..., Player], open_page: Callable[..., Page]) -> None:
     page = open_page(play(()), is_live=False)
     expect(page.locator("#empty")).to_contain_text("acts launch acts_bringup tactile.launch.xml")
