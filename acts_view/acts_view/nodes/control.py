@@ -115,18 +115,16 @@ class Control:
             ``offers``: pairs of what and of which namespace; ``settings``: of drivers, by namespace; ``recording``.
         """
         self._services = dict(self._node.get_service_names_and_types())
-        offers: list[list[str]] = [
+        found: list[list[str]] = [
             [do, service.removesuffix(f"/{name}")]
             for do, name in TRIGGERS.items()
             for service, kinds in self._services.items()
             if service.endswith(f"/{name}") and _TRIGGER_TYPE in kinds
         ][:_OFFERS_MAX]
-        for do, namespace in offers:
-            # Ahead of the first request, which would have to wait until the service is reached.
-            self._client(f"{namespace}/{TRIGGERS[do]}", Trigger)
+        offers = [[do, of] for do, of in found if self._is_there(f"{of}/{TRIGGERS[do]}", Trigger)]
         drivers = [name.removesuffix(f"/{_SET}") for name in self._services if name.endswith(f"/{_SET}")][:_OFFERS_MAX]
+        drivers = [driver for driver in drivers if self._is_there(f"{driver}/{_SET}", SetParameters)]
         for driver in drivers:
-            self._client(f"{driver}/{_SET}", SetParameters)
             self._ask_settings(driver)
         self._settings = {driver: self._settings.get(driver, {}) for driver in drivers}
         return {
@@ -158,7 +156,7 @@ class Control:
             raise ViewRequestError(f"there is no service {service}: is the node running?")
         client = self._client(service, kind)
         if not client.service_is_ready():
-            raise ViewRequestError(f"{service} is not reached yet; try again")
+            raise ViewRequestError(f"{service} is not reached: has its node ended? If it has just begun, try again")
         future = client.call_async(asked)
         call = _Call(client, future, answer, service, time.monotonic() + self._patience_s)
         self._calls.append(call)
@@ -192,6 +190,10 @@ class Control:
 
         self._asked[driver] = client.call_async(GetParameters.Request(names=list(_PARAMETERS)))
         self._asked[driver].add_done_callback(on_done)
+
+    def _is_there(self, service: str, kind: type) -> bool:
+        """Whether somebody serves it: the graph names it also where there are only clients, such as ours."""
+        return bool(self._client(service, kind).service_is_ready())
 
     def _client(self, service: str, kind: type) -> Client:
         if service not in self._clients:

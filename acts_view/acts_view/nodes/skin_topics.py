@@ -71,6 +71,7 @@ class SkinTopics:
         self._polled: dict[str, PolledSubscription[Any]] = {}
         self._silent: set[str] = set()
         self._frame = Frame()
+        self._is_robot_gone = False
         self._contact = ContactTopic(node, namespace)
         self._polled["regions"] = node.create_raw_polled_subscription(
             RegionContacts, f"{namespace}/regions", qos.STREAM, depth=1
@@ -96,6 +97,7 @@ class SkinTopics:
         self._frame = replace(
             old, hand=old.hand if self._is_told("hand") else {}, ball=old.ball if self._is_told("ball") else {}
         )
+        self._is_robot_gone |= (self._frame.hand, self._frame.ball) != (old.hand, old.ball)
 
     def close(self) -> None:
         """Subscribe no longer."""
@@ -107,13 +109,15 @@ class SkinTopics:
             self._outlines.close()
 
     def take(self) -> tuple[Frame, list[Sample]] | None:
-        """The newest of everything and all of the 1 kHz stream since the last call; None where nothing came."""
+        """The newest of everything and all of the 1 kHz stream since the last call; None where nothing came or went."""
         samples, touch, stamp_s = self._contact.take()
         images = {name: self._newest_read(name, read_image) for name in ("image_raw", "confidence", "age")}
         contacts, regions = self._newest_read("contacts", read_contacts), self._newest_read("regions", read_regions)
         robot = {topic: self._newest(topic) for topic in _ROBOT}
-        if not samples and all(one is None for one in (*images.values(), contacts, regions, *robot.values())):
+        nothing_came = all(one is None for one in (*images.values(), contacts, regions, *robot.values()))
+        if not samples and nothing_came and not self._is_robot_gone:
             return None
+        self._is_robot_gone = False
         old = self._frame
         image = _pixels(images["image_raw"], "mono16")
         confidence = _pixels(images["confidence"], "mono8")

@@ -16,6 +16,7 @@ from rcl_interfaces.msg import SetParametersResult
 from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.parameter import Parameter
+from rclpy.service import Service
 from spinning import Spinning
 from std_srvs.srv import Trigger
 from test_view_codec import decode
@@ -47,11 +48,13 @@ class Bench:
         self._context = Context()
         rclpy.init(context=self._context, domain_id=DOMAIN_ID)
         self.called: list[str] = []
+        self.services: dict[str, Service] = {}
         nodes = []
         for namespace, name in SERVERS.items():
             node = Node(name, namespace=namespace, context=self._context)
             for what in BUTTONS[namespace]:
-                node.create_service(Trigger, f"~/{what}", self._callback(name, what))
+                callback = self.callback(name, what)
+                self.services[f"{namespace}/{what}"] = node.create_service(Trigger, f"~/{what}", callback)
             nodes.append(node)
         self.driver = nodes[0]
         for parameter, value in (("scheme", ""), ("m", 55), ("threshold_counts", -1)):
@@ -60,7 +63,7 @@ class Bench:
         self.driver.create_publisher(Contact, "contact", qos.STREAM)
         # Nobody spins it: its service is there, and says nothing.
         self._stuck = Node("driver", namespace="/stuck", context=self._context)
-        self._stuck.create_service(Trigger, "~/tare", self._callback("stuck", "tare"))
+        self._stuck.create_service(Trigger, "~/tare", self.callback("stuck", "tare"))
         options = [Parameter("port", value=0), Parameter("control", value=control)]
         self.view = ViewNode(context=self._context, parameter_overrides=options)
         if self.view._control is not None:
@@ -68,6 +71,14 @@ class Bench:
         self.url = self.view.address.url
         self._nodes = [*nodes, self.view]
         self._spinning = Spinning(self._context, *self._nodes)
+
+    def on_executor(self, work: Callable[[], object]) -> None:
+        # It may not meet what is being destroyed.
+        task = self._spinning.executor.create_task(work)
+        deadline_s = time.monotonic() + DEADLINE_S
+        while not task.done():
+            assert time.monotonic() < deadline_s
+        task.result()
 
     def connect(self) -> ClientConnection:
         port = self.view.address.port
@@ -80,7 +91,7 @@ class Bench:
             node.destroy_node()
         rclpy.try_shutdown(context=self._context)
 
-    def _callback(self, name: str, what: str) -> Callable[[Any, Trigger.Response], Trigger.Response]:
+    def callback(self, name: str, what: str) -> Callable[[Any, Trigger.Response], Trigger.Response]:
         def answer(_: Any, response: Trigger.Response) -> Trigger.Response:
             self.called.append(f"{name}/{what}")
             response.success = what != "calibrate"
@@ -159,6 +170,23 @@ def test_what_is_asked_is_bounded_and_a_service_that_is_silent_holds_nothing_up(
         assert (first["id"], first["done"]) == (64, False)
         assert "wait for their answers" in first["text"]
     assert bench.called == ["driver/tare"]
+
+
+def test_what_nobody_serves_any_more_is_not_offered(begin: Callable[..., Bench]) -> None:
+    bench = begin(control=True)
+    with bench.connect() as client:
+        until(client, lambda header: ["tare", "/plate"] in header.get("offers", []))
+        # Once it has been called there is a client, which keeps the name in the graph.
+        client.send('{"id":1,"do":"tare","skin":"/plate"}')
+        assert until(client, lambda header: header.get("id") == 1)["done"]
+        bench.on_executor(lambda: bench.driver.destroy_service(bench.services["/plate/tare"]))
+        status = until(client, lambda header: ["tare", "/plate"] not in header.get("offers", [["tare", "/plate"]]))
+        assert ["calibrate", "/plate"] in status["offers"]
+        # It may come back.
+        bench.on_executor(lambda: bench.driver.create_service(Trigger, "~/tare", bench.callback("driver", "tare")))
+        until(client, lambda header: ["tare", "/plate"] in header.get("offers", []))
+        client.send('{"id":2,"do":"tare","skin":"/plate"}')
+        assert until(client, lambda header: header.get("id") == 2)["done"]
 
 
 @needs_browser

@@ -359,7 +359,8 @@ def contact_subscribers(bench: Bench) -> int:
     return bench.contact.get_subscription_count()
 
 
-def test_a_page_sees_ball_reference_tilt_and_joints_and_no_more_when_they_are_gone(bench: Bench) -> None:
+@pytest.mark.parametrize("presses", [0, 1])
+def test_a_page_sees_ball_reference_tilt_and_joints_and_no_more_when_they_are_gone(bench: Bench, presses: int) -> None:
     place = bench.skin.create_publisher(BallState, "ball/state", qos.STATE)
     reference = bench.skin.create_publisher(BallReference, "ball/reference", qos.STATE)
     status = bench.skin.create_publisher(BalanceStatus, "ball/status", qos.STATE)
@@ -394,4 +395,5 @@ def test_a_page_sees_ball_reference_tilt_and_joints_and_no_more_when_they_are_go
         }
         assert seen()["hand"] == {"joints": [["knee", 0.5]]}
         bench.destroy([place, reference, status, joints])
-        bench.until(lambda: seen()["ball"] == {} and seen()["hand"] == {}, client, lambda: bench.press(1.0))
+        none = {"ball": {}, "hand": {}}
+        bench.until(lambda: seen() | none == seen(), client, lambda: [bench.press(1.0) for _ in range(presses)])
