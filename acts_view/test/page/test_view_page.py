@@ -248,6 +248,14 @@ def test_a_pause_holds_the_figures_and_a_skin_that_appears_in_it(
     expect(page.locator("[data-skin='/late'] [data-number=peak]")).to_have_text("800")
 
 
+def test_what_of_a_skin_cannot_be_shown_here_is_said(
+    play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    page = open_page(play(shape=SkinShape(force_response="/nowhere/skin.npz")), 360, 740)
+    expect(page.get_by_text("no newtons: /nowhere/skin.npz cannot be read here")).to_be_visible()
+    assert page.evaluate("() => document.documentElement.scrollWidth <= innerWidth")
+
+
 def test_keys_go_through_a_list_and_then_on(play: Callable[..., Player], open_page: Callable[..., Page]) -> None:
     page = open_page(play())
     colours = page.locator("#colours")

@@ -41,7 +41,7 @@ export class Panel {
     this.element.className = "card skin";
     this.element.dataset.skin = name;
     this.element.innerHTML = `
-      <header><h2></h2><p class="shape"></p><p class="pill" data-state="waiting">waiting</p></header>
+      <header><h2></h2><p class="shape"></p><p class="pill" data-state="waiting">waiting</p><p class="lacks"></p></header>
       <div class="body">
         <div class="picture">
           <div class="canvases"><canvas class="taxels"></canvas><canvas class="marks" tabindex="0" role="img"></canvas></div>
@@ -83,7 +83,7 @@ export class Panel {
     const size = shape.patches.length > 1 ? `${shape.patches.length} patches` : `${width_mm} × ${height_mm} mm`;
     const layout = shape.layout === "square" ? "" : `${shape.layout.split("/").pop().replace(/\.ya?ml$/, "").replaceAll("_", " ")} · `;
     this.find(".shape").textContent = `${layout}${shape.rows} × ${shape.cols} taxels · ${size}`;
-    this.find(".shape").title = shape.note;
+    this.find(".lacks").textContent = shape.note;
     // The middle of a hand's fingers is nowhere.
     for (const key of ["x", "y"]) this.find(`[data-of=${key}]`).hidden = shape.patches.length > 1;
     this.view.setShape(shape);
