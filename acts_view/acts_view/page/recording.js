@@ -27,6 +27,8 @@ export class Recording {
     this.isOn = recording.on;
     this.button.textContent = recording.on ? "Stop recording" : "Record";
     this.button.setAttribute("aria-pressed", String(recording.on));
+    // What counts on by itself is not read out.
+    this.line.setAttribute("aria-live", recording.on ? "off" : "polite");
     if (recording.on) {
       this.note = "";
       this.#tell(`${recording.name}: ${recording.elapsed_s.toFixed(0)} s, ${megabytes(recording.bytes)}, ${recording.messages} messages, ${recording.lost} lost`);

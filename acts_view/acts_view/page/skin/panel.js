@@ -50,7 +50,7 @@ export class Panel {
           <p class="savers" role="group" aria-label="Save what is shown"><button type="button" data-save="picture" title="of the skin, as it is shown (PNG)">Picture</button><button type="button" data-save="taxels" title="a row for each taxel">Taxels, CSV</button><button type="button" data-save="contacts" title="a row for each contact">Contacts, CSV</button><button type="button" data-save="plots" title="what the plots show, 8 ms a row">Plots, CSV</button></p>
         </div>
         <div class="facts">
-          <dl class="numbers">${NUMBERS.map(([key, title, unit]) => `<div data-of="${key}"><dt>${title} [${unit}]</dt><dd><output data-number="${key}">–</output></dd></div>`).join("")}</dl>
+          <dl class="numbers">${NUMBERS.map(([key, title, unit]) => `<div data-of="${key}"><dt>${title} [${unit}]</dt><dd><output aria-live="off" data-number="${key}">–</output></dd></div>`).join("")}</dl>
           <table class="contacts">
             <caption>Contacts</caption>
             <thead><tr><th scope="col">no.</th><th scope="col">force <small>N</small></th><th scope="col">peak <small>counts</small></th><th scope="col">area <small>mm²</small></th><th scope="col">speed <small>mm/s</small></th></tr></thead>
