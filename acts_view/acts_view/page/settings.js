@@ -45,7 +45,8 @@ export function onChange(listener) {
 export function set(name, value) {
   settings[name] = value;
   try {
-    localStorage.setItem(KEY, JSON.stringify(settings));
+    // Another page of this browser may have chosen something else since this one was opened.
+    localStorage.setItem(KEY, JSON.stringify({ ...load(), [name]: value }));
   } catch {
     // Not kept, but in force.
   }

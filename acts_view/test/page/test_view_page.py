@@ -256,6 +256,20 @@ def test_what_of_a_skin_cannot_be_shown_here_is_said(
     assert page.evaluate("() => document.documentElement.scrollWidth <= innerWidth")
 
 
+def test_choices_of_two_pages_are_kept(play: Callable[..., Player], open_page: Callable[..., Page]) -> None:
+    first = open_page(play())
+    with first.expect_popup() as opening:
+        first.evaluate("() => { window.open(location.href); }")
+    second = opening.value
+    second.wait_for_selector(".skin .pill[data-state=live]")
+    first.select_option("#scale", "adaptive")
+    second.select_option("#colours", "cividis")
+    expect(second.locator("#scale")).to_have_value("fixed")
+    first.reload()
+    expect(first.locator("#scale")).to_have_value("adaptive")
+    expect(first.locator("#colours")).to_have_value("cividis")
+
+
 def test_keys_go_through_a_list_and_then_on(play: Callable[..., Player], open_page: Callable[..., Page]) -> None:
     page = open_page(play())
     colours = page.locator("#colours")
