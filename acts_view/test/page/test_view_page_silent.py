@@ -40,10 +40,12 @@ def test_a_skin_that_stops_is_silent_though_its_controller_goes_on(
     player.is_silent = True
     expect(page.locator(".skin .pill")).to_have_text("silent for 3 s")
     # What it showed last is not what is there now; what the controller says is.
-    expect(page.locator(".canvases")).to_have_css("opacity", "0.45")
-    expect(page.locator(".facts")).to_have_css("opacity", "0.45")
-    expect(page.locator(".patches")).to_have_css("opacity", "0.45")
+    expect(page.locator(".canvases")).to_have_css("opacity", "0.6")
+    expect(page.locator(".facts")).to_have_css("opacity", "0.6")
+    expect(page.locator(".patches")).to_have_css("opacity", "0.6")
+    expect(page.locator("[data-ball=ball]")).to_have_css("opacity", "0.6")
     expect(page.locator(".ball")).to_have_css("opacity", "1")
+    expect(page.locator("[data-ball=tilt]")).to_have_css("opacity", "1")
     # A page that is opened then knows since when.
     later = open_page(player, is_live=False)
     later.wait_for_selector(".skin .pill[data-state=silent]")
