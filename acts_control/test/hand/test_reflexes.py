@@ -393,3 +393,10 @@ def test_no_reflex_answers_with_what_is_not_finite(data: list[tuple], q: list[fl
 def test_a_reflex_that_does_not_exist_is_refused_with_the_nearest_name() -> None:
     with pytest.raises(SettingsError, match="did you mean 'sphere'"):
         make_reflexes("slip sphre", None)
+
+
+@pytest.mark.parametrize("names", ["none", " none ", ""])
+def test_none_is_no_reflex(names: str) -> None:
+    assert make_reflexes(names, None) == {}
+    with pytest.raises(SettingsError, match="unknown key 'none'; known are sharp, "):
+        make_reflexes("slip none", None)

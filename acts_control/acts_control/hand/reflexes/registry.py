@@ -17,6 +17,8 @@ from acts_control.hand.reflexes.trapping import Trapping
 from acts_core.errors import SettingsError
 from acts_core.settings import part_of, refuse_doubles, unknown_key_message
 
+_NONE = "none"
+
 REFLEXES: dict[str, type[Reflex]] = {
     "sharp": SharpAvoidance,
     "slip": SlipPrevention,
@@ -29,12 +31,16 @@ REFLEXES: dict[str, type[Reflex]] = {
 def make_reflexes(names: str, settings: Any) -> dict[str, Reflex]:
     """The reflexes of these names, with blanks or commas between them, made from one object with all their settings.
 
+    The word none stands for none of them.
+
     Raises
     ------
     SettingsError
         For a name that is not in the registry, and for settings that a reflex refuses.
     """
     wanted = names.replace(",", " ").split()
+    if wanted == [_NONE]:
+        return {}
     for name in wanted:
         if name not in REFLEXES:
             raise SettingsError(unknown_key_message(name, list(REFLEXES), "reflexes"))
