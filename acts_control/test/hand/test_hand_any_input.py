@@ -311,6 +311,8 @@ def test_no_bytes_of_a_command_end_the_node(hand_node: ToldNode, junk: bytes, be
         (("thumb_cmc",), 1, 40, "cannot be read"),
         (("thumb_cmc",), 2, None, "1 names with 2 positions"),
         (("nobody\n" * 99,), 1, None, r"no joint 'nobody\nnobody"),
+        (("thumb_cmc", "index_pip", "thumb_cmc"), 3, None, "it names 'thumb_cmc' more than once"),
+        (("thumb_cmc",), 1, None, "the hand is not connected: not started"),
     ],
 )
 def test_a_command_that_cannot_be_is_refused_in_words(

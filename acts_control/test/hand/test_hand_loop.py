@@ -111,8 +111,23 @@ def test_the_hand_is_released_and_enabled_again(bus: Bus, running: Running) -> N
     assert running.loop.status.phase is HandPhase.RELEASED
     assert torques(bus) == {0}
     assert running.loop.enable() == ""
-    running.until_phase(HandPhase.ENABLED)
+    assert running.loop.status.phase is HandPhase.ENABLED
     assert torques(bus) == {1}
+
+
+def test_who_asks_for_torque_is_told_why_it_is_still_off(bus: Bus, running: Running) -> None:
+    running.until_phase(HandPhase.ENABLED)
+    bus.command("unplug")
+    running.until_phase(HandPhase.CONNECTING)
+    assert "the hand is not connected (" in running.loop.enable()
+    bus.command("plug_in")
+    running.until_phase(HandPhase.ENABLED)
+    running.loop.release()
+    # The loop does not come to it.
+    running.may_go_on.clear()
+    assert running.is_held.wait(DEADLINE_S)
+    assert "the hand is released (released by request); its torque comes on as soon as it can" in running.loop.enable()
+    running.may_go_on.set()
 
 
 def test_an_overload_is_recovered_once_and_given_up_the_second_time(bus: Bus, running: Running) -> None:

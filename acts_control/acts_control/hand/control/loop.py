@@ -23,7 +23,7 @@ from acts_core.settings import rounded_up, setting, validate
 _RETURN_RAD_S = 0.5
 # A joint at its limit may read as a little beyond.
 _BEYOND_RAD = 0.02
-# Who asks for a release waits no longer for the motors' answers; where many are silent, asking them all takes longer.
+# Who asks for torque or a release waits no longer for the motors' answers; where many are silent, it takes longer.
 _ANSWER_S = 2.0
 _CUT_POWER = "motors that are silent may hold on: cut their power to be sure"
 # So many reads have to fail before motors count as silent: one answer may be lost.
@@ -110,7 +110,8 @@ class HandLoop:
         self._enabled = config.autostart
         self._is_on = False  # whether the torque of a motor may be on
         self._closing = threading.Event()
-        self._has_obeyed = threading.Event()  # whether it is known what has become of a wish for release
+        # Whether it is known what has become of a wish for release, and of one for torque.
+        self._has_obeyed, self._has_enabled = threading.Event(), threading.Event()
         self._faults = FaultMemory(len(hand.joints), config.max_faults)
         self._thread = threading.Thread(target=self._run, name="hand_loop", daemon=True)
 
@@ -149,12 +150,24 @@ class HandLoop:
             self._commanded_s = now_s
 
     def enable(self) -> str:
-        """Switch the torque on, now or as soon as the hand is connected; why that cannot be, or nothing."""
+        """Switch the torque on, now or as soon as the hand is connected; why it is still off, or nothing.
+
+        Waits until it is on, for two seconds at most.
+        """
         if self._closing.is_set() or not self._thread.is_alive():
             return f"the hand's loop has ended: {self.status.reason}"
         self._faults.forget()
+        self._has_enabled.clear()
         self._enabled = True
-        return ""
+        if self.status.phase not in (HandPhase.CONNECTING, HandPhase.ENABLED):
+            self._has_enabled.wait(_ANSWER_S)
+        status = self.status
+        if status.phase is HandPhase.ENABLED:
+            return ""
+        if not self._enabled or not self._thread.is_alive():
+            return f"the torque is off: {status.reason}"
+        state = "not connected" if status.phase is HandPhase.CONNECTING else status.phase.name.lower()
+        return f"the hand is {state} ({status.reason}); its torque comes on as soon as it can, unless it is released"
 
     def release(self) -> str:
         """Switch the torque off, now or as soon as the hand is connected; why it may still be on, or nothing.
@@ -183,7 +196,7 @@ class HandLoop:
             if self._is_on:
                 self._switch_off_at_last()
             self._bus.close()
-            self._has_obeyed.set()
+            self._tell_who_waits()
 
     def _run_once(self) -> None:
         """Until the hand is lost, or the loop is to end."""
@@ -202,8 +215,13 @@ class HandLoop:
             self._set(HandPhase.GIVEN_UP, "the hand's loop failed", reading=None)
             raise
         finally:
-            self._has_obeyed.set()
+            self._tell_who_waits()
             self._bus.disconnect()
+
+    def _tell_who_waits(self) -> None:
+        """Whatever was asked for, `status` says what has become of it."""
+        self._has_obeyed.set()
+        self._has_enabled.set()
 
     def _connect(self) -> None:
         """Try until the hand is there."""
@@ -313,6 +331,7 @@ class HandLoop:
         if self._behaviour is not None:
             self._behaviour.restart(recovered=recovered)
         self._set(HandPhase.ENABLED, "holding", goal_rad=reading.q_rad)
+        self._has_enabled.set()
         return list(reading.q_rad)
 
     def _targets(
@@ -342,18 +361,22 @@ class HandLoop:
                 continue
             name = self._hand.joints[k].name
             if not is_forgiven and self._faults.add(k):
-                # First, so that it stays given up where the motors do not answer to the rest.
-                self._enabled = False
-                reason = f"{name}: {fault}, {self._config.max_faults} times within a minute; call enable to go on"
-                self._log("error", reason)
-                self._release()
-                self._set(HandPhase.GIVEN_UP, reason)
+                self._give_up(f"{name}: {fault}, {self._config.max_faults} times within a minute; call enable to go on")
                 return
             self._log("error", f"{name}: {fault}; its motor is started anew")
             was_on = self.status.phase in (HandPhase.ENABLED, HandPhase.RECOVERING)
             self._set(HandPhase.RECOVERING if was_on else HandPhase.RELEASED, f"{name}: {fault}")
             self._bus.recover(k)
             self._count(recovered=1)
+
+    def _give_up(self, reason: str) -> None:
+        """All torque off, until somebody calls `enable`."""
+        # First, so that it stays given up where the motors do not answer to the rest.
+        self._enabled = False
+        self._log("error", reason)
+        self._release()
+        self._set(HandPhase.GIVEN_UP, reason)
+        self._has_enabled.set()
 
     def _release_at_end(self) -> None:
         if not self._closing.is_set():

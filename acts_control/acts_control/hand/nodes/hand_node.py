@@ -64,10 +64,19 @@ class HandNode(MotorNode):
         if len(message.name) != len(message.position):
             self._refuse(f"{len(message.name)} names with {len(message.position)} positions")
             return
+        angles_rad = dict(zip(message.name, message.position, strict=True))
+        if len(angles_rad) < len(message.name):
+            twice = next(name for name in message.name if message.name.count(name) > 1)
+            self._refuse(f"it names {twice[:64]!r} more than once")
+            return
         try:
-            self.loop.command(dict(zip(message.name, message.position, strict=True)))
+            self.loop.command(angles_rad)
         except HandError as error:
             self._refuse(str(error))
+            return
+        objection = self.why_still()
+        if objection:
+            self._refuse(objection)
 
     def _refuse(self, why: str) -> None:
         self._refused += 1

@@ -123,6 +123,15 @@ class MotorNode(PollingNode):
             values["largest_current_ma"] = max(map(abs, status.reading.current_ma))
         return _LEVELS.get(status.phase, OK), words, values
 
+    def why_still(self) -> str:
+        """Why the hand cannot move now, and what to do; empty where it can."""
+        status = self.loop.status
+        if status.phase is HandPhase.ENABLED:
+            return ""
+        state = "not connected" if status.phase is HandPhase.CONNECTING else status.phase.name.lower().replace("_", " ")
+        advice = "; call enable" if status.phase is HandPhase.RELEASED else ""
+        return f"the hand is {state}: {status.reason}{advice}"
+
     def _on_reading(self, reading: HandReading) -> None:
         # From the loop's thread.
         message = self._states

@@ -189,9 +189,7 @@ class HandReflexesNode(MotorNode):
 
     def _answer(self, name: str) -> Callable[[Trigger.Request, Trigger.Response], Trigger.Response]:
         def on_request(_request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-            if self.loop.status.phase is not HandPhase.ENABLED:
-                return answered(response, f"the hand is {self.loop.status.phase.name.lower()}; call enable before")
-            return answered(response, getattr(self._supervisor, name)())
+            return answered(response, self.why_still() or getattr(self._supervisor, name)())
 
         return on_request
 

@@ -12,6 +12,7 @@ import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from dynamixel_bus import DEADLINE_S, TIMEOUT_MS, Bus, torques
 from hand_node_rig import node_and_user
+from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 
@@ -23,9 +24,21 @@ DOMAIN_ID = 206
 CMD_LEAP_DOMAIN_ID = 207
 
 
+def diagnostics_of(node: Node) -> list[str]:
+    """What the diagnostics say from now on."""
+    told: list[str] = []
+
+    def note(array: DiagnosticArray) -> None:
+        told.extend(status.message for status in array.status)
+
+    node.create_subscription(DiagnosticArray, "/diagnostics", note, 10)
+    return told
+
+
 def test_the_node_publishes_joint_states_follows_commands_and_ends_in_order(bus: Bus) -> None:
     parameters = (f"port:={bus.link}", f"answer_timeout_ms:={TIMEOUT_MS}", "silence_s:=2.0", "motor_watchdog_s:=1.0")
     with node_and_user(DOMAIN_ID, *parameters) as (process, node, until):
+        diagnostics = diagnostics_of(node)
         states: list[JointState] = []
         node.create_subscription(JointState, "joint_states", states.append, 10)
         commands = node.create_publisher(JointState, "hand/command", 10)
@@ -43,6 +56,14 @@ def test_the_node_publishes_joint_states_follows_commands_and_ends_in_order(bus:
         until(answer.done)
         assert answer.result().success
         until(lambda: torques(bus) == {0})
+
+        def is_told() -> bool:
+            commands.publish(JointState(name=["thumb_cmc"], position=[0.1]))
+            return any(
+                "left out" in told and "the hand is released: released by request; call" in told for told in diagnostics
+            )
+
+        until(is_told)
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=DEADLINE_S)
         assert process.returncode == 0
@@ -53,13 +74,7 @@ def test_the_leap_team_s_own_node_is_commanded_within_the_same_limits() -> None:
     with node_and_user(CMD_LEAP_DOMAIN_ID, "interface:=cmd_leap") as (process, node, until):
         sent: list[JointState] = []
         node.create_subscription(JointState, "cmd_leap", sent.append, 10)
-        diagnostics: list[str] = []
-        node.create_subscription(
-            DiagnosticArray,
-            "/diagnostics",
-            lambda array: diagnostics.extend(status.message for status in array.status),
-            10,
-        )
+        diagnostics = diagnostics_of(node)
         commands = node.create_publisher(JointState, "hand/command", 10)
 
         def arrived() -> bool:

@@ -115,8 +115,13 @@ def test_the_hand_grasps_avoids_and_opens_by_touch_and_ends_in_order(bus: Bus) -
         assert called("disable").success
         assert until_state(HandStatus.STATE_STOPPED).reason == "the hand is released: released by request"
         until(lambda: any(dict_of(report).get("hand") == "STOPPED" for report in reports[-1:]))
+        refused = called("grasp")
+        assert not refused.success
+        assert refused.message == "the hand is released: released by request; call enable"
+        # Who has enabled a hand can move it at once.
         assert called("enable").success
-        until(lambda: statuses[-1].reason == "goals stand where the joints are")
+        assert called("stop").success
+        until(lambda: statuses[-1].reason == "stopped by request")
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=DEADLINE_S)
         assert process.returncode == 0
