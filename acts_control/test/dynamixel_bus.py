@@ -17,7 +17,7 @@ from typing import Any
 
 import pytest
 
-from acts_control.hand.description import LEAP_RIGHT
+from acts_control.hand.description import LEAP_RIGHT, HandDescription
 from acts_control.hand.motors import DynamixelConfig, DynamixelHand, HandReading
 from acts_sim.dynamixel import ask_once
 
@@ -53,12 +53,12 @@ class Bus:
     def hand(self, **settings: Any) -> DynamixelHand:
         return self.hand_at(self.link, **settings)
 
-    def hand_at(self, port: Path, **settings: Any) -> DynamixelHand:
+    def hand_at(self, port: Path, hand: HandDescription = LEAP_RIGHT, **settings: Any) -> DynamixelHand:
         """A hand at any name of the port; it is given back in the end, for the next bus gets the same device."""
         # By default motors bear a lost answer, as `DynamixelConfig.check_rate` asks for.
         settings = {"motor_watchdog_s": 1.0, **settings}
         config = DynamixelConfig(port=str(port), answer_timeout_ms=TIMEOUT_MS, **settings)
-        self._hands.append(DynamixelHand(LEAP_RIGHT, config))
+        self._hands.append(DynamixelHand(hand, config))
         return self._hands[-1]
 
     def close(self) -> None:

@@ -9,6 +9,7 @@ import math
 import threading
 import time
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
@@ -16,7 +17,7 @@ import pytest
 from dynamixel_bus import DEADLINE_S, Bus, leave_at, torques
 
 from acts_control.hand.control import Behaviour, HandLoop, HandLoopConfig, HandPhase
-from acts_control.hand.description import LEAP_RIGHT
+from acts_control.hand.description import LEAP_RIGHT, HandDescription
 from acts_control.hand.motors import DynamixelHand, HandError, HandReading
 
 pytestmark = pytest.mark.slow
@@ -26,16 +27,21 @@ class Running:
     """A loop on the bus, and what it has logged."""
 
     def __init__(
-        self, bus: Bus, motor_watchdog_s: float = 0.0, behaviour: Behaviour | None = None, **settings: Any
+        self,
+        bus: Bus,
+        motor_watchdog_s: float = 0.0,
+        behaviour: Behaviour | None = None,
+        hand: HandDescription = LEAP_RIGHT,
+        **settings: Any,
     ) -> None:
         self.log: list[tuple[str, str]] = []
         self.may_go_on = threading.Event()
         self.may_go_on.set()
         self.is_held = threading.Event()
         # The motors' own watchdog is off: a loaded machine holds a loop up for longer.
-        hand = bus.hand(motor_watchdog_s=motor_watchdog_s)
+        motors = bus.hand_at(bus.link, hand, motor_watchdog_s=motor_watchdog_s)
         config = HandLoopConfig(**{"silence_s": 2.0, "connect_retry_s": 0.05, **settings})
-        self.loop = HandLoop(LEAP_RIGHT, hand, config, lambda *told: self.log.append(told), self._on_reading, behaviour)
+        self.loop = HandLoop(hand, motors, config, lambda *told: self.log.append(told), self._on_reading, behaviour)
         self.loop.launch()
 
     def _on_reading(self, _reading: HandReading) -> None:
@@ -348,6 +354,20 @@ def test_a_joint_beyond_its_limit_is_brought_back_slowly_and_that_is_told(
             assert 0.0 <= before[k] - after[k] <= allowed_rad + 1e-9
     told = [sentence for level, sentence in running.log if level == "warning"]
     assert any("index_pip is at 2.7" in sentence and "0.5 rad/s" in sentence for sentence in told), told
+
+
+def test_a_joint_that_is_said_to_be_where_no_joint_comes_gets_no_torque(bus: Bus) -> None:
+    turned = replace(LEAP_RIGHT.joints[2], motor_zero_rad=180.0)  # in degrees, for once
+    hand = replace(LEAP_RIGHT, joints=(*LEAP_RIGHT.joints[:2], turned, *LEAP_RIGHT.joints[3:]))
+    running = Running(bus, hand=hand)
+    try:
+        running.until_phase(HandPhase.GIVEN_UP)
+        for _ in range(2):
+            assert torques(bus) == {0}
+            assert "index_pip is said to be at -176.86 rad" in running.loop.status.reason
+            assert running.loop.enable() == f"the torque is off: {running.loop.status.reason}"
+    finally:
+        running.loop.close()
 
 
 class Moved:

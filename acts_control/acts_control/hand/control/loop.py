@@ -5,11 +5,11 @@
 
 from __future__ import annotations
 
+import math
 import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from math import isfinite
 
 from acts_control.hand.control.behaviour import Behaviour
 from acts_control.hand.control.fault_memory import FaultMemory
@@ -138,7 +138,7 @@ class HandLoop:
         unknown = next((name for name in angles_rad if name not in self._index), None)
         if unknown is not None:
             raise HandError(f"the hand has no joint {unknown[:64]!r}; its joints are {', '.join(self._index)}")
-        broken = [f"{name} = {angle}" for name, angle in angles_rad.items() if not isfinite(angle)]
+        broken = [f"{name} = {angle}" for name, angle in angles_rad.items() if not math.isfinite(angle)]
         if broken:
             raise HandError(f"{', '.join(broken)}: angles have to be finite")
         now_s = time.monotonic()
@@ -259,7 +259,7 @@ class HandLoop:
                 self._count(cycles=1, late=int(dt_s > 1.5 * period_s))
                 try:
                     reading = self._bus.read()
-                    if not all(map(isfinite, reading.q_rad)):
+                    if not all(map(math.isfinite, reading.q_rad)):
                         raise HandError(f"the motors answered with angles that are not finite: {reading.q_rad}")
                 except HandLostError:
                     raise
@@ -317,6 +317,10 @@ class HandLoop:
 
     def _switch_on(self, reading: HandReading, *, recovered: bool) -> list[float]:
         """Hold every joint where it is: the goals."""
+        far = self._far_off(reading)
+        if far:
+            self._give_up(far)
+            return []
         self._is_on = True
         self._bus.enable()
         with self._lock:
@@ -334,6 +338,17 @@ class HandLoop:
         self._has_enabled.set()
         return list(reading.q_rad)
 
+    def _far_off(self, reading: HandReading) -> str:
+        """Which joint cannot be where it is said to be, in words: bringing it back would drive it into its stop."""
+        for joint, q_rad in zip(self._hand.joints, reading.q_rad, strict=True):
+            if abs(q_rad - joint.clipped(q_rad)) > math.pi:
+                return (
+                    f"{joint.name} is said to be at {q_rad:.2f} rad, more than half a turn beyond its limits of "
+                    f"{joint.lower_rad:g} to {joint.upper_rad:g}: the torque stays off; check zero_rad, direction and "
+                    f"limits_rad in the description of the hand, and how the motor is mounted; then call enable"
+                )
+        return ""
+
     def _targets(
         self, reading: HandReading, goal: Sequence[float], now_s: float, dt_s: float
     ) -> tuple[dict[int, float], str]:
@@ -344,7 +359,7 @@ class HandLoop:
                 return (dict(self._target), "moving as commanded") if fresh else ({}, "holding")
         wanted = [float(angle) for angle in self._behaviour.step(reading, goal, now_s, dt_s)]
         joints = self._hand.joints
-        if len(wanted) != len(joints) or not all(map(isfinite, wanted)):
+        if len(wanted) != len(joints) or not all(map(math.isfinite, wanted)):
             if self.status.reason != _NOT_FINITE:
                 self._log("error", f"{_NOT_FINITE}: {wanted}; needed are {len(joints)} finite angles")
             return {}, _NOT_FINITE
