@@ -112,7 +112,14 @@ def test_another_hand_is_another_file(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("wrong", "right", "told"),
     [
-        ("limits_rad: [0, 1.2], zero_rad: 2.0}", "limits_rad: [1.2, 0]}", "5: joint right: joint right: limits 1.2"),
+        ("limits_rad: [0, 1.2], zero_rad: 2.0}", "limits_rad: [1.2, 0]}", "5: joint right: limits 1.2"),
+        ("[0, 1.2], zero_rad: 2.0}", "[0, 70]}", "5: joint right: limits_rad: 70 rad is more than two turns"),
+        ("zero_rad: 2.0}", "zero_rad: 180}", "5: joint right: zero_rad: 180 rad is more than .* not in degrees"),
+        ("motor: 2", "motor: 300", "5: joint right: direction 1, motor_id 300"),
+        ("[-0.02, 0, 0]", "[-20, 0, 0]", "8: link right_jaw: position_m = .*: allowed is -1 to 1, in metres"),
+        ("[0, 0, 0.05]", "[0, 0, 50]", "11: finger right: tip_m = .* not in millimetres"),
+        ("[0, 0, 0.01]", "[0, 0, 10]", "13: region body: centre_m = .* not in millimetres"),
+        ("  right_jaw: {parent", "  body: {parent", "8: link body: the base has this name"),
         ("motor: 2", "motor: 1", "3: hand gripper: joints"),
         ("motor: 2", "motor: two", "5: joint right: motor = 'two': needed is a whole number"),
         ("motor: 2, ", "", "5: joint right: motor = None"),
@@ -140,7 +147,16 @@ def test_what_cannot_be_is_refused_with_its_line(tmp_path: Path, wrong: str, rig
     # The last place: most lines of the left jaw are like those of the right one.
     before, _, after = GRIPPER.rpartition(wrong)
     path.write_text(before + right + after)
-    with pytest.raises(SettingsError, match=told):
+    with pytest.raises(SettingsError, match=told) as refused:
+        hand_description(str(path))
+    assert str(refused.value).count(str(path)) == 1
+
+
+def test_a_hand_without_joints_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "gripper.yaml"
+    begin, end = GRIPPER.index("joints:"), GRIPPER.index("links:")
+    path.write_text(GRIPPER[:begin] + GRIPPER[end:])
+    with pytest.raises(SettingsError, match="joints: at least one is needed"):
         hand_description(str(path))
 
 

@@ -16,6 +16,8 @@ from acts_core.transforms import Vector
 
 _SHIPPED = Path(__file__).parent / "hands"
 _UNIT_TOLERANCE = 1e-3
+# Farther is said by who takes degrees for radians, or millimetres for metres.
+_FARTHEST_RAD, _FARTHEST_M = 4.0 * math.pi, 1.0
 _KEYS = ("name", "base", "joints", "links", "fingers", "regions", "postures")
 
 
@@ -42,6 +44,8 @@ def _read(path: Path) -> HandDescription:
     file.check_keys(_KEYS)
     name, base = _text(file, "name"), _text(file, "base")
     joints = tuple(_joint(one, key) for key, one in _entries(file, "joints", "joint"))
+    if not joints:
+        raise file.error("joints: at least one is needed", "joints")
     names = {joint.name for joint in joints}
     links: list[Link] = []
     for key, one in _entries(file, "links", "link"):
@@ -64,23 +68,27 @@ def _joint(one: Section, name: str) -> Joint:
     if "limits_rad" not in one.values:
         raise one.error("limits_rad is missing")
     lower, upper = one.numbers("limits_rad", (0.0, 0.0))
+    zero = one.number("zero_rad", math.pi)
+    for key, angle in (("limits_rad", lower), ("limits_rad", upper), ("zero_rad", zero)):
+        if abs(angle) > _FARTHEST_RAD:
+            raise one.error(
+                f"{key}: {angle:g} rad is more than two turns; allowed is {-_FARTHEST_RAD:.4g} to {_FARTHEST_RAD:.4g}, "
+                "in radians, not in degrees",
+                key,
+            )
+    scales = one.number("gain_scale", 1.0), one.number("step_scale", 1.0)
+    motor, direction = one.whole("motor"), one.whole("direction", 1)
     try:
-        return Joint(
-            name,
-            one.whole("motor"),
-            lower,
-            upper,
-            one.number("zero_rad", math.pi),
-            one.whole("direction", 1),
-            one.number("gain_scale", 1.0),
-            one.number("step_scale", 1.0),
-        )
+        return Joint(name, motor, lower, upper, zero, direction, *scales)
     except SettingsError as error:
-        raise one.error(str(error)) from error
+        raise one.error(str(error).removeprefix(f"{one.what}: ")) from error
 
 
 def _link(one: Section, name: str, parents: list[str], joints: set[str]) -> Link:
     one.check_keys(("parent", "joint", "position_m", "rpy_rad", "quaternion_xyzw", "axis"))
+    if name == parents[0]:
+        raise one.error("the base has this name, which nothing moves; give the link another")
+    _place(one, "position_m")
     axis = _unit(one, "axis")
     return Link(name, one.one_of("parent", parents), one.one_of("joint", joints), one.transform(), axis)
 
@@ -98,7 +106,7 @@ def _finger(one: Section, name: str, links: set[str], joints: set[str]) -> Finge
         if share <= 0.0:
             raise closes.error(f"{joint} = {share:g}: how much a joint takes part in closing is above 0", joint)
     opposes = bool(one.flag("opposes"))
-    tip_m = _vector(one, "tip_m", (0.0, 0.0, 0.0))
+    tip_m = _place(one, "tip_m")
     return Finger(name, shares, one.one_of("tip_link", links), tip_m, opposes)
 
 
@@ -113,7 +121,7 @@ def _region(one: Section, name: str, links: set[str], fingers: dict[str, Finger]
             if needed not in one.values:
                 raise one.error(f"{needed} is missing; a palm has it")
     normal = _unit(one, "normal") if "normal" in one.values else (0.0, 0.0, 0.0)
-    centre_m = _vector(one, "centre_m", (0.0, 0.0, 0.0))
+    centre_m = _place(one, "centre_m")
     return Region(name, one.one_of("link", links), finger, role, centre_m, normal)
 
 
@@ -154,6 +162,15 @@ def _unit(one: Section, key: str) -> Vector:
     if abs(length - 1.0) > _UNIT_TOLERANCE:
         raise one.error(f"{key} = {list(vector)}: its length is {length:g}; needed is 1", key)
     return vector
+
+
+def _place(one: Section, key: str) -> Vector:
+    place = _vector(one, key, (0.0, 0.0, 0.0))
+    if max(map(abs, place)) > _FARTHEST_M:
+        raise one.error(
+            f"{key} = {list(place)}: allowed is {-_FARTHEST_M:g} to {_FARTHEST_M:g}, in metres, not in millimetres", key
+        )
+    return place
 
 
 def _vector(one: Section, key: str, default: Vector) -> Vector:
