@@ -295,6 +295,17 @@ def test_touch_that_names_other_patches_besides_is_used() -> None:
     assert hand.supervisor.status.touch_age_s < 0.01
 
 
+def test_regions_of_which_touch_says_nothing_are_told() -> None:
+    hand = a_holding_hand()
+    assert hand.supervisor.status.unfelt == ()
+    without = [one for one in all_regions(*GRIPPED) if one.name not in ("palm", "ring_distal")]
+    assert hand.supervisor.touch(without, hand.now_s, hand.now_s)
+    hand.step(None)
+    assert hand.supervisor.status.unfelt == ("palm", "ring_distal")
+    hand.step(GRIPPED)
+    assert hand.supervisor.status.unfelt == ()
+
+
 def test_a_finger_that_cannot_come_into_its_shape_does_not_keep_the_hand_from_closing() -> None:
     hand = a_hand()
     hand.stops["thumb_cmc"] = 0.2

@@ -11,7 +11,7 @@ from acts_control.hand.control.behaviour import Behaviour
 from acts_control.hand.control.cycle_times import CycleTimes
 from acts_control.hand.control.loop import HandLoop, HandLoopConfig
 from acts_control.hand.control.status import HandPhase
-from acts_control.hand.control.supervisor import HandSupervisor, SupervisorConfig, SupervisorStatus
+from acts_control.hand.control.supervisor import HandSupervisor, SupervisorConfig, SupervisorStatus, no_touch
 
 __all__ = [
     "Behaviour",
@@ -22,4 +22,5 @@ __all__ = [
     "HandSupervisor",
     "SupervisorConfig",
     "SupervisorStatus",
+    "no_touch",
 ]

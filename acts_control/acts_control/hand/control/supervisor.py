@@ -69,6 +69,8 @@ class SupervisorStatus:
         Steps so far; messages of touch and answers of reflexes left out, for what cannot be.
     refusal : str
         Why the last of them was; empty before the first.
+    unfelt : tuple of str
+        Regions of the hand of which the newest touch says nothing: nothing is felt there.
     """
 
     state: HandState = HandState.STOPPED
@@ -80,6 +82,7 @@ class SupervisorStatus:
     steps: int = 0
     refused: int = 0
     refusal: str = ""
+    unfelt: tuple[str, ...] = ()
 
 
 class HandSupervisor:
@@ -117,15 +120,14 @@ class HandSupervisor:
         self._was_stale = True
         self._refused = 0
         self._refusal = ""
+        self._unfelt: tuple[str, ...] = ()
 
     # --- from any thread
 
     def grasp(self) -> str:
         """Close until something is gripped, then hold it; why that cannot be, or nothing."""
         if self.status.is_stale:
-            age_s = self.status.touch_age_s
-            since = f"no touch for {age_s:.2g} s" if isfinite(age_s) else "no touch so far"
-            return f"{since}: is the skin's topic `regions` published?"
+            return f"{no_touch(self.status.touch_age_s)}: is the skin's topic `regions` published?"
         self._wanted = "grasp"
         return ""
 
@@ -179,6 +181,7 @@ class HandSupervisor:
             return self.refuse(objection)
         if stamp_s > self._touch_s:
             self._regions = {one.name: one for one in regions if one.name in self._hand.regions}
+            self._unfelt = tuple(name for name in self._hand.regions if name not in self._regions)
             self._touch_s = stamp_s
             self._is_new = True
         return True
@@ -242,6 +245,7 @@ class HandSupervisor:
             self.status.steps + 1,
             self._refused + self._rule.refused,
             self._refusal,
+            self._unfelt,
         )
         return goal
 
@@ -339,14 +343,21 @@ class HandSupervisor:
 
     def _objection(self, region: RegionContact) -> str:
         """Why a region cannot be of this hand's skin, in words; empty where it can."""
-        name = region.name[:_LONGEST_NAME]
-        if region.name in self._hand.regions and not self._kinematics.has(region.link):
+        name, known = region.name[:_LONGEST_NAME], self._hand.regions.get(region.name)
+        if known is not None and region.link != known.link:
+            said = f"region {name!r} is said to be on link {region.link[:_LONGEST_NAME]!r}"
+            if self._kinematics.has(region.link):
+                return f"{said}; in the description of the hand it is on {known.link!r}"
             links = ", ".join(link.name for link in self._hand.links)
-            link = region.link[:_LONGEST_NAME]
-            return f"region {name!r} is said to be on link {link!r}; the hand has {self._hand.base}, {links}"
+            return f"{said}; the hand has {self._hand.base}, {links}"
         if not _can_be(region):
             return f"region {name!r} has numbers that no skin says"
         return ""
+
+
+def no_touch(age_s: float) -> str:
+    """That touch is missing, and for how long, in words; infinite before the first [s]."""
+    return f"no touch for {age_s:.2g} s" if isfinite(age_s) else "no touch so far"
 
 
 def _listed(names: Sequence[str]) -> str:

@@ -18,7 +18,14 @@ from typing import Any
 
 from std_srvs.srv import Trigger
 
-from acts_control.hand.control import CycleTimes, HandPhase, HandSupervisor, SupervisorConfig, SupervisorStatus
+from acts_control.hand.control import (
+    CycleTimes,
+    HandPhase,
+    HandSupervisor,
+    SupervisorConfig,
+    SupervisorStatus,
+    no_touch,
+)
 from acts_control.hand.description import HandKinematics, hand_description
 from acts_control.hand.motors import HandReading, with_motors
 from acts_control.hand.nodes.motor_node import MotorNode, MotorSettings, answered
@@ -182,7 +189,9 @@ class HandReflexesNode(MotorNode):
         }
         refused, self._reported_refused = status.refused - self._reported_refused, status.refused
         if level == OK and status.is_stale:
-            level, words = WARN, f"no touch for {min(status.touch_age_s, _LONG_AGO_S):.2g} s; {words}"
+            level, words = WARN, f"{no_touch(status.touch_age_s)}; {words}"
+        if status.unfelt:
+            level, words = max(level, WARN), f"{_says_nothing(status.unfelt)}; {words}"
         if refused:
             level, words = max(level, WARN), f"messages left out: {refused}, the last: {status.refusal}; {words}"
         return level, words, {**values, **hand}
@@ -212,6 +221,8 @@ class HandReflexesNode(MotorNode):
             self.get_logger().info(f"{status.state.name.lower()}: {status.reason}")
         if status.refused > self._told.refused:
             self.get_logger().warning(f"left out: {status.refusal}", throttle_duration_sec=5.0)
+        if status.unfelt and status.unfelt != self._told.unfelt:
+            self.get_logger().warning(_says_nothing(status.unfelt))
         self._told = status
         set_stamp(message.header.stamp, self.get_clock().now().nanoseconds)
         message.state = int(status.state)
@@ -235,6 +246,12 @@ class HandReflexesNode(MotorNode):
         message.interval = self._timed_s - before_s
         message.cycles = self._times.cycles
         self._timing_publisher.publish(message)
+
+
+def _says_nothing(unfelt: Sequence[str]) -> str:
+    return (
+        f"touch says nothing of {', '.join(unfelt)}: the hand feels nothing there; does the layout name these patches?"
+    )
 
 
 SETTINGS: dict[str, type] = {"hand_reflexes": HandReflexesSettings}

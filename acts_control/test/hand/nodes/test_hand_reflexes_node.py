@@ -75,6 +75,7 @@ def test_the_hand_grasps_avoids_and_opens_by_touch_and_ends_in_order(bus: Bus) -
         def called(name: str) -> Trigger.Response:
             return answer_of(node, until, name)
 
+        until(lambda: any("no touch so far; " in status.message for report in reports for status in report.status))
         until_state(HandStatus.STATE_STOPPED)
         until(lambda: statuses[-1].steps > 0)
         # Touch has to be there before the hand may close.
@@ -105,6 +106,15 @@ def test_the_hand_grasps_avoids_and_opens_by_touch_and_ends_in_order(bus: Bus) -
             )
 
         until(is_said)
+        partly = RegionContacts(regions=[message_of(region("palm"))])
+
+        def is_missed() -> bool:
+            partly.header.stamp = node.get_clock().now().to_msg()
+            regions.publish(partly)
+            words = "touch says nothing of index_proximal, index_medial, "
+            return any(words in status.message for report in reports for status in report.status)
+
+        until(is_missed)
         forger = Node("forger", context=node.context)
         forger.create_publisher(RegionContacts, "regions", STREAM)
         words = "/regions has 2 publishers (/forger, "
