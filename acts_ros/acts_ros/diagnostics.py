@@ -33,8 +33,7 @@ class DiagnosticsReporter:
     report : callable
         Returns the present `Report`.
     only_publishers : sequence of str
-        Topics that this node subscribes, and that one node is meant to publish; with a second one the level is at least
-        WARN.
+        Topics that this node uses, and that one node is meant to publish; with a second one the level is at least WARN.
 
     Attributes
     ----------

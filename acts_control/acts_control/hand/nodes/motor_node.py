@@ -25,7 +25,9 @@ from acts_ros.messages import check_frame_id
 from acts_ros.polled import PollingNode
 from acts_ros.qos import STATE
 
-_BASE, _CMD_LEAP = "none", "cmd_leap"
+_BASE = "none"
+# An interface, and the topic of that name.
+_CMD_LEAP = "cmd_leap"
 _LEVELS = {HandPhase.CONNECTING: WARN, HandPhase.RECOVERING: WARN, HandPhase.GIVEN_UP: ERROR}
 
 
@@ -59,7 +61,7 @@ def make_bus(node: Node, hand: HandDescription, settings: MotorSettings) -> Hand
     """The motors that the settings name."""
     if settings.interface != _CMD_LEAP:
         return make_motors(settings.interface, hand, settings)
-    publisher = node.create_publisher(JointState, "cmd_leap", STATE)
+    publisher = node.create_publisher(JointState, _CMD_LEAP, STATE)
     return CmdLeapBus(hand, lambda angles_rad: publisher.publish(JointState(position=angles_rad)))
 
 
@@ -92,7 +94,9 @@ class MotorNode(PollingNode):
         self.loop = HandLoop(self.hand, bus, config, log_of(self), self._on_reading, behaviour)
         self.create_service(Trigger, "~/enable", self._on_enable)
         self.create_service(Trigger, f"~/{torque_off}", self._on_torque_off)
-        self.diagnostics = DiagnosticsReporter(self, settings.port, self.report, only_publishers=[moved_by])
+        # Nothing else keeps a second program from the motors there.
+        only = [moved_by, _CMD_LEAP] if settings.interface == _CMD_LEAP else [moved_by]
+        self.diagnostics = DiagnosticsReporter(self, settings.port, self.report, only_publishers=only)
 
     def begin(self) -> None:
         """Start the loop, and with `autostart` the motors."""
@@ -113,15 +117,18 @@ class MotorNode(PollingNode):
             "unanswered": status.unanswered,
             "recovered": status.recovered,
         }
-        words = f"{status.phase.name.lower()}: {status.reason}"
+        level, words = _LEVELS.get(status.phase, OK), f"{status.phase.name.lower()}: {status.reason}"
         if self.settings.interface == _CMD_LEAP:
             # What is told as read is what was sent: no heat, no current, and no torque that were off.
             if status.phase in (HandPhase.RELEASED, HandPhase.GIVEN_UP):
                 words = f"{words}; {TORQUE_STAYS}"
+            if not self.count_subscribers(_CMD_LEAP):
+                level = max(level, WARN)
+                words = f"nobody takes {self.resolve_topic_name(_CMD_LEAP)}: start the LEAP team's node; {words}"
         elif status.reading is not None:
             values["hottest_c"] = max(status.reading.temperature_c)
             values["largest_current_ma"] = max(map(abs, status.reading.current_ma))
-        return _LEVELS.get(status.phase, OK), words, values
+        return level, words, values
 
     def why_still(self) -> str:
         """Why the hand cannot move now, and what to do; empty where it can."""

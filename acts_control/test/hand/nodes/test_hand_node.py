@@ -73,8 +73,11 @@ def test_the_node_publishes_joint_states_follows_commands_and_ends_in_order(bus:
 def test_the_leap_team_s_own_node_is_commanded_within_the_same_limits() -> None:
     with node_and_user(CMD_LEAP_DOMAIN_ID, "interface:=cmd_leap") as (process, node, until):
         sent: list[JointState] = []
-        node.create_subscription(JointState, "cmd_leap", sent.append, 10)
+        taken = node.create_subscription(JointState, "cmd_leap", sent.append, 10)
         diagnostics = diagnostics_of(node)
+        other = node.create_publisher(JointState, "cmd_leap", 10)
+        until(lambda: any("/cmd_leap has 2 publishers (/hand, /user): end all but one" in told for told in diagnostics))
+        node.destroy_publisher(other)
         commands = node.create_publisher(JointState, "hand/command", 10)
 
         def arrived() -> bool:
@@ -100,6 +103,10 @@ def test_the_leap_team_s_own_node_is_commanded_within_the_same_limits() -> None:
         assert not answer.result().success
         assert "the torque stays on" in answer.result().message
         until(lambda: any("released by request" in told and "the torque stays on" in told for told in diagnostics))
+        assert node.destroy_subscription(taken)
+        until(
+            lambda: any("nobody takes /cmd_leap: start the LEAP team's node; released" in told for told in diagnostics)
+        )
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=DEADLINE_S)
         assert process.returncode == 0
