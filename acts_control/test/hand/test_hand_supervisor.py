@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hand_rig import DT_S, RigidHand, all_regions, region
+from hand_rig import DT_S, NAMES, RigidHand, all_regions, region
 
 from acts_control.hand.control import HandSupervisor, SupervisorConfig
 from acts_control.hand.description import LEAP_RIGHT, HandKinematics, hand_description
@@ -227,6 +227,15 @@ def test_a_finger_that_presses_with_more_than_is_allowed_gives_way_whatever_is_a
     slips = region("index_distal", 60.0, slip_m=3e-4, slipping=True)
     hand.step([slips], steps=3)
     assert hand.angle("index_pip") < before[2]
+
+
+@pytest.mark.parametrize("besides", [[], [region("index_distal", 60.0)]])
+def test_a_palm_that_feels_more_than_is_allowed_opens_all_fingers(besides: list[RegionContact]) -> None:
+    hand = a_holding_hand()
+    before = hand.goal.copy()
+    hand.step([region("palm", 60.0), *besides], steps=3)
+    for finger in LEAP_RIGHT.fingers.values():
+        assert all(hand.angle(joint) < before[NAMES.index(joint)] for joint in finger.closes)
 
 
 def test_old_touch_is_not_taken_for_new() -> None:

@@ -301,7 +301,9 @@ class HandSupervisor:
         if not pressed:
             return None
         steps = sensed.steps()
-        fingers = [name for name in map(sensed.finger, pressed) if name] or list(self._hand.fingers)
+        fingers = [sensed.finger(name) for name in pressed]
+        if "" in fingers:
+            fingers = list(self._hand.fingers)  # any of them may hold it to the palm
         for finger in fingers:
             steps -= self._config.max_steps * 0.2 * sensed.closing(finger)
         return Wish(steps, f"{', '.join(pressed)} felt more than is allowed", steps < 0.0, at_once=True)
