@@ -386,6 +386,25 @@ class Moved:
         pass
 
 
+class Broken(Moved):
+    """A behaviour with a mistake."""
+
+    def step(self, reading: HandReading, goal_rad: Sequence[float], now_s: float, dt_s: float) -> Sequence[float]:
+        raise KeyError("little_distal")
+
+
+def test_a_mistake_in_a_reflex_switches_the_torque_off_and_is_told(bus: Bus, monkeypatch: pytest.MonkeyPatch) -> None:
+    raised: list[threading.ExceptHookArgs] = []
+    monkeypatch.setattr(threading, "excepthook", raised.append)
+    running = Running(bus, behaviour=Broken())
+    running.until(lambda: bool(raised))
+    assert torques(bus) == {0}
+    told = "the loop failed with KeyError: 'little_distal'; start the node again"
+    assert running.loop.status.reason == told
+    for asked in (running.loop.enable, running.loop.release):
+        assert asked() == f"the hand's loop has ended: {told}"
+
+
 def test_a_hand_that_was_given_up_begins_anew_when_it_is_enabled(bus: Bus) -> None:
     moved = Moved()
     running = Running(bus, behaviour=moved)

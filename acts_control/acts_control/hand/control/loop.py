@@ -210,9 +210,10 @@ class HandLoop:
         except HandError as error:
             self._log("error", f"{error}; connecting anew")
             self._set(HandPhase.CONNECTING, str(error), reading=None)
-        except Exception:
+        except Exception as error:
             # The thread ends with it, when the motors have been switched off; `enable` says that nothing runs.
-            self._set(HandPhase.GIVEN_UP, "the hand's loop failed", reading=None)
+            reason = f"the loop failed with {type(error).__name__}: {error}; start the node again"
+            self._set(HandPhase.GIVEN_UP, reason, reading=None)
             raise
         finally:
             self._tell_who_waits()
