@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -26,7 +26,7 @@ _MOST_N = 100.0
 _MOST_S = 600.0
 
 
-def carry_out(world: HandWorld, line: str) -> None:
+def carry_out(world: HandWorld, line: str, besides: Sequence[str] = ()) -> None:
     """Execute a command.
 
     Parameters
@@ -34,6 +34,8 @@ def carry_out(world: HandWorld, line: str) -> None:
     world : HandWorld
     line : str
         A word of `COMMANDS` and its arguments.
+    besides : sequence of str
+        What else the caller knows, for the error.
 
     Raises
     ------
@@ -42,7 +44,7 @@ def carry_out(world: HandWorld, line: str) -> None:
     """
     words = line.split()
     if not words or words[0] not in _KNOWN:
-        raise SettingsError(f"{line.strip()!r}: unknown; known are {', '.join(COMMANDS)}")
+        raise SettingsError(f"{line.strip()!r}: unknown; known are {', '.join((*COMMANDS, *besides))}")
     usage, least, act = _KNOWN[words[0]]
     most = len(usage.split()) - 1
     if not least <= len(words) - 1 <= most:

@@ -149,6 +149,7 @@ def test_faults_of_motors_and_cable(rig: Rig) -> None:
     ("line", "word"),
     [
         ("dance", "known are let_go"),
+        ("unplugged", ", release ID, unplug, plug_in, state"),
         ("load much", "a number from -100 to 100"),
         ("load nan", "a number from -100 to 100"),
         ("poke nose sharp", "palm, index_proximal"),

@@ -83,6 +83,9 @@ def run(options: argparse.Namespace, config: HandWorldConfig, signals: StopSigna
         port.run(control)
 
 
+_OF_THE_PROCESS = ("unplug", "plug_in", "state")
+
+
 def answer(world: HandWorld, loop: HandLoop, port: BusPort, line: str) -> str:
     """Execute a line of the control socket and return ``ok``, a JSON object for ``state``, or ``error: ...``."""
     if line == "unplug":
@@ -100,7 +103,7 @@ def answer(world: HandWorld, loop: HandLoop, port: BusPort, line: str) -> str:
         )
     else:
         try:
-            carry_out(world, line)
+            carry_out(world, line, _OF_THE_PROCESS)
         except SettingsError as error:
             return f"error: {error}"
     return "ok"
