@@ -181,6 +181,18 @@ def test_touch_that_stops_while_closing_stops_the_hand() -> None:
     assert hand.goal == pytest.approx(stood)
 
 
+def test_touch_that_stops_while_a_hand_that_closes_avoids_a_tip_stops_it() -> None:
+    hand = RigidHand(("sharp", SharpAvoidance(SharpAvoidanceConfig())))
+    hand.supervisor.restart(recovered=False)
+    hand.step([], steps=3)
+    hand.supervisor.grasp()
+    hand.step([], steps=20)
+    assert hand.step([TIP], steps=5) is HandState.AVOIDING
+    assert hand.step(None, steps=50) is HandState.STOPPED
+    # Nothing was gripped: nothing is held once touch is back.
+    assert hand.step([], steps=50) is HandState.STOPPED
+
+
 def test_touch_that_stops_while_holding_leaves_the_grip_as_it_is_and_comes_back() -> None:
     hand = a_holding_hand()
     held = hand.goal.copy()

@@ -322,7 +322,8 @@ class HandSupervisor:
             self._become(HandState.STOPPED, "stopped by request")
 
     def _lose_touch(self) -> None:
-        if self._state is HandState.CLOSING:
+        goes_on_with = self._resumed if self._state is HandState.AVOIDING else self._state
+        if goes_on_with is HandState.CLOSING:
             self._become(HandState.STOPPED, "touch is stale while closing; grasp anew")
         elif self._state in (HandState.HOLDING, HandState.AVOIDING):
             self._become(HandState.HOLDING, "touch is stale: the grip stays as it is, no reflex acts")
