@@ -16,7 +16,7 @@ from acts_control.hand.control import HandSupervisor, SupervisorConfig
 from acts_control.hand.description import LEAP_RIGHT, HandKinematics, hand_description
 from acts_control.hand.motors import HandReading
 from acts_control.hand.nodes.reflexes_node import HandReflexesSettings
-from acts_control.hand.reflexes import REFLEXES, HandState, make_reflexes
+from acts_control.hand.reflexes import REFLEXES, HandState, Reflex, Sensed, Wish, make_reflexes
 from acts_control.hand.reflexes.sharp_avoidance import SharpAvoidance, SharpAvoidanceConfig
 from acts_control.hand.reflexes.slip_prevention import SlipPrevention, SlipPreventionConfig
 from acts_core.skin import RegionContact
@@ -203,6 +203,34 @@ def test_touch_that_stops_while_holding_leaves_the_grip_as_it_is_and_comes_back(
     slips = region("index_distal", 0.8, slip_m=3e-4, slipping=True)
     hand.step([slips, *GRIPPED[1:]], steps=3)
     assert (hand.goal > held + 1e-3).any()
+
+
+class Squeezing(Reflex):
+    """A reflex that closes all joints, as long as it is asked."""
+
+    Config = SupervisorConfig
+    priority = 1
+    states = frozenset({HandState.HOLDING})
+
+    def reset(self) -> None:
+        pass
+
+    def step(self, sensed: Sensed) -> Wish | None:
+        return Wish(sensed.steps() + 10.0, "squeezing")
+
+
+def test_no_step_goes_on_once_touch_is_stale() -> None:
+    hand = RigidHand(("squeezing", Squeezing(None)), grip_settle_s=0.02)
+    hand.supervisor.restart(recovered=False)
+    hand.step([], steps=3)
+    hand.supervisor.grasp()
+    assert hand.step(GRIPPED, steps=20) is HandState.HOLDING
+    while not hand.supervisor.status.is_stale:
+        before = hand.goal
+        hand.step(None)
+    assert hand.goal == pytest.approx(before)
+    hand.step(None, steps=20)
+    assert hand.goal == pytest.approx(before)
 
 
 def test_without_touch_nothing_is_grasped_but_the_hand_opens() -> None:

@@ -326,6 +326,7 @@ class HandSupervisor:
         if goes_on_with is HandState.CLOSING:
             self._become(HandState.STOPPED, "touch is stale while closing; grasp anew")
         elif self._state in (HandState.HOLDING, HandState.AVOIDING):
+            self._rule.reset()  # or the steps that were asked for last would only fade
             self._become(HandState.HOLDING, "touch is stale: the grip stays as it is, no reflex acts")
 
     def _find_touch(self) -> None:
