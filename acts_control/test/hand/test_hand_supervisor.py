@@ -133,6 +133,28 @@ def test_a_finger_and_something_else_hold(tmp_path: Path, pressed: tuple[str, ..
     assert supervisor.status.reason.startswith(ends)
 
 
+def test_all_reflexes_bear_a_finger_that_feels_only_where_closing_it_moves_nothing(tmp_path: Path) -> None:
+    path = tmp_path / "gripper.yaml"
+    palm = "palm: {link: body, role: palm, centre_m: [0, 0, 0], normal: [0, 0, 1]}"
+    root = GRIPPER.replace("{link: left_jaw, finger: left, role: distal}", "{link: body, finger: left, role: proximal}")
+    path.write_text(root.replace("regions:\n", f"regions:\n  {palm}\n"))
+    gripper = hand_description(str(path))
+    reflexes = make_reflexes(" ".join(REFLEXES), HandReflexesSettings())
+    supervisor = HandSupervisor(HandKinematics(gripper), reflexes, SupervisorConfig())
+    supervisor.restart(recovered=False)
+    touch = [RegionContact(name, one.link, 4, 0.8, normal=(0.0, 0.0, 1.0)) for name, one in gripper.regions.items()]
+    q, seen = np.zeros(2), set()
+    for k in range(400):
+        supervisor.touch(touch, k * DT_S, k * DT_S)
+        if k == 1:
+            assert supervisor.grasp() == ""
+        reading = HandReading(tuple(q), (0.0,) * 2, (0.0,) * 2, (30,) * 2, ("",) * 2)
+        q = np.asarray(supervisor.step(reading, q, k * DT_S, DT_S))
+        assert np.isfinite(q).all()
+        seen.add(supervisor.status.state)
+    assert HandState.HOLDING in seen
+
+
 def test_release_opens_and_stop_stands_still_at_any_time() -> None:
     hand = a_holding_hand()
     hand.supervisor.release()

@@ -210,7 +210,7 @@ class SphereBalancing(Reflex):
                 reaches = state.pinching is None or parts[finger].part != "beside"
                 rates += config.sphere_search_rad_s * sensed.closing(finger) * reaches
             elif sensed.role(region.name) != "distal":
-                rates[self._tip_joint(sensed, finger)] += config.sphere_search_rad_s
+                rates[self._tip_joints(sensed, finger)] += config.sphere_search_rad_s
         return Wish(rates / sensed.step_rad_s, self._why(), claimed=rates != 0.0 if state.is_off else None)
 
     def _why(self) -> str:
@@ -218,12 +218,12 @@ class SphereBalancing(Reflex):
         assert ball is not None
         return f"sphere of {1e3 * ball.radius_m:.0f} mm is {1e3 * ball.offset_m:.0f} mm off the palm's centre"
 
-    def _tip_joint(self, sensed: Sensed, finger: str) -> int:
-        """The joint that brings a fingertip to the sphere."""
+    def _tip_joints(self, sensed: Sensed, finger: str) -> list[int]:
+        """The joint that brings a fingertip to the sphere; none where closing the finger moves none of its regions."""
         if not self.state.moves:
             self.state.moves = sensed.moving_joints()
         tips = [name for name, one in sensed.hand.regions.items() if one.finger == finger and name in self.state.moves]
-        return self.state.moves[tips[-1]]
+        return [self.state.moves[name] for name in tips[-1:]]
 
     def _follow_all(self, sensed: Sensed, ball: Ball) -> Array:
         """Joint speeds of all fingers that touch, each at the place nearest to its tip [rad/s]."""
