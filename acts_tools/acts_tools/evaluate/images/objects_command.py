@@ -11,13 +11,13 @@ from typing import Any
 
 import numpy as np
 
-from acts_core.errors import RecordingError
 from acts_sim.pressing import OBJECTS, PRESS_RATE_HZ, ContactModel, FoamConfig, object_named, press_over_time
 from acts_tools.arguments import at_least_one, taxels
 from acts_tools.evaluate import report
 from acts_tools.evaluate.images import options
 from acts_tools.evaluate.images.recovery import Recording
 from acts_tools.evaluate.images.tasks import evaluate_all
+from acts_tools.evaluate.picture import diagrams
 from acts_tools.output_file import require_picture
 
 _M = (42, 56, 64, 88, 128, 176, 256, 352, 512)
@@ -79,26 +79,15 @@ def _print_curves(ms: list[int], curves: dict[str, list[float | None]]) -> None:
 
 
 def _draw(path: Path, ms: list[int], curves: dict[str, list[float | None]]) -> None:
-    # Imported here, because it is slow to import.
-    import matplotlib
-
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
-
-    figure, axes = pyplot.subplots(figsize=(7, 4.5), layout="constrained")
-    colours = {"adaptive": "tab:blue", "uniform": "tab:orange", "random": "tab:green", "tracking": "tab:red"}
-    for name, values in curves.items():
-        method, scheme = name.split(", ")
-        style = ":" if method == "linear" else "-"
-        axes.plot(ms, values, style, marker="o", markersize=3, color=colours[scheme], label=name)
-    axes.set_xscale("log", base=2)
-    axes.set_xticks(ms, [str(m) for m in ms])
-    axes.set_xlabel("taxels measured per frame, M")
-    axes.set_ylabel("support accuracy")
-    axes.grid(alpha=0.3)
-    axes.legend(fontsize=8)
-    try:
-        figure.savefig(path, dpi=110)
-    except OSError as error:
-        raise RecordingError(f"{path}: cannot be written ({error.strerror}); its folder must exist") from error
-    pyplot.close(figure)
+    with diagrams(path, 1, 1, size_inch=(7, 4.5), dpi=110) as (axes,):
+        colours = {"adaptive": "tab:blue", "uniform": "tab:orange", "random": "tab:green", "tracking": "tab:red"}
+        for name, values in curves.items():
+            method, scheme = name.split(", ")
+            style = ":" if method == "linear" else "-"
+            axes.plot(ms, values, style, marker="o", markersize=3, color=colours[scheme], label=name)
+        axes.set_xscale("log", base=2)
+        axes.set_xticks(ms, [str(m) for m in ms])
+        axes.set_xlabel("taxels measured per frame, M")
+        axes.set_ylabel("support accuracy")
+        axes.grid(alpha=0.3)
+        axes.legend(fontsize=8)

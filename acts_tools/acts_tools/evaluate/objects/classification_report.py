@@ -8,7 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from acts_core.errors import RecordingError
+from acts_tools.evaluate.picture import diagrams
 
 PUBLISHED_OVER_M = {42: 0.756, 48: 0.849, 56: 0.901, 64: 0.934, 88: 0.991, 128: 0.997, 256: 0.997, 512: 0.992}
 """Accuracy of SRC with adaptive sampling over M (paper, Fig. 4F)."""
@@ -44,36 +44,25 @@ def draw(path: Path, results: dict[str, Any], m_over_time: int) -> None:
     RecordingError
         When it cannot be written.
     """
-    # Imported here, because it is slow to import.
-    import matplotlib
-
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
-
-    figure, (left, right) = pyplot.subplots(1, 2, figsize=(10, 4.2), layout="constrained")
-    for axes, curves, question in ((left, results["over_m"], "m"), (right, results["over_time"], "time_ms")):
-        for method, cells in curves.items():
-            x = [cell[question] for cell in cells]
-            colour = _COLOURS.get(method, "tab:green")
-            axes.plot(
-                x, [cell["accuracy"] for cell in cells], "o-", ms=3, color=colour, label=_NAMES.get(method, method)
-            )
-            axes.fill_between(
-                x, [cell["low"] for cell in cells], [cell["high"] for cell in cells], color=colour, alpha=0.15
-            )
-        axes.set(ylabel="accuracy", ylim=(0, 1.02))
-        axes.grid(alpha=0.3)
-    ms = [m for m in PUBLISHED_OVER_M if any(cell["m"] == m for cell in results["over_m"]["paper"])]
-    left.plot(ms, [PUBLISHED_OVER_M[m] for m in ms], "k:", lw=1, label="published (Fig. 4F)")
-    left.set_xscale("log", base=2)
-    left.set_xticks(ms, [str(m) for m in ms], fontsize=7)
-    left.set(xlabel="taxels measured per frame, M", title="pressed and held", ylim=(0.6, 1.01))
-    right.plot([20], [PUBLISHED_AT_20_MS], "k*", label="published (Fig. 4G)")
-    right.set(xlabel="time since contact [ms]", title=f"M = {m_over_time}")
-    left.legend(fontsize=8, loc="lower right")
-    right.legend(fontsize=8, loc="lower right")
-    try:
-        figure.savefig(path, dpi=100)
-    except OSError as error:
-        raise RecordingError(f"{path}: cannot be written ({error.strerror}); its folder must exist") from error
-    pyplot.close(figure)
+    with diagrams(path, 1, 2, size_inch=(10, 4.2), dpi=100) as (left, right):
+        for axes, curves, question in ((left, results["over_m"], "m"), (right, results["over_time"], "time_ms")):
+            for method, cells in curves.items():
+                x = [cell[question] for cell in cells]
+                colour = _COLOURS.get(method, "tab:green")
+                axes.plot(
+                    x, [cell["accuracy"] for cell in cells], "o-", ms=3, color=colour, label=_NAMES.get(method, method)
+                )
+                axes.fill_between(
+                    x, [cell["low"] for cell in cells], [cell["high"] for cell in cells], color=colour, alpha=0.15
+                )
+            axes.set(ylabel="accuracy", ylim=(0, 1.02))
+            axes.grid(alpha=0.3)
+        ms = [m for m in PUBLISHED_OVER_M if any(cell["m"] == m for cell in results["over_m"]["paper"])]
+        left.plot(ms, [PUBLISHED_OVER_M[m] for m in ms], "k:", lw=1, label="published (Fig. 4F)")
+        left.set_xscale("log", base=2)
+        left.set_xticks(ms, [str(m) for m in ms], fontsize=7)
+        left.set(xlabel="taxels measured per frame, M", title="pressed and held", ylim=(0.6, 1.01))
+        right.plot([20], [PUBLISHED_AT_20_MS], "k*", label="published (Fig. 4G)")
+        right.set(xlabel="time since contact [ms]", title=f"M = {m_over_time}")
+        left.legend(fontsize=8, loc="lower right")
+        right.legend(fontsize=8, loc="lower right")

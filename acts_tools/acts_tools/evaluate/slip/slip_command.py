@@ -26,6 +26,7 @@ from acts_core.settings import default_of, describe
 from acts_recon.slip import SlipConfig, SlipDetector
 from acts_tools.arguments import real
 from acts_tools.evaluate import report
+from acts_tools.evaluate.picture import diagrams
 from acts_tools.large_files import tell_if_large
 from acts_tools.output_file import require_picture
 
@@ -230,28 +231,19 @@ def _line(name: str, entry: dict[str, object]) -> str:
 
 def _draw(path: Path, watched: list[tuple[str, list[PatchResult]]]) -> None:
     """Draw the path of the centre of pressure over time of the recordings with most slip; slip is red."""
-    # Imported here, because it is slow to import.
-    import matplotlib
-
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
-
     most = sorted(watched, key=lambda one: -sum(patch.told for patch in one[1]))[:5]
-    figure, rows = pyplot.subplots(len(most), 1, figsize=(9, 2.2 * len(most)), layout="constrained", squeeze=False)
-    for axes, (name, found) in zip(rows[:, 0], most, strict=True):
-        for patch in found:
-            if not patch.path:
-                continue
-            time_s, row, col, told = (np.array(values) for values in zip(*patch.path, strict=True))
-            (line,) = axes.plot(time_s, row, ".", markersize=2, label=f"patch {patch.patch}: row")
-            axes.plot(time_s, col, ".", markersize=2, color=line.get_color(), alpha=0.4)
-            axes.plot(time_s[told], row[told], "o", markersize=4, markerfacecolor="none", color="tab:red")
-        axes.set_title(f"recording {name}: centre of pressure, rows (strong) and columns (pale); red: slip", fontsize=8)
-        axes.set_ylabel("taxels")
-        axes.legend(fontsize=6, loc="upper right")
-    rows[-1, 0].set_xlabel("time [s]")
-    try:
-        figure.savefig(path, dpi=110)
-    except OSError as error:
-        raise RecordingError(f"{path}: cannot be written ({error.strerror}); its folder must exist") from error
-    pyplot.close(figure)
+    with diagrams(path, len(most), 1, size_inch=(9, 2.2 * len(most)), dpi=110) as rows:
+        for axes, (name, found) in zip(rows, most, strict=True):
+            for patch in found:
+                if not patch.path:
+                    continue
+                time_s, row, col, told = (np.array(values) for values in zip(*patch.path, strict=True))
+                (line,) = axes.plot(time_s, row, ".", markersize=2, label=f"patch {patch.patch}: row")
+                axes.plot(time_s, col, ".", markersize=2, color=line.get_color(), alpha=0.4)
+                axes.plot(time_s[told], row[told], "o", markersize=4, markerfacecolor="none", color="tab:red")
+            axes.set_title(
+                f"recording {name}: centre of pressure, rows (strong) and columns (pale); red: slip", fontsize=8
+            )
+            axes.set_ylabel("taxels")
+            axes.legend(fontsize=6, loc="upper right")
+        rows[-1].set_xlabel("time [s]")
