@@ -9,7 +9,8 @@ import pytest
 from acts_core.sampling import SamplingConfig
 from acts_recon.sparse import load_dictionary, shipped_dictionary_path
 from acts_sim.pressing import EVENT_RATE_HZ, event_recordings
-from acts_tools.evaluate.images.recovery import FOLLOW_COUNTS, Recording, Task, evaluate
+from acts_tools.evaluate.images.recovery import Recording, Task, evaluate
+from acts_tools.evaluate.scene_frames import FOLLOW_COUNTS
 
 pytestmark = pytest.mark.slow
 

@@ -21,7 +21,7 @@ from acts_tools.arguments import real, refuse_unused
 from acts_tools.evaluate import report
 from acts_tools.evaluate.gait import force_curve, walks
 from acts_tools.evaluate.gait.insoles import FoundSteps, InsoleRecording, find_steps, read_insoles
-from acts_tools.evaluate.images.options import add_seeds
+from acts_tools.evaluate.options import add_seeds
 from acts_tools.large_files import tell_if_large
 from acts_tools.progress import Progress
 

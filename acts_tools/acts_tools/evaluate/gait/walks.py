@@ -13,6 +13,7 @@ import numpy as np
 from acts_recon.gait import GaitConfig, Step
 from acts_sim.walking import Footfall, Walk, Walking, walk
 from acts_tools.evaluate.gait.insoles import FoundSteps, InsoleRecording, find_steps
+from acts_tools.evaluate.statistics import mean
 
 _DURATION_S = 20.0
 _NEAR_S = 0.15
@@ -100,12 +101,12 @@ class WalkScores:
             "steps": self._steps,
             "found": self._found,
             "wrong": self._wrong,
-            "cadence_error_per_min": _mean(self._cadence),
-            "strike_error_ms": {"mean": _mean(self._strike_ms), "sd": _sd(self._strike_ms)},
-            "toe_off_error_ms": {"mean": _mean(self._toe_off_ms), "sd": _sd(self._toe_off_ms)},
-            "within_1_sigma": _mean([float(value <= 1.0) for value in self._sigmas]),
-            "centre_error_mm": _mean(self._centre_mm),
-            "double_support_error": _mean(self._double),
+            "cadence_error_per_min": mean(self._cadence),
+            "strike_error_ms": {"mean": mean(self._strike_ms), "sd": _sd(self._strike_ms)},
+            "toe_off_error_ms": {"mean": mean(self._toe_off_ms), "sd": _sd(self._toe_off_ms)},
+            "within_1_sigma": mean([value <= 1.0 for value in self._sigmas]),
+            "centre_error_mm": mean(self._centre_mm),
+            "double_support_error": mean(self._double),
             "steps_of_standing": self._of_standing,
         }
 
@@ -132,10 +133,6 @@ def _double_support(walking: Walking) -> float:
     last = min(_whole(walking, foot)[-1].strike_s for foot in range(2))
     inside = (times_s >= first) & (times_s < last)
     return float((carries[0] & carries[1])[inside].mean())
-
-
-def _mean(values: list[float]) -> float | None:
-    return float(np.mean(values)) if values else None
 
 
 def _sd(values: list[float]) -> float | None:

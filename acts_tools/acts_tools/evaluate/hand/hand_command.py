@@ -18,7 +18,7 @@ from acts_core.errors import LaunchError, SettingsError
 from acts_core.settings import SettingValue
 from acts_tools.arguments import given_settings
 from acts_tools.evaluate import report
-from acts_tools.evaluate.shares import wilson
+from acts_tools.evaluate.statistics import wilson
 
 if TYPE_CHECKING:
     from acts_tools.evaluate.hand.scenario import Outcome, Run

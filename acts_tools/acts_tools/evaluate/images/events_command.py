@@ -15,7 +15,7 @@ from acts_tools.arguments import at_least_one
 from acts_tools.evaluate import report
 from acts_tools.evaluate.images import options
 from acts_tools.evaluate.images.recovery import Recording
-from acts_tools.evaluate.images.tasks import evaluate_shown, require_methods
+from acts_tools.evaluate.images.tasks import HEADER, evaluate_shown, line, require_methods
 
 
 def add_parser(commands: Any) -> None:
@@ -35,7 +35,7 @@ def _run(arguments: argparse.Namespace) -> int:
     live = np.ones((32, 32), dtype=bool)
     results = report.Results(arguments.json, options.as_report(arguments))
     require_methods(tasks, dictionary)
-    print(f"{'event':13} {report.HEADER} {'further p99':>11}")
+    print(f"{'event':13} {HEADER} {'further p99':>11}")
     for name in arguments.event:
         frames = event_recordings(name, arguments.recordings or EVENTS[name].recordings, arguments.seed)
         recordings = [Recording(one, EVENT_RATE_HZ, live) for one in frames]
@@ -43,5 +43,5 @@ def _run(arguments: argparse.Namespace) -> int:
             scored = evaluate_shown(recordings, task, dictionary, f"{name}: ")
             results.add({"event": name, **scored})
             further = report.number(scored["notice_further_ms"]["p99"], 11, 1)
-            print(f"{name:13} {report.line(scored)} {further}", flush=True)
+            print(f"{name:13} {line(scored)} {further}", flush=True)
     return 0

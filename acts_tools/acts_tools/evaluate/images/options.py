@@ -1,25 +1,24 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Command-line options that all evaluations share."""
+"""Command-line options of the evaluations of recovered images."""
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from acts_core.array import COUNT_MAX
 from acts_core.errors import SettingsError
 from acts_core.sampling import OWN_SETTINGS, SCHEMES, SamplingConfig
 from acts_core.settings import SettingValue, default_of, describe, from_text, unknown_key_message
 from acts_recon.methods import METHODS
 from acts_recon.sparse import Dictionary, shipped_dictionary_path
-from acts_tools.arguments import at_least_one, random_seed, real, taxels
+from acts_tools.arguments import random_seed, taxels
 from acts_tools.evaluate.estimators.dictionaries import dictionary_named
 from acts_tools.evaluate.estimators.methods import ALIASES, method_names, report_name
-from acts_tools.evaluate.images.recovery import FOLLOW_COUNTS, Task
+from acts_tools.evaluate.images.recovery import Task
+from acts_tools.evaluate.scene_frames import FOLLOW_COUNTS
 
 METHOD = "acts"
 """Default method."""
@@ -82,38 +81,6 @@ def add_common_arguments(parser: argparse.ArgumentParser, **defaults: float) -> 
         )
     parser.add_argument("--seed", type=random_seed, default=1, metavar="X", help="random seed (default: %(default)s)")
     parser.add_argument("--json", type=Path, metavar="OUT", help="also write the results to a JSON file")
-
-
-def add_scene_arguments(parser: argparse.ArgumentParser, seeds: int, what: str) -> None:
-    """Add options of evaluations on simulated scenes; `seeds` of them by default, of which `what` tells the kind."""
-    parser.add_argument(
-        "--noise-counts",
-        type=real(0, COUNT_MAX),
-        default=3.0,
-        metavar="X",
-        help="noise of a reading (default: %(default)s)",
-    )
-    add_seeds(parser, seeds, what)
-
-
-def add_seeds(parser: argparse.ArgumentParser, seeds: int, what: str) -> None:
-    """Add what all have that repeat something random: how often, from which seed on, and a file of the results."""
-    parser.add_argument("--seeds", type=at_least_one, default=seeds, metavar="N", help=f"{what} (default: %(default)s)")
-    parser.add_argument(
-        "--seed", type=random_seed, default=1, metavar="X", help="of everything random (default: %(default)s)"
-    )
-    parser.add_argument("--json", type=Path, metavar="OUT", help="write the results here, too")
-
-
-def add_m(parser: argparse.ArgumentParser, default: Sequence[int]) -> None:
-    """Add ``--m``, one or several."""
-    parser.add_argument(
-        "--m",
-        type=taxels,
-        nargs="+",
-        default=list(default),
-        help=f"taxels per frame (default: {' '.join(map(str, default))})",
-    )
 
 
 def _method_setting(word: str) -> tuple[str, SettingValue]:

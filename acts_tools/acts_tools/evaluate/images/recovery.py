@@ -25,16 +25,12 @@ from acts_tools.evaluate.estimators.methods import method_named
 from acts_tools.evaluate.images import calibration
 from acts_tools.evaluate.images.scores import FRAME_SCORES, INVENTED, FrameScores, score_image
 from acts_tools.evaluate.images.truth import ContactStart, contact_starts, interpolate
+from acts_tools.evaluate.scene_frames import SAMPLE_US
+from acts_tools.evaluate.statistics import mean
 from acts_tools.firmware.board_sampler import sampler_of
 from acts_tools.percentiles import percentiles
 
-SAMPLE_US = 17.877
-"""Published time of one measurement [us]: 55,936 per second."""
-
 _IMAGES_BETWEEN_SHOWS = 500
-
-FOLLOW_COUNTS = 15
-"""Threshold above which tracking follows a taxel, just above the noise of a reading (docs/recovery.md)."""
 
 
 @dataclass(frozen=True)
@@ -236,7 +232,7 @@ def evaluate(
         "onset": {**onset.summary(), "sigma": calibration.summary(onset_errors)},
         "untouched": {
             "frames": len(untouched_invented),
-            "invented_rate": float(np.mean(untouched_invented)) if untouched_invented else None,
+            "invented_rate": mean(untouched_invented),
         },
     }
 

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.kernels import kernel
+from acts_tools.evaluate.statistics import distribution, mean
 
 _ERROR, _SUPPORT, _COP, _TOUCH_COP, INVENTED = range(5)
 FRAME_SCORES = 5
@@ -93,17 +94,6 @@ def score_image(
     return True
 
 
-def distribution(values: NDArray[np.floating]) -> dict[str, float | None]:
-    """Mean, median and 95th percentile; None where there are no values."""
-    if not values.size:
-        return {"mean": None, "median": None, "p95": None}
-    return {
-        "mean": float(values.mean()),
-        "median": float(np.median(values)),
-        "p95": float(np.percentile(values, 95)),
-    }
-
-
 class FrameScores:
     """The scores of many frames, and their summary."""
 
@@ -124,14 +114,10 @@ class FrameScores:
         cop, touch = table[:, _COP], table[:, _TOUCH_COP]
         return {
             "frames": len(table),
-            "relative_error": _mean(table[:, _ERROR]),
-            "support_accuracy": _mean(table[:, _SUPPORT]),
+            "relative_error": mean(table[:, _ERROR]),
+            "support_accuracy": mean(table[:, _SUPPORT]),
             "cop_error_taxels": distribution(cop[~np.isnan(cop)]),
             "touch_cop_error_taxels": distribution(touch[~np.isnan(touch)]),
-            "missed": _mean(np.isnan(touch)),
-            "invented_rate": _mean(table[:, INVENTED]),
+            "missed": mean(np.isnan(touch)),
+            "invented_rate": mean(table[:, INVENTED]),
         }
-
-
-def _mean(values: NDArray) -> float | None:
-    return float(values.mean()) if values.size else None

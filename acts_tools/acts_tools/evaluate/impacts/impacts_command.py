@@ -20,11 +20,11 @@ from acts_recon.impacts import Kind
 from acts_sim.impacts import SCENE_RATE_HZ, Scene, ball_named, collide, dropped, scene, skin_of
 from acts_tools.arguments import real
 from acts_tools.evaluate import report
-from acts_tools.evaluate.images.options import add_m, add_scene_arguments
-from acts_tools.evaluate.images.recovery import SAMPLE_US
-from acts_tools.evaluate.images.scores import distribution
 from acts_tools.evaluate.impacts import plays
+from acts_tools.evaluate.options import add_m, add_scene_arguments
+from acts_tools.evaluate.scene_frames import frame_rate_hz
 from acts_tools.evaluate.scene_recordings import add_recordings_argument, write_recording
+from acts_tools.evaluate.statistics import distribution, mean
 from acts_tools.progress import Progress
 
 _M = (42, 64, 88, 128, 256, 512, 1024)
@@ -142,12 +142,12 @@ def seen_by_us(scenes: Sequence[Scene], scheme: str, m: int, noise_counts: float
         "told": begun,
         "told_as_bounce": bounced,
         "told_further": further,
-        "delay_ms": distribution(np.array(delays_ms)),
-        "onset_error_ms": distribution(np.array(onsets_ms)),
-        "onset_within_1_sigma": float(np.mean(within)) if within else None,
-        "duration_error_ms": distribution(np.array(durations_ms)),
-        "peak_share": distribution(np.array(peaks_share)),
-        "impulse_share": distribution(np.array(impulses_share)),
+        "delay_ms": distribution(delays_ms),
+        "onset_error_ms": distribution(onsets_ms),
+        "onset_within_1_sigma": mean(within),
+        "duration_error_ms": distribution(durations_ms),
+        "peak_share": distribution(peaks_share),
+        "impulse_share": distribution(impulses_share),
     }
 
 
@@ -156,12 +156,12 @@ def _common(method: str, scheme: str, m: int, frames: list[int], changes: list[f
         "m": m,
         "method": method,
         "scheme": scheme,
-        "rate_hz": 1e6 / (m * SAMPLE_US),
+        "rate_hz": frame_rate_hz(m),
         "drops": len(frames),
         "frames": float(np.mean(frames)),
         "frames_sd": float(np.std(frames)),
         "seen": _seen(frames),
-        "force_change": float(np.mean(changes)) if changes else None,
+        "force_change": mean(changes),
     }
 
 
@@ -175,13 +175,13 @@ def _change(force: NDArray[np.float64]) -> float:
 
 
 def _line(entry: dict[str, Any]) -> str:
-    def mean(name: str, width: int, digits: int) -> str:
+    def mean_of(name: str, width: int, digits: int) -> str:
         return report.number(entry[name]["mean"] if name in entry else None, width, digits)
 
     return (
         f"{entry['m']:4} {entry['method']:6} {entry['scheme']:9} {entry['rate_hz']:8.1f} {entry['frames']:7.2f} "
         f"{entry['told']:>4}/{entry['drops']:<3} {report.number(entry['force_change'], 12, 3)} "
-        f"{mean('onset_error_ms', 9, 2)} {report.number(entry.get('onset_within_1_sigma'), 8, 2)} "
-        f"{mean('duration_error_ms', 11, 2)} {mean('peak_share', 5, 2)} {mean('impulse_share', 7, 2)} "
-        f"{mean('delay_ms', 8, 2)}"
+        f"{mean_of('onset_error_ms', 9, 2)} {report.number(entry.get('onset_within_1_sigma'), 8, 2)} "
+        f"{mean_of('duration_error_ms', 11, 2)} {mean_of('peak_share', 5, 2)} {mean_of('impulse_share', 7, 2)} "
+        f"{mean_of('delay_ms', 8, 2)}"
     )

@@ -11,8 +11,7 @@ from acts_recon.fusion import known_noise
 from acts_recon.impacts import Impact
 from acts_recon.settings import ReconstructionSettings
 from acts_sim.impacts import SCENE_RATE_HZ, Scene
-from acts_tools.evaluate.images.recovery import FOLLOW_COUNTS
-from acts_tools.evaluate.images.scene_frames import Frame, frames_of
+from acts_tools.evaluate.scene_frames import FOLLOW_COUNTS, Frame, frames_of
 
 PAPER_TOUCH_COUNTS = 50
 """The paper takes less for no touch."""

@@ -24,10 +24,10 @@ from acts_recon.methods import PerFrame, PerFrameConfig, SkinSetup
 from acts_sim.impacts import SCENE_RATE_HZ, Scene, ball_named, scene, skin_of, thrown
 from acts_tools.arguments import real, taxels
 from acts_tools.evaluate import report
-from acts_tools.evaluate.images.options import add_scene_arguments
 from acts_tools.evaluate.impacts import plays
+from acts_tools.evaluate.options import add_scene_arguments
 from acts_tools.evaluate.scene_recordings import add_recordings_argument, write_recording
-from acts_tools.evaluate.shares import wilson
+from acts_tools.evaluate.statistics import distribution_with_max, wilson
 from acts_tools.progress import Progress
 
 ANGLES_DEG = (0, 45, 90, 135, 180, -135, -90, -45)
@@ -187,10 +187,7 @@ def _errors(errors_deg: Sequence[float], throws: int) -> dict[str, Any]:
     unknown = throws - len(errors_deg)
     return {
         "unknown": unknown,
-        "mean_deg": float(np.mean(errors_deg)) if errors_deg else None,
-        "median_deg": float(np.median(errors_deg)) if errors_deg else None,
-        "p95_deg": float(np.percentile(errors_deg, 95)) if errors_deg else None,
-        "max_deg": max(errors_deg, default=None),
+        **{f"{name}_deg": value for name, value in distribution_with_max(errors_deg).items()},
         "mean_with_guesses_deg": (sum(errors_deg) + unknown * _GUESS_DEG) / throws,
     }
 

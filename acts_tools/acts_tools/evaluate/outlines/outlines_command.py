@@ -19,13 +19,13 @@ from acts_core.array import ArrayGeometry
 from acts_sim.deforming import BODIES, Meeting, body_named, meeting
 from acts_sim.impacts import SCENE_RATE_HZ, skin_of
 from acts_tools.evaluate import report
-from acts_tools.evaluate.images.options import add_m, add_scene_arguments
-from acts_tools.evaluate.images.recovery import SAMPLE_US
-from acts_tools.evaluate.images.scores import distribution
+from acts_tools.evaluate.options import add_m, add_scene_arguments
 from acts_tools.evaluate.outlines import tracing
 from acts_tools.evaluate.outlines.surface_files import write_surfaces
 from acts_tools.evaluate.outlines.tracing import Traced
+from acts_tools.evaluate.scene_frames import frame_rate_hz
 from acts_tools.evaluate.scene_recordings import add_recordings_argument, write_recording
+from acts_tools.evaluate.statistics import distribution_with_max, mean
 from acts_tools.progress import Progress
 
 _M = (64, 88, 128, 256, 352, 512)
@@ -106,14 +106,14 @@ def scores_of(touches: Sequence[Sequence[Traced]], m: int) -> dict[str, Any]:
         for k in range(most)
     ]
     return {
-        "rate_hz": 1e6 / (m * SAMPLE_US),
+        "rate_hz": frame_rate_hz(m),
         "touches": len(touches),
         "frames_with_outline": float(np.mean([tracing.frames_seen(traced) for traced in touches])),
         "frames_of_touch": float(np.mean([len(traced) for traced in touches])),
-        "error_taxels_from_third": {**distribution(np.array(errors)), "max": max(errors, default=None)},
+        "error_taxels_from_third": distribution_with_max(errors),
         "frames_from_third": len(late),
         "without_outline_from_third": len(late) - len(errors),
-        "error_taxels_by_frame": [float(np.mean(one)) if one else None for one in by_frame],
+        "error_taxels_by_frame": [mean(one) for one in by_frame],
     }
 
 

@@ -18,8 +18,7 @@ from acts_recon.outlines import Outline, area, contours, mean_distance_m
 from acts_recon.settings import ReconstructionSettings
 from acts_sim.deforming import Meeting
 from acts_sim.impacts import SCENE_RATE_HZ
-from acts_tools.evaluate.images.recovery import FOLLOW_COUNTS
-from acts_tools.evaluate.images.scene_frames import frames_of
+from acts_tools.evaluate.scene_frames import FOLLOW_COUNTS, frames_of
 
 Array = NDArray[np.float64]
 

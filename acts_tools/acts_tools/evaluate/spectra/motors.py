@@ -17,8 +17,7 @@ from acts_recon.spectra import Spectrum, SpectrumAnalyser
 from acts_sim.impacts import skin_of
 from acts_sim.pressing import FoamConfig
 from acts_sim.vibrations import VIBRATION_RATE_HZ, Motor, Vibration, vibration
-from acts_tools.evaluate.images.recovery import FOLLOW_COUNTS, SAMPLE_US
-from acts_tools.evaluate.images.scene_frames import frames_of
+from acts_tools.evaluate.scene_frames import FOLLOW_COUNTS, SAMPLE_US, frame_rate_hz, frames_of
 
 Array = NDArray[np.float64]
 
@@ -48,11 +47,6 @@ class Tone(NamedTuple):
     frequency_hz: float
     force_n: float
     amplitude_n: float
-
-
-def frame_rate_hz(m: int) -> float:
-    """Frames a second of a board that measures `m` taxels in each."""
-    return 1e6 / (m * SAMPLE_US)
 
 
 def highest_hz(m: int) -> float:

@@ -19,10 +19,11 @@ from numpy.typing import NDArray
 from acts_recon.spectra import Peak
 from acts_sim.vibrations import VIBRATION_RATE_HZ, Motor, Vibration
 from acts_tools.evaluate import report
-from acts_tools.evaluate.images.options import add_m, add_scene_arguments
-from acts_tools.evaluate.images.scores import distribution
+from acts_tools.evaluate.options import add_m, add_scene_arguments
+from acts_tools.evaluate.scene_frames import frame_rate_hz
 from acts_tools.evaluate.scene_recordings import add_recordings_argument, write_recording
 from acts_tools.evaluate.spectra import motors
+from acts_tools.evaluate.statistics import distribution, distribution_with_max, mean
 from acts_tools.progress import Progress
 
 _M = (64, 128, 256, 512)
@@ -73,7 +74,7 @@ def _run(arguments: argparse.Namespace) -> int:
                     told.setdefault(key, []).append(peaks)
                 progress.show(done := done + 1)
             for (method, scheme), of_motors in told.items():
-                rate_hz, highest_hz = motors.frame_rate_hz(m), motors.highest_hz(m)
+                rate_hz, highest_hz = frame_rate_hz(m), motors.highest_hz(m)
                 scores = _scores(all_motors, of_motors, rate_hz, highest_hz, is_still=is_still)
                 entry = {"m": m, "method": method, "scheme": scheme, **scores}
                 results.add(entry)
@@ -163,12 +164,12 @@ def _scores(
         "rate_hz": rate_hz,
         "highest_hz": highest_hz,
         "found_within_1_hz": len(errors_hz),
-        "frequency_error_hz": {**distribution(np.array(errors_hz)), "max": max(errors_hz, default=None)},
-        "frequency_within_1_sigma": float(np.mean(np.array(frequency_sds) <= 1)) if frequency_sds else None,
-        "amplitude_share": distribution(np.array(shares)),
+        "frequency_error_hz": distribution_with_max(errors_hz),
+        "frequency_within_1_sigma": mean(np.array(frequency_sds) <= 1),
+        "amplitude_share": distribution(shares),
         "amplitude_share_range": [min(shares), max(shares)] if shares else None,
         "amplitude_within_10_percent": near,
-        "amplitude_within_1_sigma": float(np.mean(np.array(amplitude_sds) <= 1)) if amplitude_sds else None,
+        "amplitude_within_1_sigma": mean(np.array(amplitude_sds) <= 1),
         "further_peaks": further,
     }
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from acts_recon.impacts import Impact, Kind
 from acts_sim.wearables import WornScene
-from acts_tools.evaluate.images.scores import distribution
+from acts_tools.evaluate.statistics import distribution_with_max, mean
 
 WITHIN_MS = 2.0
 
@@ -105,22 +105,12 @@ class Tally:
             "false": self.false,
             "parts": self.parts,
             "as_expected": self.as_expected,
-            "onset_error_ms": {**distribution(np.abs(onset_ms)), "max": _largest(onset_ms)},
-            "onset_bias_ms": float(onset_ms.mean()) if onset_ms.size else None,
+            "onset_error_ms": distribution_with_max(np.abs(onset_ms)),
+            "onset_bias_ms": mean(onset_ms),
             "onset_within_2_ms": near,
             "onset_within_2_ms_share": near / self.events if self.events else None,
-            "onset_within_1_sigma": float(np.mean(self.within_sd)) if self.within_sd else None,
-            "first_onset_error_ms": {
-                **distribution(np.abs(self.first_onset_ms)),
-                "max": _largest(np.array(self.first_onset_ms)),
-            },
-            "delay_ms": {**distribution(np.array(self.delay_ms)), "max": max(self.delay_ms, default=None)},
-            "interval_error_ms": {
-                **distribution(np.abs(self.interval_ms)),
-                "max": _largest(np.array(self.interval_ms)),
-            },
+            "onset_within_1_sigma": mean(self.within_sd),
+            "first_onset_error_ms": distribution_with_max(np.abs(self.first_onset_ms)),
+            "delay_ms": distribution_with_max(self.delay_ms),
+            "interval_error_ms": distribution_with_max(np.abs(self.interval_ms)),
         }
-
-
-def _largest(values: np.ndarray[Any, np.dtype[np.float64]]) -> float | None:
-    return float(np.abs(values).max()) if values.size else None

@@ -16,8 +16,7 @@ from acts_core.sampling import SamplingConfig
 from acts_core.skin import layout
 from acts_driver.baseline import BaselineConfig, BaselineTracker
 from acts_sim.wearables import RestingSkin
-from acts_tools.evaluate.images.recovery import SAMPLE_US
-from acts_tools.evaluate.images.scene_frames import Frame
+from acts_tools.evaluate.scene_frames import SAMPLE_US, Frame
 from acts_tools.evaluate.wearables.watching import SCHEME, THRESHOLD_COUNTS, Watcher
 from acts_tools.firmware.board_sampler import sampler_of
 

@@ -15,7 +15,7 @@ from acts_recon.images import BaselineSubtraction
 from acts_recon.impacts import Impact
 from acts_recon.settings import ReconstructionSettings
 from acts_sim.wearables import WORN_RATE_HZ, WornScene
-from acts_tools.evaluate.images.scene_frames import Frame, frames_of
+from acts_tools.evaluate.scene_frames import Frame, frames_of
 
 SCHEME = "tracking"
 THRESHOLD_COUNTS = 60

@@ -17,7 +17,7 @@ import numpy as np
 from acts_sim.wearables import SCENES, WORN_RATE_HZ, WornScene, worn_scene
 from acts_tools.arguments import real, taxels
 from acts_tools.evaluate import report
-from acts_tools.evaluate.images.options import add_scene_arguments
+from acts_tools.evaluate.options import add_scene_arguments
 from acts_tools.evaluate.scene_recordings import add_recordings_argument, write_recording
 from acts_tools.evaluate.wearables.happened import Tally
 from acts_tools.evaluate.wearables.untouched import watch_untouched

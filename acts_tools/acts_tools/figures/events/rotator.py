@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_sim.vibrations import Motor
+from acts_tools.evaluate.scene_frames import frame_rate_hz
 from acts_tools.evaluate.spectra import motors
 from acts_tools.figures.figure import Figure
 from acts_tools.figures.published import PublishedData
@@ -93,7 +94,7 @@ def _measure(run: Run) -> list[Panel]:
         own = [entry for entry in found if entry["m"] == m]
         volts = [entry["volt"] for entry in own]
         true = Curve("motor", volts, [_HZ_PER_VOLT * volt for volt in volts], TRUTH, "truth")
-        half = motors.frame_rate_hz(m) / 2
+        half = frame_rate_hz(m) / 2
         told = [(entry["volt"], entry["peaks_hz"][0]) for entry in own if entry["peaks_hz"]]
         curves = [
             true,

@@ -18,7 +18,8 @@ from acts_recon.methods import SkinSetup
 from acts_recon.sparse import Dictionary, load_dictionary, shipped_dictionary_path
 from acts_sim.pressing import OBJECTS, PRESS_RATE_HZ, ContactModel, ContactObject, FoamConfig, press_over_time
 from acts_tools.evaluate.estimators.methods import method_named
-from acts_tools.evaluate.images.recovery import FOLLOW_COUNTS, Recording, Task, evaluate
+from acts_tools.evaluate.images.recovery import Recording, Task, evaluate
+from acts_tools.evaluate.scene_frames import FOLLOW_COUNTS
 from acts_tools.figures.run import Run
 from acts_tools.firmware.board_sampler import sampler_of
 from acts_tools.train import choose_patches, model_frames

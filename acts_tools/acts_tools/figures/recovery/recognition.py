@@ -12,10 +12,10 @@ import numpy as np
 
 from acts_recon.fusion import known_noise
 from acts_sim.pressing import OBJECTS
-from acts_tools.evaluate.images.recovery import SAMPLE_US
 from acts_tools.evaluate.objects.classification import MIDDLE_MS, Trials, answers, arm_of, press_of
 from acts_tools.evaluate.objects.contenders import ours, papers
-from acts_tools.evaluate.shares import wilson
+from acts_tools.evaluate.scene_frames import SAMPLE_US
+from acts_tools.evaluate.statistics import wilson
 from acts_tools.figures.figure import Figure
 from acts_tools.figures.published import PublishedData
 from acts_tools.figures.run import Run

@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What a board measures of a simulated scene, frame by frame."""
+"""What the published board measures of a simulated scene, frame by frame."""
 
 from __future__ import annotations
 
@@ -13,8 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.sampling import SCHEMES, SamplingConfig, SkinMap
-from acts_tools.evaluate.images.recovery import SAMPLE_US
 from acts_tools.firmware.board_sampler import sampler_of
+
+SAMPLE_US = 17.877
+"""Published time of one measurement [us]: 55,936 per second."""
+
+FOLLOW_COUNTS = 15
+"""Threshold above which tracking follows a taxel, just above the noise of a reading (docs/recovery.md)."""
 
 
 @dataclass(frozen=True)
@@ -33,6 +38,11 @@ class Frame:
     duration_s: float
     indices: NDArray[np.uint16]
     counts: NDArray[np.uint16]
+
+
+def frame_rate_hz(m: int) -> float:
+    """Frames a second of a board that measures `m` taxels in each."""
+    return 1e6 / (m * SAMPLE_US)
 
 
 def frames_of(
