@@ -11,12 +11,21 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.array import ArrayGeometry
 from acts_core.errors import SettingsError
 from acts_core.settings import SettingValue, describe
-from acts_recon.methods import METHODS, Fusion, Method, NoSettings, PerFrame, SkinSetup
+from acts_recon.methods import METHODS, Fusion, Method, NoSettings, PerFrame, PerFrameConfig, SkinSetup
 from acts_recon.sparse import Dictionary
 from acts_tools.evaluate.estimators.dictionaries import cosine_dictionary, haar_dictionary
 from acts_tools.evaluate.estimators.interpolation import GaussianProcess, Linear
+
+PAPER_TOUCH_COUNTS = 50
+"""The paper takes less for no touch."""
+
+
+def paper_method() -> PerFrame:
+    """The paper's recovery of each frame alone, with the shipped dictionary, of an array of 32 x 32 taxels."""
+    return PerFrame(SkinSetup(ArrayGeometry(), touch_counts=PAPER_TOUCH_COUNTS), PerFrameConfig())
 
 
 class ZeroFill(Method):

@@ -6,12 +6,21 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from acts_sim.pressing import OBJECTS, PRESS_RATE_HZ, ContactModel, FoamConfig, object_named, press_over_time
+from acts_sim.pressing import (
+    OBJECTS,
+    PRESS_RATE_HZ,
+    ContactModel,
+    ContactObject,
+    FoamConfig,
+    object_named,
+    press_over_time,
+)
 from acts_tools.arguments import at_least_one, taxels
 from acts_tools.evaluate import report
 from acts_tools.evaluate.images import options
@@ -44,6 +53,14 @@ def add_parser(commands: Any) -> None:
     parser.set_defaults(evaluate=_run)
 
 
+def press_recordings(items: Sequence[ContactObject], presses: int, seed: int) -> list[Recording]:
+    """Press objects down and up again, each as often, at random positions, angles and depths."""
+    # The sampler adds the noise.
+    model = ContactModel(config=FoamConfig(noise_counts=0.0), seed=seed)
+    live = np.ones((model.geometry.rows, model.geometry.cols), dtype=bool)
+    return [Recording(press_over_time(model, item), PRESS_RATE_HZ, live) for _ in range(presses) for item in items]
+
+
 def _run(arguments: argparse.Namespace) -> int:
     pairs = [(method, scheme) for method in ("paper", "linear") for scheme in _PER_FRAME]
     pairs.append((arguments.ours, "tracking"))
@@ -52,12 +69,7 @@ def _run(arguments: argparse.Namespace) -> int:
     require_picture(arguments.picture)
     dictionary = options.dictionary(arguments)
     items = [object_named(name) for name in arguments.objects]
-    # The sampler adds the noise.
-    model = ContactModel(config=FoamConfig(noise_counts=0.0), seed=arguments.seed)
-    live = np.ones((model.geometry.rows, model.geometry.cols), dtype=bool)
-    recordings = [
-        Recording(press_over_time(model, item), PRESS_RATE_HZ, live) for _ in range(arguments.presses) for item in items
-    ]
+    recordings = press_recordings(items, arguments.presses, arguments.seed)
     evaluate_all(recordings, tasks, dictionary, results)
     curves = {
         f"{method}, {scheme}": [

@@ -20,6 +20,7 @@ from acts_recon.impacts import Kind
 from acts_sim.impacts import SCENE_RATE_HZ, Scene, ball_named, collide, dropped, scene, skin_of
 from acts_tools.arguments import real
 from acts_tools.evaluate import report
+from acts_tools.evaluate.estimators.methods import PAPER_TOUCH_COUNTS
 from acts_tools.evaluate.impacts import plays
 from acts_tools.evaluate.options import add_m, add_scene_arguments
 from acts_tools.evaluate.scene_frames import frame_rate_hz
@@ -106,7 +107,7 @@ def seen_by_paper(scenes: Sequence[Scene], m: int, noise_counts: float) -> dict[
         sampled = plays.frames_of_paper(shown, m, noise_counts, seed)
         # A taxel that is measured keeps its value in the recovered image, and without one the image is 0.
         peaks = np.array([float(frame.counts.max()) for frame in sampled])
-        touched = np.flatnonzero(peaks > plays.PAPER_TOUCH_COUNTS)
+        touched = np.flatnonzero(peaks > PAPER_TOUCH_COUNTS)
         frames.append(touched.size)
         if touched.size:
             changes.append(_change(peaks[touched[0] : touched[-1] + 1]))

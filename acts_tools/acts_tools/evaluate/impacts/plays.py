@@ -11,26 +11,17 @@ from acts_recon.fusion import known_noise
 from acts_recon.impacts import Impact
 from acts_recon.settings import ReconstructionSettings
 from acts_sim.impacts import SCENE_RATE_HZ, Scene
+from acts_tools.evaluate.estimators.methods import PAPER_TOUCH_COUNTS
 from acts_tools.evaluate.scene_frames import FOLLOW_COUNTS, Frame, frames_of
-
-PAPER_TOUCH_COUNTS = 50
-"""The paper takes less for no touch."""
 
 TOUCH_COUNTS = 25
 """Ours: eight times the noise of a reading."""
 
 
-def sampled(
-    scene: Scene, scheme: str, m: int, threshold_counts: int, noise_counts: float, seed: int
-) -> Iterator[Frame]:
-    """Sample a scene frame by frame as fast as a board measures; one frame follows the other at once."""
-    return frames_of(scene.frames, SCENE_RATE_HZ, scheme, m, threshold_counts, noise_counts, seed)
-
-
 def frames_of_paper(scene: Scene, m: int, noise_counts: float, seed: int) -> Iterator[Frame]:
     """Frames as in the paper: adaptive sampling, and a raster of the whole array."""
     scheme = "raster" if m >= scene.frames[0].size else "adaptive"
-    return sampled(scene, scheme, m, PAPER_TOUCH_COUNTS, noise_counts, seed)
+    return frames_of(scene.frames, SCENE_RATE_HZ, scheme, m, PAPER_TOUCH_COUNTS, noise_counts, seed)
 
 
 class Ours:
@@ -58,7 +49,9 @@ class Ours:
         recovery.reset()
         self._detector.reset()
         told: list[tuple[float, Impact]] = []
-        for frame in sampled(scene, self.scheme, self._m, FOLLOW_COUNTS, self._noise_counts, seed):
+        for frame in frames_of(
+            scene.frames, SCENE_RATE_HZ, self.scheme, self._m, FOLLOW_COUNTS, self._noise_counts, seed
+        ):
             recovery.step(frame.indices, frame.counts, frame.end_s, frame.duration_s)
             found = self._detector.step(
                 frame.end_s, frame.duration_s, recovery.image, recovery.sigma, recovery.age_s, recovery.measured

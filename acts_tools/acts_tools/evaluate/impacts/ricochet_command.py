@@ -20,10 +20,10 @@ from acts_core.array import ArrayGeometry
 from acts_core.skin import ForceResponse
 from acts_recon.contacts import ContactFinder
 from acts_recon.impacts import UNKNOWN_DIRECTION_SD_RAD
-from acts_recon.methods import PerFrame, PerFrameConfig, SkinSetup
 from acts_sim.impacts import SCENE_RATE_HZ, Scene, ball_named, scene, skin_of, thrown
 from acts_tools.arguments import real, taxels
 from acts_tools.evaluate import report
+from acts_tools.evaluate.estimators.methods import PAPER_TOUCH_COUNTS, paper_method
 from acts_tools.evaluate.impacts import plays
 from acts_tools.evaluate.options import add_scene_arguments
 from acts_tools.evaluate.scene_recordings import add_recordings_argument, write_recording
@@ -92,11 +92,9 @@ class PaperDirections:
     """Adaptive sampling, recovery of each frame by itself, and the way of the centre of pressure."""
 
     def __init__(self, m: int, noise_counts: float) -> None:
-        geometry = ArrayGeometry()
         self._m, self._noise_counts = m, noise_counts
-        touch_counts = plays.PAPER_TOUCH_COUNTS
-        self._recovery = PerFrame(SkinSetup(geometry, touch_counts=touch_counts), PerFrameConfig())
-        self._finder = ContactFinder(geometry, ForceResponse(), float(touch_counts))
+        self._recovery = paper_method()
+        self._finder = ContactFinder(ArrayGeometry(), ForceResponse(), float(PAPER_TOUCH_COUNTS))
 
     def direction_rad(self, shown: Scene, seed: int) -> float | None:
         """None where fewer than two frames show the ball."""

@@ -13,16 +13,15 @@ from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
 from acts_recon.fusion import known_noise
-from acts_recon.methods import PerFrame, PerFrameConfig, SkinSetup
 from acts_recon.outlines import Outline, area, contours, mean_distance_m
 from acts_recon.settings import ReconstructionSettings
 from acts_sim.deforming import Meeting
 from acts_sim.impacts import SCENE_RATE_HZ
+from acts_tools.evaluate.estimators.methods import PAPER_TOUCH_COUNTS, paper_method
 from acts_tools.evaluate.scene_frames import FOLLOW_COUNTS, frames_of
 
 Array = NDArray[np.float64]
 
-PAPER_TOUCH_COUNTS = 50
 TOUCH_COUNTS = 50
 SCHEME = "tracking"
 PAPER_SCHEMES = {"tennis": "adaptive", "block": "adaptive", "balloon": "random"}
@@ -91,7 +90,7 @@ def paper(shown: Meeting, m: int, noise_counts: float, seed: int) -> list[Traced
     Of the balloon it is a circle as large as the pressed area.
     """
     geometry = ArrayGeometry()
-    recovery = PerFrame(SkinSetup(geometry, touch_counts=PAPER_TOUCH_COUNTS), PerFrameConfig())
+    recovery = paper_method()
     scheme = PAPER_SCHEMES[shown.body.name]
     traced = []
     for frame in frames_of(shown.frames, SCENE_RATE_HZ, scheme, m, PAPER_TOUCH_COUNTS, noise_counts, seed):

@@ -12,18 +12,17 @@ from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
 from acts_core.skin import ForceResponse
-from acts_recon.methods import PerFrame, PerFrameConfig, SkinSetup
 from acts_recon.spectra import Spectrum, SpectrumAnalyser
 from acts_sim.impacts import skin_of
 from acts_sim.pressing import FoamConfig
 from acts_sim.vibrations import VIBRATION_RATE_HZ, Motor, Vibration, vibration
+from acts_tools.evaluate.estimators.methods import PAPER_TOUCH_COUNTS, paper_method
 from acts_tools.evaluate.scene_frames import FOLLOW_COUNTS, SAMPLE_US, frame_rate_hz, frames_of
 
 Array = NDArray[np.float64]
 
 LOWEST_HZ, HIGHEST_HZ = 10.0, 400.0
 WINDOW_S = 1.0
-PAPER_TOUCH_COUNTS = 50
 TOUCH_COUNTS = 25
 
 # Of half the frame rate: a tone right below is sampled at its zeros for as long as the window lasts.
@@ -89,8 +88,7 @@ def paper_spectrum(shown: Vibration, m: int, noise_counts: float, seed: int) -> 
 
     Adaptive sampling, and recovery of each frame by itself, as in the paper. A frame is taken for one moment.
     """
-    geometry = ArrayGeometry()
-    recovery = PerFrame(SkinSetup(geometry, touch_counts=PAPER_TOUCH_COUNTS), PerFrameConfig())
+    recovery = paper_method()
     response = ForceResponse()
     forces = []
     for frame in frames_of(shown.frames, VIBRATION_RATE_HZ, "adaptive", m, PAPER_TOUCH_COUNTS, noise_counts, seed):

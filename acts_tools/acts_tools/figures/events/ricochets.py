@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from acts_core.array import COUNT_MAX, ArrayGeometry
-from acts_recon.methods import PerFrame, PerFrameConfig, SkinSetup
+from acts_core.array import COUNT_MAX
 from acts_sim.impacts import Scene
+from acts_tools.evaluate.estimators.methods import PAPER_TOUCH_COUNTS, paper_method
 from acts_tools.evaluate.impacts import plays
 from acts_tools.evaluate.impacts.ricochet_command import (
     ANGLES_DEG,
@@ -48,11 +48,11 @@ def _measure_paths(run: Run) -> list[Panel]:
     """Frames of one throw by the paper's method, and the way of the centre from eight angles."""
     shown = _throw(run, _SHOWN_DEG)
     begin_s = float(shown.collisions[0].time_s[0])
-    recovery = PerFrame(SkinSetup(ArrayGeometry(), touch_counts=plays.PAPER_TOUCH_COUNTS), PerFrameConfig())
+    recovery = paper_method()
     panels: list[Panel] = []
     for frame in plays.frames_of_paper(shown, _M, _NOISE_COUNTS, 1):
         image = recovery.step(frame.indices, frame.counts, frame.end_s, frame.duration_s)
-        if image.max() > plays.PAPER_TOUCH_COUNTS and len(panels) < _FRAMES:
+        if image.max() > PAPER_TOUCH_COUNTS and len(panels) < _FRAMES:
             title = f"{_SHOWN_DEG} degrees, paper's method, {1e3 * (frame.end_s - begin_s):.1f} ms"
             panels.append(skin_panel(title, image, highest=float(COUNT_MAX)))
     return [*panels, *(_path(_throw(run, angle_deg), angle_deg) for angle_deg in sorted(ANGLES_DEG))]

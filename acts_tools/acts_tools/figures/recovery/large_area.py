@@ -7,10 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
-from acts_core.array import COUNT_MAX, ArrayGeometry
-from acts_recon.methods import SkinSetup
+from acts_core.array import COUNT_MAX
 from acts_sim.pressing import (
     ContactObject,
     Field,
@@ -22,18 +19,13 @@ from acts_sim.pressing import (
     object_named,
     prism,
 )
-from acts_tools.evaluate.estimators.methods import method_named
 from acts_tools.figures.figure import Figure
 from acts_tools.figures.recovery import presses
 from acts_tools.figures.run import Run
 from acts_tools.figures.sheet import Panel
 from acts_tools.figures.skin_images import skin_panel
-from acts_tools.firmware.board_sampler import sampler_of
 
 _M = 64
-_OURS_S = 0.046
-"""Time since the touch began, for ours; the paper's method uses one frame alone."""
-
 _DEPTH_M = (0.002, 0.003)
 _BAR_M = 0.025
 
@@ -80,22 +72,18 @@ def _touches() -> list[_Touch]:
 
 
 def _measure(run: Run) -> list[Panel]:
-    skin = SkinSetup(ArrayGeometry(), touch_counts=presses.TOUCH_COUNTS)
     panels = []
     for touch in _touches():
         arm = PressingArm([touch.item], foam=FoamConfig(noise_counts=0.0), seed=run.seed)
         frame = arm.held_frame(0)
-        its = presses.task(run, "paper", touch.scheme, _M)
-        indices, counts = sampler_of(its.sampling, its.noise_counts).frame(frame[None], 0.0, 0.0)
-        measured = np.zeros(frame.size)
-        measured[indices] = counts
-        alone = method_named("paper")(skin, presses.shipped(), {}).step(indices, counts, its.duration_s, its.duration_s)
+        indices, counts, measured = presses.samples_of_held(run, frame, touch.scheme, _M)
+        alone = presses.recovered_alone("paper", indices, counts)
         panels += [
             skin_panel(f"{touch.name}: {what}", image, highest=float(COUNT_MAX))
             for what, image in (
                 (f"measured, {touch.scheme}", measured),
                 ("paper's method", alone),
-                ("ours", presses.ours_of_held(run, frame, _M, _OURS_S)[0]),
+                ("ours", presses.ours_of_held(run, frame, _M)[0]),
                 ("truth", frame),
             )
         ]
@@ -111,7 +99,7 @@ FIGURES = (
         panel_inch=(2.1, 2.15),
         notes=(
             "M = 64. Simple shapes stand for glove, foam bullet, yardstick and hand, at the largest depth.",
-            f"Ours: {1e3 * _OURS_S:.0f} ms (40 frames) after the touch began. Published are pictures only.",
+            f"Ours: {1e3 * presses.HELD_S:.0f} ms (40 frames) after the touch began. Published are pictures only.",
         ),
     ),
 )

@@ -14,26 +14,29 @@ from numpy.typing import NDArray
 from acts_core.array import ArrayGeometry
 from acts_core.sampling import SamplingConfig
 from acts_recon.learning import KsvdConfig, learn_dictionary
-from acts_recon.methods import SkinSetup
+from acts_recon.methods import Method, SkinSetup
 from acts_recon.sparse import Dictionary, load_dictionary, shipped_dictionary_path
-from acts_sim.pressing import OBJECTS, PRESS_RATE_HZ, ContactModel, ContactObject, FoamConfig, press_over_time
-from acts_tools.evaluate.estimators.methods import method_named
+from acts_sim.pressing import OBJECTS, ContactObject
+from acts_tools.evaluate.estimators.methods import PAPER_TOUCH_COUNTS, method_named
+from acts_tools.evaluate.images.objects_command import press_recordings
 from acts_tools.evaluate.images.recovery import Recording, Task, evaluate
 from acts_tools.evaluate.scene_frames import FOLLOW_COUNTS
 from acts_tools.figures.run import Run
 from acts_tools.firmware.board_sampler import sampler_of
 from acts_tools.train import choose_patches, model_frames
 
-TOUCH_COUNTS = 50
-"""A taxel above it is pressed; the paper takes less for no touch."""
+PUBLISHED_SCHEMES = {"adaptive": "Binary Sampling", "uniform": "Down Sampling", "random": "Random Sampling"}
+"""The paper's schemes, and what its figure files call them."""
 
-SCHEMES = ("adaptive", "uniform", "random")
-"""The paper's."""
+SCHEMES = tuple(PUBLISHED_SCHEMES)
 
 M = (42, 56, 64, 88, 128, 176, 256, 352, 512)
 M_FAST = (64, 256)
 TENTH_HZ = 100.0
 """Frame rate where methods of single frames are compared: a tenth of the frames has the same mean."""
+
+HELD_S = 0.046
+"""Time since a touch began, for our images of several frames."""
 
 _NOISE_COUNTS = 3.0
 _OBJECTS_FAST = 5
@@ -47,16 +50,14 @@ def objects(run: Run) -> list[ContactObject]:
 
 def presses(run: Run, items: Sequence[ContactObject]) -> list[Recording]:
     """One press of every object, as `acts evaluate objects` makes them of the same seed."""
-    model = ContactModel(config=FoamConfig(noise_counts=0.0), seed=run.seed)
-    live = np.ones((model.geometry.rows, model.geometry.cols), dtype=bool)
-    return [Recording(press_over_time(model, item), PRESS_RATE_HZ, live) for item in items]
+    return press_recordings(items, 1, run.seed)
 
 
 def task(
     run: Run, method: str, scheme: str, m: int, *, rate_hz: float = 1000.0, sparsity_ratio: float | None = None
 ) -> Task:
     """A method with a scheme and M taxels, scored over whole presses."""
-    threshold = FOLLOW_COUNTS if scheme == "tracking" else TOUCH_COUNTS
+    threshold = FOLLOW_COUNTS if scheme == "tracking" else PAPER_TOUCH_COUNTS
     sampling = SamplingConfig(scheme=scheme, m=m, threshold_counts=threshold, seed=run.seed)
     return Task(
         sampling,
@@ -115,12 +116,30 @@ def ours_over_m(run: Run) -> dict[str, Any]:
     return run.shared("ours", measure)
 
 
-def ours_of_held(run: Run, frame: NDArray, m: int, duration_s: float) -> tuple[NDArray, int]:
-    """Our image of a touch that is held, some time after it began, and how many frames it is made of."""
+def samples_of_held(run: Run, frame: NDArray, scheme: str, m: int) -> tuple[NDArray, NDArray, NDArray]:
+    """One frame of samples of a touch that is held: taxels, counts, and these as an image, with 0 elsewhere."""
+    its = task(run, "paper", scheme, m)
+    indices, counts = sampler_of(its.sampling, its.noise_counts).frame(frame[None], 0.0, 0.0)
+    measured = np.zeros(frame.size)
+    measured[indices] = counts
+    return indices, counts, measured
+
+
+def recovered_alone(method: str, indices: NDArray, counts: NDArray) -> NDArray:
+    """The image of one frame of samples, by a method of single frames."""
+    return _method(method).step(indices, counts, 0.0, 0.0)
+
+
+def _method(name: str) -> Method:
+    return method_named(name)(SkinSetup(ArrayGeometry(), touch_counts=PAPER_TOUCH_COUNTS), shipped(), {})
+
+
+def ours_of_held(run: Run, frame: NDArray, m: int) -> tuple[NDArray, int]:
+    """Our image of a touch that is held, `HELD_S` after it began, and how many frames it is made of."""
     its = task(run, "acts", "tracking", m)
     sampler = sampler_of(its.sampling, its.noise_counts)
-    method = method_named("acts")(SkinSetup(ArrayGeometry(), touch_counts=TOUCH_COUNTS), shipped(), {})
-    image, count = method.image, max(round(duration_s / its.period_s), 1)
+    method = _method("acts")
+    image, count = method.image, max(round(HELD_S / its.period_s), 1)
     for number in range(1, count + 1):
         image = method.step(*sampler.frame(frame[None], 0.0, 0.0), number * its.period_s, its.duration_s)
     return image, count

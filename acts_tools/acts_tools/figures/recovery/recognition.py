@@ -18,11 +18,11 @@ from acts_tools.evaluate.scene_frames import SAMPLE_US
 from acts_tools.evaluate.statistics import wilson
 from acts_tools.figures.figure import Figure
 from acts_tools.figures.published import PublishedData
+from acts_tools.figures.recovery.presses import PUBLISHED_SCHEMES, SCHEMES
 from acts_tools.figures.run import Run
 from acts_tools.figures.sheet import OURS, PUBLISHED, SAME, Curve, Panel
 
 _RECORDED_HZ = 1000.0
-_SCHEMES = {"adaptive": "Binary Sampling", "uniform": "Down Sampling", "random": "Random Sampling"}
 _AXES = {"adaptive": 2, "uniform": 0, "random": 1}
 """Of the published curves over time."""
 
@@ -40,7 +40,7 @@ def _contenders(run: Run) -> list[tuple[str, int, bool]]:
     ms = sorted({*run.pick(_M, (64,)), *over_time})
     return [
         (scheme, m, m in over_time)
-        for scheme in (*_SCHEMES, OUR_KEY)
+        for scheme in (*SCHEMES, OUR_KEY)
         for m in ms
         # All taxels take 18 ms: our method has no use for such a frame, which has no choice left.
         if not (scheme == OUR_KEY and m == ALL)
@@ -103,7 +103,7 @@ def shared_answers(run: Run) -> Any:
 def _measure_over_m(run: Run) -> list[Panel]:
     found = shared_answers(run)
     curves = []
-    for scheme in (*_SCHEMES, OUR_KEY):
+    for scheme in (*SCHEMES, OUR_KEY):
         ms = [m for one, m, _ in _contenders(run) if one == scheme]
         # The millisecond of a held press, where all were asked for.
         held = [(right := found["right"][f"{scheme} {m}"])[round(MIDDLE_MS) - 1 if len(right) > 1 else 0] for m in ms]
@@ -132,7 +132,7 @@ def _published_over_m(data: PublishedData, panels: Sequence[Panel]) -> dict[str,
                 beside=scheme,
                 scheme=scheme,
             )
-            for scheme, word in _SCHEMES.items()
+            for scheme, word in PUBLISHED_SCHEMES.items()
         ]
     }
 
@@ -150,7 +150,7 @@ def _measure_over_time(run: Run) -> list[Panel]:
     presses = found["presses"]
     over_time = run.pick(_M_OVER_TIME, (64, ALL))
     panels = []
-    for scheme in _SCHEMES:
+    for scheme in SCHEMES:
         curves = []
         for number, m in enumerate(over_time):
             x, y = running_mean(found["right"][f"{scheme} {m}"], m, presses)

@@ -10,28 +10,21 @@ from typing import Any
 
 import numpy as np
 
-from acts_core.array import ArrayGeometry
-from acts_recon.methods import SkinSetup
 from acts_sim.pressing import FoamConfig, PressingArm, object_named
-from acts_tools.evaluate.estimators.methods import method_named
+from acts_tools.evaluate.estimators.methods import PAPER_TOUCH_COUNTS
 from acts_tools.figures.figure import Figure
 from acts_tools.figures.published import PublishedData
 from acts_tools.figures.recovery import presses
-from acts_tools.figures.recovery.presses import SCHEMES
+from acts_tools.figures.recovery.presses import PUBLISHED_SCHEMES, SCHEMES
 from acts_tools.figures.run import Run
 from acts_tools.figures.sheet import OURS, PUBLISHED, SAME, Curve, Panel
 from acts_tools.figures.skin_images import skin_panel
-from acts_tools.firmware.board_sampler import sampler_of
 
 _M_LABEL, _SUPPORT = "taxels measured per frame, M", "support accuracy"
-_PUBLISHED_SCHEMES = {"adaptive": "Binary Sampling", "uniform": "Down Sampling", "random": "Random Sampling"}
 _TAXELS = 1024
 _M_OF_SIZES = (64, 512)
 _M_OF_DICTIONARIES = (42, 64, 88, 128, 256, 512)
 _HIGHEST_COUNTS = 800.0
-_OURS_S = 0.046
-"""Time since the touch began, for our images."""
-
 _M_OF_PICTURES = (64, 128, 256)
 _DICTIONARIES = {"paper": "learnt", "dct": "DCT", "haar": "Haar"}
 _PUBLISHED_DICTIONARIES = {"paper": "Learned", "dct": "DCT", "haar": "Haar"}
@@ -71,7 +64,7 @@ def _published_support(data: PublishedData, panels: Sequence[Panel]) -> dict[str
                 scheme=scheme,
                 scale=1 / _TAXELS,
             )
-            for scheme, word in _PUBLISHED_SCHEMES.items()
+            for scheme, word in PUBLISHED_SCHEMES.items()
         ]
         for title, name in names.items()
     }
@@ -80,7 +73,7 @@ def _published_support(data: PublishedData, panels: Sequence[Panel]) -> dict[str
 def _measure_sizes(run: Run) -> list[Panel]:
     items = presses.objects(run)
     recordings = presses.presses(run, items)
-    sizes = [float((one.frames.max(axis=0) > presses.TOUCH_COUNTS).sum()) for one in recordings]
+    sizes = [float((one.frames.max(axis=0) > PAPER_TOUCH_COUNTS).sum()) for one in recordings]
     order = np.argsort(sizes).tolist()
     pairs = [("paper", scheme) for scheme in SCHEMES] + [("acts", "tracking")]
     dictionary = presses.shipped()
@@ -163,7 +156,7 @@ def _published_dictionaries(data: PublishedData, panels: Sequence[Panel]) -> dic
             )
             for method, name in _DICTIONARIES.items()
         ]
-        for scheme, word in _PUBLISHED_SCHEMES.items()
+        for scheme, word in PUBLISHED_SCHEMES.items()
     }
 
 
@@ -175,19 +168,14 @@ def _measure_pictures(run: Run) -> list[Panel]:
     """One press of the printed X, its samples, its recovery by three dictionaries, and ours of several frames."""
     arm = PressingArm([object_named("x")], foam=FoamConfig(noise_counts=0.0), seed=run.seed)
     frame = arm.held_frame(0)
-    middle = frame[None]
-    skin = SkinSetup(ArrayGeometry(), touch_counts=presses.TOUCH_COUNTS)
     panels = []
     for m in _M_OF_PICTURES:
-        its = presses.task(run, "paper", "random", m)
-        indices, counts = sampler_of(its.sampling, its.noise_counts).frame(middle, 0.0, 0.0)
-        measured = np.zeros(_TAXELS)
-        measured[indices] = counts
+        indices, counts, measured = presses.samples_of_held(run, frame, "random", m)
         panels.append(skin_panel(f"measured, M = {m}", measured, highest=_HIGHEST_COUNTS))
         for method, name in _DICTIONARIES.items():
-            recovered = method_named(method)(skin, presses.shipped(), {}).step(indices, counts, 0.0, 0.0)
+            recovered = presses.recovered_alone(method, indices, counts)
             panels.append(skin_panel(f"{name}, M = {m}", recovered, highest=_HIGHEST_COUNTS))
-        ours, frames = presses.ours_of_held(run, frame, m, _OURS_S)
+        ours, frames = presses.ours_of_held(run, frame, m)
         panels.append(skin_panel(f"ours, {frames} frames, M = {m}", ours, highest=_HIGHEST_COUNTS))
         panels.append(skin_panel(f"truth (M = {m})", frame, highest=_HIGHEST_COUNTS))
     return panels
