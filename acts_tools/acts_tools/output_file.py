@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Check of output files."""
+"""Folders for output files, and checks that these can be written."""
 
 from __future__ import annotations
 
@@ -10,6 +10,20 @@ from pathlib import Path
 from acts_core.errors import RecordingError
 
 _PICTURES = (".png", ".svg", ".pdf")
+
+
+def make_folder(folder: Path, option: str) -> None:
+    """Make the folder that an option of the command line names, unless it is there.
+
+    Raises
+    ------
+    RecordingError
+        When it cannot be made.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise RecordingError(f"{option} {folder}: the folder cannot be made ({error.strerror})") from error
 
 
 def require_writable(path: Path | None, *, makes_folder: bool = False) -> None:

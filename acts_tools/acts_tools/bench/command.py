@@ -80,14 +80,10 @@ def _measure(arguments: argparse.Namespace) -> dict[str, Any]:
 
 def _file(arguments: argparse.Namespace, name: str) -> Path:
     """Path of the report; its folder is made before the measurement, to find errors early."""
-    from acts_tools.output_file import require_writable
+    from acts_tools.output_file import make_folder, require_writable
 
     path = Path(arguments.out / name if arguments.json is None else arguments.json)
-    option = "--out" if arguments.json is None else "--json"
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise ActsError(f"{option} {path.parent}: the folder cannot be made ({error.strerror})") from error
+    make_folder(path.parent, "--out" if arguments.json is None else "--json")
     require_writable(path)
     return path
 

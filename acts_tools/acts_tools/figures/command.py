@@ -10,7 +10,6 @@ import time
 from pathlib import Path
 from typing import Any
 
-from acts_core.errors import RecordingError
 from acts_tools.arguments import random_seed
 from acts_tools.evaluate import report
 from acts_tools.figures.differences import differences
@@ -21,6 +20,7 @@ from acts_tools.figures.published import VARIABLE, PublishedData, published_data
 from acts_tools.figures.registry import FIGURES, figures_named
 from acts_tools.figures.run import Run
 from acts_tools.figures.sheet import PUBLISHED, Panel, from_json, large_images, rows, to_json
+from acts_tools.output_file import make_folder
 from acts_tools.progress import Progress
 
 _HEADER = ("panel", "curve", "by", "x", "y", "low", "high")
@@ -62,10 +62,7 @@ def run(arguments: argparse.Namespace) -> int:
     """
     figures = figures_named(arguments.name)
     published = published_data(arguments.paper_data)
-    try:
-        arguments.out.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise RecordingError(f"--out {arguments.out}: the folder cannot be made ({error.strerror})") from error
+    make_folder(arguments.out, "--out")
     one = Run(arguments.out, arguments.seed, arguments.fast, arguments.again)
     results = report.Results(arguments.json, one.settings)
     if published is None and any(figure.has_published for figure in figures):

@@ -5,9 +5,7 @@
 
 from __future__ import annotations
 
-import json
 import socket
-import sys
 import tempfile
 from pathlib import Path
 
@@ -25,7 +23,7 @@ from acts_tools.demo.ball.picture import draw
 from acts_tools.demo.ball.recording import Recording
 from acts_tools.demo.ball.score import score, table
 from acts_tools.demo.claims import claimed_folder, claimed_robot
-from acts_tools.output_file import require_writable
+from acts_tools.demo.files import DemoFiles
 from acts_tools.percentiles import percentiles
 from acts_tools.process_load import LoadMeter
 from acts_tools.ros_domain import use_free_domain
@@ -155,23 +153,17 @@ def run(seconds: float | None, out: Path, robot_ip: str, realtime_priority: int 
     if seconds is not None and not 5.0 <= seconds <= 600.0:
         raise ActsError(f"--seconds {seconds:g}: allowed is 5 to 600")
     check_robot_ip(robot_ip)
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise ActsError(f"--out {out}: the folder cannot be made ({error.strerror})") from error
-    for kind in ("json", "png", "log"):
-        require_writable(out / f"ball_balancing.{kind}")
+    files = DemoFiles.made(out, "ball_balancing")
     with claimed_folder(out), claimed_robot(robot_ip):
-        return _run(seconds, out, robot_ip, realtime_priority)
+        return _run(seconds, files, robot_ip, realtime_priority)
 
 
-def _run(seconds: float | None, out: Path, robot_ip: str, realtime_priority: int) -> int:
+def _run(seconds: float | None, files: DemoFiles, robot_ip: str, realtime_priority: int) -> int:
     trajectory, duration_s = plan(seconds)
     use_free_domain()
     print(f"Ball balancing with simulated skin, ball and UR5e: {trajectory.replace(',', ', ')}; {duration_s:.0f} s")
     print("The same nodes run on the real robot; only launch arguments differ. Everything below is measured live.")
     recording = Recording()
-    log_path = out / "ball_balancing.log"
     with StopFlag() as stop, tempfile.TemporaryDirectory(prefix="acts_demo_", dir=shared_memory()) as run_dir:
         launch_arguments = [
             f"trajectory:={trajectory}",
@@ -183,15 +175,11 @@ def _run(seconds: float | None, out: Path, robot_ip: str, realtime_priority: int
             "standby:=false",
             f"realtime_priority:={realtime_priority}",
         ]
-        try:
-            watch(launch_arguments, duration_s, recording, log_path, stop)
-        except LaunchError as error:
-            print()
-            print("\n".join(log_path.read_text(errors="replace").splitlines()[-30:]), file=sys.stderr)
-            raise LaunchError(f"{error}; the end of {log_path} is above") from error
+        with files.log_shown():
+            watch(launch_arguments, duration_s, recording, files.log, stop)
     results = score(recording)
-    (out / "ball_balancing.json").write_text(json.dumps(results, indent=2) + "\n")
-    draw(recording, results, ArrayGeometry(), out / "ball_balancing.png")
+    files.write(results)
+    draw(recording, results, ArrayGeometry(), files.picture)
     print(table(results))
-    print(f"  wrote {out / 'ball_balancing.json'}, {out / 'ball_balancing.png'}, {log_path}")
+    print(f"  wrote {files}")
     return 0 if results["ok"] else 1

@@ -5,13 +5,12 @@
 
 from __future__ import annotations
 
-import json
-import sys
 import time
 from pathlib import Path
 
-from acts_core.errors import ActsError, LaunchError
+from acts_core.errors import ActsError
 from acts_tools.demo.claims import claimed_folder
+from acts_tools.demo.files import DemoFiles
 from acts_tools.demo.hand.act import Act
 from acts_tools.demo.hand.picture import draw
 from acts_tools.demo.hand.score import score, table
@@ -20,7 +19,6 @@ from acts_tools.evaluate.hand.scenarios import SCENARIOS
 from acts_tools.hand_rigs.collector import HandCollector
 from acts_tools.hand_rigs.live import STATES
 from acts_tools.hand_rigs.live_rigs import LiveRigs
-from acts_tools.output_file import require_writable
 from acts_tools.ros_domain import use_free_domain
 from acts_tools.running.stopping import StopFlag
 
@@ -49,35 +47,25 @@ def run(names: list[str], out: Path, seed: int) -> int:
     if unknown:
         raise ActsError(f"{', '.join(unknown)}: there is no such act; there are {', '.join(TITLES)}")
     chosen = names or list(TITLES)
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise ActsError(f"--out {out}: the folder cannot be made ({error.strerror})") from error
-    for kind in ("json", "png", "log"):
-        require_writable(out / f"hand.{kind}")
+    files = DemoFiles.made(out, "hand")
     with claimed_folder(out), StopFlag() as stop:
-        return _run(chosen, out, seed, stop)
+        return _run(chosen, files, seed, stop)
 
 
-def _run(names: list[str], out: Path, seed: int, stop: StopFlag) -> int:
+def _run(names: list[str], files: DemoFiles, seed: int, stop: StopFlag) -> int:
     use_free_domain()
     print(
         f"The reflexes of a simulated LEAP hand with a skin of 1024 taxels: {'; '.join(TITLES[name] for name in names)}"
     )
     print("The same nodes run on the real hand; only launch arguments differ. Everything below is measured live.")
-    acts, log_path, begin_s = [], out / "hand.log", time.monotonic()
-    try:
-        for name in names:
-            acts.append(play(name, seed, log_path, stop, begin_s))
-    except LaunchError as error:
-        print()
-        print("\n".join(log_path.read_text(errors="replace").splitlines()[-30:]), file=sys.stderr)
-        raise LaunchError(f"{error}; the end of {log_path} is above") from error
+    begin_s = time.monotonic()
+    with files.log_shown():
+        acts = [play(name, seed, files.log, stop, begin_s) for name in names]
     results = score(acts)
-    (out / "hand.json").write_text(json.dumps(results, indent=2) + "\n")
-    draw(acts, out / "hand.png")
+    files.write(results)
+    draw(acts, files.picture)
     print(table(results, acts))
-    print(f"  wrote {out / 'hand.json'}, {out / 'hand.png'}, {log_path}")
+    print(f"  wrote {files}")
     return 0 if results["ok"] else 1
 
 
