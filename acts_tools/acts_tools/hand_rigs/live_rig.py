@@ -13,6 +13,7 @@ from __future__ import annotations
 import math
 import time
 from collections import deque
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -105,12 +106,12 @@ class LiveRig:
         while self._region_times + 1 < len(regions) and regions[self._region_times + 1][0] <= self._time_s:
             self._region_times += 1
 
-    def run(self, duration_s: float, until: object = None) -> bool:
+    def run(self, duration_s: float, until: Callable[[], bool] = lambda: False) -> bool:
         """Run for a time [s], or until a condition is true; return whether it was."""
         end_s = self._time_s + duration_s
         while self._time_s < end_s:
             self.step()
-            if callable(until) and until():
+            if until():
                 return True
         return False
 
