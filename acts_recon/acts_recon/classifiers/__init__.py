@@ -7,7 +7,7 @@ In come the samples of frame after frame, and what a method of recovery has made
 of a library presses.
 """
 
-from acts_recon.classifiers.fused_image import FORGET_AFTER_S, FusedImageConfig, FusedImageRecogniser
+from acts_recon.classifiers.fused_image import FusedImageConfig, FusedImageRecogniser
 from acts_recon.classifiers.recogniser import ObjectRecogniser
 from acts_recon.classifiers.registry import AUTO, CLASSIFIERS, classifier_named
 from acts_recon.classifiers.src import SrcConfig, SrcRecogniser
@@ -15,7 +15,6 @@ from acts_recon.classifiers.src import SrcConfig, SrcRecogniser
 __all__ = [
     "AUTO",
     "CLASSIFIERS",
-    "FORGET_AFTER_S",
     "FusedImageConfig",
     "FusedImageRecogniser",
     "ObjectRecogniser",

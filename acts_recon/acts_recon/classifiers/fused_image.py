@@ -13,12 +13,9 @@ from numpy.typing import NDArray
 from acts_core.array import COUNT_MAX
 from acts_core.settings import default_of, setting, validate
 from acts_recon.classifiers.recogniser import ObjectRecogniser
-from acts_recon.fusion import FusionConfig
+from acts_recon.images import LONGEST_PAUSE_S
 from acts_recon.methods import Method, SkinSetup
 from acts_recon.objects import Classification, ImageClassifier, ImageClassifierConfig, ObjectLibrary
-
-FORGET_AFTER_S = FusionConfig().reset_after_s
-"""After a gap this long nothing of earlier frames counts on, here as in the fusion."""
 
 
 @dataclass(frozen=True)
@@ -104,7 +101,7 @@ class FusedImageRecogniser(ObjectRecogniser):
     def _period_s(self, end_s: float, duration_s: float) -> float:
         """Time since the last frame; a gap, or a clock that goes back, begins anew."""
         period_s = duration_s if self._end_s is None else end_s - self._end_s
-        if not 0 <= period_s <= FORGET_AFTER_S:
+        if not 0 <= period_s <= LONGEST_PAUSE_S:
             self.reset()
             period_s = duration_s
         self._end_s = end_s

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX
 from acts_core.kernels import kernel
-from acts_recon.images import force_of, taxel_variances
+from acts_recon.images import SMALLEST_DIVISOR, force_of, taxel_variances
 
 MAX_BLOBS = 16
 """Contacts kept of a frame at most, the strongest."""
@@ -42,8 +42,6 @@ BLOB = np.dtype(
     ]
 )
 """What `find_blobs` writes of each contact."""
-
-_TINY_N = 1e-30
 
 
 @kernel
@@ -193,9 +191,8 @@ def _describe(
         by_row += weight * row
         peak = max(peak, value)
         taxels += 1
-    # A measured response may say next to 0 N for a pressed taxel.
-    mean_col = by_col / max(total, _TINY_N)
-    mean_row = by_row / max(total, _TINY_N)
+    mean_col = by_col / max(total, SMALLEST_DIVISOR)
+    mean_row = by_row / max(total, SMALLEST_DIVISOR)
     xx = xy = yy = 0.0
     for i in range(blob.first, blob.last):
         if image[members[i]] <= least:
@@ -212,9 +209,9 @@ def _describe(
     blob.force_n = total
     blob.peak_counts = peak
     blob.taxels = taxels
-    blob.xx_m2 = xx / max(total, _TINY_N)
-    blob.xy_m2 = xy / max(total, _TINY_N)
-    blob.yy_m2 = yy / max(total, _TINY_N)
+    blob.xx_m2 = xx / max(total, SMALLEST_DIVISOR)
+    blob.xy_m2 = xy / max(total, SMALLEST_DIVISOR)
+    blob.yy_m2 = yy / max(total, SMALLEST_DIVISOR)
 
 
 @kernel
@@ -256,7 +253,7 @@ def _propagate(
         y_var += square * y * y
         taxels_var += wrong
         spread_square_var += square * (x * x + y * y - spread_square) ** 2
-    square_n = max(blob.force_n, _TINY_N) ** 2
+    square_n = max(blob.force_n, SMALLEST_DIVISOR) ** 2
     blob.x_var = x_var / square_n
     blob.y_var = y_var / square_n
     blob.force_var = force_var

@@ -11,15 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.kernels import kernel
-from acts_recon.images import FAR, force_of, taxel_variances
+from acts_recon.images import FAR, SMALLEST_DIVISOR, force_of, taxel_variances
 
 RESULTS = 12
 """Numbers that `find_contact` writes."""
 
 X, Y, FORCE, PEAK, AREA, TAXELS, SPREAD, X_SD, Y_SD, FORCE_SD, AREA_SD, SPREAD_SD = range(RESULTS)
 """Where each of them is: in the order of `acts_recon.contacts.contact.Contact`."""
-
-_TINY_N = 1e-30
 
 
 @kernel
@@ -83,7 +81,7 @@ def find_contact(
         results[i] = 0.0
     if pressed == 0:
         return
-    total = max(total, _TINY_N)
+    total = max(total, SMALLEST_DIVISOR)
     mean_col = by_col / total
     mean_row = by_row / total
     x_square = max(by_col_square / total - mean_col * mean_col, 0.0) * pitch_m * pitch_m

@@ -61,7 +61,7 @@ from acts_core.skin import Layout
 from acts_recon.fusion.fusion_image_kernels import confidence
 from acts_recon.fusion.fusion_kernels import fuse
 from acts_recon.fusion.fusion_state import Tuning, expect_noise, forget, new_memory, state_of
-from acts_recon.images import LEAST_NOISE_COUNTS, NOISE_COUNTS, PlacedSamples, borders_of
+from acts_recon.images import LEAST_NOISE_COUNTS, LONGEST_PAUSE_S, NOISE_COUNTS, PlacedSamples, borders_of
 
 
 @dataclass(frozen=True)
@@ -93,7 +93,7 @@ class FusionConfig:
     spread_gain: float = setting(
         0.6, "share of a sample's innovation that its neighbours are corrected by", minimum=0.0, maximum=1.0
     )
-    reset_after_s: float = setting(0.5, "after a gap this long the estimate starts anew [s]", minimum=1e-3)
+    reset_after_s: float = setting(LONGEST_PAUSE_S, "after a gap this long the estimate starts anew [s]", minimum=1e-3)
     confidence_counts: float = setting(
         30.0, "sigma at which the confidence is one half [counts]", minimum=0.1, maximum=float(COUNT_MAX)
     )

@@ -8,6 +8,7 @@ In come frames and layouts; out come tables, checked samples, and images as byte
 
 from acts_recon.images.baseline import BaselineSubtraction
 from acts_recon.images.borders import Borders, borders_of, grown
+from acts_recon.images.frame_check import LONGEST_PAUSE_S
 from acts_recon.images.image import mono16, rgb8
 from acts_recon.images.placed_samples import PlacedSamples
 from acts_recon.images.uncertainty import (
@@ -20,13 +21,15 @@ from acts_recon.images.uncertainty import (
     slope_table,
     variances,
 )
-from acts_recon.images.uncertainty_kernels import force_of, taxel_variances
+from acts_recon.images.uncertainty_kernels import SMALLEST_DIVISOR, force_of, taxel_variances
 
 __all__ = [
     "ERR_TOGETHER",
     "FAR",
     "LEAST_NOISE_COUNTS",
+    "LONGEST_PAUSE_S",
     "NOISE_COUNTS",
+    "SMALLEST_DIVISOR",
     "BaselineSubtraction",
     "Borders",
     "PlacedSamples",

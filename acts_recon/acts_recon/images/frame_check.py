@@ -13,6 +13,9 @@ from acts_core.errors import ArrayError
 from acts_core.skin import NO_PATCH, Layout
 from acts_recon.images.frame_check_kernels import COUNT_OUT_OF_RANGE, INDEX_OUT_OF_RANGE
 
+LONGEST_PAUSE_S = 0.5
+"""After a gap this long between frames nothing of the earlier ones counts on, unless a setting says otherwise."""
+
 
 def require_samples(indices: NDArray[np.uint16], counts: NDArray[np.uint16]) -> None:
     """Raise `ArrayError` unless these are two rows of uint16, as long as one another and not empty."""

@@ -14,6 +14,9 @@ from acts_core.array import COUNT_MAX
 from acts_core.kernels import kernel
 from acts_recon.images.uncertainty import FAR
 
+SMALLEST_DIVISOR = 1e-30
+"""What is divided by is at least this: a measured response may say next to 0 N for a pressed taxel."""
+
 
 @kernel(inline="always")
 def force_of(value: float, force_n: NDArray[np.float64]) -> float:

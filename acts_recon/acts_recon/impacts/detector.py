@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from acts_core.array import ArrayGeometry
 from acts_core.skin import ForceResponse, Response
 from acts_recon.contacts import BlobConfig, BlobTracker, TrackedBlob
-from acts_recon.images import LEAST_NOISE_COUNTS, Borders, borders_of
+from acts_recon.images import LEAST_NOISE_COUNTS, LONGEST_PAUSE_S, Borders, borders_of
 from acts_recon.impacts.config import ImpactConfig
 from acts_recon.impacts.footprint_fit import Footprint
 from acts_recon.impacts.impact import UNKNOWN_DIRECTION_SD_RAD, Impact, Kind
@@ -23,7 +23,6 @@ from acts_recon.impacts.touch import Touch, impulse_of, reach_m_of
 
 Array = NDArray[np.float64]
 
-_LONGEST_PAUSE_S = 0.5
 _UNSEEN_S = 0.02
 _NUMBERS = 2**32
 # Of a fitted footprint's force: the taxels' sensitivities, and how far it is from a Gaussian.
@@ -118,7 +117,7 @@ class ImpactDetector:
         ArrayError
             When image or sigma are of another kind or size.
         """
-        if self._before_s is not None and not 0.0 < time_s - self._before_s <= _LONGEST_PAUSE_S:
+        if self._before_s is not None and not 0.0 < time_s - self._before_s <= LONGEST_PAUSE_S:
             self.reset()
         before_s = time_s - duration_s if self._before_s is None else self._before_s
         self._before_s = time_s

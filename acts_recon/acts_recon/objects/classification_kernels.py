@@ -12,12 +12,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.kernels import kernel
-from acts_recon.sparse import ALLOWED, CHOSEN, MEASURED, N_CHOSEN, ORDER, PRESSED, RESIDUAL_ROWS, Y_ROWS, pursue, solve
+from acts_recon.sparse import (
+    ALLOWED,
+    CHOSEN,
+    FASTMATH,
+    MEASURED,
+    N_CHOSEN,
+    ORDER,
+    PRESSED,
+    RESIDUAL_ROWS,
+    Y_ROWS,
+    pursue,
+    solve,
+)
 
-_FASTMATH = {"nnan", "ninf", "nsz", "contract", "reassoc", "arcp"}
 
-
-@kernel(fastmath=_FASTMATH)
+@kernel(fastmath=FASTMATH)
 def class_residuals(
     blocks: NDArray[np.float32],
     columns: NDArray[np.float32],
@@ -90,7 +100,7 @@ def class_residuals(
     return True
 
 
-@kernel(fastmath=_FASTMATH)
+@kernel(fastmath=FASTMATH)
 def decide(residuals: NDArray[np.float32]) -> tuple[int, float]:
     """Class of the smallest residual, the first of equal ones, and `acts_core.wire.residuals.confidence_of` all."""
     best = 0

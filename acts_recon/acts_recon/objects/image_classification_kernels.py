@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from acts_core.kernels import kernel
 from acts_recon.objects.classification_kernels import by_class
+from acts_recon.sparse import FASTMATH
 
-_FASTMATH = {"nnan", "ninf", "nsz", "contract", "reassoc", "arcp"}
 _ROUNDS = 40
 """Rounds of coordinate descent for the non-negative least squares; it stops earlier once nothing changes."""
 
@@ -19,7 +19,7 @@ _SETTLED = np.float32(1e-4)
 _TINY = np.float32(1e-12)
 
 
-@kernel(fastmath=_FASTMATH)
+@kernel(fastmath=FASTMATH)
 def _mixture_explains(
     dense: NDArray[np.float32],
     norms_counts: NDArray[np.float32],
@@ -74,7 +74,7 @@ def _mixture_explains(
     return float(explained - square * np.float32(force_weight * np.log(force)) ** 2)
 
 
-@kernel(fastmath=_FASTMATH)
+@kernel(fastmath=FASTMATH)
 def class_residuals(
     dense: NDArray[np.float32],
     column_first: NDArray[np.int64],
@@ -179,7 +179,7 @@ def class_residuals(
     return True
 
 
-@kernel(fastmath=_FASTMATH)
+@kernel(fastmath=FASTMATH)
 def weigh(residuals: NDArray[np.float32], others: NDArray[np.float32], weight: float) -> None:
     """Write the geometric mean of two classifiers' residuals, the other's weighted, into `residuals`.
 

@@ -11,12 +11,10 @@ from numpy.typing import NDArray
 from acts_core.kernels import kernel
 from acts_recon.objects.classification_kernels import by_class
 from acts_recon.objects.object_library import ObjectLibrary
-from acts_recon.sparse import REGULARISATION
-
-_FASTMATH = {"nnan", "ninf", "nsz", "contract", "reassoc", "arcp"}
+from acts_recon.sparse import FASTMATH, REGULARISATION
 
 
-@kernel(fastmath=_FASTMATH)
+@kernel(fastmath=FASTMATH)
 def _propose(
     residuals: NDArray[np.float32],
     explained: NDArray[np.float32],
@@ -52,7 +50,7 @@ def _propose(
     return n
 
 
-@kernel(fastmath=_FASTMATH)
+@kernel(fastmath=FASTMATH)
 def _solve(
     n: int,
     gram: NDArray[np.float64],
@@ -80,7 +78,7 @@ def _solve(
         share[i] = total / factor[i, i]
 
 
-@kernel(fastmath=_FASTMATH)
+@kernel(fastmath=FASTMATH)
 def class_residuals(
     columns: NDArray[np.float32],
     products: NDArray[np.float64],

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError
 from acts_core.skin import ForceResponse, Layout, Response, force_table
-from acts_recon.images import NOISE_COUNTS, PlacedSamples, borders_of
+from acts_recon.images import LONGEST_PAUSE_S, NOISE_COUNTS, PlacedSamples, borders_of
 from acts_recon.outlines.config import OutlinesConfig
 from acts_recon.outlines.contours import area, contours
 from acts_recon.outlines.edge_filter import EdgeFilter
@@ -24,7 +24,6 @@ Array = NDArray[np.float64]
 MOST_OUTLINES = 16
 """In one frame; of the largest contacts."""
 
-_LONGEST_PAUSE_S = 0.5
 # What is pressed further from the contacts of the last look is new, or has moved fast [taxels].
 _BESIDE = 2
 _LEAST_TAXELS = 3
@@ -133,7 +132,7 @@ class OutlineTracer:
 
     def _follows(self, end_s: float) -> bool:
         """Whether a time lies soon after that of the frame before."""
-        return self._before_s is None or 0.0 < end_s - self._before_s <= _LONGEST_PAUSE_S
+        return self._before_s is None or 0.0 < end_s - self._before_s <= LONGEST_PAUSE_S
 
     def step(
         self,

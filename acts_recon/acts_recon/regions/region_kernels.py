@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.kernels import kernel
-from acts_recon.images import force_of
+from acts_recon.images import SMALLEST_DIVISOR, force_of
 
 RESULTS = 19
 """Numbers of a patch that `find_regions` writes."""
@@ -19,8 +19,6 @@ RESULTS = 19
 PRESSED, FORCE, CENTRE, NORMAL, AREA, PEAK, SPREAD, CONCENTRATION, COUNTS = 0, 1, 2, 5, 8, 9, 10, 11, 12
 ALONG_COLS, ALONG_ROWS = 13, 16
 """Where each of them is; of centre, normal and the steps along the skin, the first of three."""
-
-_TINY_N = 1e-30
 
 
 @kernel
@@ -81,7 +79,7 @@ def find_regions(
         if pressed == 0:
             continue
         touched += 1
-        total = max(total, _TINY_N)
+        total = max(total, SMALLEST_DIVISOR)
         found[PRESSED] = pressed
         found[FORCE] = total
         found[AREA] = pressed * taxel_area_m2[p]
@@ -132,4 +130,4 @@ def _place(
         length += found[NORMAL + axis] ** 2
     length = math.sqrt(length)
     for axis in range(3):
-        found[NORMAL + axis] /= max(length, _TINY_N)
+        found[NORMAL + axis] /= max(length, SMALLEST_DIVISOR)

@@ -20,13 +20,13 @@ from numpy.typing import NDArray
 
 from acts_core.errors import ArrayError
 from acts_core.skin import SkinPatch
+from acts_recon.images import LONGEST_PAUSE_S
 from acts_recon.slip import watch_kernels as kernels
 from acts_recon.slip.config import SlipConfig
 from acts_recon.slip.motion import RIDGE, SMALLEST_SIDE, Motion
 
 # Images kept of each patch, at least a window's worth at any rate.
 _KEPT = 64
-_LONGEST_PAUSE_S = 0.5
 
 NOISE_COUNTS = 1.5
 """Of the images that docs/slip.md has figures of; of a board whose noise nobody has told, the regions assume more."""
@@ -175,7 +175,7 @@ class SlipWatch:
                 raise ArrayError(
                     f"an image of shape {given.shape}, {given.dtype}: needed is {self._shape}, float32 (counts)"
                 )
-        if not 0.0 < time_s - self._time_s <= _LONGEST_PAUSE_S:
+        if not 0.0 < time_s - self._time_s <= LONGEST_PAUSE_S:
             self.reset()
         self._time_s = time_s
         kernels.update(time_s, values, ages, self._memory)

@@ -9,7 +9,7 @@ reference implementation and as kernels.
 
 from acts_recon.sparse import fastomp_kernels
 from acts_recon.sparse.dictionary import Dictionary, load_dictionary, save_dictionary
-from acts_recon.sparse.fastomp_kernels import pursue, solve
+from acts_recon.sparse.fastomp_kernels import FASTMATH, pursue, solve
 from acts_recon.sparse.fastomp_model import (
     ALLOWED,
     CHOSEN,
@@ -32,6 +32,7 @@ from acts_recon.sparse.shipped import shipped_dictionary_path
 __all__ = [
     "ALLOWED",
     "CHOSEN",
+    "FASTMATH",
     "MEASURED",
     "N_CHOSEN",
     "ORDER",

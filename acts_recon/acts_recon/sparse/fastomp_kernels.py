@@ -29,10 +29,11 @@ from acts_recon.sparse.fastomp_model import (
 from acts_recon.sparse.fastomp_reference import REGULARISATION
 
 _REGULARISATION = np.float32(REGULARISATION)
-_FASTMATH = {"nnan", "ninf", "nsz", "contract", "reassoc", "arcp"}
+FASTMATH = {"nnan", "ninf", "nsz", "contract", "reassoc", "arcp"}
+"""What LLVM may do with floats: above all take sums in another order. All values are finite."""
 
 
-@kernel(fastmath=_FASTMATH)
+@kernel(fastmath=FASTMATH)
 def pursue(
     blocks: NDArray[np.float32],
     atoms: NDArray[np.float32],
@@ -61,7 +62,7 @@ def pursue(
         i += 1
 
 
-@kernel(fastmath=_FASTMATH)
+@kernel(fastmath=FASTMATH)
 def choose(
     blocks: NDArray[np.float32],
     pixels: NDArray[np.uint32],
@@ -93,7 +94,7 @@ def choose(
                 best[problem] = b * BLOCK + column
 
 
-@kernel(fastmath=_FASTMATH)
+@kernel(fastmath=FASTMATH)
 def _correlate(
     blocks: NDArray[np.float32],
     block: int,
@@ -125,7 +126,7 @@ def _correlate(
         p += 1
 
 
-@kernel(fastmath=_FASTMATH)
+@kernel(fastmath=FASTMATH)
 def _largest(sums: NDArray[np.float32]) -> np.float32:
     """The largest magnitude. Eight maxima, for each comparison waits for the one before it."""
     a = b = c = d = e = f = g = h = np.float32(0.0)
@@ -141,7 +142,7 @@ def _largest(sums: NDArray[np.float32]) -> np.float32:
     return max(max(max(a, b), max(c, d)), max(max(e, f), max(g, h)))
 
 
-@kernel(fastmath=_FASTMATH)
+@kernel(fastmath=FASTMATH)
 def _dot(x: NDArray[np.float32], y: NDArray[np.float32], m: int) -> np.float32:
     """Inner product of the first `m` elements."""
     total = np.float32(0.0)
@@ -150,7 +151,7 @@ def _dot(x: NDArray[np.float32], y: NDArray[np.float32], m: int) -> np.float32:
     return total
 
 
-@kernel(fastmath=_FASTMATH)
+@kernel(fastmath=FASTMATH)
 def _project(
     i: int,
     active: int,
@@ -198,7 +199,7 @@ def _project(
     return going_on
 
 
-@kernel(fastmath=_FASTMATH)
+@kernel(fastmath=FASTMATH)
 def solve(problem: int, s: int, systems: NDArray[np.float32]) -> None:
     """Back substitution: from projections on `s` orthogonalised atoms to coefficients, both in the last column."""
     last = systems.shape[1]
@@ -209,7 +210,7 @@ def solve(problem: int, s: int, systems: NDArray[np.float32]) -> None:
         systems[problem, i, last] = value / systems[problem, i, i]
 
 
-@kernel(fastmath=_FASTMATH)
+@kernel(fastmath=FASTMATH)
 def recover_image(
     blocks: NDArray[np.float32],
     atoms: NDArray[np.float32],
@@ -277,7 +278,7 @@ def recover_image(
             image[indices[i]] = np.float32(counts[i]) if counts[i] > touch_counts else np.float32(0.0)
 
 
-@kernel(fastmath=_FASTMATH)
+@kernel(fastmath=FASTMATH)
 def _scatter(
     pressed: bool,
     touch_counts: int,

@@ -13,14 +13,20 @@ from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
 from acts_core.skin import ForceResponse, Layout, Response, force_table
-from acts_recon.images import LEAST_NOISE_COUNTS, NOISE_COUNTS, PlacedSamples, borders_of, slope_table
+from acts_recon.images import (
+    LEAST_NOISE_COUNTS,
+    LONGEST_PAUSE_S,
+    NOISE_COUNTS,
+    PlacedSamples,
+    borders_of,
+    slope_table,
+)
 from acts_recon.spectra.config import SpectraConfig
 from acts_recon.spectra.spectrum import Spectrum
 from acts_recon.spectra.tones import Tones
 
 Array = NDArray[np.float64]
 
-_LONGEST_PAUSE_S = 0.5
 # Of a window: with less there is no spectrum yet.
 _LEAST_SHARE = 0.5
 _LEAST_SLOPE_N = 1e-7  # a count, where a measured response is flat
@@ -108,7 +114,7 @@ class SpectrumAnalyser:
         back, or on by more than half a second, those before are forgotten.
         """
         placed, counts = self._samples.of(indices, counts, may_repeat=may_repeat)
-        if self._frames and not 0.0 < end_s - self._frames[-1].end_s <= _LONGEST_PAUSE_S:
+        if self._frames and not 0.0 < end_s - self._frames[-1].end_s <= LONGEST_PAUSE_S:
             self._frames.clear()
         self._frames.append(PlacedFrame(end_s, duration_s, placed.copy(), counts.astype(np.float32)))
         while self._frames[0].end_s < end_s - self.config.spectra_window_s:

@@ -10,7 +10,8 @@ from recon_samples import bump
 
 from acts_core.array import ArrayGeometry
 from acts_core.skin import Layout, layout
-from acts_recon.classifiers import FORGET_AFTER_S, FusedImageConfig, FusedImageRecogniser
+from acts_recon.classifiers import FusedImageConfig, FusedImageRecogniser
+from acts_recon.images import LONGEST_PAUSE_S
 from acts_recon.methods import Method, SkinSetup
 from acts_recon.objects import ImageClassifierConfig, ObjectLibrary, build_object_library
 
@@ -59,7 +60,7 @@ def test_earlier_images_count_on_until_there_is_a_gap_or_the_clock_goes_back(lib
     objects = recogniser(library, (image, sigma, age_s), config)
     image[:] = bump(GEOMETRY, 15, 16, width=4.5)
     alone = objects.step(ONE, ONE, 1.0, 0.001).residuals.copy()
-    for end_s, forgets in ((1.001, False), (1.001 + 2 * FORGET_AFTER_S, True), (0.5, True), (0.501, False)):
+    for end_s, forgets in ((1.001, False), (1.001 + 2 * LONGEST_PAUSE_S, True), (0.5, True), (0.501, False)):
         image[:] = bump(GEOMETRY, 15, 16, width=2.0)
         objects.step(ONE, ONE, end_s - 0.0005, 0.001) if not forgets else None
         image[:] = bump(GEOMETRY, 15, 16, width=4.5)
