@@ -61,6 +61,12 @@ def parsed(data: bytes, kind: type[_Message], where: str) -> _Message:
     return message
 
 
+def is_in_counts(bag: Any, path: Path, topic: str) -> bool:
+    """Whether the first image of a topic is one in counts, as of ``image_raw``; parameters as of `messages`."""
+    first = next(messages(bag, path, topic, Image), None)
+    return first is not None and first.encoding == "mono16"
+
+
 def image_counts(image: Image, where: str) -> NDArray[np.uint16]:
     """Counts of an image of a skin.
 

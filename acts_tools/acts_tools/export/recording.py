@@ -13,12 +13,11 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from sensor_msgs.msg import Image
 
 from acts_core.errors import RecordingError
 from acts_msgs.msg import RegionContacts
 from acts_ros.bags import require_rosbags
-from acts_tools.bags.messages import messages
+from acts_tools.bags.messages import is_in_counts, messages
 from acts_tools.export.frames import Seen, contacts_in, recorded_frames, recovered_frames
 from acts_tools.export.tracks import Joints, Track, Values, contact_track, contacts_track, joint_track
 
@@ -227,7 +226,7 @@ def open_recording(path: Path, choice: Choice) -> Iterator[Recording]:
         left_out = {topic: track.backward for topic, track in tracks.items() if track.backward}
         contact, contacts, _ = tracks.values()
         unlike: tuple[str, ...] = ()
-        if types.get(images) == _IMAGE and _is_in_counts(bag, path, images):
+        if types.get(images) == _IMAGE and is_in_counts(bag, path, images):
             frames = recorded_frames(bag, path, images)
             if types.get(samples) == _SAMPLES and not (contact.stamps_ns and contacts.stamps_ns):
                 found = contacts_in(
@@ -269,7 +268,7 @@ def _skin(bag: Any, path: Path, types: dict[str, str], wanted: str) -> str:
             topic.rsplit("/", 1)[0]
             for topic, kind in types.items()
             if (kind == _SAMPLES and topic.endswith("/samples"))
-            or (kind == _IMAGE and topic.endswith("/image_raw") and _is_in_counts(bag, path, topic))
+            or (kind == _IMAGE and topic.endswith("/image_raw") and is_in_counts(bag, path, topic))
         }
     )
     found = [name for name in found if not (name.endswith("/view") and name.removesuffix("/view") in found)]
@@ -303,11 +302,6 @@ def _layout_hint(bag: Any, path: Path, skin: str, layout: str) -> str:
         f"{topic} has {len(first.regions)} patches: with --layout NAME, as the driver had it, images are those of the "
         "patches, and what is recovered does not pass from one to another"
     )
-
-
-def _is_in_counts(bag: Any, path: Path, topic: str) -> bool:
-    first = next(messages(bag, path, topic, Image), None)
-    return first is not None and first.encoding == "mono16"
 
 
 def _joint_topic(path: Path, types: dict[str, str], wanted: str) -> str:

@@ -19,7 +19,7 @@ from acts_msgs.msg import Baseline, TactileSamples
 from acts_recon.images import BaselineSubtraction
 from acts_ros.bags import require_rosbags
 from acts_ros.messages import baseline_of
-from acts_tools.bags.messages import checked, image_counts, messages, parsed
+from acts_tools.bags.messages import checked, image_counts, is_in_counts, messages, parsed
 
 _IMAGE = "sensor_msgs/msg/Image"
 _SAMPLES = "acts_msgs/msg/TactileSamples"
@@ -91,8 +91,7 @@ def bag_frames(path: Path, topic: str = "") -> tuple[NDArray[np.uint16], str]:
 def _is_full(bag: Any, path: Path, topic: str, kind: str) -> bool:
     """Whether the first message of a topic contains a full frame."""
     if kind == _IMAGE:
-        first = next(messages(bag, path, topic, Image), None)
-        return first is not None and first.encoding == "mono16"
+        return is_in_counts(bag, path, topic)
     if kind == _SAMPLES:
         samples = next(messages(bag, path, topic, TactileSamples), None)
         return samples is not None and len(samples.indices) == samples.rows * samples.cols
