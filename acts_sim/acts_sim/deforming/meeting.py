@@ -75,7 +75,7 @@ def meeting(skin: ContactModel, body: Body, rng: np.random.Generator, *, middle_
     Parameters
     ----------
     skin : ContactModel
-        Without noise of its own, see `acts_sim.impacts.skin_of`.
+        Without noise of its own, see `acts_sim.pressing.skin_of`.
     body : Body
     rng : np.random.Generator
         Of place, angle, strength and the time before.

@@ -7,7 +7,7 @@ In come a ball and how it is thrown; out come full frames at a high rate, and wh
 """
 
 from acts_sim.impacts.balls import BALLS, DROP_HEIGHT_M, Ball, ball_named
-from acts_sim.impacts.scene import SCENE_RATE_HZ, Scene, footprint_n, scene, skin_of
+from acts_sim.impacts.scene import SCENE_RATE_HZ, Scene, footprint_n, scene
 from acts_sim.impacts.throw import Collision, Throw, collide, dropped, thrown
 
 __all__ = [
@@ -23,6 +23,5 @@ __all__ = [
     "dropped",
     "footprint_n",
     "scene",
-    "skin_of",
     "thrown",
 ]

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from acts_core.errors import SettingsError
 from acts_sim.impacts.balls import Ball
 from acts_sim.impacts.throw import Collision, Throw, collide
-from acts_sim.pressing import ContactModel, FoamConfig
+from acts_sim.pressing import ContactModel
 
 SCENE_RATE_HZ = 8000.0
 """Frames per second of a scene; between them what is sampled is interpolated linearly."""
@@ -44,11 +44,6 @@ class Scene:
     def duration_s(self) -> float:
         """From the first frame to the last [s]."""
         return (len(self.frames) - 1) / SCENE_RATE_HZ
-
-
-def skin_of(rng: np.random.Generator) -> ContactModel:
-    """A skin with taxels of random sensitivity, and no noise: whoever samples a scene adds it."""
-    return ContactModel(config=FoamConfig(noise_counts=0.0, subsamples=2), seed=int(rng.integers(2**31)))
 
 
 def scene(

@@ -6,7 +6,7 @@
 In come objects and motions, or recordings of real arrays; out come full frames of counts.
 """
 
-from acts_sim.pressing.contact_model import ContactModel, FoamConfig, Press
+from acts_sim.pressing.contact_model import ContactModel, FoamConfig, Press, skin_of
 from acts_sim.pressing.events import EVENT_RATE_HZ, EVENTS, event_recordings
 from acts_sim.pressing.objects import OBJECTS, ContactObject, object_named
 from acts_sim.pressing.outlines import Field, bar, disc, ellipsoid, prism
@@ -36,4 +36,5 @@ __all__ = [
     "object_named",
     "press_over_time",
     "prism",
+    "skin_of",
 ]

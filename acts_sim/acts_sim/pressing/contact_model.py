@@ -170,6 +170,12 @@ class ContactModel:
         return self.counts(self.forces_n(item, self.random_press(item)))
 
 
+def skin_of(rng: np.random.Generator) -> ContactModel:
+    """A skin with taxels of random sensitivity, and no noise: whoever samples its frames adds it."""
+    # Two points along a taxel's side are enough for round and flat undersides, and four times faster.
+    return ContactModel(config=FoamConfig(noise_counts=0.0, subsamples=2), seed=int(rng.integers(2**31)))
+
+
 def _spreading(taxels: int, pitch_m: float, config: FoamConfig) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the fine grid along one side, and each taxel's share of the force at each of its points.
 

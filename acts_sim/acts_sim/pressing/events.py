@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import SettingsError
-from acts_sim.pressing.contact_model import ContactModel, FoamConfig, Press
+from acts_sim.pressing.contact_model import ContactModel, Press, skin_of
 from acts_sim.pressing.event_contacts import GOLF_BALL, SLIDING
 from acts_sim.pressing.objects import ContactObject
 
@@ -81,7 +81,7 @@ def event_recordings(name: str, recordings: int, seed: int) -> list[Frames]:
 @register("bounce", 40)
 def _bounce(rng: np.random.Generator) -> Frames:
     """A golf ball hits a random position three times for 8.7 ms; its depth is a half sine."""
-    model = _model(rng)
+    model = skin_of(rng)
     x_m, y_m = rng.uniform(-0.055, 0.055, 2)
     depth_m = rng.uniform(0.001, 0.003)
     contact = np.sin(np.pi * np.arange(_n(BOUNCE_S) + 1) / _n(BOUNCE_S))
@@ -93,7 +93,7 @@ def _slide(speed_m_s: float) -> Make:
     """An object of random size comes down, rests for 20 ms, and slides straight for up to 100 mm or 400 ms."""
 
     def make(rng: np.random.Generator) -> Frames:
-        model = _model(rng)
+        model = skin_of(rng)
         item = SLIDING[int(rng.integers(len(SLIDING)))]
         depth_m = item.depth_m[0] + rng.uniform(0.4, 1.0) * (item.depth_m[1] - item.depth_m[0])
         course = rng.uniform(0, 2 * np.pi)
@@ -165,11 +165,6 @@ def _tapped(rng: np.random.Generator, side: int, duration_s: float) -> Frames:
 def _untouched(rng: np.random.Generator) -> Frames:
     """10 to 50 ms without touch, so that events begin at a random phase of the search."""
     return np.zeros((int(rng.integers(_n(0.010), _n(0.050))), _SIDE, _SIDE), dtype=np.uint16)
-
-
-def _model(rng: np.random.Generator) -> ContactModel:
-    # Two points along a taxel's side are enough for round and flat undersides, and four times faster.
-    return ContactModel(config=FoamConfig(noise_counts=0.0, subsamples=2), seed=int(rng.integers(2**31)))
 
 
 def _frame(model: ContactModel, item: ContactObject, press: Press) -> Frames:

@@ -7,12 +7,13 @@ In come commands and programs; out come the robot's state in every cycle, and it
 """
 
 from acts_sim.ur.commands import COMMANDS, MOTION_COMMANDS
-from acts_sim.ur.config import CYCLE_HZ, VERSION, ControllerConfig
+from acts_sim.ur.config import ACCELERATION_LIMIT_RAD_S2, CYCLE_HZ, VERSION, ControllerConfig
 from acts_sim.ur.controller import COMMAND_REGISTERS, Controller, RobotMode, RuntimeState, SafetyMode
 from acts_sim.ur.joints import JointState, Servo
 from acts_sim.ur.program import ControlProgram
 
 __all__ = [
+    "ACCELERATION_LIMIT_RAD_S2",
     "COMMANDS",
     "COMMAND_REGISTERS",
     "CYCLE_HZ",

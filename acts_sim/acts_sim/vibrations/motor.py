@@ -78,7 +78,7 @@ def vibration(skin: ContactModel, motor: Motor, duration_s: float, rng: np.rando
     Parameters
     ----------
     skin : ContactModel
-        Without noise of its own, see `acts_sim.impacts.skin_of`.
+        Without noise of its own, see `acts_sim.pressing.skin_of`.
     motor : Motor
     duration_s : float
     rng : np.random.Generator

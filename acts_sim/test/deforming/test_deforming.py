@@ -10,7 +10,8 @@ import pytest
 
 from acts_core.errors import SettingsError
 from acts_sim.deforming import BODIES, Body, Meeting, body_named, meeting
-from acts_sim.impacts import SCENE_RATE_HZ, skin_of
+from acts_sim.impacts import SCENE_RATE_HZ
+from acts_sim.pressing import skin_of
 
 
 def met(name: str, seed: int = 1) -> Meeting:

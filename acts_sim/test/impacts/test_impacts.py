@@ -24,9 +24,9 @@ from acts_sim.impacts import (
     dropped,
     footprint_n,
     scene,
-    skin_of,
     thrown,
 )
+from acts_sim.pressing import skin_of
 
 
 @pytest.mark.parametrize(

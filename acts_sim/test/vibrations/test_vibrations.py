@@ -10,7 +10,7 @@ import pytest
 
 from acts_core.errors import SettingsError
 from acts_core.skin import ForceResponse
-from acts_sim.impacts import skin_of
+from acts_sim.pressing import skin_of
 from acts_sim.vibrations import VIBRATION_RATE_HZ, Motor, Vibration, vibration
 
 

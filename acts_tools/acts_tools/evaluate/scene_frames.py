@@ -21,6 +21,9 @@ SAMPLE_US = 17.877
 FOLLOW_COUNTS = 15
 """Threshold above which tracking follows a taxel, just above the noise of a reading (docs/recovery.md)."""
 
+TOUCH_COUNTS = 25
+"""A taxel above is pressed, for our detectors: eight times the noise of a reading."""
+
 
 @dataclass(frozen=True)
 class Frame:

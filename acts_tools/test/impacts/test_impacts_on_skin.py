@@ -17,7 +17,7 @@ from acts_core.sampling import SamplingConfig
 from acts_recon.contacts import BlobConfig
 from acts_recon.fusion import FusionConfig, FusionEstimator
 from acts_recon.impacts import UNKNOWN_DIRECTION_SD_RAD, Impact, ImpactDetector, Kind
-from acts_sim.impacts import SCENE_RATE_HZ, Scene, ball_named, dropped, scene, skin_of, thrown
+from acts_sim.impacts import SCENE_RATE_HZ, Scene, ball_named, dropped, scene, thrown
 from acts_sim.pressing import (
     EVENT_RATE_HZ,
     PRESS_RATE_HZ,
@@ -25,6 +25,7 @@ from acts_sim.pressing import (
     event_recordings,
     object_named,
     press_over_time,
+    skin_of,
 )
 from acts_tools.firmware.board_sampler import BoardSampler
 

@@ -37,14 +37,13 @@ from acts_recon.fusion import known_noise
 from acts_recon.methods import Recovery
 from acts_recon.settings import ReconstructionSettings
 from acts_sim.ball import JointMotion, Phase, World, WorldConfig
-from acts_sim.ur import JointState, Servo
+from acts_sim.ur import ACCELERATION_LIMIT_RAD_S2, JointState, Servo
 from acts_tools.demo.ball.recording import Recording
 from acts_tools.firmware.board_sampler import BoardSampler
 
 STEP_S = 0.001
 _NS_PER_MS = 1_000_000
 _SPEED_LIMIT_RAD_S = np.pi
-_ACCELERATION_LIMIT_RAD_S2 = 40.0
 _WRISTS = (3, 4)
 
 
@@ -125,7 +124,7 @@ class _Run:
         self._estimator = BallEstimator(chain.estimator)
         self._controller = BallController(chain.controller)
         self._trajectory = Trajectory(chain.trajectory)
-        self._joints = JointState(ur5e.LEVEL_Q_RAD, _SPEED_LIMIT_RAD_S, _ACCELERATION_LIMIT_RAD_S2)
+        self._joints = JointState(ur5e.LEVEL_Q_RAD, _SPEED_LIMIT_RAD_S, ACCELERATION_LIMIT_RAD_S2)
         self._servo = Servo()
         # Each with the time at which it arrives [ms].
         self._touches: deque[tuple[int, ContactMeasurement]] = deque()

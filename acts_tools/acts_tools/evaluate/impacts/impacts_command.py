@@ -17,7 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_recon.impacts import Kind
-from acts_sim.impacts import SCENE_RATE_HZ, Scene, ball_named, collide, dropped, scene, skin_of
+from acts_sim.impacts import SCENE_RATE_HZ, Scene, ball_named, collide, dropped, scene
+from acts_sim.pressing import skin_of
 from acts_tools.arguments import real
 from acts_tools.evaluate import report
 from acts_tools.evaluate.estimators.methods import PAPER_TOUCH_COUNTS

@@ -12,10 +12,7 @@ from acts_recon.impacts import Impact
 from acts_recon.settings import ReconstructionSettings
 from acts_sim.impacts import SCENE_RATE_HZ, Scene
 from acts_tools.evaluate.estimators.methods import PAPER_TOUCH_COUNTS
-from acts_tools.evaluate.scene_frames import FOLLOW_COUNTS, Frame, frames_of
-
-TOUCH_COUNTS = 25
-"""Ours: eight times the noise of a reading."""
+from acts_tools.evaluate.scene_frames import FOLLOW_COUNTS, TOUCH_COUNTS, Frame, frames_of
 
 
 def frames_of_paper(scene: Scene, m: int, noise_counts: float, seed: int) -> Iterator[Frame]:

@@ -20,7 +20,8 @@ from acts_core.array import ArrayGeometry
 from acts_core.skin import ForceResponse
 from acts_recon.contacts import ContactFinder
 from acts_recon.impacts import UNKNOWN_DIRECTION_SD_RAD
-from acts_sim.impacts import SCENE_RATE_HZ, Scene, ball_named, scene, skin_of, thrown
+from acts_sim.impacts import SCENE_RATE_HZ, Scene, ball_named, scene, thrown
+from acts_sim.pressing import skin_of
 from acts_tools.arguments import real, taxels
 from acts_tools.evaluate import report
 from acts_tools.evaluate.estimators.methods import PAPER_TOUCH_COUNTS, paper_method

@@ -17,7 +17,8 @@ import numpy as np
 
 from acts_core.array import ArrayGeometry
 from acts_sim.deforming import BODIES, Meeting, body_named, meeting
-from acts_sim.impacts import SCENE_RATE_HZ, skin_of
+from acts_sim.impacts import SCENE_RATE_HZ
+from acts_sim.pressing import skin_of
 from acts_tools.evaluate import report
 from acts_tools.evaluate.options import add_m, add_scene_arguments
 from acts_tools.evaluate.outlines import tracing

@@ -23,7 +23,7 @@ from acts_core.array import ArrayGeometry
 from acts_core.errors import RecordingError
 from acts_core.files import FramesFile, load_frames
 from acts_core.settings import default_of, describe
-from acts_recon.slip import SlipConfig, SlipDetector
+from acts_recon.slip import SMALLEST_SIDE, SlipConfig, SlipDetector
 from acts_tools.arguments import real
 from acts_tools.evaluate import report
 from acts_tools.evaluate.picture import diagrams
@@ -33,7 +33,6 @@ from acts_tools.output_file import require_picture
 # A grip is steady where its force changes by less than this share of its largest, for this time before and after.
 _STEADY_SHARE = 0.05
 _STEADY_S = 0.26
-_SMALLEST_SIDE = 3
 
 
 @dataclass
@@ -103,10 +102,10 @@ def patches(live: NDArray[np.bool_]) -> list[tuple[slice, slice]]:
     found = []
     for rows, cols in ndimage.find_objects(labels):
         shape = (rows.stop - rows.start, cols.stop - cols.start)
-        if min(shape) < _SMALLEST_SIDE or not live[rows, cols].all():
+        if min(shape) < SMALLEST_SIDE or not live[rows, cols].all():
             raise RecordingError(
                 f"live taxels in rows {rows.start} to {rows.stop - 1}, columns {cols.start} to {cols.stop - 1}: slip "
-                f"is watched on whole rectangles of {_SMALLEST_SIDE} x {_SMALLEST_SIDE} taxels and more"
+                f"is watched on whole rectangles of {SMALLEST_SIDE} x {SMALLEST_SIDE} taxels and more"
             )
         found.append((rows, cols))
     if not count:

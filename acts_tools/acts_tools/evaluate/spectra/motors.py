@@ -13,17 +13,15 @@ from numpy.typing import NDArray
 from acts_core.array import ArrayGeometry
 from acts_core.skin import ForceResponse
 from acts_recon.spectra import Spectrum, SpectrumAnalyser
-from acts_sim.impacts import skin_of
-from acts_sim.pressing import FoamConfig
+from acts_sim.pressing import FoamConfig, skin_of
 from acts_sim.vibrations import VIBRATION_RATE_HZ, Motor, Vibration, vibration
 from acts_tools.evaluate.estimators.methods import PAPER_TOUCH_COUNTS, paper_method
-from acts_tools.evaluate.scene_frames import FOLLOW_COUNTS, SAMPLE_US, frame_rate_hz, frames_of
+from acts_tools.evaluate.scene_frames import FOLLOW_COUNTS, SAMPLE_US, TOUCH_COUNTS, frame_rate_hz, frames_of
 
 Array = NDArray[np.float64]
 
 LOWEST_HZ, HIGHEST_HZ = 10.0, 400.0
 WINDOW_S = 1.0
-TOUCH_COUNTS = 25
 
 # Of half the frame rate: a tone right below is sampled at its zeros for as long as the window lasts.
 _SHARE_OF_HALF = 0.92

@@ -15,14 +15,11 @@ from acts_recon.images import BaselineSubtraction
 from acts_recon.impacts import Impact
 from acts_recon.settings import ReconstructionSettings
 from acts_sim.wearables import WORN_RATE_HZ, WornScene
-from acts_tools.evaluate.scene_frames import Frame, frames_of
+from acts_tools.evaluate.scene_frames import TOUCH_COUNTS, Frame, frames_of
 
 SCHEME = "tracking"
 THRESHOLD_COUNTS = 60
 """Above which the board follows a taxel, as shipped: of raw counts, so above the offsets."""
-
-TOUCH_COUNTS = 25
-"""A taxel above is pressed: eight times the noise of a reading."""
 
 
 class Watcher:

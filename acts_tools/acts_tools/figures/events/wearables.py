@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from acts_core.array import ArrayGeometry
 from acts_core.skin import ForceResponse
 from acts_sim.wearables import SCENES, WORN_RATE_HZ, WornScene
-from acts_tools.evaluate.scene_frames import frames_of
+from acts_tools.evaluate.scene_frames import TOUCH_COUNTS, frames_of
 from acts_tools.evaluate.wearables.happened import Tally
-from acts_tools.evaluate.wearables.watching import SCHEME, THRESHOLD_COUNTS, TOUCH_COUNTS, Watcher
+from acts_tools.evaluate.wearables.watching import SCHEME, THRESHOLD_COUNTS, Watcher
 from acts_tools.evaluate.wearables.wearables_command import scene_of
 from acts_tools.figures.figure import Figure
 from acts_tools.figures.run import Run
