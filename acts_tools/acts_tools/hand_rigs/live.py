@@ -20,12 +20,10 @@ from acts_sim.dynamixel import ControlClient
 from acts_tools.hand_rigs.collector import HandCollector
 from acts_tools.hand_rigs.recording import HandRecording
 from acts_tools.process_load import LoadMeter
-from acts_tools.running.launched import launched
+from acts_tools.running.launched import START_TIMEOUT_S, launched
 from acts_tools.running.stopping import StopFlag
 from acts_tools.running.watcher import Watcher
 
-# On a busy machine that compiles the kernels for the first time, a minute was not enough.
-_START_TIMEOUT_S = 180.0
 _SETTLED_S = 0.5
 _ANSWER_TIMEOUT_S = 10.0
 NAMESPACE = "/hand"
@@ -144,8 +142,8 @@ def live_hand(
         collector = HandCollector(NAMESPACE, run_dir, recording)
         watcher = Watcher(collector.take_in, launch, stop, lambda: line(collector))
         try:
-            if not watcher.until(lambda: collector.fresh_s > _SETTLED_S and collector.is_served, _START_TIMEOUT_S):
-                raise LaunchError(f"the hand did not feel and move within {_START_TIMEOUT_S:.0f} s")
+            if not watcher.until(lambda: collector.fresh_s > _SETTLED_S and collector.is_served, START_TIMEOUT_S):
+                raise LaunchError(f"the hand did not feel and move within {START_TIMEOUT_S:.0f} s")
             with closing(_control(run_dir / "hand.control")) as control:
                 meter = LoadMeter(launch.pid)
                 meter.start()

@@ -15,6 +15,9 @@ from pathlib import Path
 
 from acts_ros.processes.launcher import leave_with_parent
 
+START_TIMEOUT_S = 180.0
+"""Longest wait until a launch works: on a busy machine that compiles the kernels first, a minute was not enough [s]."""
+
 _STOP_TIMEOUT_S = 20.0
 
 

@@ -28,12 +28,10 @@ from acts_tools.percentiles import percentiles
 from acts_tools.process_load import LoadMeter
 from acts_tools.ros_domain import use_free_domain
 from acts_tools.run_folder import shared_memory
-from acts_tools.running.launched import launched
+from acts_tools.running.launched import START_TIMEOUT_S, launched
 from acts_tools.running.stopping import StopFlag
 from acts_tools.running.watcher import Watcher
 
-# On a busy machine that compiles the kernels for the first time, a minute was not enough.
-_START_TIMEOUT_S = 180.0
 NAMESPACE = "/plate"
 _RTDE_PORT = 30004
 
@@ -122,8 +120,8 @@ def watch(arguments: list[str], duration_s: float, recording: Recording, log_pat
         collector = Collector(NAMESPACE, recording)
         watcher = Watcher(collector.take_in, launch, stop, lambda: _line(collector, duration_s))
         try:
-            if not watcher.until(lambda: collector.state == BalanceStatus.STATE_BALANCING, _START_TIMEOUT_S):
-                raise LaunchError(f"the control loop was not closed within {_START_TIMEOUT_S:.0f} s")
+            if not watcher.until(lambda: collector.state == BalanceStatus.STATE_BALANCING, START_TIMEOUT_S):
+                raise LaunchError(f"the control loop was not closed within {START_TIMEOUT_S:.0f} s")
             meter = LoadMeter(launch.pid)
             meter.start()
             watcher.until(lambda: recording.finished or bool(recording.stop_reason), duration_s + 10.0)
