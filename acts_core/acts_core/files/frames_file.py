@@ -18,6 +18,9 @@ from acts_core.files.npz_file import half_of_memory_bytes, read_npz
 _CHUNK = 4096
 """Frames rounded at a time."""
 
+_RATE_MIN_HZ, _RATE_MAX_HZ = 1e-3, 1e6
+"""Other rates are mistakes: a recording at one of them lasts for months, or for less than a measurement."""
+
 
 @dataclass(frozen=True)
 class FramesFile:
@@ -30,7 +33,8 @@ class FramesFile:
     live : np.ndarray [shape=(rows, cols), dtype=bool]
         Where there is a taxel; all True when the file does not say.
     start, length : np.ndarray [shape=(n_recordings,), dtype=int64]
-        First frame and number of frames of each recording; one recording when the file does not say.
+        First frame and number of frames of each recording; one recording when the file does not say. They may be
+        called `rec_start` and `rec_len` in the file.
     rate_hz : float or None
         Frames per second; None when the file does not say.
     label : tuple of str
@@ -89,7 +93,8 @@ def load_frames(path: Path, *, labels: bool = False, limit_bytes: int | None = N
         "needed is an npz file with an array `frames` (n, rows, cols), or what "
         "`acts export BAG --to npz --rate 100` writes"
     )
-    names = ["frames", "image", "live", "start", "length", "rate_hz", *(["label"] if labels else [])]
+    names = ["frames", "image", "live", "start", "length", "rec_start", "rec_len", "rate_hz"]
+    names += ["label"] if labels else []
     limit_bytes = half_of_memory_bytes() if limit_bytes is None else limit_bytes
     content = read_npz(path, names, error=RecordingError, hint=needed, limit_bytes=limit_bytes)
     given = content.get("frames", content.get("image"))
@@ -128,7 +133,7 @@ def _frames(path: Path, given: NDArray, limit_bytes: int) -> NDArray[np.uint16]:
     if not 0 <= given.min() <= given.max() <= COUNT_MAX:
         raise RecordingError(
             f"{path}: frames hold {given.min()} to {given.max()}; they must lie between 0 and {COUNT_MAX} ADC counts, "
-            f"without NaN (divide counts of 12 bits by 4)"
+            f"without NaN ({_remedy(given)})"
         )
     if given.dtype.kind != "f":
         return np.ascontiguousarray(given, dtype=np.uint16)
@@ -138,6 +143,15 @@ def _frames(path: Path, given: NDArray, limit_bytes: int) -> NDArray[np.uint16]:
     return frames
 
 
+def _remedy(given: NDArray) -> str:
+    """What to do with frames that are no counts of 10 bits."""
+    if np.isnan(given.min()):
+        return "leave out frames that hold NaN, and taxels that do by `live`, with 0 in their place"
+    if given.min() < 0:
+        return "set to 0 what is below, as where a baseline was subtracted"
+    return "divide counts of 12 bits by 4"
+
+
 def _live(path: Path, given: NDArray | None, shape: tuple[int, ...]) -> NDArray[np.bool_]:
     if given is None:
         return np.ones(shape[1:], dtype=bool)
@@ -145,12 +159,14 @@ def _live(path: Path, given: NDArray | None, shape: tuple[int, ...]) -> NDArray[
         raise RecordingError(f"{path}: live {given.shape} does not fit frames {shape}")
     if given.dtype.kind not in "biuf" or np.isnan(given).any():
         raise RecordingError(f"{path}: live, {given.dtype}: needed are true and false, or 1 and 0")
+    if not given.any():
+        raise RecordingError(f"{path}: no taxel is live; needed are taxels that `live` marks as true, or no `live`")
     return given.astype(bool)
 
 
 def _recordings(path: Path, content: dict[str, NDArray], n: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    start = np.atleast_1d(content.get("start", np.array([0])))
-    length = np.atleast_1d(content.get("length", np.array([n])))
+    start = np.atleast_1d(content.get("start", content.get("rec_start", np.array([0]))))
+    length = np.atleast_1d(content.get("length", content.get("rec_len", np.array([n]))))
     for name, given in (("start", start), ("length", length)):
         # As numbers of frames they are whole; a float that is none of them fails, NaN too.
         if given.ndim != 1 or given.dtype.kind not in "iuf" or not np.all(given == np.floor(given)):
@@ -178,6 +194,9 @@ def _recordings(path: Path, content: dict[str, NDArray], n: int) -> tuple[NDArra
 def _rate_hz(path: Path, given: NDArray | None) -> float | None:
     if given is None:
         return None
-    if given.size != 1 or given.dtype.kind not in "fiu" or not 0 < given.item() < np.inf:
-        raise RecordingError(f"{path}: rate_hz = {given}: needed is one positive number of frames per second")
+    if given.size != 1 or given.dtype.kind not in "fiu" or not _RATE_MIN_HZ <= given.item() <= _RATE_MAX_HZ:
+        raise RecordingError(
+            f"{path}: rate_hz = {given}: needed is one positive number of frames per second; allowed are "
+            f"{_RATE_MIN_HZ:g} to {_RATE_MAX_HZ:g}"
+        )
     return float(given.item())

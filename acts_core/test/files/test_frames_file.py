@@ -96,6 +96,13 @@ def test_recordings_may_overlap_and_their_numbers_be_floats(tmp_path: Path) -> N
     assert (file.start.tolist(), file.length.tolist()) == ([0, 2], [4, 4])
 
 
+def test_recordings_are_found_by_either_pair_of_names(tmp_path: Path) -> None:
+    file = loaded(tmp_path, rec_start=[0, 4], rec_len=[4, 2], label=["a", "b"])
+    assert (file.start.tolist(), file.length.tolist(), file.label) == ([0, 4], [4, 2], ("a", "b"))
+    file = loaded(tmp_path, start=[1], length=[2], rec_start=[0, 4], rec_len=[4, 2])
+    assert (file.start.tolist(), file.length.tolist()) == ([1], [2])
+
+
 def test_labels_are_words_or_numbers_and_read_only_when_asked_for(tmp_path: Path) -> None:
     assert loaded(tmp_path, start=[0, 2], length=[2, 4], label=[7, 10]).label == ("7", "10")
     assert loaded(tmp_path, label="cup").label == ("cup",)
@@ -123,7 +130,10 @@ def test_recordings_without_frames_are_left_out(tmp_path: Path) -> None:
         ({"frames": np.full((1, 4, 5), np.nan)}, "without NaN"),
         ({"frames": np.full((1, 4, 5), np.inf)}, "between 0 and 1023"),
         ({"frames": np.full((1, 4, 5), 1024)}, "hold 1024 to 1024; they must lie between 0 and 1023"),
-        ({"frames": np.full((1, 4, 5), -1)}, "hold -1 to -1"),
+        ({"frames": np.full((1, 4, 5), -1)}, "hold -1 to -1.*set to 0 what is below"),
+        ({"frames": np.where(np.arange(6)[:, None, None] == 2, np.nan, FRAMES)}, "leave out frames that hold NaN"),
+        ({"live": np.zeros((4, 5), dtype=bool)}, "no taxel is live"),
+        ({"rec_start": [4], "rec_len": [3]}, "within 6 frames: the one numbered 0 starts at 4 and has 3"),
         ({"live": np.ones(3)}, r"live \(3,\) does not fit"),
         ({"live": np.full((4, 5), np.nan)}, "needed are true and false"),
         ({"live": np.full((4, 5), "yes")}, "needed are true and false"),
@@ -141,6 +151,8 @@ def test_recordings_without_frames_are_left_out(tmp_path: Path) -> None:
         ({"rate_hz": 0.0}, "rate_hz = 0.0"),
         ({"rate_hz": -3}, "one positive number"),
         ({"rate_hz": np.nan}, "one positive number"),
+        ({"rate_hz": 1e-9}, r"rate_hz = 1e-09: .* allowed are 0.001 to 1e\+06"),
+        ({"rate_hz": 1e9}, r"allowed are 0.001 to 1e\+06"),
         ({"rate_hz": "31"}, "one positive number"),
         ({"rate_hz": [31, 31]}, "one positive number"),
         ({"rate_hz": np.zeros(0)}, "one positive number"),
