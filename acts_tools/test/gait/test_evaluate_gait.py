@@ -114,6 +114,23 @@ def test_one_foot_with_a_rate_and_labels(tmp_path: Path) -> None:
     assert whole["double_support"] is None
 
 
+@pytest.mark.parametrize("name", ["time_s", "rate_hz"])
+def test_what_acts_export_writes_of_one_insole_has_its_steps(name: str, tmp_path: Path) -> None:
+    time_s = np.arange(0.0, 15.0, 0.05)
+    walking = walk(Walk(), 15.0, np.random.default_rng(1))
+    frames = walking.frames(time_s, np.random.default_rng(1))[:, 0]
+    np.savez(tmp_path / "frames.npz", frames=frames, rate_hz=20.0)
+    times = {"time_s": time_s, "rate_hz": 20.0}[name]
+    np.savez(tmp_path / "image.npz", image=frames, stamp_ns=(1e9 * time_s).astype(np.int64), **{name: times})
+    found = []
+    for path in (tmp_path / "frames.npz", tmp_path / "image.npz"):
+        assert main(["evaluate", "gait", "--frames", str(path), "--json", str(tmp_path / "out.json")]) == 0
+        found.append(json.loads((tmp_path / "out.json").read_text())["results"][0]["feet"]["left"])
+    assert found[0]["steps"] > 5
+    assert found[1]["steps"] == found[0]["steps"]
+    assert found[1]["cadence_per_min"] == pytest.approx(found[0]["cadence_per_min"])
+
+
 def test_insoles_without_a_step_are_nothing_to_compare(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "none.npz"
     np.savez(path, frames=np.zeros((100, 2, 5, 5)), rate_hz=20.0)
@@ -126,10 +143,12 @@ def test_insoles_without_a_step_are_nothing_to_compare(tmp_path: Path, capsys: p
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"frames": np.zeros((4, 3, 5, 5))}, "needed are `frames`"),
+        ({"frames": np.zeros((4, 3, 5, 5))}, r"frames \(4, 3, 5, 5\), float64: needed are `frames`"),
         ({"frames": np.zeros(4)}, "needed are `frames`"),
+        ({"frames": np.where(np.arange(4)[:, None, None] == 2, np.nan, np.zeros((4, 5, 5)))}, "1 of 4 frames hold NaN"),
+        ({"frames": np.full((4, 2, 5, 5), np.inf)}, "the first of them is numbered 0; needed are numbers"),
         ({"t_s": np.arange(3.0)}, "needed are `frames`"),
-        ({"t_s": np.zeros(4)}, "does not ascend"),
+        ({"t_s": np.zeros(4)}, "not ascend"),
         ({"t_s": np.full(4, np.nan)}, "needed are `frames`"),
         ({"rate_hz": 0.0}, "neither t_s nor one rate_hz"),
         ({"start": [0], "length": [5]}, "beyond the 4 frames"),
@@ -142,3 +161,9 @@ def test_files_that_do_not_fit_are_refused(tmp_path: Path, change: dict[str, Any
     np.savez(path, **{"frames": np.zeros((4, 2, 5, 5)), "rate_hz": 8.0, **change})
     with pytest.raises(RecordingError, match=message):
         read_insoles(path)
+
+
+def test_a_file_without_frames_is_told_apart_from_frames_of_another_shape(tmp_path: Path) -> None:
+    np.savez(tmp_path / "other.npz", pressure=np.zeros((4, 5, 5)), rate_hz=8.0)
+    with pytest.raises(RecordingError, match="no array `frames`; needed are"):
+        read_insoles(tmp_path / "other.npz")

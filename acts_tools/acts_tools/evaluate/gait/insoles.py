@@ -19,7 +19,8 @@ Array = NDArray[np.float64]
 
 _NEEDED = (
     "needed are `frames` (n, feet, rows, cols) or (n, rows, cols), with `t_s` (n) or `rate_hz`, and where there are "
-    "several recordings `start` and `length`, or `rec_start` and `rec_len`, of each"
+    "several recordings `start` and `length`, or `rec_start` and `rec_len`, of each; or, of one foot, what "
+    "`acts export BAG --to npz` writes"
 )
 
 
@@ -49,13 +50,9 @@ def read_insoles(path: Path) -> list[InsoleRecording]:
     RecordingError
         When it cannot be read, or its arrays do not fit together.
     """
-    names = ("frames", "t_s", "rate_hz", "start", "length", "rec_start", "rec_len", "kind", "label")
+    names = ("frames", "image", "t_s", "time_s", "rate_hz", "start", "length", "rec_start", "rec_len", "kind", "label")
     content = read_npz(path, names, error=RecordingError, hint=_NEEDED, limit_bytes=half_of_memory_bytes())
-    frames = content.get("frames", np.zeros(0))
-    if frames.ndim == 3:
-        frames = frames[:, None]
-    if frames.ndim != 4 or not frames.size or frames.shape[1] > len(FEET) or frames.dtype.kind not in "iuf":
-        raise RecordingError(f"{path}: frames {frames.shape}, {frames.dtype}: {_NEEDED}")
+    frames = _frames(path, content)
     time_s = _time_s(path, content, len(frames))
     starts = np.atleast_1d(content.get("start", content.get("rec_start", np.array([0]))))
     lengths = np.atleast_1d(content.get("length", content.get("rec_len", np.array([len(frames)]))))
@@ -74,17 +71,39 @@ def read_insoles(path: Path) -> list[InsoleRecording]:
             continue
         part = np.s_[start : start + length]
         if not (np.diff(time_s[part]) > 0).all():
-            raise RecordingError(f"{path}: t_s of recording {number} does not ascend")
+            raise RecordingError(f"{path}: the times of recording {number} do not ascend")
         name = f"{number} {label}" if labels.dtype.kind in "SU" else str(number)
         found.append(InsoleRecording(name, time_s[part], frames[part]))
     return found
 
 
+def _frames(path: Path, content: dict[str, NDArray[np.generic]]) -> NDArray[np.generic]:
+    frames = content.get("frames", content.get("image"))
+    if frames is None:
+        raise RecordingError(f"{path}: no array `frames`; {_NEEDED}")
+    shape = frames.shape
+    if frames.ndim == 3:
+        frames = frames[:, None]
+    if frames.ndim != 4 or not frames.size or frames.shape[1] > len(FEET) or frames.dtype.kind not in "iuf":
+        raise RecordingError(f"{path}: frames {shape}, {frames.dtype}: {_NEEDED}")
+    # A sum is finite only where all of its numbers are, and takes no copy of the frames.
+    finite = np.isfinite(frames.sum((1, 2, 3), dtype=np.float64))
+    if not finite.all():
+        raise RecordingError(
+            f"{path}: {np.count_nonzero(~finite)} of {len(frames)} frames hold NaN or infinity, the first of them is "
+            f"numbered {np.argmin(finite)}; needed are numbers: leave these frames out, with their times in `t_s`"
+        )
+    return frames
+
+
 def _time_s(path: Path, content: dict[str, NDArray[np.generic]], count: int) -> Array:
-    if "t_s" in content:
-        time_s = content["t_s"]
+    """Of each frame, by `t_s`, by the name that an export gives it, or by the rate."""
+    for name in ("t_s", "time_s"):
+        if name not in content:
+            continue
+        time_s = content[name]
         if time_s.shape != (count,) or time_s.dtype.kind not in "iuf" or not np.isfinite(time_s).all():
-            raise RecordingError(f"{path}: t_s {time_s.shape}, {time_s.dtype}: {_NEEDED}")
+            raise RecordingError(f"{path}: {name} {time_s.shape}, {time_s.dtype}: {_NEEDED}")
         return time_s.astype(np.float64)
     rate = content.get("rate_hz")
     if rate is None or rate.size != 1 or rate.dtype.kind not in "iuf" or not 0 < rate.item() < np.inf:
