@@ -83,6 +83,33 @@ def test_a_recording_in_which_nothing_is_pressed_is_nothing_to_watch(
     )
 
 
+def test_single_frames_show_no_motion(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    output = tmp_path / "o.json"
+    path = save(tmp_path / "f.npz", recording(slips=True)[-1:], recording(slips=False)[-1:])
+    assert main(["evaluate", "slip", "--frames", str(path), "--json", str(output)]) == 1
+    assert "each recording has a single frame; needed are at least two" in capsys.readouterr().err
+    assert not output.exists()
+
+
+@pytest.mark.parametrize("words", [["--rate-hz", "0"], ["--rate-hz", "nan"], ["--noise-counts", "-3"]])
+def test_numbers_out_of_range_are_refused_at_once(
+    words: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = save(tmp_path / "f.npz", recording(slips=False)[:20])
+    with pytest.raises(SystemExit, match="2"):
+        main(["evaluate", "slip", "--frames", str(path), *words])
+    assert f"argument {words[0]}: {words[1]}: allowed is a number from 0.001 to" in capsys.readouterr().err
+
+
+def test_a_rate_is_the_files_unless_another_is_given(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "f.npz"
+    np.savez(path, image=recording(slips=False)[:30, 2:10])
+    assert main(["evaluate", "slip", "--frames", str(path)]) == 1
+    assert "has no rate_hz; say how many frames a second with --rate-hz" in capsys.readouterr().err
+    assert main(["evaluate", "slip", "--frames", str(path), "--rate-hz", "200"]) == 0
+    assert "1 recordings, 200 frames/s, 1 patches" in capsys.readouterr().out
+
+
 def test_patches_that_are_no_rectangles_are_refused_by_their_place(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -69,12 +69,18 @@ def add_parser(commands: Any) -> None:
         "the live taxels. Without labels, it counts the frames with slip, and those with slip in a steady grip.",
     )
     parser.add_argument("--frames", type=Path, required=True, metavar="FILE.npz", help="full frames (docs/recovery.md)")
-    parser.add_argument("--rate-hz", type=float, metavar="R", help="frames per second, where the file does not say")
+    parser.add_argument(
+        "--rate-hz", type=real(1e-3, 1e6), metavar="R", help="frames per second (default: what the file says)"
+    )
     parser.add_argument(
         "--pitch-m", type=real(1e-4, 0.1), default=ArrayGeometry().pitch_m, metavar="P", help="taxel pitch [m]"
     )
     parser.add_argument(
-        "--noise-counts", type=float, default=1.5, metavar="S", help="noise of a taxel (default: %(default)s)"
+        "--noise-counts",
+        type=real(1e-3, 1e3),
+        default=1.5,
+        metavar="S",
+        help="noise of a taxel (default: %(default)s)",
     )
     for name, info in describe(SlipConfig).items():
         default = default_of(SlipConfig, name)
@@ -164,8 +170,13 @@ def _run(arguments: argparse.Namespace) -> int:
     tell_if_large(arguments.frames)
     recorded = load_frames(arguments.frames, labels=True)
     rate_hz = arguments.rate_hz or recorded.rate_hz
-    if not rate_hz or not 0.0 < rate_hz < 1e6:
-        raise RecordingError(f"{arguments.frames}: rate {rate_hz}; say how many frames a second with --rate-hz")
+    if rate_hz is None:
+        raise RecordingError(f"{arguments.frames}: has no rate_hz; say how many frames a second with --rate-hz")
+    if recorded.length.max() < 2:
+        raise RecordingError(
+            f"{arguments.frames}: each recording has a single frame; needed are at least two, because slip is motion "
+            "from one to another"
+        )
     boxes = patches(recorded.live)
     print(f"{len(recorded.start)} recordings, {rate_hz:g} frames/s, {len(boxes)} patches")
     print("| recording | pressed frames of patches | slip told | steady | told while steady |\n|---|---|---|---|---|")
