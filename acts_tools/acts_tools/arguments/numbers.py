@@ -9,7 +9,7 @@ import argparse
 import math
 from collections.abc import Callable
 
-from acts_core.array import MAX_SIDE
+from acts_core.array import MAX_SIDE, ArrayGeometry
 
 
 def whole(lowest: int, highest: int | None = None) -> Callable[[str], int]:
@@ -51,3 +51,6 @@ random_seed = whole(0, 2**63 - 1)
 
 taxels = whole(1, MAX_SIDE**2)
 """How many are measured per frame."""
+
+simulated_taxels = whole(1, ArrayGeometry().size)
+"""The same of a simulated skin, whose size is known."""

@@ -9,15 +9,15 @@ import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
-from acts_core.array import COUNT_MAX
-from acts_tools.arguments import at_least_one, random_seed, real, taxels
+from acts_tools.arguments import at_least_one, random_seed, real, simulated_taxels
 
 
 def add_scene_arguments(parser: argparse.ArgumentParser, seeds: int, what: str) -> None:
     """Add options of evaluations on simulated scenes; `seeds` of them by default, of which `what` tells the kind."""
     parser.add_argument(
         "--noise-counts",
-        type=real(0, COUNT_MAX),
+        # More is refused by the reconstruction, but later.
+        type=real(0, 100),
         default=3.0,
         metavar="X",
         help="noise of a reading (default: %(default)s)",
@@ -38,7 +38,7 @@ def add_m(parser: argparse.ArgumentParser, default: Sequence[int]) -> None:
     """Add ``--m``, one or several."""
     parser.add_argument(
         "--m",
-        type=taxels,
+        type=simulated_taxels,
         nargs="+",
         default=list(default),
         help=f"taxels per frame (default: {' '.join(map(str, default))})",

@@ -22,6 +22,12 @@ EVALUATIONS = ("classification", "events", "gait", "impacts", "objects", "outlin
         *(["evaluate", name, "--seed", "-1"] for name in EVALUATIONS),
         *(["evaluate", name, "--seeds", "0"] for name in ("gait", "impacts", "slip-sampled", "wearables")),
         ["evaluate", "impacts", "--m", "0"],
+        *(
+            ["evaluate", name, "--m", "64", "1025"]
+            for name in ("impacts", "objects", "outlines", "slip-sampled", "spectra")
+        ),
+        *(["evaluate", name, "--m", "1025"] for name in ("ricochet", "wearables")),
+        *(["evaluate", name, "--noise-counts", "101"] for name in ("impacts", "wearables")),
         ["evaluate", "impacts", "--touch-ms", "0"],
         ["evaluate", "ricochet", "--speeds", "1", "nan"],
         ["evaluate", "spectra", "--noise-counts", "-1"],

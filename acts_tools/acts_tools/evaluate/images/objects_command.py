@@ -21,7 +21,7 @@ from acts_sim.pressing import (
     object_named,
     press_over_time,
 )
-from acts_tools.arguments import at_least_one, taxels
+from acts_tools.arguments import at_least_one, simulated_taxels
 from acts_tools.evaluate import report
 from acts_tools.evaluate.images import options
 from acts_tools.evaluate.images.recovery import Recording
@@ -42,7 +42,9 @@ def add_parser(commands: Any) -> None:
         "method and linear interpolation, each with three sampling schemes, with a method of ours with tracking on "
         "the same frames, from first to last touch.",
     )
-    parser.add_argument("--m", nargs="+", type=taxels, default=list(_M), help="taxels per frame (default: %(default)s)")
+    parser.add_argument(
+        "--m", nargs="+", type=simulated_taxels, default=list(_M), help="taxels per frame (default: %(default)s)"
+    )
     parser.add_argument("--objects", nargs="+", default=list(OBJECTS), metavar="NAME", help="default: all 30")
     parser.add_argument("--ours", default=options.METHOD, **options.method_argument())
     parser.add_argument(

@@ -22,7 +22,7 @@ from acts_recon.contacts import ContactFinder
 from acts_recon.impacts import UNKNOWN_DIRECTION_SD_RAD
 from acts_sim.impacts import SCENE_RATE_HZ, Scene, ball_named, scene, thrown
 from acts_sim.pressing import skin_of
-from acts_tools.arguments import real, taxels
+from acts_tools.arguments import real, simulated_taxels
 from acts_tools.evaluate import report
 from acts_tools.evaluate.estimators.methods import PAPER_TOUCH_COUNTS, paper_method
 from acts_tools.evaluate.impacts import plays
@@ -53,7 +53,7 @@ def add_parser(commands: Any) -> None:
         description="Throw rubber balls at the simulated skin at a shallow angle, from eight directions and with three "
         "speeds, and estimate the direction. docs/impacts.md tells what the numbers mean.",
     )
-    parser.add_argument("--m", type=taxels, default=64, help="taxels per frame (default: %(default)s)")
+    parser.add_argument("--m", type=simulated_taxels, default=64, help="taxels per frame (default: %(default)s)")
     parser.add_argument(
         "--speeds",
         type=real(0.1, 20.0),

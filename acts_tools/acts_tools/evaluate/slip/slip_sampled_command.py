@@ -26,7 +26,7 @@ from acts_core.skin import Layout, SkinPatch, layout
 from acts_recon.fusion import known_noise
 from acts_recon.settings import ReconstructionSettings
 from acts_recon.slip import SlipConfig
-from acts_tools.arguments import at_least_one, given_settings, real, taxels
+from acts_tools.arguments import at_least_one, given_settings, real, simulated_taxels
 from acts_tools.evaluate import report
 from acts_tools.firmware.board_sampler import BoardSampler
 
@@ -51,7 +51,9 @@ def add_parser(commands: Any) -> None:
         "without motion.",
     )
     parser.add_argument("--layout", default="leap_right", metavar="L", help="name or file (default: %(default)s)")
-    parser.add_argument("--m", type=taxels, nargs="+", default=[55, 128], help="taxels per frame (default: 55 128)")
+    parser.add_argument(
+        "--m", type=simulated_taxels, nargs="+", default=[55, 128], help="taxels per frame (default: 55 128)"
+    )
     parser.add_argument(
         "--seeds",
         type=at_least_one,
@@ -166,6 +168,10 @@ def _delay_ms(
     return 1e3 * delay_s, len(found) - len(times_s)
 
 
+def _in_words(delay_ms: float) -> str:
+    return f"{delay_ms:.0f}" if math.isfinite(delay_ms) else "never"
+
+
 def _run(arguments: argparse.Namespace) -> int:
     slip = SlipConfig(**given_settings(SlipConfig, arguments.set, "limits of slip"))
     results = report.Results(
@@ -190,8 +196,8 @@ def _run(arguments: argparse.Namespace) -> int:
                     closing += wrong
         found = told(skin, m, 0, 0.5 + arguments.hold_s, Skin(skin, "soft", 0).at, slip)
         holding = sum(time_s > 0.5 for time_s, _ in found)
-        median_ms, last_ms = float(np.median(delays_ms)), max(delays_ms)
-        print(f"| {m} | {median_ms:.0f}, {last_ms:.0f} of {len(delays_ms)} | {closing} | {holding} |", flush=True)
+        delay = ", ".join(_in_words(delay_ms) for delay_ms in (float(np.median(delays_ms)), max(delays_ms)))
+        print(f"| {m} | {delay} of {len(delays_ms)} | {closing} | {holding} |", flush=True)
         # JSON knows no infinity: null where slip was never reported.
         known_ms = [delay_ms if math.isfinite(delay_ms) else None for delay_ms in delays_ms]
         results.add({"m": m, "delay_ms": known_ms, "false_closing": closing, "false_holding": holding})

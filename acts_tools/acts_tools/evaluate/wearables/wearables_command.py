@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from acts_sim.wearables import SCENES, WORN_RATE_HZ, WornScene, worn_scene
-from acts_tools.arguments import real, taxels
+from acts_tools.arguments import real, simulated_taxels
 from acts_tools.evaluate import report
 from acts_tools.evaluate.options import add_scene_arguments
 from acts_tools.evaluate.scene_recordings import add_recordings_argument, write_recording
@@ -48,7 +48,7 @@ def add_parser(commands: Any) -> None:
     parser.add_argument(
         "--minutes", type=real(0.0), default=10.0, metavar="T", help="each skin is left alone (default: %(default)s)"
     )
-    parser.add_argument("--m", type=taxels, default=64, help="taxels per frame (default: %(default)s)")
+    parser.add_argument("--m", type=simulated_taxels, default=64, help="taxels per frame (default: %(default)s)")
     add_scene_arguments(parser, 25, "of each scene")
     add_recordings_argument(parser, "the first of each scene, less the offsets of its skin,")
     parser.set_defaults(evaluate=_run)
