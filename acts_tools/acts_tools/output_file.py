@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import tempfile
 from pathlib import Path
 
 from acts_core.errors import RecordingError
@@ -58,6 +59,26 @@ def require_writable(path: Path | None, *, makes_folder: bool = False) -> None:
     except OSError as error:
         raise RecordingError(
             f"{path}: cannot be written ({error.strerror}); needed is a file's name in a folder that exists"
+        ) from error
+
+
+def require_folder(path: Path | None) -> None:
+    """Make a folder for results, and raise an error, before any work, if none can be written in it; None is allowed.
+
+    Raises
+    ------
+    RecordingError
+        When there cannot be such a folder.
+    """
+    if path is None:
+        return
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+        tempfile.TemporaryFile(dir=path).close()
+    except OSError as error:
+        raise RecordingError(
+            f"{path}: no files can be written there ({error.strerror}); needed is the name of a folder, or of one that "
+            "can be made"
         ) from error
 
 

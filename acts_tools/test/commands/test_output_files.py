@@ -41,6 +41,16 @@ def test_a_folder_is_no_file_to_write(words: list[str], tmp_path: Path, capsys: 
     assert list(tmp_path.rglob("*")) == [folder]
 
 
+def test_a_file_is_no_folder_to_write_into(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "results"
+    file.touch()
+    assert main(["evaluate", "outlines", "--surfaces", str(file)]) == 1
+    said = capsys.readouterr()
+    assert f"{file}: no files can be written there (File exists); needed is the name of a folder" in said.err
+    assert said.out == ""
+    assert list(tmp_path.iterdir()) == [file]
+
+
 @pytest.mark.parametrize("name", ["results", "results.doc"])
 @pytest.mark.parametrize(
     "words", [words for words in COMMANDS if words[-1] == "--picture"], ids=lambda words: " ".join(words)

@@ -37,6 +37,11 @@ def test_a_hit_and_an_untouched_skin_are_reported(tmp_path: Path) -> None:
     assert recording.max() > 200
 
 
+def test_nothing_to_evaluate_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["evaluate", "wearables", "--scene", "--untouched"]) == 1
+    assert "--scene and --untouched name nothing; name a scene or a skin" in capsys.readouterr().err
+
+
 def test_there_is_a_layout_of_every_skin_that_is_watched() -> None:
     assert {layout(name).name for name in SKINS} == set(SKINS)
 

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from acts_core.errors import SettingsError
 from acts_sim.wearables import SCENES, WORN_RATE_HZ, WornScene, worn_scene
 from acts_tools.arguments import real, simulated_taxels
 from acts_tools.evaluate import report
@@ -72,6 +73,8 @@ def tally(name: str, seeds: int, m: int, noise_counts: float, seed: int, progres
 
 
 def _run(arguments: argparse.Namespace) -> int:
+    if not arguments.scene and not arguments.untouched:
+        raise SettingsError("--scene and --untouched name nothing; name a scene or a skin, or leave one of them out")
     about = {name: getattr(arguments, name) for name in ("m", "noise_counts", "seed", "seeds", "minutes")}
     results = report.Results(arguments.json, about)
     if arguments.scene:
