@@ -8,6 +8,7 @@ Publishes the ball's true position on ``ball/truth``, for evaluation only: no co
 
 from __future__ import annotations
 
+import math
 import sys
 import time
 from collections.abc import Sequence
@@ -19,7 +20,7 @@ from typing import Any
 from geometry_msgs.msg import PointStamped
 from rclpy.node import Node
 
-from acts_core.errors import ActsError
+from acts_core.errors import ActsError, SettingsError
 from acts_core.runtime import RealtimeConfig, enter_realtime
 from acts_core.settings import setting
 from acts_core.stop_signals import StopSignals
@@ -58,6 +59,16 @@ class BallWorldSettings(RealtimeConfig, WorldConfig):
 
     def __post_init__(self) -> None:
         RealtimeConfig.__post_init__(self)
+        if not math.isclose(self.truth_steps, round(self.truth_steps)):
+            raise SettingsError(
+                f"truth_period_s = {self.truth_period_s:g}: allowed are whole steps of {STEP_NS * 1e-9:g} s, in which "
+                "the world is computed"
+            )
+
+    @property
+    def truth_steps(self) -> float:
+        """Steps of the world between publications of the ball's true position."""
+        return self.truth_period_s * 1e9 / STEP_NS
 
 
 class BallWorld(Node):
@@ -106,8 +117,7 @@ class BallWorld(Node):
 
     def _publish(self, time_ns: int, state: WorldState) -> None:
         self._steps += 1
-        every_steps = round(self._settings.truth_period_s * 1e9 / STEP_NS)
-        if state.phase is not Phase.ROLLING or self._steps % every_steps:
+        if state.phase is not Phase.ROLLING or self._steps % round(self._settings.truth_steps):
             return
         if not self._truth.get_subscription_count():
             return

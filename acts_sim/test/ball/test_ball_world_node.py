@@ -184,6 +184,7 @@ def test_the_ball_follows_the_joints_and_presses_the_field(observer: Observer, t
         ("diametre_m:=0.05", "unknown key 'diametre_m'; did you mean 'diameter_m'?"),
         ("rows:=0", "rows = 0: allowed is 1 to 64"),
         ("diameter_m:=.nan", "diameter_m = nan: allowed is a finite number"),
+        ("truth_period_s:=0.003", "truth_period_s = 0.003: allowed are whole steps of 0.002 s"),
         ("field_ring:=/proc/nothing/field.ring", "the folder /proc/nothing cannot be made"),
     ],
 )
