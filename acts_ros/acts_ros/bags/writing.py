@@ -45,7 +45,10 @@ class BagWriter:
             self._writer.set_custom_data("recorder", recorder)
             self._writer.open()
         except (OSError, WriterError) as error:
-            raise RecordingError(f"cannot make the bag '{path}': {error}") from error
+            reason = error.strerror if isinstance(error, OSError) else error
+            raise RecordingError(
+                f"cannot make the bag '{path}' ({reason}); needed is a new name in a folder that can be written"
+            ) from error
 
     def add_topic(self, topic: str, message_type: str, definition: str, type_hash: str, offered: list[Qos]) -> Any:
         """Add a topic and return its handle for `write`."""

@@ -284,7 +284,7 @@ def _skin(bag: Any, path: Path, types: dict[str, str], wanted: str) -> str:
             f"'{path}' has the skins {listed}: choose one with --skin"
             if found
             else f"'{path}' has no skin: needed is a topic image_raw (sensor_msgs/msg/Image, mono16) or samples "
-            f"({_SAMPLES}); it has {', '.join(sorted(types)) or 'none'}"
+            f"({_SAMPLES}); it has {', '.join(sorted(types)) or 'none'}{f'; {bag.note}' if bag.note else ''}"
         )
     return found[0]
 

@@ -118,6 +118,14 @@ def test_an_existing_folder_is_not_touched(tmp_path: Path) -> None:
     assert not list((tmp_path / "bag").iterdir())
 
 
+def test_a_folder_that_cannot_be_made_is_told_in_words(tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    with pytest.raises(
+        RecordingError, match=r"cannot make the bag '.*/file/bag' \(Not a directory\); needed is a new name"
+    ):
+        BagWriter(tmp_path / "file" / "bag")
+
+
 def test_stamps_do_not_go_back_with_the_clock(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     clock = iter([1_000, 3_000, 2_000, 4_000])
     monkeypatch.setattr(writing.time, "time_ns", lambda: next(clock))

@@ -95,7 +95,7 @@ def test_insoles(tmp_path: Path) -> None:
 @pytest.mark.parametrize("which", ["grasps", "slips", "insole"])
 def test_another_folder_is_refused_by_name(which: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["evaluate", "convert", which, str(tmp_path), "-o", str(tmp_path / "out.npz")]) == 1
-    assert str(tmp_path) in capsys.readouterr().err
+    assert f"is {tmp_path} the repository?" in capsys.readouterr().err
     assert not (tmp_path / "out.npz").exists()
 
 

@@ -9,6 +9,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib import pyplot
+from matplotlib.figure import Figure
 
 from acts_core.errors import ActsError, RecordingError, SettingsError
 from acts_recon.objects import build_object_library, load_object_library
@@ -17,6 +19,7 @@ from acts_tools import library
 from acts_tools.cli import Parser
 from acts_tools.evaluate import command
 from acts_tools.evaluate.objects.classification import Trials, accuracy, run_trials
+from acts_tools.evaluate.objects.classification_report import draw
 from acts_tools.evaluate.objects.contenders import ACTS, contenders
 
 pytestmark = pytest.mark.slow
@@ -106,6 +109,28 @@ def test_tables_report_and_picture(tmp_path: Path, capsys: pytest.CaptureFixture
     assert "to classify a frame, median and p99 [us]: paper " in output
     assert set(json.loads(report.read_text())) == {"over_m", "over_time", "frame_us"}
     assert picture.read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_picture_shows_every_m_and_accuracies_however_low(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    cells = [{"m": m, "accuracy": a, "low": a - 0.1, "high": a + 0.1} for m, a in ((8, 0.3), (64, 0.9))]
+    over_time = [{"time_ms": 2, "accuracy": 0.3, "low": 0.2, "high": 0.4}]
+    drawn: list[Figure] = []
+    monkeypatch.setattr(pyplot, "close", drawn.append)
+    draw(tmp_path / "c.png", {"over_m": {"paper": cells}, "over_time": {"paper": over_time}}, 64)
+    left = drawn[0].axes[0]
+    assert [label.get_text() for label in left.get_xticklabels()] == ["8", "64"]
+    assert left.get_ylim()[0] < 0.3
+    monkeypatch.undo()
+    pyplot.close(drawn[0])
+
+
+def test_of_one_object_every_answer_would_be_right(tmp_path: Path) -> None:
+    with pytest.raises(SettingsError, match="--objects circle: of one object every answer is right"):
+        evaluate("--objects", "circle", "circle")
+    frames = np.full((4, 8, 8), 300, dtype=np.uint16)
+    np.savez(tmp_path / "f.npz", frames=frames, rate_hz=31.0, start=[0, 2], length=[2, 2], label=["cup", "cup"])
+    with pytest.raises(RecordingError, match="all recordings have the label 'cup'"):
+        evaluate("--frames", tmp_path / "f.npz")
 
 
 def test_labelled_recordings(grasps: Path, capsys: pytest.CaptureFixture[str]) -> None:

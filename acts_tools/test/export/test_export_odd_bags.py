@@ -69,6 +69,15 @@ def test_joint_states_that_do_not_fit_are_told_and_can_be_left_out(
     assert [row.joints for row in rows_of(path, joints="none")[0]] == [None, None]
 
 
+def test_a_bag_that_was_cut_off_before_its_first_topic_is_said_to_be(tmp_path: Path) -> None:
+    path = write_bag(tmp_path / "b", ("/plate/image_raw", image(10, pressed(0))))
+    (path / "metadata.yaml").unlink()
+    (file,) = path.glob("*.mcap")
+    file.write_bytes(file.read_bytes()[:100])
+    with pytest.raises(RecordingError, match=r"has no skin: .*it has none; the bag '.*' was never closed"):
+        rows_of(path)
+
+
 def test_joint_states_without_names_are_none(tmp_path: Path) -> None:
     """As on the topic `cmd_leap`."""
     path = write_bag(

@@ -89,13 +89,17 @@ def _run(arguments: argparse.Namespace) -> int:
         )
         print(table(results["over_m"], "m", "accuracy at M ="))
     else:
+        # An object that is named twice is one object.
+        names = dict.fromkeys(arguments.objects)
+        if len(names) < 2:
+            raise SettingsError(f"--objects {' '.join(names)}: of one object every answer is right; name two or more")
         trials = Trials(
             arms=arguments.arms,
             presses=arguments.presses,
             columns=arguments.columns,
             seed=arguments.seed,
             pressing=PressingConfig(miss_taxels=arguments.miss_taxels, miss_deg=arguments.miss_deg),
-            objects=tuple(object_named(name) for name in arguments.objects),
+            objects=tuple(object_named(name) for name in names),
         )
         with Progress("presses", 1) as progress:
             results = run_trials(trials, arguments.m or MS, show=progress.show)

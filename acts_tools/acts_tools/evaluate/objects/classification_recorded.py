@@ -38,7 +38,7 @@ def run_recorded(
     Raises
     ------
     RecordingError
-        When there is no label or rate, or an object has fewer than two recordings.
+        When there is no label or rate, only one label, or an object has fewer than two recordings.
     """
     if recorded.rate_hz is None or not recorded.label:
         missing = "no `rate_hz`" if recorded.rate_hz is None else "no `label`"
@@ -53,6 +53,11 @@ def run_recorded(
     largest = [int(flat[peak].max()) for peak in peaks]
     if max(largest) <= TOUCH_COUNTS:
         raise RecordingError(f"nothing was touched: {without_contact(max(largest), TOUCH_COUNTS)}")
+    if len(set(recorded.label)) < 2:
+        raise RecordingError(
+            f"all recordings have the label {recorded.label[0]!r}: of one object every answer is right; needed are two "
+            "or more"
+        )
     known, asked = _split(recorded, [count > TOUCH_COUNTS for count in largest])
     frames = np.stack([flat[peaks[number]] for number in known])
     labels = [recorded.label[number] for number in known]

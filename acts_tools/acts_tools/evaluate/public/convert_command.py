@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -69,15 +70,23 @@ def _grasps(source: Path) -> _Recordings:
 
 
 def _slips(source: Path) -> _Recordings:
-    paths = [source / "pressure_profiles" / name for name in weiss.SLIPS]
+    paths = _found(source, "pressure_profiles", weiss.SLIPS)
     return [(path.stem, weiss.read(path)) for path in paths], weiss.live(), weiss.RATE_HZ
 
 
 def _insole(source: Path) -> _Recordings:
-    paths = [source / "Experiment_Dataset" / name for name in insole.RECORDINGS]
+    paths = _found(source, "Experiment_Dataset", insole.RECORDINGS)
     pairs = [(path.stem, insole.read(path)) for path in paths]
     recordings = [(f"{name}_{foot}", both[foot]) for foot in (0, 1) for name, both in pairs]
     return recordings, np.ones((insole.ROWS, insole.COLS), dtype=bool), insole.RATE_HZ
+
+
+def _found(source: Path, folder: str, names: Sequence[str]) -> list[Path]:
+    """Paths of files in a folder of a repository; refused where one is not there."""
+    missing = [name for name in names if not (source / folder / name).is_file()]
+    if missing:
+        raise RecordingError(f"{source / folder}: no recordings {', '.join(missing)}; is {source} the repository?")
+    return [source / folder / name for name in names]
 
 
 _SETS = {"grasps": _grasps, "slips": _slips, "insole": _insole}
