@@ -27,6 +27,11 @@ def test_the_reference_lists_every_parameter_and_launch_argument() -> None:
     assert finished.returncode == 0, finished.stdout + finished.stderr
 
 
+@pytest.mark.parametrize("changelog", sorted(ROOT.glob("*/CHANGELOG.rst")), ids=lambda path: path.parent.name)
+def test_a_changelog_holds_no_mark_of_a_merge(changelog: Path) -> None:
+    assert not re.findall(r"^(?:<{7}|>{7}) .*", changelog.read_text(), re.MULTILINE)
+
+
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: f"{page.parent.name}-{page.name}")
 def test_links_lead_somewhere(page: Path) -> None:
     text = page.read_text()
