@@ -146,7 +146,7 @@ def _frames(path: Path, given: NDArray, limit_bytes: int) -> NDArray[np.uint16]:
 def _remedy(given: NDArray) -> str:
     """What to do with frames that are no counts of 10 bits."""
     if np.isnan(given.min()):
-        return "leave out frames that hold NaN, and taxels that do by `live`, with 0 in their place"
+        return "leave out frames that hold NaN; where a taxel always does, write 0 and mark it false in `live`"
     if given.min() < 0:
         return "set to 0 what is below, as where a baseline was subtracted"
     return "divide counts of 12 bits by 4"

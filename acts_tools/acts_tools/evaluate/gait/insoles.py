@@ -91,7 +91,8 @@ def _frames(path: Path, content: dict[str, NDArray[np.generic]]) -> NDArray[np.g
     if not finite.all():
         raise RecordingError(
             f"{path}: {np.count_nonzero(~finite)} of {len(frames)} frames hold NaN or infinity, the first of them is "
-            f"numbered {np.argmin(finite)}; needed are numbers: leave these frames out, with their times in `t_s`"
+            f"numbered {np.argmin(finite)}; needed are numbers: leave these frames out, and give the times of the "
+            "others as `t_s`"
         )
     return frames
 
