@@ -194,9 +194,11 @@ def _recordings(path: Path, content: dict[str, NDArray], n: int) -> tuple[NDArra
 def _rate_hz(path: Path, given: NDArray | None) -> float | None:
     if given is None:
         return None
-    if given.size != 1 or given.dtype.kind not in "fiu" or not _RATE_MIN_HZ <= given.item() <= _RATE_MAX_HZ:
+    if given.size != 1 or given.dtype.kind not in "fiu" or not 0 < given.item() < np.inf:
+        raise RecordingError(f"{path}: rate_hz = {given}: needed is one positive number of frames per second")
+    rate_hz = float(given.item())
+    if not _RATE_MIN_HZ <= rate_hz <= _RATE_MAX_HZ:
         raise RecordingError(
-            f"{path}: rate_hz = {given}: needed is one positive number of frames per second; allowed are "
-            f"{_RATE_MIN_HZ:g} to {_RATE_MAX_HZ:g}"
+            f"{path}: rate_hz = {rate_hz:g} frames per second; allowed are {_RATE_MIN_HZ:g} to {_RATE_MAX_HZ:g}"
         )
-    return float(given.item())
+    return rate_hz
