@@ -14,17 +14,21 @@ _PICTURES = (".png", ".svg", ".pdf")
 
 
 def make_folder(folder: Path, option: str) -> None:
-    """Make the folder that an option of the command line names, unless it is there.
+    """Make the folder that an option of the command line names, unless it is there, before any work for it.
 
     Raises
     ------
     RecordingError
-        When it cannot be made.
+        When it cannot be made, or no file can be written in it.
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)
+        tempfile.TemporaryFile(dir=folder).close()
     except OSError as error:
-        raise RecordingError(f"{option} {folder}: the folder cannot be made ({error.strerror})") from error
+        raise RecordingError(
+            f"{option} {folder}: no files can be written there ({error.strerror}); needed is the name of a folder, or "
+            "of one that can be made"
+        ) from error
 
 
 def require_writable(path: Path | None, *, makes_folder: bool = False) -> None:
@@ -59,26 +63,6 @@ def require_writable(path: Path | None, *, makes_folder: bool = False) -> None:
     except OSError as error:
         raise RecordingError(
             f"{path}: cannot be written ({error.strerror}); needed is a file's name in a folder that exists"
-        ) from error
-
-
-def require_folder(path: Path | None) -> None:
-    """Make a folder for results, and raise an error, before any work, if none can be written in it; None is allowed.
-
-    Raises
-    ------
-    RecordingError
-        When there cannot be such a folder.
-    """
-    if path is None:
-        return
-    try:
-        path.mkdir(parents=True, exist_ok=True)
-        tempfile.TemporaryFile(dir=path).close()
-    except OSError as error:
-        raise RecordingError(
-            f"{path}: no files can be written there ({error.strerror}); needed is the name of a folder, or of one that "
-            "can be made"
         ) from error
 
 

@@ -75,11 +75,6 @@ def test_the_index_leads_to_every_page_and_each_begins_with_a_command(page: Path
     assert any(re.match(r"```|    \S|.*`\S+ \S+", line) for line in begin), f"{page.name} begins without a command"
 
 
-@pytest.mark.parametrize("changelog", sorted(ROOT.glob("*/CHANGELOG.rst")), ids=lambda path: path.parent.name)
-def test_a_changelog_has_no_marks_of_a_merge(changelog: Path) -> None:
-    assert not re.findall(r"^(?:<<<<<<<|>>>>>>>) .*$", changelog.read_text(), re.MULTILINE)
-
-
 def headings(page: Path) -> set[str]:
     """Anchors of a page, as GitHub makes them."""
     lines = re.findall(r"^#+ (.+)$", page.read_text(), flags=re.MULTILINE)

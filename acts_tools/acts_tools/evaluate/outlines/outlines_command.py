@@ -27,7 +27,7 @@ from acts_tools.evaluate.outlines.tracing import Traced
 from acts_tools.evaluate.scene_frames import frame_rate_hz
 from acts_tools.evaluate.scene_recordings import add_recordings_argument, write_recording
 from acts_tools.evaluate.statistics import distribution_with_max, mean
-from acts_tools.output_file import require_folder
+from acts_tools.output_file import make_folder
 from acts_tools.progress import Progress
 
 _M = (64, 88, 128, 256, 352, 512)
@@ -60,7 +60,8 @@ def add_parser(commands: Any) -> None:
 def _run(arguments: argparse.Namespace) -> int:
     about = {name: getattr(arguments, name) for name in ("noise_counts", "seed", "seeds")}
     results = report.Results(arguments.json, about)
-    require_folder(arguments.surfaces)
+    if arguments.surfaces is not None:
+        make_folder(arguments.surfaces, "--surfaces")
     print(_TITLE, flush=True)
     with Progress("outlines", len(arguments.body) * len(arguments.m) * arguments.seeds) as progress:
         done = 0
