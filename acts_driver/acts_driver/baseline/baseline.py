@@ -22,6 +22,8 @@ _FORMAT = "acts_baseline"
 _VERSION = 1
 # Of the largest array 50 kB are needed.
 _BYTES_MAX = 1 << 24
+# Later times fit into no stamp of a message.
+_TIME_MAX_NS = 2**31 * 10**9 - 1
 
 
 class BaselineSource(IntEnum):
@@ -119,14 +121,20 @@ class Baseline:
                 )
             if str(content["format"]) != _FORMAT or int(content["version"]) != _VERSION:
                 raise SettingsError(f"{path}: no baseline of this release; {again}")
+            time_ns = int(content["time_ns"])
+            if not 0 <= time_ns <= _TIME_MAX_NS:
+                raise ArrayError(f"time_ns = {time_ns}: a time lies between 0 and {_TIME_MAX_NS} ns")
             baseline = cls(
                 counts=counts,
                 noise_counts=noise,
-                valid=content["valid"].astype(np.bool_),
+                # NaN, and any number, would be true.
+                valid=content["valid"].astype(np.bool_, casting="same_kind"),
                 source=BaselineSource.FILE,
-                time_ns=int(content["time_ns"]),
+                time_ns=time_ns,
             )
-        except (ValueError, KeyError, TypeError, ArrayError) as error:
+        except KeyError as error:
+            raise SettingsError(f"{path}: no baseline, or a damaged one, it lacks {error.args[0]}; {again}") from error
+        except (ValueError, OverflowError, TypeError, ArrayError) as error:
             raise SettingsError(f"{path}: no baseline, or a damaged one ({error}); {again}") from error
         if baseline.counts.shape != (rows, cols):
             given = " x ".join(map(str, baseline.counts.shape))

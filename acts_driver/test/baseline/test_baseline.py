@@ -258,10 +258,31 @@ def test_files_that_are_no_baseline_are_refused(tmp_path: Path) -> None:
     np.savez(path, frames=np.zeros(3))
     with pytest.raises(SettingsError, match="no baseline, or a damaged one"):
         Baseline.load(path, ROWS, COLS)
+    with pytest.raises(SettingsError, match="it lacks baseline;"):
+        Baseline.load(path, ROWS, COLS)
     # Below a file, and under names that are too long, with what is added to them until they are whole: or without.
     for where in (Path("/proc/skin.npz"), path / "skin.npz", tmp_path / ("a" * 250), tmp_path / ("a" * 300)):
         with pytest.raises(SettingsError, match="cannot be saved"):
             some_baseline().save(where)
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "words"),
+    [
+        *(("time_ns", value, "time_ns = .* a time lies between 0") for value in (-1, 2**31 * 10**9, 1e300)),
+        *(("time_ns", value, "cannot convert float") for value in (np.inf, np.nan)),
+        ("version", np.inf, "cannot convert float"),
+        ("valid", np.full((ROWS, COLS), np.nan), "Cannot cast"),
+    ],
+)
+def test_damaged_values_beside_the_counts_are_refused(tmp_path: Path, name: str, value: object, words: str) -> None:
+    path = tmp_path / "skin.npz"
+    some_baseline().save(path)
+    with np.load(path) as arrays:
+        content = dict(arrays)
+    np.savez(path, **{**content, name: value})
+    with pytest.raises(SettingsError, match=f"a damaged one .{words}.*; calibrate again"):
+        Baseline.load(path, ROWS, COLS)
 
 
 @pytest.mark.parametrize("value", [np.nan, -1.0, 1024.0])
