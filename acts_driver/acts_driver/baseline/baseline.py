@@ -29,6 +29,7 @@ _TIME_MAX_NS = 2**31 * 10**9 - 1
 class BaselineSource(IntEnum):
     """How a baseline was determined; the numbers are those of acts_msgs/Baseline."""
 
+    NONE = 0
     FILE = 1
     CALIBRATION = 2
     TARE = 3
@@ -70,6 +71,12 @@ class Baseline:
             # Written so that NaN fails too.
             if not (np.all(values >= 0) and np.all(values <= COUNT_MAX)):
                 raise ArrayError(f"{name} must lie between 0 and {COUNT_MAX} counts, without NaN")
+
+    @classmethod
+    def none(cls, rows: int, cols: int) -> Baseline:
+        """What tells that no taxel has a baseline."""
+        nothing = np.zeros((rows, cols), dtype=np.float32)
+        return cls(nothing, nothing, np.zeros((rows, cols), dtype=np.bool_), BaselineSource.NONE, 0)
 
     def save(self, path: Path) -> None:
         """Write an npz file; an older one is replaced only by a whole new one.

@@ -87,7 +87,8 @@ class BaselineServices:
             return Baseline.load(path, rows, cols) if path is not None and is_there(path, error=SettingsError) else None
 
         baseline = None if path is None else wait_for(load, f"reading calibration_file = {path}")
-        self._path, self._tracker, self._published, self._heard_s = path, tracker, None, None
+        withdrawn, self._published = self._published, None
+        self._path, self._tracker, self._heard_s = path, tracker, None
         if baseline is not None:
             tracker.set(baseline)
             self._publish(baseline)
@@ -95,6 +96,9 @@ class BaselineServices:
         elif path is not None:
             service = self._node.resolve_service_name("~/calibrate")
             self._node.get_logger().info(f"no baseline yet: {path} is not there, the service {service} writes it")
+        if baseline is None and withdrawn is not None:
+            # That topic is kept for late joiners, and whoever subtracts the former one would go on.
+            self._publisher.publish(baseline_message(Baseline.none(rows, cols), self._frame_id))
 
     def observe(self, frames: Sequence[tuple[SampleFrame, int]]) -> None:
         """Update the baseline by frames with their stamps [ns], on the reader's thread."""

@@ -43,6 +43,8 @@ FrameConsumer = Callable[[list[tuple[SampleFrame, int]], str], None]
 SUCCESS = TransitionCallbackReturn.SUCCESS
 FAILURE = TransitionCallbackReturn.FAILURE
 
+_SHUT_DOWN = "shut down: start the driver anew to read"
+
 
 class DriverNode(LifecycleNode):
     """Lifecycle node around `Intake`.
@@ -76,6 +78,7 @@ class DriverNode(LifecycleNode):
         self._source: Source | None = None
         self._next_source: Source | None = None
         self._problem = ""
+        self._is_finalized = False
         # Of the last report on frames: when [s], level and sentence; None before the first.
         self._reported: tuple[float, int, str] | None = None
         self._frame_id = frame_id = skin_frame(self, self._settings.frame_id)
@@ -139,6 +142,7 @@ class DriverNode(LifecycleNode):
     def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Close the port for good."""
         self.close()
+        self._is_finalized = True
         return SUCCESS
 
     def on_error(self, state: LifecycleState) -> TransitionCallbackReturn:
@@ -204,6 +208,8 @@ class DriverNode(LifecycleNode):
 
     def _frames_in_words(self) -> tuple[bool, str]:
         """Whether the frames are good, and their report in words; at most a second old."""
+        if self._is_finalized:
+            return False, _SHUT_DOWN
         if self.intake is None:
             return False, f"not configured: {self._problem or 'nothing is read'}"
         if self._reported is None:
@@ -216,6 +222,8 @@ class DriverNode(LifecycleNode):
             level, message, values = self.intake.report("active" if self.active else "inactive", time.time_ns())
             self._reported = (time.monotonic(), level, message)
             return level, message, {**values, **self._baseline.values()}
+        if self._is_finalized:
+            return OK, _SHUT_DOWN, {"port": self._what, "state": "finalized"}
         values = {"port": self._what, "state": "unconfigured"}
         return (ERROR, self._problem, values) if self._problem else (OK, "unconfigured", values)
 

@@ -201,6 +201,20 @@ def test_the_file_is_read_at_the_start(rig: Rig, stream: Stream, tmp_path: Path)
     assert baselines[0].source == Baseline.SOURCE_FILE
 
 
+def test_a_baseline_that_the_parameters_take_away_is_withdrawn(rig: Rig, stream: Stream, tmp_path: Path) -> None:
+    baselines = start(rig, stream, tmp_path / "skin.npz")
+    stream.start()
+    calibrate(rig)
+    rig.spin_until(lambda: bool(baselines), "the baseline")
+    close_port(rig)
+    assert rig.set_parameters(calibration_file="", rows=ROWS + 1) == (True, "")
+    rig.spin_until(lambda: baselines[-1].source == Baseline.SOURCE_NONE, "that there is none any more")
+    assert (baselines[-1].rows, baselines[-1].cols) == (ROWS + 1, COLS)
+    assert list(baselines[-1].valid) == [False] * (SIZE + COLS)
+    status = rig.status_until(lambda status: status.get("state") == "unconfigured", "the report")
+    assert status.get("baseline", "none") == "none"
+
+
 def test_a_file_of_another_skin_is_refused(rig: Rig, stream: Stream, tmp_path: Path) -> None:
     path = tmp_path / "skin.npz"
     counts = np.full((COLS, ROWS), 12.5, dtype=np.float32)

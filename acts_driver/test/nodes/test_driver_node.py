@@ -196,6 +196,9 @@ def test_life_cycle(board: PtyBoard, rig: Rig) -> None:
     assert rig.change_state(Transition.TRANSITION_ACTIVE_SHUTDOWN)
     assert rig.state() == "finalized"
     assert driver.intake is None
+    status = rig.status_until(lambda status: status.get("state") == "finalized", "the report of the end")
+    assert status["message"] == "shut down: start the driver anew to read"
+    assert "shut down: start the driver anew" in rig.query()[1]
 
 
 def test_without_autostart_a_missing_port_fails_the_configuration(tmp_path: Path, rig: Rig) -> None:

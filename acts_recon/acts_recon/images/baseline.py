@@ -50,7 +50,7 @@ class BaselineSubtraction:
         _subtract(one, one, self._baseline, self._result)
 
     def set(self, baseline: NDArray[np.float32], valid: NDArray[np.bool_]) -> None:
-        """Take over a baseline; nothing is subtracted where it is not valid.
+        """Take over a baseline; nothing is subtracted where it is not valid, and where it is nowhere there is none.
 
         Parameters
         ----------
@@ -66,7 +66,7 @@ class BaselineSubtraction:
         check_untouched("baseline", baseline, valid, self._baseline.size)
         # Put in place as a whole: a frame may be worked on by another thread.
         self._baseline = np.where(valid, baseline, np.float32(0.0)).astype(np.float32)
-        self.is_set = True
+        self.is_set = bool(valid.any())
 
     def apply(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16]) -> NDArray[np.uint16]:
         """Counts less the baseline, rounded, at least 0; overwritten by the next call.

@@ -95,3 +95,16 @@ def test_the_node_subtracts_the_baseline_once_there_is_one(bench: Bench) -> None
     assert not bench.contact(2).in_contact
     bench.send(3, indices, counts + 100)
     assert bench.contact(3).peak == 155
+
+
+def test_a_baseline_that_is_withdrawn_is_not_subtracted_any_more(bench: Bench) -> None:
+    indices, counts = np.arange(40), np.full(40, 70)
+    publisher = bench.peer.create_publisher(Baseline, "baseline", qos.LATCHED)
+    publisher.publish(baseline_message(32, 32, 15.2))
+    bench.until(lambda: bench.node._pipeline.subtracts)
+    none = baseline_message(32, 32, 0.0)
+    none.source, none.valid = Baseline.SOURCE_NONE, [False] * 1024
+    publisher.publish(none)
+    bench.diagnostics(lambda status, values: values["baseline"] == "none")
+    bench.send(1, indices, counts)
+    assert bench.contact(1).peak == 70
