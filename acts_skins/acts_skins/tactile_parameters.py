@@ -14,6 +14,7 @@ import yaml
 
 from acts_core.errors import ActsError
 from acts_core.files import Section
+from acts_core.sampling import check_frame
 from acts_core.settings import checked, default_of, describe, unknown_key_message
 from acts_driver.settings import DriverSettings
 from acts_recon.settings import ReconstructionConfig, ReconstructionSettings
@@ -52,7 +53,8 @@ def tactile_parameters(skin: Skin, port: str) -> TactileParameters:
     Raises
     ------
     SettingsError
-        For an unknown parameter or one out of range, with file, line, skin and key.
+        For an unknown parameter or one out of range, or a frame that the board cannot sample, with file, line, skin and
+        key.
     """
     driver: dict[str, Any] = {**skin.driver, "frame_id": skin.name, "port": port}
     if skin.replay is not None:
@@ -62,6 +64,11 @@ def tactile_parameters(skin: Skin, port: str) -> TactileParameters:
     reconstruction: ReconstructionConfig = _settings(
         ReconstructionSettings, skin, "reconstruction", skin.reconstruction
     )
+    if driver_settings.has_dialogue and driver_settings.scheme and driver_settings.m:
+        try:
+            check_frame(driver_settings.scheme, driver_settings.rows, driver_settings.cols, driver_settings.m)
+        except ActsError as error:
+            raise skin.section.error(str(error), "m") from None
     try:
         reconstruction.arranged()
     except ActsError as error:
