@@ -41,7 +41,7 @@ TOLD_WITHIN_S = 4.0
 # From the last reading to the moment of the stall, and on to the end of the robot's first cycle after it.
 SETTLED_S = 0.1
 
-CLEAR, MOVE_J, SERVO_J = "command 0", "command 1", "command 11"
+CLEAR, MOVE_J, SERVO_J, SET_WATCHDOG = "command 0", "command 1", "command 11", "command 35"
 
 
 class Arm(UrRobot):
@@ -64,7 +64,12 @@ class Rig:
     """A simulated robot, and a control loop that balances a ball that never comes to rest."""
 
     def __init__(
-        self, host: str, stack: ExitStack, stale_after_s: float = 0.8, simulated: SimulatedRobot | None = None
+        self,
+        host: str,
+        stack: ExitStack,
+        stale_after_s: float = 0.8,
+        simulated: SimulatedRobot | None = None,
+        homing_speed_rad_s: float = 2.0,
     ) -> None:
         self.simulated = simulated or stack.enter_context(SimulatedRobot(host))
         config = with_robots(LoopConfig)(
@@ -72,7 +77,7 @@ class Rig:
             robot_stale_after_s=stale_after_s,
             touch_stale_after_s=1.0,
             connect_retry_s=0.1,
-            homing_speed_rad_s=2.0,
+            homing_speed_rad_s=homing_speed_rad_s,
         )
         self.arm = Arm(config)
         self.loop = ControlLoop(config, self.arm, time.time_ns)
@@ -167,10 +172,10 @@ def test_after_a_stall_only_what_is_asked_for_is_commanded(cases: list[tuple[flo
                 return
             rig.await_time(1.0)
             assert rig.orders_since(ended_s) == []
-            # The arm has come to where it was last told to be, and the robot's program has not been touched.
+            # The arm has come to where it was last told to be, and the robot has ended its program by itself.
             state = rig.simulated.state()
             assert state["q_rad"] == pytest.approx(aim, abs=1e-3)
-            assert state["runtime"] == "PLAYING"
+            assert state["runtime"] == "STOPPED"
             assert rig.loop.status.phase is Phase.STOPPED
             assert rig.loop.start()
             rig.await_phase(Phase.BALANCING)
@@ -187,7 +192,7 @@ def began_anew(rig: Rig, ended_s: float) -> None:
     orders = rig.orders_since(ended_s)
     assert orders.count("program rtde_control") == 1
     begin = orders.index("program rtde_control")
-    assert [words for words in orders[begin + 1 :] if words != CLEAR][:2] == [MOVE_J, SERVO_J]
+    assert [words for words in orders[begin + 1 :] if words != CLEAR][:3] == [SET_WATCHDOG, MOVE_J, SERVO_J]
     assert not {MOVE_J, SERVO_J} & set(orders[:begin])
 
 
@@ -254,6 +259,63 @@ os.kill(os.getpid(), signal.SIGKILL)
         assert result.returncode == -signal.SIGKILL
         wait_for(lambda: simulated.state()["runtime"] == "STOPPED", "the end of the robot's program")
         assert any(words == SERVO_J for _at_s, _port, words in simulated.orders())
+
+
+def stop_rig_process(rig: Rig) -> None:
+    """Let the process that holds the connection stand still."""
+    assert rig.arm._process is not None
+    rig.arm._process.send_signal(signal.SIGSTOP)
+
+
+def kill_rig_process(rig: Rig) -> None:
+    """End the process that holds the connection without its ending anything."""
+    assert rig.arm._process is not None
+    rig.arm._process.kill()
+
+
+@pytest.mark.parametrize(
+    ("host", "harm"), [("127.0.17.15", stop_rig_process), ("127.0.17.16", kill_rig_process)], ids=["stop", "kill"]
+)
+def test_an_arm_on_its_way_to_level_stops_when_nobody_watches_it_any_more(
+    host: str, harm: Callable[[Rig], None]
+) -> None:
+    far = (ur5e.LEVEL_Q_RAD[0] + 3.0, *ur5e.LEVEL_Q_RAD[1:])
+    with ExitStack() as stack:
+        simulated = stack.enter_context(SimulatedRobot(host, far))
+        rig = Rig(host, stack, simulated=simulated, homing_speed_rad_s=0.3)
+        wait_for(lambda: simulated.state()["q_rad"][0] < far[0] - 0.05, "the arm to be on its way")
+        harm(rig)
+        rig.await_phase(Phase.STOPPED)
+        wait_for(lambda: simulated.state()["runtime"] == "STOPPED", "the robot to end its program")
+        wait_for(lambda: not any(simulated.state()["qd_rad_s"]), "rest")
+        # It has not gone on to the level pose.
+        assert simulated.state()["q_rad"][0] > ur5e.LEVEL_Q_RAD[0] + 1.0
+        assert rig.loop.start()
+        rig.await_phase(Phase.BALANCING, 60.0)
+
+
+def test_an_arm_stops_when_our_process_stands_still() -> None:
+    program = """
+import os, signal, sys, time
+from acts_control.robots.ur import UrConfig, UrRobot
+robot = UrRobot(UrConfig(robot_ip=sys.argv[1], homing_speed_rad_s=0.3))
+robot.connect(lambda: True)
+end_s = time.monotonic() + robot.begin_levelling()
+while robot.read().off_level > 2.9 and time.monotonic() < end_s:
+    time.sleep(0.02)
+os.kill(os.getpid(), signal.SIGSTOP)
+"""
+    far = (ur5e.LEVEL_Q_RAD[0] + 3.0, *ur5e.LEVEL_Q_RAD[1:])
+    with (
+        SimulatedRobot("127.0.17.17", far) as simulated,
+        Process(sys.executable, "-c", program, simulated.host) as ours,
+    ):
+        wait_for(lambda: simulated.state()["q_rad"][0] < far[0] - 0.05, "the arm to be on its way")
+        wait_for(lambda: simulated.state()["runtime"] == "STOPPED", "the robot to end its program")
+        wait_for(lambda: not any(simulated.state()["qd_rad_s"]), "rest")
+        assert simulated.state()["q_rad"][0] > ur5e.LEVEL_Q_RAD[0] + 1.0
+        assert ours.process.poll() is None
+        ours.process.kill()
 
 
 def test_the_node_tells_a_stall_and_answers_during_it(tmp_path: Path) -> None:

@@ -38,6 +38,12 @@ class UrConfig(RobotConfig):
     homing_acceleration_rad_s2: float = setting(
         1.5, "joint acceleration on the way to the level pose [rad/s^2]", minimum=0.01, maximum=10.0
     )
+    robot_watchdog_s: float = setting(
+        0.5,
+        "when the robot hears nothing for longer, it ends its program by itself and stops, whatever it was doing [s]",
+        minimum=0.1,
+        maximum=5.0,
+    )
     level_q_rad: tuple[float, ...] = setting(
         tuple(round(angle, 9) for angle in ur5e.LEVEL_Q_RAD),
         "joint angles with the plate level and the skin facing up, base to wrist 3 [rad]",

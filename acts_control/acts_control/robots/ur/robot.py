@@ -19,7 +19,7 @@ import time
 from collections import deque
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from math import isfinite
+from math import inf, isfinite
 
 from acts_control.robots.base import CommandRefusedError, RobotClaim, RobotReading, RobotStoppedError
 from acts_control.robots.ur.config import UrConfig
@@ -36,6 +36,9 @@ _KILL_TIMEOUT_S = 1.0
 _POLL_S = 0.002
 
 _STOP_DECELERATION_RAD_S2 = 4.0
+
+# How often the robot's watchdog is told that all is well while no other command is sent, in parts of its time.
+_KICKS = 5
 
 # Added to how long the way to the level pose takes at its speed, which itself may be three times as long.
 _LEVELLING_S = 5.0
@@ -56,6 +59,8 @@ class UrRobot:
         self._state: UrState | None = None
         # Commands that have not been answered yet, oldest first: name, and when it was sent [s].
         self._pending: deque[tuple[str, float]] = deque()
+        # When the robot's watchdog is to be told next [s]; never while commands are sent anyway, or motion is ended.
+        self._kick_s = inf
 
     @property
     def address(self) -> str:
@@ -93,6 +98,8 @@ class UrRobot:
                 _PROGRAM_TIMEOUT_S,
                 "the control script does not run; is the robot in remote control?",
             )
+            # From here on the robot stops by itself when this process, `ur_process` or the network falls silent.
+            self._carry_out("setWatchdog", is_wanted, 1.0 / self._config.robot_watchdog_s)
         except RobotError as error:
             self.disconnect()
             if "already in use" in str(error):
@@ -102,7 +109,11 @@ class UrRobot:
     def read(self) -> RobotReading:
         """The newest state; costs microseconds."""
         state = self._newest()
-        waiting_s = time.monotonic() - self._pending[0][1] if self._pending else 0.0
+        now_s = time.monotonic()
+        if now_s >= self._kick_s:
+            self._kick_s = now_s + self._config.robot_watchdog_s / _KICKS
+            self._send("kickWatchdog")
+        waiting_s = now_s - self._pending[0][1] if self._pending else 0.0
         return state.reading(self._config, waiting_s)
 
     def _newest(self) -> UrState:
@@ -126,10 +137,12 @@ class UrRobot:
         # Asynchronous: a blocking moveJ would answer at its end only.
         level = _finite(config.level_q_rad)
         self._send("moveJ", level, config.homing_speed_rad_s, config.homing_acceleration_rad_s2, True)
+        self._kick_s = time.monotonic()
         return _LEVELLING_S + _LEVELLING_FACTOR * farthest / config.homing_speed_rad_s
 
     def end_levelling(self) -> None:
         """Break that off; the arm comes to rest."""
+        self._kick_s = inf
         self._send("stopJ", _STOP_DECELERATION_RAD_S2)
 
     def tilt(self, tilt_x_rad: float, tilt_y_rad: float) -> tuple[float, ...]:
@@ -145,6 +158,7 @@ class UrRobot:
         fault = self._gate.fault(q_rad)
         if fault:
             raise CommandRefusedError(fault)
+        self._kick_s = inf
         # Speed and acceleration are ignored by the script.
         step_s = 1.0 / config.control_rate_hz
         self._send("servoJ", _finite(q_rad), 0.0, 0.0, step_s, config.servo_lookahead_s, config.servo_gain)
@@ -156,6 +170,7 @@ class UrRobot:
 
     def release(self) -> None:
         """Give up control; the robot's program ends."""
+        self._kick_s = inf
         if self._link is not None:
             self._send("stopScript")
 
@@ -168,7 +183,7 @@ class UrRobot:
                 self._process.wait(_KILL_TIMEOUT_S)
         if self._link is not None:
             self._link.close()
-        self._link, self._state = None, None
+        self._link, self._state, self._kick_s = None, None, inf
         self._pending.clear()
         if self._claim is not None and (self._process is None or self._process.poll() is not None):
             # Last: another program may take the robot from here on.
@@ -202,8 +217,8 @@ class UrRobot:
             except OSError as error:
                 raise RobotError(f"the process for the robot cannot be started: {error}") from error
 
-    def _carry_out(self, name: str, is_wanted: Callable[[], bool]) -> None:
-        self._send(name)
+    def _carry_out(self, name: str, is_wanted: Callable[[], bool], *arguments: object) -> None:
+        self._send(name, *arguments)
         self._await(lambda: not self.is_busy, is_wanted, _CONNECT_TIMEOUT_S, f"{name}: no answer")
 
     def _await(self, condition: Callable[[], bool], is_wanted: Callable[[], bool], timeout_s: float, what: str) -> None:
@@ -266,6 +281,7 @@ class UrRobot:
 
 # What refuses to stop something has nothing to stop.
 _REFUSALS = {
+    "setWatchdog": "the robot's program is not running",
     "moveJ": "is the robot on and in remote control?",
     "servoJ": "the robot's program is not running",
 }
