@@ -141,6 +141,8 @@ class ControlLoop:
                 return False
             self._stop_reason = ""
             self._wanted = True
+            # At once, although the thread may still be cutting the last connection: what ended that is past.
+            self.status = LoopStatus(phase=Phase.CONNECTING, reason="connecting")
             self._changed.notify_all()
             return True
 
@@ -190,13 +192,16 @@ class ControlLoop:
             self._closing = True  # the thread ends with it, and nothing can be started any more
             raise
         finally:
-            if not lost:
-                reason += self._end_program(watch)
-            # Told before the connection is cut, however long that takes; a start asked for from now on comes after it.
-            with self._changed:
-                self._wanted = False
-                self.status = replace(self.status, phase=Phase.STOPPED, reason=reason)
-            self._robot.disconnect()
+            ending = "; the robot's program may still run"
+            try:
+                ending = "" if lost else self._end_program(watch)
+            finally:
+                # Whatever comes of that. Told before the connection is cut, however long that takes; a start asked for
+                # from now on comes after it.
+                with self._changed:
+                    self._wanted = False
+                    self.status = replace(self.status, phase=Phase.STOPPED, reason=reason + ending)
+                self._robot.disconnect()
 
     def _connect(self) -> bool:
         self.status = LoopStatus(phase=Phase.CONNECTING, reason="connecting")

@@ -367,6 +367,20 @@ def test_a_program_that_cannot_be_ended_is_told(arm: ArmInProcess, make: Make, m
     assert await_stop(loop) == "stopped by request; the robot's program may still run: gone"
 
 
+def test_a_robot_that_fails_in_a_way_of_its_own_is_cut_off_and_that_is_told(
+    arm: ArmInProcess, make: Make, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    loop = make()
+    balance(loop)
+    monkeypatch.setattr("threading.excepthook", lambda arguments: None)
+    monkeypatch.setattr(arm, "release", lambda: 1 / 0)
+    loop.stop("stopped by request")
+    assert await_stop(loop) == "stopped by request; the robot's program may still run"
+    wait_for(lambda: arm.calls[-1] == "disconnect", "the end of the connection")
+    loop.close()
+    assert not loop.start()
+
+
 def test_the_end_is_told_before_the_connection_is_cut(
     arm: ArmInProcess, make: Make, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -380,6 +394,8 @@ def test_the_end_is_told_before_the_connection_is_cut(
     # Asked for meanwhile, and begun when the old connection is gone.
     assert loop.start()
     assert not loop.start()
+    # Not that it has stopped, which is over, and whoever asks why it cannot be started is not told that it has ended.
+    assert (loop.status.phase, loop.status.reason) == (Phase.CONNECTING, "connecting")
     assert arm.calls.count("connect") == 1
     arm.frozen = False
     cut.set()

@@ -33,6 +33,12 @@ def test_for_a_simulated_skin_only_a_robot_of_this_machine_is_controlled(robot_i
         assert settings(robot_ip=robot_ip).robot_ip == robot_ip
 
 
+@pytest.mark.parametrize("robot_ip", ["192.168..10", ".168.1.10", 70 * "a"])
+def test_what_can_be_no_address_is_refused(robot_ip: str) -> None:
+    with pytest.raises(SettingsError, match=r"robot_ip = .*: this can be no address.*give one such as 192\.168\.1\.10"):
+        UrConfig(robot_ip=robot_ip)
+
+
 def test_a_robot_with_a_parameter_that_another_has_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     own = [("level_q_rad", float, setting(0.0, "where it is level [rad]"))]
     kind = RobotKind(make_dataclass("Other", own, bases=(RobotConfig,), frozen=True), ROBOTS["ur5e"].make)

@@ -40,7 +40,7 @@ class RobotClaim:
                 f"robot {address} is controlled by {error}; end that program, then call start"
             ) from error
         except OSError as error:
-            raise RobotError(f"robot {address} cannot be claimed ({error.strerror})") from error
+            raise RobotError(f"robot {address} cannot be claimed ({error.strerror or error})") from error
 
     def close(self) -> None:
         """Give it up. May be called again."""
@@ -51,5 +51,6 @@ def _numeric(address: str) -> str:
     """One name for a robot, whichever of its names was given."""
     try:
         return socket.gethostbyname(address)
-    except OSError:
+    except (OSError, UnicodeError):
+        # Not known, or nothing that could be a name: whoever connects says so.
         return address

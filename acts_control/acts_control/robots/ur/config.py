@@ -76,6 +76,11 @@ class UrConfig(RobotConfig):
                 "numeric address of this machine (127.0.0.1 to 127.255.255.254, ::1); "
                 "with a real skin and robot give sim:=false"
             )
+        if not _may_be_a_host(self.robot_ip):
+            raise SettingsError(
+                f"robot_ip = {self.robot_ip!r}: this can be no address and no name of a machine; "
+                "give one such as 192.168.1.10"
+            )
         if self.control_rate_hz not in _RATES_HZ:
             raise SettingsError(
                 f"control_rate_hz = {self.control_rate_hz}: allowed is {', '.join(map(str, _RATES_HZ))}; "
@@ -87,3 +92,12 @@ class UrConfig(RobotConfig):
                 f"level_q_rad = {self.level_q_rad}: the flange is tilted by {hypot(*tilt):.3f} rad there; "
                 f"give a pose in which it faces straight up"
             )
+
+
+def _may_be_a_host(name: str) -> bool:
+    """Whether sockets take it, known or not. For others, such as 192.168..10, they raise what is no OSError."""
+    try:
+        name.encode("idna")
+    except UnicodeError:
+        return False
+    return True
