@@ -304,6 +304,10 @@ end_s = time.monotonic() + robot.begin_levelling()
 while robot.read().off_level > 2.9 and time.monotonic() < end_s:
     time.sleep(0.02)
 os.kill(os.getpid(), signal.SIGSTOP)
+while not robot.read().stopped and time.monotonic() < end_s:
+    time.sleep(0.02)
+print(robot.read().stopped, flush=True)
+robot.disconnect()
 """
     far = (ur5e.LEVEL_Q_RAD[0] + 3.0, *ur5e.LEVEL_Q_RAD[1:])
     with (
@@ -315,7 +319,9 @@ os.kill(os.getpid(), signal.SIGSTOP)
         wait_for(lambda: not any(simulated.state()["qd_rad_s"]), "rest")
         assert simulated.state()["q_rad"][0] > ur5e.LEVEL_Q_RAD[0] + 1.0
         assert ours.process.poll() is None
-        ours.process.kill()
+        ours.process.send_signal(signal.SIGCONT)
+        wait_for(lambda: ours.process.poll() is not None, "the end of our process")
+        assert "the robot has ended its program: this process stood still for " in ours.text()
 
 
 def test_the_node_tells_a_stall_and_answers_during_it(tmp_path: Path) -> None:

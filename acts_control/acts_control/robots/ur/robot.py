@@ -59,6 +59,9 @@ class UrRobot:
         self._state: UrState | None = None
         # Commands that have not been answered yet, oldest first: name, and when it was sent [s].
         self._pending: deque[tuple[str, float]] = deque()
+        # When something was last sent, and the longest time without since the watchdog was set [s].
+        self._sent_s = -inf
+        self._silent_s = 0.0
         # When the robot's watchdog is to be told next [s]; never while commands are sent anyway, or motion is ended.
         self._kick_s = inf
 
@@ -100,6 +103,7 @@ class UrRobot:
             )
             # From here on the robot stops by itself when this process, `ur_process` or the network falls silent.
             self._carry_out("setWatchdog", is_wanted, 1.0 / self._config.robot_watchdog_s)
+            self._silent_s = 0.0
         except RobotError as error:
             self.disconnect()
             if "already in use" in str(error):
@@ -110,11 +114,20 @@ class UrRobot:
         """The newest state; costs microseconds."""
         state = self._newest()
         now_s = time.monotonic()
+        self._silent_s = max(self._silent_s, now_s - self._sent_s)
         if now_s >= self._kick_s:
             self._kick_s = now_s + self._config.robot_watchdog_s / _KICKS
             self._send("kickWatchdog")
         waiting_s = now_s - self._pending[0][1] if self._pending else 0.0
-        return state.reading(self._config, waiting_s)
+        reading = state.reading(self._config, waiting_s)
+        allowed_s = self._config.robot_watchdog_s
+        if self._silent_s > allowed_s and not state.is_playing and not state.safety_stop:
+            stopped = (
+                f"the robot has ended its program: this process stood still for {self._silent_s:.1f} s, "
+                f"and robot_watchdog_s is {allowed_s:g}"
+            )
+            return reading._replace(stopped=stopped)
+        return reading
 
     def _newest(self) -> UrState:
         self._take_in()
@@ -237,7 +250,8 @@ class UrRobot:
             self._link.send(json.dumps([name, *arguments]).encode())
         except OSError as error:
             raise RobotError(f"{self._config.robot_ip}: {name} cannot be handed over ({error.strerror})") from error
-        self._pending.append((name, time.monotonic()))
+        self._sent_s = time.monotonic()
+        self._pending.append((name, self._sent_s))
 
     def _take_in(self) -> None:
         """Read what the other process has told since.
