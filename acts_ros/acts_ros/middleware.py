@@ -44,6 +44,7 @@ HIGHEST_DOMAIN = 232
 
 # The place in the source of ROS that its error messages contain.
 _SOURCE_PLACE = re.compile(r", at \S+:\d+")
+_NO_LOG = "failed to initialize logging"
 
 
 def init(**options: Any) -> None:
@@ -83,12 +84,20 @@ def check_domain(environment: Mapping[str, str]) -> None:
 
 @contextmanager
 def telling_wrong_arguments(words: Sequence[str]) -> Iterator[None]:
-    """Raise `SettingsError` where ROS refuses a command line, for example a params file that is not YAML."""
+    """Raise `SettingsError` where ROS refuses a command line, or cannot begin its log.
+
+    The first is, for example, a params file that is not YAML; the second, a folder that cannot be written.
+    """
     check_remaps(words)
     try:
         yield
     except rclpy_implementation.RCLInvalidROSArgsError as error:
         raise SettingsError(_SOURCE_PLACE.sub("", str(error))) from None
+    except rclpy_implementation.RCLError as error:
+        reason = _SOURCE_PLACE.sub("", str(error))
+        if not reason.startswith(_NO_LOG):
+            raise
+        raise SettingsError(f"ROS: {reason}; set ROS_LOG_DIR to a folder that can be written") from None
 
 
 def choose_transports(environment: MutableMapping[str, str], rmw: str, folder: Path) -> str | None:

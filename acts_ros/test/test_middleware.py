@@ -137,3 +137,18 @@ def test_a_domain_that_there_cannot_be_is_refused_with_those_there_are(domain: s
 @pytest.mark.parametrize("variables", [{}, {"ROS_DOMAIN_ID": ""}, {"ROS_DOMAIN_ID": "0"}, {"ROS_DOMAIN_ID": "232"}])
 def test_a_domain_that_there_is_is_taken(variables: dict[str, str]) -> None:
     check_domain(variables)
+
+
+def test_a_log_that_cannot_be_written_is_told_with_what_to_do(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    result = subprocess.run(
+        [sys.executable, "-c", "from acts_ros import middleware; middleware.init()"],
+        env={**os.environ, "ROS_LOG_DIR": str(tmp_path / "file" / "log")},
+        capture_output=True,
+        text=True,
+        timeout=60.0,
+        check=False,
+    )
+    told = result.stderr.strip().splitlines()[-1]
+    assert told.startswith("acts_core.errors.SettingsError: ROS: failed to initialize logging")
+    assert told.endswith("; set ROS_LOG_DIR to a folder that can be written")
