@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 import socket
 import sys
@@ -48,7 +49,10 @@ class Console:
 
     def __init__(self, folder: Path | None, screen: TextIO | None = None) -> None:
         self._screen = sys.stdout if screen is None else screen
-        self._log = None if folder is None else (folder / "launch.log").open("a", buffering=1)
+        if isinstance(self._screen, io.TextIOWrapper):
+            # Processes may write what the terminal has no characters for.
+            self._screen.reconfigure(errors="backslashreplace")
+        self._log = None if folder is None else (folder / "launch.log").open("a", buffering=1, encoding="utf-8")
         self.screen_lost = False
 
     def close(self) -> None:

@@ -33,6 +33,11 @@ _STOPPED_CODES = (0, -signal.SIGINT, -signal.SIGTERM, 128 + signal.SIGINT, 128 +
 # As long after its start a process may not have come to its signal handlers, on a busy machine [s].
 _YOUNG_S = 2.0
 _DRAIN_S = 0.5
+# One that writes without a pause is read no further in a turn; far more than a pipe holds, so that its rest is read.
+_READS = 16
+_READ_BYTES = 65536
+# What has no end of line by then is shown as a line.
+_LINE_BYTES_MAX = 65536
 _PR_SET_PDEATHSIG = 1
 
 
@@ -212,15 +217,16 @@ class Launcher:
             self._selector.register(pipe, selectors.EVENT_READ, _Stream(child, pipe, is_error))
 
     def _read(self, stream: _Stream) -> None:
-        """Pass on the available output; close the pipe at its end."""
-        while True:
+        """Pass on the available output, up to `_READS` pieces; close the pipe at its end."""
+        for _ in range(_READS):
             try:
-                data = os.read(stream.pipe.fileno(), 65536)
+                data = os.read(stream.pipe.fileno(), _READ_BYTES)
             except BlockingIOError:
                 return
             *lines, stream.rest = (stream.rest + data).split(b"\n")
-            if not data and stream.rest:
-                lines, stream.rest = [stream.rest], b""
+            if stream.rest and (not data or len(stream.rest) > _LINE_BYTES_MAX):
+                lines.append(stream.rest)
+                stream.rest = b""
             for line in lines:
                 self._show(stream, line)
             if not data:
@@ -359,7 +365,14 @@ def _escalation(label: str, timeout_s: float, sent: str, next_signal: str) -> st
 
 
 def _describe_code(code: int) -> str:
-    return f"exit code {code}" if code >= 0 else f"exit code {code} ({signal.Signals(-code).name})"
+    if code >= 0:
+        return f"exit code {code}"
+    try:
+        name = signal.Signals(-code).name
+    except ValueError:
+        # As most of the real-time signals.
+        name = f"signal {-code}"
+    return f"exit code {code} ({name})"
 
 
 def leave_with_parent(parent_pid: int) -> Callable[[], None]:

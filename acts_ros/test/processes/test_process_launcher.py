@@ -167,6 +167,50 @@ def test_what_refuses_what_it_was_given_is_not_started_again_and_may_leave_the_o
     assert "other died" not in output
 
 
+def shell(script: str, *, respawn: bool = False) -> Process:
+    return Process("it", ("/bin/sh", "-c", script), dict(os.environ), "screen", respawn, 0.01)
+
+
+@pytest.mark.parametrize("script", ["exec cat /dev/zero", "exec yes"], ids=["without an end of a line", "lines"])
+def test_one_that_writes_without_a_pause_does_not_keep_the_launch_from_ending(tmp_path: Path, script: str) -> None:
+    program = PROGRAM.replace(
+        'code = Launcher(Console(None), name="someone")',
+        f"""
+processes.append(Process("writer", ("/bin/sh", "-c", {script!r}), dict(os.environ), "log", False, 0.05))
+code = Launcher(Console(None), name="someone")""",
+    )
+    with running(tmp_path, program) as run:
+        run.process.send_signal(signal.SIGINT)
+        run.wait_until(lambda: "over" in run.output)
+        assert run.process.wait(DEADLINE_S) == 0
+        assert all(is_gone(pid) for pid in run.pids)
+
+
+def test_a_line_that_does_not_end_is_shown_in_pieces() -> None:
+    screen = io.StringIO()
+    assert Launcher(Console(None, screen)).run([shell("head -c 1000000 /dev/zero | tr '\\0' x; echo; echo end")]) == 0
+    shown = [line.removeprefix("[it] ") for line in screen.getvalue().splitlines() if line.startswith("[it] ")]
+    assert shown[-1] == "end"
+    assert "".join(shown) == 1_000_000 * "x" + "end"
+    assert max(map(len, shown)) < 1_000_000
+
+
+def test_a_signal_without_a_name_that_ends_a_process_is_told_by_its_number() -> None:
+    screen = io.StringIO()
+    assert Launcher(Console(None, screen)).run([shell("kill -40 $$")]) == 1
+    assert "it died: exit code -40 (signal 40)" in screen.getvalue()
+
+
+def test_what_the_screen_or_the_log_cannot_write_is_shown_otherwise(tmp_path: Path) -> None:
+    raw = io.BytesIO()
+    console = Console(tmp_path, io.TextIOWrapper(raw, encoding="ascii"))
+    console.write("grün", to_screen=True, to_log=True)
+    console.write("done", to_screen=True, to_log=True)
+    console.close()
+    assert raw.getvalue().decode("ascii").splitlines() == ["gr\\xfcn", "done"]
+    assert "grün\n" in (tmp_path / "launch.log").read_text(encoding="utf-8")
+
+
 class Full(io.StringIO):
     """A file on a disk that becomes full."""
 
