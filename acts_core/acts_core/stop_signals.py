@@ -22,6 +22,9 @@ from types import FrameType
 
 STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
+# As the process was started: later `StopSignals.ended` has it ignored, too.
+_NOHUP = signal.getsignal(signal.SIGHUP) is signal.SIG_IGN
+
 LAST_RESORT_S = 12.0
 """A program that has not ended so long after the first signal writes where it hangs and exits with code 1 [s]."""
 
@@ -32,7 +35,7 @@ _AGAIN_S = 0.05
 class StopSignals:
     """Takes the stop signals of this process, from its making on. For the main thread.
 
-    A SIGHUP that nohup lets be ignored stays so.
+    A SIGHUP that is ignored from the start of the process, as under nohup, stays so.
 
     Parameters
     ----------
@@ -56,7 +59,7 @@ class StopSignals:
         os.set_blocking(self._write_end, False)
         signal.set_wakeup_fd(self._write_end, warn_on_full_buffer=False)
         for number in STOP_SIGNALS:
-            if number is signal.SIGHUP and signal.getsignal(number) is signal.SIG_IGN:
+            if number is signal.SIGHUP and _NOHUP:
                 continue
             signal.signal(number, self._handle)
             # Libraries whose system calls would fail with EINTR are not to notice.

@@ -50,7 +50,7 @@ def started(folder: Path, error: str, *words: str, **environment: str) -> subpro
     )
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_what_would_be_started_again_stays_and_says_so_until_it_is_told_to_end(
     tmp_path: Path, number: signal.Signals
 ) -> None:
@@ -62,6 +62,23 @@ def test_what_would_be_started_again_stays_and_says_so_until_it_is_told_to_end(
             assert process.poll() is None
             process.send_signal(number)
             assert process.wait(DEADLINE_S) == REFUSED_EXIT_CODE
+        finally:
+            process.kill()
+
+
+def test_what_stays_under_nohup_goes_on_ignoring_the_end_of_the_terminal(tmp_path: Path) -> None:
+    handler = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    try:
+        process = started(tmp_path, "SettingsError", STAY_WORD)
+    finally:
+        signal.signal(signal.SIGHUP, handler)
+    with process:
+        try:
+            assert process.stderr is not None
+            assert "scheme = 'trackin'" in process.stderr.readline()
+            assert "does nothing" in process.stderr.readline()
+            masks = dict(line.split(":") for line in Path(f"/proc/{process.pid}/status").read_text().splitlines())
+            assert int(masks["SigIgn"], 16) >> (signal.SIGHUP - 1) & 1
         finally:
             process.kill()
 
