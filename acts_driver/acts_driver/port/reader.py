@@ -32,8 +32,8 @@ class Reader:
     """Reads a source on a thread of its own until it is stopped.
 
     The decoder handles bad bytes; they never cause the port to be opened again. Exceptions of the consumer are logged
-    and counted, and reading goes on. A lost source is opened again after 0.02 s, then after waits that double up to
-    `reconnect_s`; loss and recovery are logged once each.
+    and counted, and reading goes on. A lost source is opened again at once, then after waits that double from 0.02 s up
+    to `reconnect_s`, until bytes come; loss and recovery are logged once each.
 
     Parameters
     ----------
@@ -96,6 +96,8 @@ class Reader:
         self._discards = False
         self._discarded_s = -_DISCARDED_S
         self._is_asked = False
+        # Before the next attempt to open the source.
+        self._wait_s = 0.0
         self._caught_up = threading.Event()
         self.connected = False
         self.problem = ""
@@ -153,15 +155,14 @@ class Reader:
 
     def _open(self, was_lost: bool) -> bool:
         """Open the source, however long that takes; False when stopped meanwhile."""
-        wait_s = min(_FIRST_RETRY_S, self._reconnect_s)
         begin = time.monotonic()
-        while not self._stop.is_set():
+        while not self._stop.wait(self._wait_s):
+            # Only bytes end the waits: a source may open each time, and be lost when it is read.
+            self._wait_s = min(2 * self._wait_s or _FIRST_RETRY_S, self._reconnect_s)
             try:
                 self._source.open()
             except Exception as error:  # noqa: BLE001 - as in `_run`
                 self.problem = _told(error)
-                self._stop.wait(wait_s)
-                wait_s = min(2 * wait_s, self._reconnect_s)
                 continue
             self._decoder.reset()
             if was_lost:
@@ -186,6 +187,7 @@ class Reader:
                 self._caught_up.set()
             if not data:
                 continue
+            self._wait_s = 0.0
             if frames or has_results():
                 self._hand_on(frames, arrival_ns)
                 if self._realtime is not None:

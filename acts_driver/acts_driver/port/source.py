@@ -100,7 +100,7 @@ class SerialSource:
         self._port: serial.Serial | None = None
         self._poll = select.poll()
         self._fd = -1
-        # Between writing and closing: the number of a closed port may belong to another file at once.
+        # Between writing, and closing and opening: the number of a closed port may belong to another file at once.
         self._lock = threading.Lock()
         self.silence = ""
 
@@ -114,10 +114,12 @@ class SerialSource:
         self.close()
         self._path = self._wanted
         self._path = resolve(self._wanted, self._lister)
-        self._port = open_port(self._path, self._baud, self._lister)
-        self._fd = self._port.fileno()
+        port = open_port(self._path, self._baud, self._lister)
+        fd = port.fileno()
+        with self._lock:
+            self._port, self._fd = port, fd
         self._poll = select.poll()
-        self._poll.register(self._fd, select.POLLIN)
+        self._poll.register(fd, select.POLLIN)
 
     def begin(self) -> None:
         """A board sends from its start on."""

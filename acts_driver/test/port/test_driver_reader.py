@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+import serial
 from pty_board import PtyBoard, frame, wait_for
 
 from acts_core.errors import PortError
@@ -124,6 +125,63 @@ def test_an_error_that_nobody_expected_is_told_and_does_not_end_the_reading(
     wait_for(lambda: 2 in collector.sequences(), "frames")
 
 
+class Opens:
+    """A source that opens each time and is lost when it is read, `times` times; then nothing comes."""
+
+    silence = ""
+    name = "a bad cable"
+
+    def __init__(self, times: int) -> None:
+        self.left = times
+
+    def open(self) -> None:
+        pass
+
+    def begin(self) -> None:
+        pass
+
+    def read(self) -> bytes:
+        self.left -= 1
+        if self.left >= 0:
+            raise PortError("port a bad cable was lost")
+        return b""
+
+    def waits(self) -> bool:
+        return False
+
+    def write(self, data: bytes, timeout_s: float) -> None:
+        pass
+
+    def discard(self) -> None:
+        pass
+
+    def close(self) -> None:
+        pass
+
+
+class RecordedWaits(threading.Event):
+    """Keeps how long somebody wanted to wait for it [s], and does not wait."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.times_s: list[float] = []
+
+    def wait(self, timeout: float | None = None) -> bool:
+        self.times_s.append(timeout or 0.0)
+        return super().wait(0.0)
+
+
+def test_a_port_that_opens_and_is_lost_at_once_is_opened_less_and_less_often() -> None:
+    source = Opens(6)
+    reader = Reader(source, StreamDecoder(), lambda frames, arrival_ns: None, reconnect_s=0.05)
+    reader._stop = waits = RecordedWaits()
+    reader.start()
+    wait_for(lambda: source.left < 0, "the last opening")
+    reader.stop()
+    assert [wait_s for wait_s in waits.times_s if wait_s] == [0.02, 0.04, 0.05, 0.05, 0.05, 0.05]
+    assert reader.reconnects == 6
+
+
 def test_unplugged_in_the_middle_of_a_frame_and_plugged_in_again(board: PtyBoard, collector: Collector) -> None:
     collector.open()
     board.write_frames(frame(0))
@@ -214,6 +272,40 @@ def test_a_stopped_reader_has_closed_its_port(board: PtyBoard, collector: Collec
     collector.reader.stop()
     collector.reader.stop()
     open_port(str(board.path), 115200).close()
+
+
+def test_a_command_amid_an_opening_does_not_go_to_the_file_that_has_the_old_ports_number(
+    board: PtyBoard, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    source = SerialSource(str(board.path))
+    source.open()
+    number = source._fd
+    source.close()
+    other = tmp_path / "other"
+    file = os.open(other, os.O_RDWR | os.O_CREAT)
+    if file != number:
+        os.dup2(file, number)
+        os.close(file)
+    opened = serial.Serial(str(board.path), timeout=0)
+
+    class Opening:
+        """The port, while another thread writes."""
+
+        def fileno(self) -> int:
+            with pytest.raises(PortError, match="is not open"):
+                source.write(b"command", 0.0)
+            return int(opened.fileno())
+
+        def close(self) -> None:
+            opened.close()
+
+    monkeypatch.setattr("acts_driver.port.source.open_port", lambda *_: Opening())
+    try:
+        source.open()
+        assert other.read_bytes() == b""
+    finally:
+        source.close()
+        os.close(number)
 
 
 def test_the_terminal_multiplexer_is_no_port(tmp_path: Path) -> None:
