@@ -76,6 +76,7 @@ class ReplaySource:
         self._delay_us = round(delay_s * 1e6)
         self._recording: Recording | None = None
         self._opening: Future[Recording] | None = None
+        self._pass: Iterator[SampleFrame] = iter(())
         self.silence = ""
 
     @property
@@ -101,7 +102,6 @@ class ReplaySource:
             raise RecordingError(f"{self._name} is still being read; try again until it is")
         self._opening = None
         self._recording = opening.result()
-        self._pass: Iterator[SampleFrame] = iter(())
         self._in_pass = 0
         self._zero_us: int | None = None
         self._offset_us = 0
@@ -158,8 +158,9 @@ class ReplaySource:
         raise PortError(f"{self._name} takes no commands")
 
     def close(self) -> None:
-        """Let go of the recording."""
+        """Let go of the recording, and of its file."""
         self._recording = None
+        self._pass = iter(())
 
     def _start_pass(self) -> None:
         assert self._recording is not None

@@ -180,6 +180,20 @@ def test_samples_of_one_taxel_are_replayed(tmp_path: Path) -> None:
     assert {one.scheme for one in found} == {Scheme.FIXED}
 
 
+def test_a_closed_replay_holds_no_file(tmp_path: Path) -> None:
+    path = write_bag(tmp_path / "bag", {"/plate/samples": [(frame(k), START_NS + k * MS) for k in range(3)]})
+    source = ReplaySource("bag", lambda: open_recording(ReplayOptions(path)))
+
+    def held() -> list[str]:
+        links = [link for link in Path("/proc/self/fd").iterdir() if link.is_symlink()]
+        return [str(link.readlink()) for link in links if str(tmp_path) in str(link.readlink())]
+
+    source.open()
+    assert held()
+    source.close()
+    assert held() == []
+
+
 def test_what_is_wrong_with_a_bag_is_told_of_a_source_that_replays_it_all_the_same(tmp_path: Path) -> None:
     path = write_bag(tmp_path / "bag", {"/plate/samples": [(frame(k), START_NS + k * MS) for k in range(3)]})
     source = ReplaySource("bag", lambda: open_recording(ReplayOptions(path)))
