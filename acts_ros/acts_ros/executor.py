@@ -9,6 +9,7 @@ import gc
 import sys
 import threading
 from collections.abc import Callable, Sequence
+from contextlib import ExitStack
 
 import rclpy
 from rclpy.executors import Executor, SingleThreadedExecutor
@@ -97,14 +98,20 @@ def run(
         return 0
     finally:
         gc.enable()
-        for node in reversed(nodes):
-            _call(node, "close")
-            node.destroy_node()
-        executor.shutdown()
-        # Explicit: otherwise shared-memory files of the middleware stay behind.
-        rclpy.try_shutdown()
-        signals.ended()
+        _end(executor, nodes, signals)
     return 0
+
+
+def _end(executor: Executor, nodes: Sequence[Node], signals: StopSignals) -> None:
+    """Close all nodes, the last one first, and what they run on; an error of one leaves out none of the others."""
+    with ExitStack() as ends:
+        ends.callback(signals.ended)
+        # Explicit: otherwise shared-memory files of the middleware stay behind.
+        ends.callback(rclpy.try_shutdown)
+        ends.callback(executor.shutdown)
+        for node in nodes:
+            ends.callback(node.destroy_node)
+            ends.callback(_call, node, "close")
 
 
 def spin_for(executor: Executor, seconds: float) -> None:

@@ -25,8 +25,8 @@ from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.node import Node
 
 class Example(Node):
-    def __init__(self):
-        super().__init__("example")
+    def __init__(self, name="example"):
+        super().__init__(name)
         if "slow" in sys.argv:
             print("starting", flush=True)
             while True:
@@ -53,7 +53,14 @@ class Example(Node):
             self.create_publisher(DiagnosticArray, "told", 10).publish(DiagnosticArray())
         print("closed", flush=True)
 
-sys.exit(run([Example] * (2 if "two" in sys.argv else 1)))
+class Breaking(Example):
+    def __init__(self):
+        super().__init__("breaking")
+
+    def close(self):
+        raise RuntimeError("cannot be closed")
+
+sys.exit(run([Example, Breaking] if "breaking" in sys.argv else [Example] * (2 if "two" in sys.argv else 1)))
 """
 
 
@@ -84,6 +91,18 @@ def test_a_signal_ends_the_node_in_order(number: signal.Signals) -> None:
         output, errors = process.communicate(timeout=60)
     assert (output, errors) == ("closed\n", "")
     assert process.returncode == 0
+
+
+def test_a_node_whose_end_fails_does_not_keep_the_others_from_theirs() -> None:
+    with started("breaking") as process:
+        assert process.stdout is not None
+        for words in ("begun", "begun", "ticking", "ticking"):
+            assert process.stdout.readline() == f"{words}\n"
+        process.send_signal(signal.SIGINT)
+        output, errors = process.communicate(timeout=60)
+    assert output == "closed\n"
+    assert "RuntimeError: cannot be closed" in errors
+    assert process.returncode == 1
 
 
 def test_a_signal_while_a_node_is_made_is_an_orderly_end() -> None:
