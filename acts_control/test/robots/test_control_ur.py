@@ -128,6 +128,17 @@ def test_the_limit_of_the_wrists_is_not_within_that_of_the_tilt() -> None:
         UrConfig(max_wrist_offset_rad=0.1)
 
 
+def test_where_the_level_pose_is_only_nearly_level_the_first_tilt_is_no_step(monkeypatch: pytest.MonkeyPatch) -> None:
+    nearly = tuple(pose(wrist_1=0.013, wrist_2=-0.013))
+    robot = UrRobot(UrConfig(robot_ip=HOST, level_q_rad=nearly))
+    sent: list[list[float]] = []
+    monkeypatch.setattr(robot, "_send", lambda _name, q_rad, *_others: sent.append(q_rad))
+    monkeypatch.setattr(robot, "_newest", lambda: UrState(True, 1.0, nearly, 1, 2))
+    robot.begin_levelling()
+    assert robot.tilt(0.0, 0.0) == pytest.approx(sent[0], abs=1e-9)
+    assert ur5e.tilt_of(sent[0]) == pytest.approx((0.0, 0.0), abs=1e-9)
+
+
 # --- the gate
 
 

@@ -19,6 +19,7 @@ import time
 from collections import deque
 from collections.abc import Callable, Sequence
 from contextlib import suppress
+from dataclasses import replace
 from math import inf, isfinite
 
 from acts_control.robots.base import CommandRefusedError, RobotClaim, RobotReading, RobotStoppedError
@@ -51,6 +52,8 @@ class UrRobot:
     """A UR5e, real or simulated, through `ur_process`. The plate is tilted by wrist 1 and wrist 2."""
 
     def __init__(self, config: UrConfig) -> None:
+        # From here on the level pose is the one that the tilt 0 commands, or the first command would be a step.
+        config = replace(config, level_q_rad=_levelled(config.level_q_rad))
         self._config = config
         self._gate = JointGate(config)
         self._claim: RobotClaim | None = None
@@ -299,6 +302,13 @@ _REFUSALS = {
     "moveJ": "is the robot on and in remote control?",
     "servoJ": "the robot's program is not running",
 }
+
+
+def _levelled(q_rad: Sequence[float]) -> tuple[float, ...]:
+    """A pose that is nearly level, with wrist 1 and wrist 2 turned so that it is exactly level."""
+    levelled = list(q_rad)
+    levelled[ur5e.WRIST_1], levelled[ur5e.WRIST_2] = ur5e.wrist_angles_for_tilt(q_rad, 0.0, 0.0)
+    return tuple(levelled)
 
 
 def _finite(q_rad: Sequence[float]) -> list[float]:
