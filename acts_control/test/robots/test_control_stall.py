@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import os
 import signal
+import socket
 import subprocess
 import sys
 import time
@@ -29,6 +30,7 @@ from acts_control.ball.pid import Reference
 from acts_control.robots import with_robots
 from acts_control.robots.base import RobotReading
 from acts_control.robots.ur import UrRobot
+from acts_control.robots.ur.ur_probe import DASHBOARD_PORT
 from acts_core.robots import ur5e
 from acts_msgs.msg import BalanceStatus
 
@@ -322,6 +324,32 @@ robot.disconnect()
         ours.process.send_signal(signal.SIGCONT)
         wait_for(lambda: ours.process.poll() is not None, "the end of our process")
         assert "the robot has ended its program: this process stood still for " in ours.text()
+
+
+def ask_dashboard(host: str, words: str) -> str:
+    """Do what a person does at the robot's panel; what it answers."""
+    with socket.create_connection((host, DASHBOARD_PORT), timeout=10.0) as connection:
+        lines = connection.makefile("rw")
+        lines.readline()
+        lines.write(words + "\n")
+        lines.flush()
+        return lines.readline().strip()
+
+
+def test_an_arm_does_not_go_on_when_a_protective_stop_on_its_way_is_released_and_its_program_played() -> None:
+    far = (ur5e.LEVEL_Q_RAD[0] + 3.0, *ur5e.LEVEL_Q_RAD[1:])
+    with ExitStack() as stack:
+        simulated = stack.enter_context(SimulatedRobot("127.0.17.18", far))
+        rig = Rig(simulated.host, stack, simulated=simulated, homing_speed_rad_s=0.3)
+        wait_for(lambda: simulated.state()["q_rad"][0] < far[0] - 0.05, "the arm to be on its way")
+        simulated.hook("protective_stop")
+        assert rig.await_phase(Phase.STOPPED) == "robot: protective stop"
+        rig.await_time(1.0)
+        stopped_at = simulated.state()["q_rad"]
+        assert ask_dashboard(simulated.host, "unlock protective stop") == "Protective stop releasing"
+        assert ask_dashboard(simulated.host, "play") == "Starting program"
+        wait_for(lambda: simulated.state()["runtime"] == "STOPPED", "the robot to end its program")
+        assert simulated.state()["q_rad"] == pytest.approx(stopped_at, abs=1e-3)
 
 
 def test_the_node_tells_a_stall_and_answers_during_it(tmp_path: Path) -> None:
