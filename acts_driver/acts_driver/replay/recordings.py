@@ -321,11 +321,18 @@ def _scheme(path: Path, content: dict[str, NDArray[Any]]) -> Scheme:
         return Scheme(SCHEME_NUMBERS[value])
     if isinstance(value, int) and value in list(Scheme):
         return Scheme(value)
-    raise RecordingError(f"{path}: scheme {given}: needed is one of {', '.join(SCHEME_NUMBERS)}, or a number of Scheme")
+    raise RecordingError(
+        f"{path}: scheme {_shown(given)}: needed is one of {', '.join(SCHEME_NUMBERS)}, or a number of Scheme"
+    )
 
 
 def _whole(path: Path, content: dict[str, NDArray[Any]], name: str, default: int, lowest: int, highest: int) -> int:
     given = content.get(name, np.array(default))
     if given.size != 1 or given.dtype.kind not in "iu" or not lowest <= given.item() <= highest:
-        raise RecordingError(f"{path}: {name} = {given}: needed is a whole number from {lowest} to {highest}")
+        raise RecordingError(f"{path}: {name} = {_shown(given)}: needed is a whole number from {lowest} to {highest}")
     return int(given.item())
+
+
+def _shown(given: NDArray[Any]) -> str:
+    """A single value; of others the shape, because a recording has thousands."""
+    return f"{given.item()}" if given.size == 1 else f"an array of shape {given.shape}"

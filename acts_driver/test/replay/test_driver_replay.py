@@ -150,6 +150,8 @@ def test_the_rate_of_full_frames_and_of_sampling_can_be_given(tmp_path: Path) ->
         ({"rows": 65}, "rows = 65"),
         ({"scheme": "morse"}, "scheme morse"),
         ({"scheme": 99}, "scheme 99"),
+        ({"scheme": ["raster", "raster"]}, r"scheme an array of shape \(2,\): needed"),
+        ({"duration_us": np.full(2000, 5)}, r"duration_us = an array of shape \(2000,\): needed is a whole number"),
         ({"sequence": [1]}, "2 whole numbers"),
         ({"stamp_ns": [5, 4]}, "ascending"),
         ({"stamp_ns": None}, "stamp_ns .* or rate_hz"),

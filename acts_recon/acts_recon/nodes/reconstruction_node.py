@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import sys
 import time
-from collections import Counter, deque
+from collections import Counter, defaultdict, deque
 from collections.abc import Sequence
 from statistics import median
 
@@ -47,6 +47,8 @@ from acts_ros.parameters import declare, node_options
 from acts_ros.polled import PolledSubscription
 
 _SUBSCRIBERS_PERIOD_S = 0.2
+# Of each kind, so that one that comes often hides no other.
+_REJECTED_TOLD_HZ = 0.2
 
 
 class ReconstructionNode(Node):
@@ -87,6 +89,7 @@ class ReconstructionNode(Node):
         self._unused = 0
         self._late = LateFrames()
         self._rejected: Counter[str] = Counter()
+        self._rejected_due: defaultdict[str, RateLimit] = defaultdict(lambda: RateLimit(_REJECTED_TOLD_HZ))
         self._durations_s: deque[float] = deque(maxlen=1000)
         self._reported = (time.monotonic(), 0, 0, 0, 0)
 
@@ -158,7 +161,7 @@ class ReconstructionNode(Node):
                 # How long it has waited here: its stamp may be of a recording that is played.
                 frames.append((frame_of(message), stamp_ns_of(message), now_ns - received_ns, message.header.frame_id))
             except PacketError as error:
-                self._reject("bad_stamp", str(error))
+                self._reject("bad_stamp", f"samples dropped: {error}")
         for number, of_frame in enumerate(frames, start=1):
             self._take(*of_frame, is_newest=number == len(frames))
 
@@ -193,10 +196,10 @@ class ReconstructionNode(Node):
                 return
             self._pipeline.step(frame, stamp_ns)
         except ArraySizeError as error:
-            self._reject("wrong_array_size", f"{error} by the parameters rows and cols")
+            self._reject("wrong_array_size", f"samples dropped: {error} by the parameters rows and cols")
             return
         except ArrayError as error:
-            self._reject("bad_frame", str(error))
+            self._reject("bad_frame", f"samples dropped: {error}")
             return
         self._frames += 1
         if is_told:
@@ -229,17 +232,17 @@ class ReconstructionNode(Node):
         try:
             self._pipeline.set_baseline(*baseline_of(message, *self._pipeline.size))
         except ArrayError as error:
-            self._rejected["bad_baseline"] += 1
-            self.get_logger().warning(f"baseline not used: {error}", throttle_duration_sec=5.0)
+            self._reject("bad_baseline", f"baseline not used: {error}")
 
     def _forget(self) -> None:
         """Forget what is kept of all frames: the board of the next one counts from the start again."""
         for part in self._parts:
             part.reset()
 
-    def _reject(self, kind: str, reason: str) -> None:
+    def _reject(self, kind: str, sentence: str) -> None:
         self._rejected[kind] += 1
-        self.get_logger().warning(f"samples dropped: {reason}", throttle_duration_sec=5.0)
+        if self._rejected_due[kind].due(time.monotonic()):
+            self.get_logger().warning(sentence)
 
     def _report(self) -> Report:
         now_s = time.monotonic()

@@ -186,7 +186,9 @@ def test_images_and_contacts_are_those_of_the_layout(make_bench: Callable[..., B
     assert (view.height, view.width) == (128, 32)
 
 
-def test_bad_messages_are_dropped_and_counted_and_nothing_else_is_lost(make_bench: Callable[..., Bench]) -> None:
+def test_bad_messages_are_dropped_and_counted_and_nothing_else_is_lost(
+    make_bench: Callable[..., Bench], capfd: pytest.CaptureFixture[str]
+) -> None:
     bench = make_bench(41)
     indices, counts = sample(bump(ArrayGeometry(), 5, 5), 55)
     out_of_range, too_high, twice = indices.copy(), counts.copy(), indices.copy()
@@ -222,6 +224,10 @@ def test_bad_messages_are_dropped_and_counted_and_nothing_else_is_lost(make_benc
     dropped = [one for one in told if "messages dropped that do not fit" in one.message]
     assert {one.level for one in dropped} == {b"\x01"}
     assert sum(int(one.message.split()[0]) for one in dropped) == 7
+    # The log has each kind, though they came within a moment.
+    log = capfd.readouterr().err
+    assert "samples dropped: 55 indices and 54 counts" in log
+    assert "samples dropped: frame of 16 x 32 taxels, expected are 32 x 32 by the parameters rows and cols" in log
 
 
 def test_frames_lost_are_counted_over_the_wrap_and_not_over_a_restart(make_bench: Callable[..., Bench]) -> None:
