@@ -99,8 +99,14 @@ def check_untouched(name: str, counts: NDArray[np.float32], valid: NDArray[np.bo
     Raises
     ------
     ArrayError
-        For another size, or values beyond those of counts.
+        For another size, what are no arrays of numbers and of bool, or values beyond those of counts.
     """
+    for what, values, kinds in ((name, counts, "fiu"), ("valid", valid, "b")):
+        # Lists come from callers without types.
+        if not isinstance(values, np.ndarray) or values.dtype.kind not in kinds:
+            given = values.dtype if isinstance(values, np.ndarray) else type(values).__name__
+            needed = "bool" if kinds == "b" else "float32"
+            raise ArrayError(f"{what} is {given}: needed is an array of numpy, of {needed}")
     if counts.shape != (size,) or valid.shape != (size,):
         raise ArrayError(f"{name} {counts.shape} and valid {valid.shape}: needed are {size} values of each")
     known = counts[valid]

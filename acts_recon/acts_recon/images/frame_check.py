@@ -19,6 +19,10 @@ LONGEST_PAUSE_S = 0.5
 
 def require_samples(indices: NDArray[np.uint16], counts: NDArray[np.uint16]) -> None:
     """Raise `ArrayError` unless these are two rows of uint16, as long as one another and not empty."""
+    # Lists come from callers without types.
+    if not (isinstance(indices, np.ndarray) and isinstance(counts, np.ndarray)):
+        kinds = f"indices {type(indices).__name__} and counts {type(counts).__name__}"
+        raise ArrayError(f"{kinds}: needed are two arrays of numpy, rows of uint16")
     if indices.dtype != np.uint16 or counts.dtype != np.uint16 or indices.ndim != 1 or counts.ndim != 1:
         raise ArrayError(f"indices {_kind(indices)} and counts {_kind(counts)}: needed are two rows of uint16")
     if indices.size != counts.size or indices.size == 0:

@@ -287,6 +287,7 @@ def test_samples_come_by_matrix_index_and_results_are_the_pictures() -> None:
         (u16(1, 2), u16(0), 0.0, 0.0, "2 indices and 1 counts"),
         (u16(), u16(), 0.0, 0.0, "at least one"),
         (u16(1), np.zeros(1), 0.0, 0.0, "two rows of uint16"),
+        ([1, 2], [3, 4], 0.0, 0.0, "indices list and counts list: needed are two arrays of numpy"),
         (u16(1), u16(0), math.nan, 0.0, "end nan s"),
         (u16(1), u16(0), 0.0, -1.0, "duration -1.0 s"),
     ],

@@ -57,6 +57,13 @@ def test_baselines_that_do_not_fit_are_refused() -> None:
     for wrong in (np.inf, np.nan, -0.1, -1e30, 1023.5, 1e30):
         with pytest.raises(ArrayError, match="not within 0 to 1023 counts"):
             subtraction.set(np.array([0, 0, wrong, 0], dtype=np.float32), np.ones(4, dtype=bool))
+    for counts, valid, words in (
+        ([0.0] * 4, np.ones(4, dtype=bool), "baseline is list: needed is an array of numpy, of float32"),
+        (np.zeros(4, dtype=np.float32), [True] * 4, "valid is list: needed is an array of numpy, of bool"),
+        (np.zeros(4, dtype=np.float32), np.ones(4), "valid is float64: needed is an array of numpy, of bool"),
+    ):
+        with pytest.raises(ArrayError, match=words):
+            subtraction.set(counts, valid)
     assert not subtraction.is_set
 
 
