@@ -125,13 +125,16 @@ class BaselineServices:
         try:
             self._require_frames()
             baseline = self._tracker.calibrate()
-            # In force even where the file cannot be written.
-            self._publish(baseline)
-            path = self._path
+        except ActsError as error:
+            return self._answer(response, False, str(error))
+        # In force even where the file cannot be written.
+        self._publish(baseline)
+        path = self._path
+        try:
             if path is not None:
                 within_patience(lambda: baseline.save(path), SettingsError, f"{path}: storing the baseline")
         except ActsError as error:
-            return self._answer(response, False, str(error))
+            return self._answer(response, False, f"calibrated until the driver ends, but not stored: {error}")
         noise = float(np.median(baseline.noise_counts[baseline.valid]))
         stored = "" if self._path is None else f"; stored in {self._path}"
         return self._answer(

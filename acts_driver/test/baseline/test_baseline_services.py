@@ -249,3 +249,7 @@ def test_a_calibration_that_cannot_be_stored_is_told_and_the_node_goes_on(
     start(rig, stream, tmp_path / "file" / "skin.npz")
     stream.start()
     ask_until(rig, "calibrate", lambda answer: "the baseline cannot be saved" in answer.message, "what is wrong")
+    answer = ask(rig, "calibrate")
+    assert not answer.success
+    assert answer.message.startswith("calibrated until the driver ends, but not stored: ")
+    rig.status_until(lambda status: status.get("baseline") == "calibration", "the report")
