@@ -105,6 +105,8 @@ def parameters_of(words: list[str]) -> dict[str, Any]:
         name, is_given, text = word.partition("=")
         if not is_given or name not in BOARD_PARAMETERS:
             raise SettingsError(f"{word}: needed is NAME=VALUE with one of {', '.join(BOARD_PARAMETERS)}")
+        if name in values:
+            raise SettingsError(f"{word}: {name} is given twice; give it once")
         default = default_of(BoardParameters, name)
         kind: Any = type(default)
         try:

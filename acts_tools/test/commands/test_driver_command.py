@@ -92,6 +92,8 @@ def test_parameters_have_the_types_they_are_declared_with() -> None:
     for word in ("m", "m=many", "port=auto"):
         with pytest.raises(SettingsError, match="needed is"):
             parameters_of([word])
+    with pytest.raises(SettingsError, match="m=60: m is given twice"):
+        parameters_of(["m=55", "scheme=tracking", "m=60"])
 
 
 def test_words_that_are_no_namespace_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
