@@ -71,7 +71,8 @@ def _maximum_filter(state: State, values: NDArray[np.float32], cols: int) -> NDA
             in_row[first] = max(values[first], values[min(first + one, last)])
             for i in range(first + one, last):
                 in_row[i] = max(values[i - one], values[i], values[i + one])
-            in_row[last] = max(values[last], values[max(last - one, first)])
+            # Not `last - one` alone: before the first taxel of all there is none.
+            in_row[last] = max(values[last], values[max(last, first + one) - one])
         for row in range(top, bottom):
             above = np.uint64(0) if row == top else width
             below = np.uint64(0) if row + one == bottom else width

@@ -69,6 +69,12 @@ def test_kernels_equal_the_reference_on_arrays_of_any_shape(shape: tuple[int, in
     compare(FusionEstimator(geometry), frames)
 
 
+def test_kernels_equal_the_reference_where_an_array_of_one_column_is_measured_in_part() -> None:
+    first = np.arange(3, dtype=np.uint16)
+    frames = [((first[: 1 + k % 3], np.full(1 + k % 3, 500 + k, np.uint16)), 0.001 * k, 0.0009) for k in range(9)]
+    compare(FusionEstimator(ArrayGeometry(8, 1)), frames)
+
+
 # The same frames every time: where a decision hangs by the last bit of a float32, kernel and reference part.
 @pytest.mark.parametrize("noise_counts", [0.0, 1.5])
 @given(layouts(9, 13), streams())
