@@ -14,7 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from acts_core.skin import ForceResponse, force_table, layout
+from acts_core.skin import ForceResponse, MeasuredForceResponse, force_table, layout
 from acts_recon.regions import SharpnessConfig
 from acts_recon.regions import sharpness_kernels as kernels
 from acts_recon.regions.sharpness import Sharpness
@@ -109,6 +109,13 @@ def test_at_the_border_and_where_many_taxels_are_pressed_there_is_no_tip() -> No
     assert sharpness().of(np.roll(tip, 4, axis=0))[0] == 0.0
     assert sharpness().of(tip + 60.0)[0] == 0.0
     assert sharpness().of(np.zeros_like(tip))[0] == 0.0
+
+
+def test_where_the_force_response_says_no_force_for_what_is_pressed_there_is_no_tip() -> None:
+    response = MeasuredForceResponse(np.array([0.0, 1.0, 5.0]), np.array([100.0, 300.0, 900.0]))
+    image = np.zeros((8, 8), dtype=np.float32)
+    image[3, 4] = 90.0
+    assert Sharpness((FINGER,), force_table(response), 60.0, NOISE_COUNTS, SharpnessConfig()).of(image) == [0.0]
 
 
 def test_a_line_is_no_tip() -> None:
