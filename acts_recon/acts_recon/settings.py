@@ -60,8 +60,8 @@ class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig, ImpactCo
     )
     noise_counts: float = setting(
         default_of(FusionConfig, "noise_counts"),
-        "standard deviation of a reading about the truth where the topic baseline does not say it [counts]; 0: not "
-        "known, then untouched skin is shown as what it reads in the mean",
+        "noise of a reading, its standard deviation, where the topic baseline does not have it [counts]; 0: not known, "
+        "then untouched skin is shown as what it reads in the mean",
         minimum=0.0,
         maximum=100.0,
     )
@@ -109,7 +109,7 @@ class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig, ImpactCo
     )
     contacts_hysteresis_counts: int = setting(
         default_of(BlobConfig, "hysteresis_counts"),
-        "topic contacts: a pressed taxel ceases to be at so many counts below touch_counts",
+        "topic contacts: a pressed taxel is released at this many counts below touch_counts",
         minimum=0,
         maximum=COUNT_MAX,
     )

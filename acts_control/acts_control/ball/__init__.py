@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Balancing of a ball on a plate that is carried by an arm.
+"""Balancing of a ball on a plate that a robot carries.
 
 In come contacts and references; out come the plate's tilt and, by the loop, the robot's motion. Estimator, controller,
 limits and trajectories know neither ROS nor the robot.

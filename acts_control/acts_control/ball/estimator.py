@@ -72,7 +72,7 @@ class EstimatorConfig:
     )
     partial_sigma_m: float = setting(
         0.2,
-        "standard deviation to add where samples found nearly nothing of the contact, less where they found more [m]",
+        "standard deviation added where samples met next to nothing of the contact; less where they met more [m]",
         minimum=0.0,
         maximum=1.0,
         changeable=Changeable.RUNNING,

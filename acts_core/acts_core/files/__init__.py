@@ -3,7 +3,7 @@
 
 """Files that users name: read with limits, checked, and refused with the reason.
 
-In come paths; out come arrays, text, or sections of YAML with the line of each key. Writing goes by the same classes.
+In come paths; out come arrays, text, or sections of YAML with the line of each key. The same classes write files.
 """
 
 from acts_core.files.frames_file import FramesFile, load_frames, without_contact

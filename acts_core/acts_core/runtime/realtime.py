@@ -60,9 +60,7 @@ class RealtimeConfig:
         minimum=0,
         maximum=99,
     )
-    cpu_affinity: str = setting(
-        "", "cores to run on, as in 0,2-3; a single one is 2, with its comma; empty or none: any"
-    )
+    cpu_affinity: str = setting("", "cores to run on, as in 0,2-3; a single one needs a comma (2,); empty or none: any")
 
     def __post_init__(self) -> None:
         validate(self)

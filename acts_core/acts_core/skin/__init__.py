@@ -3,8 +3,8 @@
 
 """The skin: where its taxels lie, and the force response of a taxel.
 
-In come layout files and measured force responses; out come `Layout`, `SkinPatch` and `ForceResponse`, of which all
-other packages learn where a taxel lies and what it reads. `RegionContact` is what a patch of a skin feels,
+In come layout files and measured force responses; out come `Layout`, `SkinPatch` and `ForceResponse`, which tell all
+other packages where a taxel lies and what it reads. `RegionContact` is what a patch of a skin feels,
 `TrackedBlob` a contact that is followed from image to image.
 """
 

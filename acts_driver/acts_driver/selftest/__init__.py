@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Does a board and its skin work? Judged from its frames: untouched, and while a hand is rolled over the skin."""
+"""Whether a board and its skin work: judged from frames of the untouched skin, and of a hand that rolls over it."""
 
 from acts_driver.selftest.findings import Finding, Level, Thresholds, listed
 from acts_driver.selftest.record import FrameRecord

@@ -23,7 +23,7 @@ class BlobConfig:
 
     touch_counts: int = setting(60, "counts above which a taxel becomes pressed", minimum=0, maximum=COUNT_MAX)
     hysteresis_counts: int = setting(
-        10, "a pressed taxel ceases to be at so many counts less; never below 0", minimum=0, maximum=COUNT_MAX
+        10, "a pressed taxel is released at this many counts less; never below 0", minimum=0, maximum=COUNT_MAX
     )
     noise_counts: float = setting(
         NOISE_COUNTS,

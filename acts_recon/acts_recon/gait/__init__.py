@@ -3,8 +3,8 @@
 
 """Gait from insoles: steps, cadence, path of the centre of pressure, left against right.
 
-In come force and centre of pressure of each foot over time, in any unit of force; out come steps, and what a walk is
-like.
+In come force and centre of pressure of each foot over time, in any unit of force; out come steps, and a summary of the
+walk.
 """
 
 from acts_recon.gait.config import GaitConfig

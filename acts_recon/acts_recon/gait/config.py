@@ -36,10 +36,10 @@ class GaitConfig:
         10.0, "longer from strike to strike is a pause, not a stride [s]", minimum=0.5, maximum=60.0
     )
     learning_s: float = setting(
-        30.0, "the forces under the lifted and the loaded foot are those of the last [s]", minimum=5.0, maximum=600.0
+        30.0, "how long the forces under the lifted and the loaded foot are remembered [s]", minimum=5.0, maximum=600.0
     )
     summary_s: float = setting(
-        30.0, "cadence and the like are of the steps of the last [s]", minimum=2.0, maximum=3600.0
+        30.0, "time over which cadence and the like are computed [s]", minimum=2.0, maximum=3600.0
     )
 
     def __post_init__(self) -> None:

@@ -3,7 +3,7 @@
 
 """The methods of recovery that the node and `acts evaluate` offer: a method is a module here and a line in `registry`.
 
-In come the samples of frame after frame; out come images, how sure they are where the method knows, and the contact.
+In come the samples of frame after frame; out come images, their uncertainty if the method has one, and the contact.
 """
 
 from acts_recon.methods.fusion import Fusion

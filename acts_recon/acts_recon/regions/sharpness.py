@@ -38,7 +38,7 @@ class SharpnessConfig:
     )
     sharpness_foam_n_per_m3: float = setting(
         2.5e7,
-        "pressure of the foam over the taxels at a depth [N/m^3]; if in doubt rather more: then less is sharp",
+        "pressure of the foam over the taxels per depth [N/m^3]; if in doubt take more: then less is sharp",
         minimum=1e5,
         maximum=1e10,
     )
@@ -46,7 +46,7 @@ class SharpnessConfig:
         0.001, "standard deviation of how the foam spreads pressure sideways [m]", minimum=1e-5, maximum=0.02
     )
     sharpness_gain_error: float = setting(
-        0.1, "how much taxels differ in what they make of a force, relative to it", minimum=0.01, maximum=1.0
+        0.1, "how much the sensitivities of taxels differ, relative to their mean", minimum=0.01, maximum=1.0
     )
 
     def __post_init__(self) -> None:

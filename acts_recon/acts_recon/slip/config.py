@@ -40,8 +40,8 @@ class SlipConfig:
     )
     slip_cut_taxels: float = setting(
         2.0,
-        "a contact that the border of the patch cuts must move by so many taxels, times the logarithm of that factor, "
-        "times how hard the border is pressed relative to the peak",
+        "a contact that the border of the patch cuts must move by this many taxels, times the logarithm of the factor "
+        "by which the force has changed, times the pressure along the border relative to the peak",
         minimum=0.0,
         maximum=100.0,
     )
@@ -50,7 +50,7 @@ class SlipConfig:
     )
     slip_max_lag_s: float = setting(
         0.015,
-        "taxels measured at different times are brought to a moment at most so long ago [s]",
+        "taxels measured at different times are interpolated to one moment, at most this long ago [s]",
         minimum=0.0,
         maximum=1.0,
     )

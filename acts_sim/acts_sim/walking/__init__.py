@@ -3,7 +3,7 @@
 
 """Somebody who walks on two insoles.
 
-In come cadence, weight and how long is stood; out come the frames of both insoles at any times, and the true steps.
+In come cadence, weight and the time of standing; out come the frames of both insoles at any times, and the true steps.
 """
 
 from acts_sim.walking.walk import Footfall, Walk, Walking, walk

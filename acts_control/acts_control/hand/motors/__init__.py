@@ -1,10 +1,10 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The motors of a hand, behind what the hand's loop knows of them.
+"""The motors of a hand, behind the one interface that the hand's loop uses.
 
-In come goals of joints; out come their angles and currents. `HandBus` is the interface, `DynamixelHand` that of the
-LEAP hand; a make of motors is a module here and a line in `registry`.
+In come goals of joints; out come their angles and currents. `HandBus` is the interface, `DynamixelHand` implements it
+for the LEAP hand; a make of motors is a module here and a line in `registry`.
 """
 
 from acts_control.hand.motors.bus import BusConfig, HandBus, HandError, HandLostError, HandReading

@@ -3,7 +3,7 @@
 
 """The UR5e: the only place that knows its joints, their limits, its controller's registers, and `ur_rtde`.
 
-In come tilts of the plate; out come joint angles for the controller, and its state in the words of every robot.
+In come tilts of the plate; out come joint angles for the controller, and the robot's state as a `RobotReading`.
 """
 
 from acts_control.robots.ur.config import UrConfig
