@@ -31,7 +31,7 @@ COMMANDS = {
     "train": ("acts_tools.train", "train a dictionary for the reconstruction"),
     "library": ("acts_tools.library", "write a library of known objects for the classification"),
     "bench": ("acts_tools.bench.command", "measure throughput, CPU and latency"),
-    "evaluate": ("acts_tools.evaluate.command", "score the recovery of images on recordings"),
+    "evaluate": ("acts_tools.evaluate.command", "score what is made of touch, recorded or simulated"),
     "figures": ("acts_tools.figures.command", "draw the paper's figures beside ours"),
     "demo": ("acts_tools.demo.command", "run a demonstration with everything simulated"),
 }

@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Write a bag such that a crash loses only the last second."""
+"""Write a bag such that a crash loses only what came since the last `flush`."""
 
 from __future__ import annotations
 

@@ -30,7 +30,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "record",
         help="record topics to a bag",
         description="Record topics to an MCAP bag that `acts play`, `ros2 bag`, Foxglove and rosbags read. "
-        "Topics may appear later. Ctrl-C ends it; if it is killed, only the last second is lost.",
+        "Topics may appear later. Ctrl-C ends it; if it is killed, only the last quarter of a second is lost.",
     )
     parser.add_argument("topics", nargs="*", help="topics, such as /plate/contact")
     parser.add_argument("-a", "--all", action="store_true", help="all topics that are not hidden")

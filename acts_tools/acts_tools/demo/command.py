@@ -18,7 +18,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     ball = demos.add_parser(
         "ball_balancing",
         help="a UR5e balances a ball by touch and traces N, B and I",
-        description="Ball balancing by touch with simulated skin, ball and UR5e. The exit code is 0 if it worked.",
+        description="Ball balancing by touch with simulated skin, ball and UR5e. The exit code is 0 if the trajectory "
+        "came to its end within the limits that the result shows.",
     )
     ball.add_argument("--seconds", type=float, help="shorten it: trace only what fits into this time (default: all)")
     ball.add_argument("--out", type=Path, default=Path("out"), help="folder for the results (default: out)")
@@ -32,8 +33,9 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     hand = demos.add_parser(
         "hand",
         help="a LEAP hand holds, balances, avoids and shakes hands by touch",
-        description="The reflexes of a simulated LEAP hand, with a new hand for each act. The exit code is 0 if it "
-        "worked.",
+        description="The reflexes of a simulated LEAP hand, with a new hand for each act. The exit code is 0 if the "
+        "result is good, that is, every act met all that is asked of it, and 1 if it only works "
+        "(docs/hand_demo.md).",
     )
     hand.add_argument("acts", nargs="*", metavar="ACT", help="acts to play: sphere, slip, sharp, hand_to_hand (all)")
     hand.add_argument("--out", type=Path, default=Path("out"), help="folder for the results (default: out)")

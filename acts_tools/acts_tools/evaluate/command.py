@@ -24,9 +24,10 @@ def add_parser(subparsers: Any) -> None:
     """Add ``acts evaluate`` to the acts command."""
     parser = subparsers.add_parser(
         "evaluate",
-        help="score the recovery of images on recordings",
-        description="Sample recorded or simulated touch like the board, recover every frame, and compare with the "
-        "truth. docs/recovery.md explains the numbers.",
+        help="score what is made of touch, recorded or simulated",
+        description="Sample recorded or simulated touch like the board, and score images, objects, slip, impacts, "
+        "outlines, spectra, gait or reflexes. docs/recovery.md explains the numbers of images and objects; the others "
+        "have pages of their own.",
     )
     commands = parser.add_subparsers(title="what to evaluate", metavar="WHAT", required=True)
     for module in (

@@ -133,7 +133,7 @@ def watch(arguments: list[str], duration_s: float, recording: Recording, log_pat
 
 
 def run(seconds: float | None, out: Path, robot_ip: str, realtime_priority: int = 0) -> int:
-    """Run the demo and return the exit code, 0 if it worked.
+    """Run the demo and return the exit code, 0 if the trajectory came to its end within the limits.
 
     Parameters
     ----------

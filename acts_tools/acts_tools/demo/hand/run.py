@@ -32,7 +32,7 @@ TITLES = {
 
 
 def run(names: list[str], out: Path, seed: int) -> int:
-    """Run the demo and return the exit code, 0 if it worked.
+    """Run the demo and return the exit code, 0 if every act met all that is asked of it.
 
     Parameters
     ----------
