@@ -17,7 +17,7 @@ setup(
     install_requires=["numba", "numpy", "pyyaml"],
     extras_require={"test": ["pytest"]},
     zip_safe=False,
-    description="The vocabulary of ACTS, free of ROS: geometry, sampling schemes, force response, settings, errors.",
+    description="What all packages share, without ROS: geometry, sampling, force response, wire protocols, errors.",
     license="Apache-2.0",
     entry_points={"console_scripts": []},
 )

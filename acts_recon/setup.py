@@ -17,7 +17,7 @@ setup(
     install_requires=["acts_core", "numba", "numpy", "scipy"],
     extras_require={"test": ["pytest"]},
     zip_safe=False,
-    description="Sparse recovery of full tactile images, and the contact in them.",
+    description="Tactile images from few samples, and contacts, slip, impacts, outlines, spectra, gait and objects.",
     license="Apache-2.0",
     entry_points={
         "console_scripts": [f"{name} = acts_recon.programs:{name}" for name in ("gait", "reconstruction")],

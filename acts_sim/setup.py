@@ -17,7 +17,7 @@ setup(
     install_requires=["setuptools"],
     extras_require={"test": ["pytest"]},
     zip_safe=False,
-    description="The simulated world: contacts, a ball on a plate, a UR5e, a LEAP hand, speaking the real protocols.",
+    description="The simulated world: what presses a skin, a ball on a plate, a UR5e, a LEAP hand; by real protocols.",
     license="Apache-2.0",
     entry_points={
         "console_scripts": [

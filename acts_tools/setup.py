@@ -19,7 +19,7 @@ setup(
     install_requires=["setuptools"],
     extras_require={"test": ["pytest"]},
     zip_safe=False,
-    description="The acts command: launch, record, play, train, demo, bench.",
+    description="The acts command: launch, view, record, export, selftest, train, evaluate, bench, demo and more.",
     license="Apache-2.0",
     entry_points={"console_scripts": ["acts = acts_tools.__main__:run"]},
 )
