@@ -17,6 +17,7 @@ from acts_core.errors import SettingsError
 from acts_core.skin.force_file import read_force_points
 
 _SMALLEST_COUNTS = 1e-9
+_SMALLEST_N = 1e-9
 
 
 @dataclass(frozen=True)
@@ -130,7 +131,8 @@ def force_table(response: Response) -> NDArray[np.float64]:
     -------
     np.ndarray [shape=(COUNT_MAX + 2,), dtype=float64]
         Newtons at 0 to `COUNT_MAX` counts; at 0 the limit from above. The last value stands twice, so that there is a
-        next entry for every count.
+        next entry for every count. All are above 0, since centres are means weighted by force: a measured response may
+        say 0 N up to any number of counts.
     """
     counts = np.minimum(np.arange(COUNT_MAX + 2, dtype=np.float64), float(COUNT_MAX))
-    return response.force_n(np.maximum(counts, _SMALLEST_COUNTS))
+    return np.maximum(response.force_n(np.maximum(counts, _SMALLEST_COUNTS)), _SMALLEST_N)

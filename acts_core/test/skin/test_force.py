@@ -80,6 +80,14 @@ def test_a_measured_response_is_read_and_interpolated(tmp_path: Path, suffix: st
     assert (table[0], table[-1]) == (pytest.approx(0.01), table[-2])
 
 
+def test_no_force_of_the_table_is_0_where_a_measured_response_begins_with_counts() -> None:
+    response = MeasuredForceResponse(np.array([0.0, 1.0, 5.0]), np.array([100.0, 300.0, 900.0]))
+    assert response.force_n(80.0) == 0.0
+    table = force_table(response)
+    assert table.min() > 0.0
+    assert table[101:-1] == pytest.approx(response.force_n(np.arange(101, 1024)))
+
+
 def test_the_table_of_the_default_is_the_default() -> None:
     counts = np.arange(1, 1000, 0.5)
     table = force_table(ForceResponse())

@@ -33,6 +33,8 @@ _STEPS = 30
 _POWER = 1.5
 _VOLUME = math.pi * 2.0 ** (1.0 / _POWER) * math.gamma(1.0 + 1.0 / _POWER)
 _LEAST_TAXELS = 8
+# Less than a few measurements take. At the time of today nodes would fall together that are not a microsecond apart.
+_LEAST_S = 2e-5
 _LEAST_NODES, _MOST_NODES = 5, 24
 # How far amplitude and width go from node to node, as natural logarithms.
 _AMPLITUDE_STEP, _WIDTH_STEP = 1.5, 0.4
@@ -159,7 +161,7 @@ def fit_footprint(
     if min(np.ptp(x_m), np.ptp(y_m)) <= 0:
         return None
     pressed = force_n > 0
-    if np.unique(taxel[pressed]).size < _LEAST_TAXELS or np.ptp(time_s[pressed]) <= 0:
+    if np.unique(taxel[pressed]).size < _LEAST_TAXELS or np.ptp(time_s[pressed]) < _LEAST_S:
         return None
     sd_n = np.hypot(np.hypot(noise_n, _SPREAD * force_n), _MISFIT * float(force_n.max()))
     nodes = min(max(frames, _LEAST_NODES), _MOST_NODES)

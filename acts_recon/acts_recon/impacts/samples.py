@@ -24,6 +24,7 @@ _AROUND_TAXELS = 2.5
 # A sample of more than this many standard deviations of the noise is no noise. With 3, noise began 2 of 200 touches,
 # 15 ms early.
 _NOISES = 4.0
+_LEAST_SLOPE_N = 1e-7  # a count, where a measured response is flat
 # Share of its largest force in the first sample of a taxel that was measured early.
 _EARLY = 0.4
 # Until this share of the largest force, a touch rises.
@@ -149,7 +150,7 @@ class RecentSamples:
         return Rise(
             time_s[begin:risen],
             self._force(counts[begin:risen]),
-            self._noise_counts * self._slope_n[whole],
+            self._noise_counts * np.maximum(self._slope_n[whole], _LEAST_SLOPE_N),
             time_s[:begin],
             float(self._force(np.array([least]))[0]),
             float(share.sum()) * geometry.taxel_area_m2,

@@ -14,12 +14,18 @@ from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
 from acts_core.sampling import Sampler, SamplingConfig
+from acts_core.skin import MeasuredForceResponse
 from acts_recon.impacts import UNKNOWN_DIRECTION_SD_RAD, Impact, ImpactDetector, Kind
+from acts_recon.impacts.footprint_fit import fit_footprint
+from acts_recon.impacts.onset_fit import follow_back
+from acts_recon.impacts.samples import RecentSamples
 from acts_recon.settings import ReconstructionSettings
 
 Array = NDArray[np.float64]
 
 SAMPLE_S = 18e-6
+# A taxel that reads 100 counts before it is pressed.
+FLAT = MeasuredForceResponse(np.array([0.0, 1.0, 5.0]), np.array([100.0, 300.0, 900.0]))
 
 
 def bump(rows: int, cols: int, row: float, col: float, width: float) -> Array:
@@ -151,6 +157,42 @@ def test_a_long_touch_in_images_alone_is_told() -> None:
     assert [(one.is_over, one.kind) for one in told] == [(False, Kind.UNKNOWN), (True, Kind.TAP)]
     assert told[1].onset_s == pytest.approx(100.050, abs=0.0015)
     assert told[1].duration_s == pytest.approx(0.150, abs=0.003)
+
+
+def test_a_touch_of_which_the_force_response_says_no_force_is_told() -> None:
+    detector = ImpactDetector(ArrayGeometry(), FLAT)
+    told: list[Impact] = []
+    for number in range(300):
+        image = np.zeros((32, 32), dtype=np.float32)
+        if 50 <= number < 200:
+            image[10:14, 10:14] = 90
+        told += detector.step(100.0 + number * 1e-3, 1e-3, image)
+    assert [(one.is_over, one.kind) for one in told] == [(False, Kind.UNKNOWN), (True, Kind.TAP)]
+    assert told[1].x_m == pytest.approx(ArrayGeometry().x_m(11.5))
+
+
+def test_a_touch_is_followed_back_where_a_force_response_is_flat() -> None:
+    samples = RecentSamples(ArrayGeometry(8, 8), FLAT, 60.0, 1.5, 1.0)
+    measured, age_s = np.zeros((8, 8), dtype=np.float32), np.full((8, 8), np.inf, dtype=np.float32)
+    age_s[4, 4] = 0.0
+    # One of them fell out.
+    for number, counts in enumerate([0, 0, 40, 70, 120, 0, 250, 350, 450, 550, 600, 600]):
+        measured[4, 4] = counts
+        samples.add(100.0 + 0.01 * number, 1e-3, measured, age_s)
+    x_m, y_m = (float(at(4)) for at in (ArrayGeometry(8, 8).x_m, ArrayGeometry(8, 8).y_m))
+    rise = samples.rise(100.0, 100.2, x_m, y_m, measured, 0.001)
+    assert rise is not None
+    followed = follow_back(rise)
+    assert followed is not None
+    assert np.isfinite(followed).all()
+
+
+def test_samples_of_one_moment_tell_no_footprint() -> None:
+    rows, cols = np.indices((4, 4)).reshape(2, 16)
+    # As near each other as two numbers can be at the time of today.
+    time_s = 1.7e9 + np.arange(16) % 2 * np.spacing(1.7e9)
+    places = 0.005 * cols, 0.005 * rows
+    assert fit_footprint(time_s, *places, np.ones(16), np.full(16, 0.1), np.arange(16), 2, 2.5e-5) is None
 
 
 @pytest.mark.parametrize(
