@@ -52,10 +52,11 @@ class SpectraPublisher(TopicPublisher):
         if self._work is not None:
             if not self._work.done():
                 return
-            found = self._work.result()
+            # Taken before it is looked at: one that failed does so once.
+            work, self._work = self._work, None
+            found = work.result()
             for contact, spectrum in enumerate(found):
                 self._publisher.publish(_message(self._header, self._sequence, contact, len(found), spectrum))
-            self._work = None
         window = self._analyser.window() if self._limit.due(time.monotonic()) else ()
         if window:
             self._header = Header(frame_id=frame.header.frame_id)

@@ -4,6 +4,7 @@
 """Topic spectra over real DDS; ROS_DOMAIN_ID 20."""
 
 from collections.abc import Callable
+from concurrent.futures import Future
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ from recon_samples import bump
 from acts_core.array import ArrayGeometry
 from acts_core.skin import ForceResponse
 from acts_msgs.msg import Spectrum
+from acts_recon import spectra as analysed
 from acts_recon.nodes.spectra_publisher import SpectraPublisher
 from acts_ros import qos
 
@@ -54,6 +56,21 @@ def test_the_node_tells_how_a_contact_vibrates_while_somebody_listens(make_bench
     assert first.peak_amplitude[0] == pytest.approx(0.1 * first.force, rel=0.05)
     assert 0 < first.peak_amplitude_sigma[0] < first.peak_amplitude[0]
     assert np.argmax(first.amplitude) * first.step == pytest.approx(90, abs=2)
+
+
+def test_a_spectrum_that_cannot_be_made_is_told_once_and_the_next_is_made(make_bench: Callable[..., Bench]) -> None:
+    bench = make_bench(20, spectra_window_s=0.2, spectra_rate_hz=0.0)
+    spectra = publisher_of(bench.node, SpectraPublisher)
+    bench.listen(Spectrum, "spectra", qos.STREAM)
+    bench.until(lambda: spectra.is_wanted)
+    bench.take(0, counts_of(0))
+    failed: Future[tuple[analysed.Spectrum, ...]] = Future()
+    failed.set_exception(MemoryError("no room"))
+    spectra._work = failed
+    with pytest.raises(MemoryError, match="no room"):
+        bench.take(1, counts_of(1))
+    bench.take(2, counts_of(2))
+    assert spectra._work is not failed
 
 
 def test_without_the_parameter_there_is_no_topic(make_bench: Callable[..., Bench]) -> None:
