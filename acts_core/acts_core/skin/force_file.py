@@ -55,7 +55,9 @@ def read_force_points(path: Path) -> tuple[NDArray[np.float64], NDArray[np.float
 
 
 def _from_csv(path: Path) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    lines = read_text(path, error=SettingsError, hint="give an existing file").splitlines(keepends=True)
+    # Spreadsheets begin what they save as UTF-8 with a mark of it.
+    content = read_text(path, error=SettingsError, hint="give an existing file").removeprefix("\ufeff")
+    lines = content.splitlines(keepends=True)
     rows = list(csv.DictReader((line for line in lines if not line.startswith("#")), skipinitialspace=True))
     values: list[list[float]] = [[], []]
     for number, row in enumerate(rows, start=1):

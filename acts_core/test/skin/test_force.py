@@ -80,6 +80,12 @@ def test_a_measured_response_is_read_and_interpolated(tmp_path: Path, suffix: st
     assert (table[0], table[-1]) == (pytest.approx(0.01), table[-2])
 
 
+def test_a_table_that_a_spreadsheet_has_saved_is_read(tmp_path: Path) -> None:
+    path = tmp_path / "response.csv"
+    path.write_bytes(b"\xef\xbb\xbfnewtons,counts\r\n0.1,0\r\n1,300\r\n")
+    assert MeasuredForceResponse.from_file(path).force_n(300.0) == pytest.approx(1.0)
+
+
 def test_no_force_of_the_table_is_0_where_a_measured_response_begins_with_counts() -> None:
     response = MeasuredForceResponse(np.array([0.0, 1.0, 5.0]), np.array([100.0, 300.0, 900.0]))
     assert response.force_n(80.0) == 0.0
