@@ -32,6 +32,14 @@ _AGAIN_S = 0.05
 """After an interruption was lost in a library, it is tried again this much later [s]."""
 
 
+def signal_name(number: int) -> str:
+    """Name of a signal for people; most of the real-time signals have none."""
+    try:
+        return signal.Signals(number).name
+    except ValueError:
+        return f"signal {number}"
+
+
 class StopSignals:
     """Takes the stop signals of this process, from its making on. For the main thread.
 

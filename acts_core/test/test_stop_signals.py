@@ -12,6 +12,8 @@ from contextlib import contextmanager
 
 import pytest
 
+from acts_core.stop_signals import signal_name
+
 DEADLINE_S = 60.0
 
 HEAD = """
@@ -147,3 +149,8 @@ def test_what_does_not_end_is_ended_and_tells_where_it_hangs() -> None:
         errors = process.stderr.read()
     assert "Timeout" in errors
     assert "most recent call first" in errors
+
+
+def test_a_signal_without_a_name_has_a_number() -> None:
+    assert signal_name(signal.SIGKILL) == "SIGKILL"
+    assert signal_name(40) == "signal 40"

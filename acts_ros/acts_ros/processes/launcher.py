@@ -22,6 +22,7 @@ from pathlib import Path
 from typing import IO
 
 from acts_core.errors import REFUSED_EXIT_CODE
+from acts_core.stop_signals import signal_name
 from acts_ros.executables.refused import LAUNCHER_VARIABLE
 from acts_ros.processes.console import Console
 from acts_ros.processes.process import Process
@@ -365,14 +366,7 @@ def _escalation(label: str, timeout_s: float, sent: str, next_signal: str) -> st
 
 
 def _describe_code(code: int) -> str:
-    if code >= 0:
-        return f"exit code {code}"
-    try:
-        name = signal.Signals(-code).name
-    except ValueError:
-        # As most of the real-time signals.
-        name = f"signal {-code}"
-    return f"exit code {code} ({name})"
+    return f"exit code {code}" if code >= 0 else f"exit code {code} ({signal_name(-code)})"
 
 
 def leave_with_parent(parent_pid: int) -> Callable[[], None]:

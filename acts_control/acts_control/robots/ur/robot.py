@@ -11,7 +11,6 @@ and that for a stated time. That ``servoJ`` returns True says nothing about the 
 from __future__ import annotations
 
 import json
-import signal
 import socket
 import subprocess
 import sys
@@ -29,6 +28,7 @@ from acts_control.robots.ur.state import UrState
 from acts_control.robots.ur.ur_probe import probe
 from acts_core.errors import ArrayError, RobotError
 from acts_core.robots import ur5e
+from acts_core.stop_signals import signal_name
 
 # The library itself waits for up to 5 s for its program to start.
 _CONNECT_TIMEOUT_S = 10.0
@@ -292,7 +292,7 @@ class UrRobot:
             code = self._process.wait(_KILL_TIMEOUT_S)
         except subprocess.TimeoutExpired:
             return "the connection is lost: its process does not answer any more"
-        how = signal.Signals(-code).name if code < 0 else f"exit code {code}"
+        how = signal_name(-code) if code < 0 else f"exit code {code}"
         return f"the connection is lost: its process has ended ({how}); what ur_rtde said is above"
 
 
