@@ -134,7 +134,11 @@ def test_whatever_touch_says_the_goals_stay_within_limits_and_rate_and_the_hand_
     ("link", "told"),
     [
         ("elbow", "region 'index_distal' is said to be on link 'elbow'; the hand has palm_lower, "),
-        ("palm_lower", "on link 'palm_lower'; in the description of the hand it is on 'index_distal'"),
+        (
+            "palm_lower",
+            "region 'index_distal' is said to be on link 'palm_lower'; "
+            "in the description of the hand it is on 'index_distal'",
+        ),
     ],
 )
 def test_a_region_on_a_link_that_does_not_carry_it_is_refused_in_words(link: str, told: str) -> None:
@@ -145,7 +149,7 @@ def test_a_region_on_a_link_that_does_not_carry_it_is_refused_in_words(link: str
     hand.step(wrong, steps=3)
     status = hand.supervisor.status
     assert status.refused == 3
-    assert told in status.refusal
+    assert status.refusal.startswith(told)
     check_that_it_holds_again(hand)
 
 
