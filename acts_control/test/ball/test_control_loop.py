@@ -9,82 +9,18 @@ import time
 from collections.abc import Callable, Iterator
 
 import pytest
+from arm_in_process import DEADLINE_S, ArmInProcess, wait_for
 
 from acts_control.ball import Ball, BallReport, ControlLoop, LoopConfig, Phase, Reference, ReferenceReport
 from acts_control.ball.controller import BallController
-from acts_control.robots.base import CommandRefusedError, RobotReading, RobotStoppedError
+from acts_control.robots.base import CommandRefusedError, RobotStoppedError
 from acts_core.errors import RobotError
 
 pytestmark = pytest.mark.slow
 
-DEADLINE_S = 20.0
 ORDERLY_END = ["end_tilting", "release", "disconnect"]
 
-
-class ArmInProcess:
-    """A plate on two joints that follows at once; notes the calls; can be made to fail."""
-
-    address = "in this process"
-
-    def __init__(self) -> None:
-        self.q = (0.1, 0.0)
-        self.calls: list[str] = []
-        self.commands: list[tuple[float, float]] = []
-        self.connect_errors: list[RobotError] = []
-        self.connected = True
-        self.stopped = ""
-        self.frozen = False
-        self.moves = True
-        self.refuses: Callable[[], None] | None = None
-        # What is asked of it never gets done while set.
-        self.is_busy = False
-        self._time = itertools.count()
-        self._timestamp = 0.0
-
-    def connect(self, is_wanted: Callable[[], bool]) -> None:
-        self.calls.append("connect")
-        if self.connect_errors:
-            raise self.connect_errors.pop(0)
-
-    def read(self) -> RobotReading:
-        if not self.frozen:
-            self._timestamp = 0.002 * next(self._time)
-        return RobotReading(self.connected, self._timestamp, self.q, max(map(abs, self.q)), self.q, self.stopped)
-
-    def begin_levelling(self) -> float:
-        self.calls.append("begin_levelling")
-        if self.moves:
-            self.q = (0.0, 0.0)
-        return DEADLINE_S
-
-    def end_levelling(self) -> None:
-        self.calls.append("end_levelling")
-
-    def tilt(self, tilt_x_rad: float, tilt_y_rad: float) -> tuple[float, ...]:
-        if self.refuses:
-            self.refuses()
-        self.q = (tilt_x_rad, tilt_y_rad)
-        self.commands.append(self.q)
-        return self.q
-
-    def end_tilting(self) -> None:
-        self.calls.append("end_tilting")
-
-    def release(self) -> None:
-        self.calls.append("release")
-
-    def disconnect(self) -> None:
-        self.calls.append("disconnect")
-
-
 Make = Callable[..., ControlLoop]
-
-
-def wait_for(condition: Callable[[], bool], what: str) -> None:
-    deadline = time.monotonic() + DEADLINE_S
-    while not condition():
-        assert time.monotonic() < deadline, f"waited in vain for: {what}"
-        time.sleep(0.002)
 
 
 @pytest.fixture

@@ -8,55 +8,19 @@ from __future__ import annotations
 import math
 import threading
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import pairwise
-from typing import Any
 
 import pytest
 from dynamixel_bus import DEADLINE_S, Bus, leave_at, torques
+from hand_loop_rig import Running
 
-from acts_control.hand.control import Behaviour, HandLoop, HandLoopConfig, HandPhase
-from acts_control.hand.description import LEAP_RIGHT, HandDescription
+from acts_control.hand.control import HandPhase
+from acts_control.hand.description import LEAP_RIGHT
 from acts_control.hand.motors import DynamixelHand, HandError, HandReading
 
 pytestmark = pytest.mark.slow
-
-
-class Running:
-    """A loop on the bus, and what it has logged."""
-
-    def __init__(
-        self,
-        bus: Bus,
-        motor_watchdog_s: float = 0.0,
-        behaviour: Behaviour | None = None,
-        hand: HandDescription = LEAP_RIGHT,
-        **settings: Any,
-    ) -> None:
-        self.log: list[tuple[str, str]] = []
-        self.may_go_on = threading.Event()
-        self.may_go_on.set()
-        self.is_held = threading.Event()
-        # The motors' own watchdog is off: a loaded machine holds a loop up for longer.
-        motors = bus.hand_at(bus.link, hand, motor_watchdog_s=motor_watchdog_s)
-        config = HandLoopConfig(**{"silence_s": 2.0, "connect_retry_s": 0.05, **settings})
-        self.loop = HandLoop(hand, motors, config, lambda *told: self.log.append(told), self._on_reading, behaviour)
-        self.loop.launch()
-
-    def _on_reading(self, _reading: HandReading) -> None:
-        if not self.may_go_on.is_set():
-            self.is_held.set()
-        assert self.may_go_on.wait(DEADLINE_S)
-
-    def until(self, condition: Callable[[], bool]) -> None:
-        end_s = time.monotonic() + DEADLINE_S
-        while not condition():
-            assert time.monotonic() < end_s, (self.loop.status, self.log)
-            time.sleep(0.005)
-
-    def until_phase(self, phase: HandPhase) -> None:
-        self.until(lambda: self.loop.status.phase is phase)
 
 
 @pytest.fixture

@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Settings of a hand's nodes that do not go together."""
+"""Settings of a hand's nodes that do not go together, and names of reflexes."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ import pytest
 from acts_control.hand.control import HandLoopConfig
 from acts_control.hand.nodes.hand_node import HandSettings
 from acts_control.hand.nodes.reflexes_node import HandReflexesSettings
+from acts_control.hand.reflexes import make_reflexes
 from acts_core.errors import SettingsError
 
 BOTH_NODES = pytest.mark.parametrize("settings", [HandSettings, HandReflexesSettings])
@@ -60,3 +61,15 @@ def test_silence_that_begins_with_a_single_lost_answer_is_refused(settings: type
     ):
         settings(rate_hz=10.0, silence_s=0.15)
     assert settings(rate_hz=13.34, silence_s=0.15).silence_s == 0.15
+
+
+def test_a_reflex_that_does_not_exist_is_refused_with_the_nearest_name() -> None:
+    with pytest.raises(SettingsError, match="did you mean 'sphere'"):
+        make_reflexes("slip sphre", None)
+
+
+@pytest.mark.parametrize("names", ["none", " none ", ""])
+def test_none_is_no_reflex(names: str) -> None:
+    assert make_reflexes(names, None) == {}
+    with pytest.raises(SettingsError, match="unknown key 'none'; known are sharp, "):
+        make_reflexes("slip none", None)

@@ -15,14 +15,13 @@ from hypothesis import strategies as st
 
 from acts_control.hand.control.step_rule import StepRule, StepRuleConfig
 from acts_control.hand.description import LEAP_RIGHT
-from acts_control.hand.reflexes import REFLEXES, HandToHandConfig, Wish, make_reflexes
+from acts_control.hand.reflexes import REFLEXES, HandToHandConfig, Wish
 from acts_control.hand.reflexes.hand_to_hand import HandToHand
 from acts_control.hand.reflexes.sharp_avoidance import SharpAvoidance, SharpAvoidanceConfig
 from acts_control.hand.reflexes.slip_prevention import SlipPrevention, SlipPreventionConfig
 from acts_control.hand.reflexes.spheres.aiming import approaches, radius_on_palm, reach
 from acts_control.hand.reflexes.spheres.ball import fitted_sphere
 from acts_control.hand.reflexes.trapping import Trapping, TrappingConfig
-from acts_core.errors import SettingsError
 from acts_core.skin import RegionContact
 
 pytestmark = pytest.mark.slow
@@ -388,15 +387,3 @@ def test_no_reflex_answers_with_what_is_not_finite(data: list[tuple], q: list[fl
         for k in range(3):
             wish = reflex.step(sensed(*pressed, time_s=k * DT_S, q_rad=np.array(q)))
             assert wish is None or np.isfinite(wish.steps).all(), name
-
-
-def test_a_reflex_that_does_not_exist_is_refused_with_the_nearest_name() -> None:
-    with pytest.raises(SettingsError, match="did you mean 'sphere'"):
-        make_reflexes("slip sphre", None)
-
-
-@pytest.mark.parametrize("names", ["none", " none ", ""])
-def test_none_is_no_reflex(names: str) -> None:
-    assert make_reflexes(names, None) == {}
-    with pytest.raises(SettingsError, match="unknown key 'none'; known are sharp, "):
-        make_reflexes("slip none", None)

@@ -9,7 +9,8 @@ between closing, holding and avoiding; the reflexes say what they want.
 
 from acts_control.hand.control.behaviour import Behaviour
 from acts_control.hand.control.cycle_times import CycleTimes
-from acts_control.hand.control.loop import HandLoop, HandLoopConfig
+from acts_control.hand.control.loop import HandLoop
+from acts_control.hand.control.loop_config import HandLoopConfig
 from acts_control.hand.control.status import HandPhase
 from acts_control.hand.control.supervisor import HandSupervisor, SupervisorConfig, SupervisorStatus, no_touch
 

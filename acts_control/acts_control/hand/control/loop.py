@@ -9,15 +9,14 @@ import math
 import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from acts_control.hand.control.behaviour import Behaviour
 from acts_control.hand.control.fault_memory import FaultMemory
+from acts_control.hand.control.loop_config import HandLoopConfig
 from acts_control.hand.control.status import HandPhase, HandStatus
 from acts_control.hand.description import HandDescription
 from acts_control.hand.motors import HandBus, HandError, HandLostError, HandReading
-from acts_core.errors import SettingsError
-from acts_core.settings import rounded_up, setting, validate
 
 # A joint that is beyond a limit when the torque comes on is brought back so fast: slowly, for it may be held there.
 _RETURN_RAD_S = 0.5
@@ -26,44 +25,7 @@ _BEYOND_RAD = 0.02
 # Who asks for torque or a release waits no longer for the motors' answers; where many are silent, it takes longer.
 _ANSWER_S = 2.0
 _CUT_POWER = "motors that are silent may hold on: cut their power to be sure"
-# So many reads have to fail before motors count as silent: one answer may be lost.
-_LEAST_READS = 2
 _NOT_FINITE = "the goals stand still, for what was asked for cannot be"
-
-
-@dataclass(frozen=True)
-class HandLoopConfig:
-    """Rates and limits of the loop."""
-
-    rate_hz: float = setting(100.0, "how often the motors are read and commanded", minimum=10.0, maximum=500.0)
-    max_speed_rad_s: float = setting(
-        3.0, "fastest that a joint's goal moves towards the command [rad/s]", minimum=0.01, maximum=8.0
-    )
-    command_stale_after_s: float = setting(
-        0.5, "without a command for longer the goals stand still [s]", minimum=0.01, maximum=10.0
-    )
-    silence_s: float = setting(
-        0.3,
-        "motors that do not answer for longer are connected anew [s]; at least two periods of rate_hz",
-        minimum=0.05,
-        maximum=10.0,
-    )
-    connect_retry_s: float = setting(1.0, "time between attempts to connect [s]", minimum=0.05, maximum=60.0)
-    max_faults: int = setting(
-        2, "a motor that has switched itself off so often within a minute is given up", minimum=1, maximum=100
-    )
-    autostart: bool = setting(
-        True, "whether to switch the torque on at once; else, and with interface cmd_leap always, on ~/enable"
-    )
-
-    def __post_init__(self) -> None:
-        validate(self)
-        if self.silence_s < _LEAST_READS / self.rate_hz:
-            raise SettingsError(
-                f"silence_s = {self.silence_s:g}: with rate_hz = {self.rate_hz:g} the motors are read "
-                f"every {1.0 / self.rate_hz:.4g} s, and one lost answer would count as silence: raise silence_s to "
-                f"{rounded_up(_LEAST_READS / self.rate_hz)}, or rate_hz to {rounded_up(_LEAST_READS / self.silence_s)}"
-            )
 
 
 class HandLoop:
