@@ -263,30 +263,15 @@ os.kill(os.getpid(), signal.SIGKILL)
         assert any(words == SERVO_J for _at_s, _port, words in simulated.orders())
 
 
-def stop_rig_process(rig: Rig) -> None:
-    """Let the process that holds the connection stand still."""
-    assert rig.arm._process is not None
-    rig.arm._process.send_signal(signal.SIGSTOP)
-
-
-def kill_rig_process(rig: Rig) -> None:
-    """End the process that holds the connection without its ending anything."""
-    assert rig.arm._process is not None
-    rig.arm._process.kill()
-
-
-@pytest.mark.parametrize(
-    ("host", "harm"), [("127.0.17.15", stop_rig_process), ("127.0.17.16", kill_rig_process)], ids=["stop", "kill"]
-)
-def test_an_arm_on_its_way_to_level_stops_when_nobody_watches_it_any_more(
-    host: str, harm: Callable[[Rig], None]
-) -> None:
+@pytest.mark.parametrize(("host", "number"), [("127.0.17.15", signal.SIGSTOP), ("127.0.17.16", signal.SIGKILL)])
+def test_an_arm_on_its_way_to_level_stops_when_nobody_watches_it_any_more(host: str, number: signal.Signals) -> None:
     far = (ur5e.LEVEL_Q_RAD[0] + 3.0, *ur5e.LEVEL_Q_RAD[1:])
     with ExitStack() as stack:
         simulated = stack.enter_context(SimulatedRobot(host, far))
         rig = Rig(host, stack, simulated=simulated, homing_speed_rad_s=0.3)
         wait_for(lambda: simulated.state()["q_rad"][0] < far[0] - 0.05, "the arm to be on its way")
-        harm(rig)
+        assert rig.arm._process is not None
+        rig.arm._process.send_signal(number)
         rig.await_phase(Phase.STOPPED)
         wait_for(lambda: simulated.state()["runtime"] == "STOPPED", "the robot to end its program")
         wait_for(lambda: not any(simulated.state()["qd_rad_s"]), "rest")
@@ -297,33 +282,21 @@ def test_an_arm_on_its_way_to_level_stops_when_nobody_watches_it_any_more(
 
 
 def test_an_arm_stops_when_our_process_stands_still() -> None:
-    program = """
-import os, signal, sys, time
-from acts_control.robots.ur import UrConfig, UrRobot
-robot = UrRobot(UrConfig(robot_ip=sys.argv[1], homing_speed_rad_s=0.3))
-robot.connect(lambda: True)
-end_s = time.monotonic() + robot.begin_levelling()
-while robot.read().off_level > 2.9 and time.monotonic() < end_s:
-    time.sleep(0.02)
-os.kill(os.getpid(), signal.SIGSTOP)
-while not robot.read().stopped and time.monotonic() < end_s:
-    time.sleep(0.02)
-print(robot.read().stopped, flush=True)
-robot.disconnect()
-"""
     far = (ur5e.LEVEL_Q_RAD[0] + 3.0, *ur5e.LEVEL_Q_RAD[1:])
-    with (
-        SimulatedRobot("127.0.17.17", far) as simulated,
-        Process(sys.executable, "-c", program, simulated.host) as ours,
-    ):
-        wait_for(lambda: simulated.state()["q_rad"][0] < far[0] - 0.05, "the arm to be on its way")
-        wait_for(lambda: simulated.state()["runtime"] == "STOPPED", "the robot to end its program")
-        wait_for(lambda: not any(simulated.state()["qd_rad_s"]), "rest")
-        assert simulated.state()["q_rad"][0] > ur5e.LEVEL_Q_RAD[0] + 1.0
-        assert ours.process.poll() is None
-        ours.process.send_signal(signal.SIGCONT)
-        wait_for(lambda: ours.process.poll() is not None, "the end of our process")
-        assert "the robot has ended its program: this process stood still for " in ours.text()
+    with SimulatedRobot("127.0.17.17", far) as simulated:
+        settings = ["--set", f"ball_control.robot_ip={simulated.host}", "--set", "ball_control.homing_speed_rad_s=0.3"]
+        command = node_command("ball_balancing", *settings)
+        with Process(*command, domain=170) as ours:
+            wait_for(lambda: simulated.state()["q_rad"][0] < far[0] - 0.05, "the arm to be on its way")
+            ours.process.send_signal(signal.SIGSTOP)
+            wait_for(lambda: simulated.state()["runtime"] == "STOPPED", "the robot to end its program")
+            wait_for(lambda: not any(simulated.state()["qd_rad_s"]), "rest")
+            assert simulated.state()["q_rad"][0] > ur5e.LEVEL_Q_RAD[0] + 1.0
+            ours.process.send_signal(signal.SIGCONT)
+            told = "the robot has ended its program: this process stood still for "
+            wait_for(lambda: told in ours.text(), "the reason")
+            # It has not been sent on.
+            assert simulated.state()["q_rad"][0] > ur5e.LEVEL_Q_RAD[0] + 1.0
 
 
 def ask_dashboard(host: str, words: str) -> str:
