@@ -174,8 +174,7 @@ def find_sharpness(
                         pressed += 1
         if pressed > MOST_PRESSED:
             continue
-        # A measured response may say 0 N for a pressed taxel.
-        relative = 2.0 * gain_error**2 + variance[REACH, REACH] / max(force[REACH, REACH] ** 2, _TINY)
+        relative = 2.0 * gain_error**2 + variance[REACH, REACH] / force[REACH, REACH] ** 2
         tip = _level(level_force_n[skin_of[p], 0], total)
         blunt = _level(level_force_n[skin_of[p], 1], total)
         a, b = _middle(force, variance, force_n[0])
