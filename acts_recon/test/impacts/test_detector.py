@@ -145,28 +145,27 @@ def test_on_a_single_row_of_taxels_no_direction_is_known(rows: int, cols: int) -
     assert np.isfinite([*over.time_s, *over.force_n, *over.path_x_m, *over.path_y_m]).all()
 
 
-def test_a_long_touch_in_images_alone_is_told() -> None:
-    """Without single samples a touch is not followed back to before its first frame."""
-    detector = ImpactDetector(ArrayGeometry())
+def told_of_a_square(detector: ImpactDetector, counts: float) -> list[Impact]:
+    """What is told of images with a touch of 4 x 4 taxels, from 100.050 s on for 150 ms."""
     told: list[Impact] = []
     for number in range(300):
         image = np.zeros((32, 32), dtype=np.float32)
         if 50 <= number < 200:
-            image[10:14, 10:14] = 300
+            image[10:14, 10:14] = counts
         told += detector.step(100.0 + number * 1e-3, 1e-3, image)
+    return told
+
+
+def test_a_long_touch_in_images_alone_is_told() -> None:
+    """Without single samples a touch is not followed back to before its first frame."""
+    told = told_of_a_square(ImpactDetector(ArrayGeometry()), 300.0)
     assert [(one.is_over, one.kind) for one in told] == [(False, Kind.UNKNOWN), (True, Kind.TAP)]
     assert told[1].onset_s == pytest.approx(100.050, abs=0.0015)
     assert told[1].duration_s == pytest.approx(0.150, abs=0.003)
 
 
 def test_a_touch_of_which_the_force_response_says_no_force_is_told() -> None:
-    detector = ImpactDetector(ArrayGeometry(), FLAT)
-    told: list[Impact] = []
-    for number in range(300):
-        image = np.zeros((32, 32), dtype=np.float32)
-        if 50 <= number < 200:
-            image[10:14, 10:14] = 90
-        told += detector.step(100.0 + number * 1e-3, 1e-3, image)
+    told = told_of_a_square(ImpactDetector(ArrayGeometry(), FLAT), 90.0)
     assert [(one.is_over, one.kind) for one in told] == [(False, Kind.UNKNOWN), (True, Kind.TAP)]
     assert told[1].x_m == pytest.approx(ArrayGeometry().x_m(11.5))
 

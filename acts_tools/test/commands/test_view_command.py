@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 import pytest
 from websockets import Origin
-from websockets.sync.client import connect
+from websockets.sync.client import ClientConnection, connect
 
 from acts_core.errors import REFUSED_EXIT_CODE
 from acts_driver.replay import ReplayOptions, open_recording
@@ -70,14 +70,25 @@ def test_it_prints_where_the_page_is_and_ends_in_order() -> None:
             process.kill()
 
 
+def address_of(process: subprocess.Popen[str]) -> Origin:
+    """Where the page is, as soon as the program says so."""
+    assert process.stdout is not None
+    found = (re.search(r"open (http://127\.0\.0\.1:\d+)", line) for line in process.stdout)
+    return next(Origin(one[1]) for one in found if one)
+
+
+def next_header(page: ClientConnection) -> dict[str, Any]:
+    """What the next message to a page says of itself."""
+    message = bytes(page.recv(DEADLINE_S))  # type: ignore[arg-type]
+    header: dict[str, Any] = json.loads(message[4 : 4 + int.from_bytes(message[:4], "little")])
+    return header
+
+
 def test_a_board_is_shown_without_any_graph(tmp_path: Path) -> None:
     with virtual_board(tmp_path) as board, start("--board", str(board.link), "--port", "0") as process:
         try:
-            assert process.stdout is not None
-            found = next(
-                found for line in process.stdout if (found := re.search(r"open (http://127\.0\.0\.1:\d+)", line))
-            )
-            with connect(f"ws{found[1][4:]}/stream", origin=found[1], compression=None) as page:  # type: ignore[arg-type]
+            address = address_of(process)
+            with connect(f"ws{address[4:]}/stream", origin=address, compression=None) as page:  # type: ignore[arg-type]
                 page.send('{"id":1,"do":"tare"}')
                 # Frame after frame, with an image; the answer to what was asked for among them.
                 told = b"".join(bytes(page.recv(DEADLINE_S)) for _ in range(30))  # type: ignore[arg-type]
@@ -95,20 +106,15 @@ def test_a_board_without_a_graph_is_recorded_by_its_page(tmp_path: Path) -> None
     with virtual_board(tmp_path, "--rate-hz", "100") as board, start(*words, folder=tmp_path) as process:
         try:
             assert board.link == tmp_path / "board"
-            assert process.stdout is not None
-            found = next(
-                found for line in process.stdout if (found := re.search(r"open (http://127\.0\.0\.1:\d+)", line))
-            )
-            place, origin = f"ws{found[1][4:]}", Origin(found[1])
-            with connect(f"{place}/stream", origin=origin, compression=None) as page:
+            address = address_of(process)
+            place = f"ws{address[4:]}"
+            with connect(f"{place}/stream", origin=address, compression=None) as page:
 
                 def until(condition: Callable[[dict[str, Any]], Any]) -> dict[str, Any]:
                     deadline_s = time.monotonic() + DEADLINE_S
                     while time.monotonic() < deadline_s:
-                        message = bytes(page.recv(DEADLINE_S))  # type: ignore[arg-type]
-                        header = json.loads(message[4 : 4 + int.from_bytes(message[:4], "little")])
+                        header = next_header(page)
                         if condition(header):
-                            assert isinstance(header, dict)
                             return header
                     raise AssertionError("it was not told")
 
@@ -120,7 +126,7 @@ def test_a_board_without_a_graph_is_recorded_by_its_page(tmp_path: Path) -> None
                 page.send('{"id":3,"do":"stop_recording"}')
                 assert until(lambda header: header.get("id") == 3)["done"]
                 ((name, size),) = until(lambda header: header.get("recording", {}).get("files"))["recording"]["files"]
-            with connect(f"{place}/recordings/{name}", origin=origin, compression=None) as file:
+            with connect(f"{place}/recordings/{name}", origin=address, compression=None) as file:
                 data = b"".join(bytes(piece) for piece in file)  # type: ignore[arg-type]
             process.send_signal(signal.SIGINT)
             assert process.wait(DEADLINE_S) == 0
@@ -140,19 +146,14 @@ def test_a_board_without_a_graph_is_recorded_by_its_page(tmp_path: Path) -> None
 def test_a_board_that_says_nothing_more_is_not_tared(tmp_path: Path) -> None:
     with virtual_board(tmp_path) as board, start("--board", str(board.link), "--port", "0") as process:
         try:
-            assert process.stdout is not None
-            found = next(
-                found for line in process.stdout if (found := re.search(r"open (http://127\.0\.0\.1:\d+)", line))
-            )
-            with connect(f"ws{found[1][4:]}/stream", origin=found[1], compression=None) as page:  # type: ignore[arg-type]
+            address = address_of(process)
+            with connect(f"ws{address[4:]}/stream", origin=address, compression=None) as page:  # type: ignore[arg-type]
 
                 def tare(number: int) -> dict[str, Any]:
                     page.send(json.dumps({"id": number, "do": "tare"}))
                     while True:
-                        message = bytes(page.recv(DEADLINE_S))  # type: ignore[arg-type]
-                        header = json.loads(message[4 : 4 + int.from_bytes(message[:4], "little")])
+                        header = next_header(page)
                         if header.get("id") == number:
-                            assert isinstance(header, dict)
                             return header
 
                 def until(condition: Callable[[dict[str, Any]], bool], first: int) -> None:
