@@ -28,15 +28,23 @@ _PIECE_S = 0.5
 
 
 class BoardProcess:
-    """A virtual board with a link in `folder`, ended at the end of the block whatever happens."""
+    """A virtual board with a link in `folder`, ended at the end of the block whatever happens.
 
-    def __init__(self, folder: Path, *options: str | float | Path) -> None:
+    `preload` is a library that replaces functions of the system's.
+    """
+
+    def __init__(self, folder: Path, *options: str | float | Path, preload: Path | None = None) -> None:
         folder.mkdir(exist_ok=True)
         self.link = folder / "run/board"
         self.errors = folder / "errors.txt"
         command = [installed("virtual_board"), "--link", self.link, "--print-status", *options]
         with self.errors.open("wb") as errors:
-            self.process = subprocess.Popen([str(word) for word in command], stdout=subprocess.PIPE, stderr=errors)
+            self.process = subprocess.Popen(
+                [str(word) for word in command],
+                stdout=subprocess.PIPE,
+                stderr=errors,
+                env={**os.environ, **({"LD_PRELOAD": str(preload)} if preload else {})},
+            )
         assert self.process.stdout is not None
         line = self.process.stdout.readline()
         assert line, self.errors.read_text()

@@ -43,6 +43,7 @@ PseudoTerminal::~PseudoTerminal() {
 void PseudoTerminal::unplug() {
   remove_link();
   const int drawn = master_;
+  has_input_ = false;
   make_terminal();  // before the old one is closed, whose name is free then
   close(drawn);
 }
@@ -111,8 +112,10 @@ void PseudoTerminal::discard_unread() const {
 PseudoTerminal::Event PseudoTerminal::service() {
   pollfd state{master_, POLLIN, 0};
   if (poll(&state, 1, 0) < 0) {
+    has_input_ = false;
     return Event::kNone;
   }
+  has_input_ = (state.revents & POLLIN) != 0;
   const bool now_open = (state.revents & POLLHUP) == 0;
   if (now_open == open_) {
     return Event::kNone;
@@ -125,7 +128,11 @@ PseudoTerminal::Event PseudoTerminal::service() {
 }
 
 std::size_t PseudoTerminal::read(std::uint8_t* data, std::size_t capacity) {
+  if (!has_input_) {
+    return 0;
+  }
   const ssize_t taken = ::read(master_, data, capacity);
+  has_input_ = taken == static_cast<ssize_t>(capacity);
   return taken > 0 ? static_cast<std::size_t>(taken) : 0;
 }
 

@@ -21,10 +21,11 @@ class PseudoTerminal {
 
   enum class Event : std::uint8_t { kNone, kOpened, kClosed };
 
-  // Notices whether the host's end was opened or closed.
+  // Notices whether the host's end was opened or closed, and whether the host has sent something.
   Event service();
 
-  // Takes what the host has sent: number of bytes, 0 for none. Never waits.
+  // Takes what the host had sent when `service` was last called: number of bytes, 0 for none. Never waits. What has come
+  // since may be the first words of a host whose opening is not noticed yet, and the answer would be cleared away then.
   std::size_t read(std::uint8_t* data, std::size_t capacity);
 
   bool open() const { return open_; }
@@ -49,6 +50,7 @@ class PseudoTerminal {
 
   int master_ = -1;
   bool open_ = false;
+  bool has_input_ = false;
   std::string link_;
   std::string port_;
 };

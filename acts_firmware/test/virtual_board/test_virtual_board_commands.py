@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 from board_process import DEADLINE_S, BoardProcess
+from core_library import installed
 
 from acts_core.frames import SampleFrame, Scheme
 from acts_core.wire import (
@@ -50,6 +51,14 @@ class Host:
             assert time.monotonic() < deadline, f"{len(self.replies)} of {count} replies within {DEADLINE_S} s"
             self.frames += self.board.decoder.feed(self.board.read_bytes())
         return list(self.replies)
+
+
+def test_the_first_words_of_a_host_are_answered_also_where_they_come_between_two_looks(tmp_path: Path) -> None:
+    for number in range(1, 6):
+        # Between looking whether somebody is there and reading what is said, 3 ms pass.
+        with BoardProcess(tmp_path, preload=installed("libslow_poll.so")) as board:
+            (reply,) = Host(board).ask(encode_query(number))
+        assert reply.request == number
 
 
 def test_settings_change_the_running_stream(tmp_path: Path) -> None:
