@@ -1,8 +1,8 @@
 // Copyright 2026 ACTS contributors
 // SPDX-License-Identifier: Apache-2.0
 
-// Loaded into the virtual board by LD_PRELOAD: `poll` returns 3 ms after it has looked, as where the board is put off the
-// processor at that moment.
+// Loaded into the virtual board by LD_PRELOAD: `poll` returns 3 ms after it has looked, as where the board is put off
+// the processor at that moment.
 
 #include <dlfcn.h>
 #include <poll.h>

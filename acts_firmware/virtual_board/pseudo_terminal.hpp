@@ -24,8 +24,9 @@ class PseudoTerminal {
   // Notices whether the host's end was opened or closed, and whether the host has sent something.
   Event service();
 
-  // Takes what the host had sent when `service` was last called: number of bytes, 0 for none. Never waits. What has come
-  // since may be the first words of a host whose opening is not noticed yet, and the answer would be cleared away then.
+  // Takes what the host had sent when `service` was last called: number of bytes, 0 for none. Never waits. What has
+  // come since may be the first words of a host whose opening is not noticed yet, and the answer would be cleared away
+  // then.
   std::size_t read(std::uint8_t* data, std::size_t capacity);
 
   bool open() const { return open_; }
