@@ -13,6 +13,7 @@ import pytest
 
 from acts_control.hand.description import LEAP_RIGHT
 from acts_control.hand.reflexes import HandState
+from acts_core.errors import LaunchError
 from acts_core.skin import layout
 from acts_sim.hand import COLUMN, HandWorldConfig, row_width
 from acts_tools.hand_rigs.live import LiveHand
@@ -25,9 +26,13 @@ SUNK_RAD = np.where([name.endswith("mcp_side") for name in LEAP_RIGHT.names], 0.
 
 
 class SunkHand:
-    """A hand whose fingers sank before its motors had torque; what it is asked for begins a little later."""
+    """A hand whose fingers sank before its motors had torque; what it is asked for begins a little later.
 
-    def __init__(self, ends_in: HandState) -> None:
+    The first `lost` times that it is asked to open, its motors are lost before it does.
+    """
+
+    def __init__(self, ends_in: HandState, lost: int = 0) -> None:
+        self._lost = lost
         patches = tuple(patch.name for patch in layout("leap_right").patches)
         self.recording = HandRecording(patches=patches)
         self.asked: list[str] = []
@@ -41,7 +46,8 @@ class SunkHand:
     def ask(self, name: str, _mark: str = "") -> float:
         self.asked.append(name)
         if name == "release":
-            self._to_come = [(self.time_s + 0.02, HandState.OPEN)]
+            is_lost, self._lost = self._lost > 0, self._lost - 1
+            self._to_come = [(self.time_s + 0.02, HandState.STOPPED if is_lost else HandState.OPEN)]
         else:
             self.q_when_asked_to_grasp = self.q_rad.copy()
             self._to_come = [(self.time_s + 0.02, HandState.CLOSING), (self.time_s + 0.4, self._ends_in)]
@@ -80,3 +86,12 @@ def test_a_hand_that_sank_is_open_before_it_grasps(ends_in: HandState) -> None:
     assert rig.state is ends_in
     assert hand.asked == ["release", "grasp"]
     assert np.abs(hand.q_when_asked_to_grasp - OPEN_RAD).max() < 0.06
+
+
+def test_a_hand_that_lost_its_motors_is_asked_again_to_open_but_not_for_ever() -> None:
+    hand = SunkHand(HandState.HOLDING, lost=2)
+    rig = LiveRig(cast(LiveHand, hand), HandWorldConfig(object="cylinder", object_held=True))
+    assert np.abs(np.array(rig.truth().q_rad) - OPEN_RAD).max() < 0.06
+    assert hand.asked == ["release"] * 3
+    with pytest.raises(LaunchError, match="did not open within 2 s, asked 3 times"):
+        LiveRig(cast(LiveHand, SunkHand(HandState.HOLDING, lost=3)), HandWorldConfig(object="cylinder"))
