@@ -18,7 +18,7 @@ struct Realtime {
 std::vector<int> parse_cores(const std::string& text);
 
 // Schedules the calling thread so, which has to be the only one, and returns in a sentence what came of it, empty where
-// nothing is asked for. Never fails for a missing right.
+// nothing is asked for. Never fails for a missing right. Under the ordinary scheduler it has the shortest time slices.
 //
 // Once the thread has computed for a second without a single sleep, the ordinary scheduler takes it back, and standard
 // error tells it.

@@ -13,8 +13,7 @@ from acts_core.runtime.late_frames import LateFrames, Use
 from acts_core.runtime.port_words import errno_of, not_opened, path_shown, port_shown, ports_present
 from acts_core.runtime.process_names import process_name
 from acts_core.runtime.rate_limit import RateLimit
-from acts_core.runtime.realtime import RealtimeConfig, enter_realtime, parse_cores
-from acts_core.runtime.realtime_guard import LogCallback, demote_process
+from acts_core.runtime.scheduling import LogCallback, RealtimeConfig, demote_process, enter_realtime, parse_cores
 from acts_core.runtime.sequence_numbers import SequenceNumbers
 from acts_core.runtime.stamp_order import Order, StampOrder
 from acts_core.runtime.stream_statistics import StreamCounter

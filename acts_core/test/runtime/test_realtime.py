@@ -14,16 +14,16 @@ import pytest
 
 from acts_core.errors import SettingsError
 from acts_core.runtime import RealtimeConfig, parse_cores
-from acts_core.runtime.realtime import format_cores
-from acts_core.runtime.realtime_guard import BudgetWatch
+from acts_core.runtime.scheduling.realtime import format_cores
+from acts_core.runtime.scheduling.realtime_guard import BudgetWatch
 
 CORE = min(os.sched_getaffinity(0))
 DEADLINE_S = 60.0
 
 HEAD = f"""
 import os, re, threading, time
-from acts_core.runtime.realtime import RealtimeConfig, enter_realtime
-from acts_core.runtime.realtime_guard import guard_thread
+from acts_core.runtime.scheduling.realtime import RealtimeConfig, enter_realtime
+from acts_core.runtime.scheduling.realtime_guard import guard_thread
 POLICIES = {{os.SCHED_OTHER: "other", os.SCHED_FIFO: "fifo"}}
 def policy(thread=0):
     return POLICIES[os.sched_getscheduler(thread)]

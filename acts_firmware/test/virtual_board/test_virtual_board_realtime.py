@@ -12,6 +12,8 @@ import pytest
 from board_process import DEADLINE_S, BoardProcess
 from core_library import installed
 
+from acts_core.runtime.scheduling import SHORTEST_NS, time_slice_ns
+
 CORE = min(os.sched_getaffinity(0))
 # Ten times as much as a core can do: every measurement of a board with shorted lines looks at all their taxels.
 TOO_MUCH = (
@@ -53,6 +55,8 @@ def test_nothing_asked_is_nothing_said(tmp_path: Path) -> None:
     with BoardProcess(tmp_path, "--realtime-priority", 0, "--cpu-affinity", "none", "--status-period-s", 0.01) as board:
         assert board.status()["frames"] > 0
         assert os.sched_getscheduler(board.process.pid) == os.SCHED_OTHER
+        # Kernels before 6.12 tell none.
+        assert time_slice_ns(board.process.pid) == (SHORTEST_NS if time_slice_ns() else 0)
         assert board.errors.read_text() == ""
 
 

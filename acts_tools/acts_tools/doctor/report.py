@@ -18,6 +18,7 @@ CHECKS: tuple[Callable[[Machine], Finding], ...] = (
     cores.cores,
     cores.core_clock,
     scheduling.kernel,
+    scheduling.time_slices,
     scheduling.rtprio_limit,
     scheduling.locked_memory,
     scheduling.realtime_share,

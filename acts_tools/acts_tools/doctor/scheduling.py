@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import os
+import re
 import resource
 
 from acts_tools.doctor.finding import Finding, Level, unknown
@@ -15,6 +16,7 @@ _CAP_SYS_NICE = 23
 _CAP_IPC_LOCK = 14
 _LIMITS_FILE = "/etc/security/limits.d/99-realtime.conf"
 _JOIN = "sudo groupadd --force realtime && sudo usermod -a -G realtime $USER"
+_FIRST_WITH_SLICES = (6, 12)
 _DEFAULT_SHARE_US = 950_000
 _REALTIME_POLICIES = (str(os.SCHED_FIFO), str(os.SCHED_RR))
 
@@ -73,6 +75,25 @@ def kernel(machine: Machine) -> Finding:
         Level.NOTE,
         "not PREEMPT_RT: sometimes a frame is late by a millisecond or more, whatever its priority",
         "sudo pro enable realtime-kernel          # Ubuntu\nsudo apt install linux-image-rt-amd64     # Debian",
+    )
+
+
+def time_slices(machine: Machine) -> Finding:
+    """Check whether a thread without a priority can ask the kernel to run soon."""
+    name = "time slices"
+    version = re.match(r"Linux version (\d+)\.(\d+)", machine.text("proc/version") or "")
+    if version is None:
+        return unknown(name, "/proc/version")
+    if tuple(map(int, version.groups())) >= _FIRST_WITH_SLICES:
+        return Finding(
+            name, Level.OK, "ACTS has short ones, so that it runs soon beside busy programs, even without a priority"
+        )
+    wanted = ".".join(map(str, _FIRST_WITH_SLICES))
+    return Finding(
+        name,
+        Level.NOTE,
+        f"kernels before {wanted} have none to choose: ACTS waits longer for busy programs, unless it has a priority",
+        "sudo apt install linux-generic-hwe-$(lsb_release -rs)     # Ubuntu 24.04, or later",
     )
 
 

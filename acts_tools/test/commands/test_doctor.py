@@ -23,7 +23,7 @@ MIB = 1 << 20
 NO_LIMIT = (resource.RLIM_INFINITY, resource.RLIM_INFINITY)
 
 GOOD = {
-    "proc/version": "Linux version 6.8.1 #1 SMP PREEMPT_RT Tue Apr 30",
+    "proc/version": "Linux version 6.12.0 #1 SMP PREEMPT_RT Tue Apr 30",
     "sys/kernel/realtime": "1",
     "proc/48/stat": f"48 (kworker/u8:0-events_unbound) I 2 {'0 ' * 35}1 1 0",
     "proc/49/stat": f"49 (cat) S 2 {'0 ' * 35}0 0 0",
@@ -129,6 +129,9 @@ CASES = [
         "kernel", NOTE, "not PREEMPT_RT", "realtime-kernel",
         {"sys/kernel/realtime": None, "proc/version": "Linux version 6.8.0 #1 SMP PREEMPT_DYNAMIC"},
     ),
+    Case("time slices", OK, "runs soon", "", {"proc/version": "Linux version 6.12.0 #1 SMP"}),
+    Case("time slices", NOTE, "before 6.12", "hwe", {"proc/version": "Linux version 6.8.0-49-generic #1 SMP"}),
+    Case("time slices", UNKNOWN, "/proc/version", "", {"proc/version": None}),
     Case(
         "kernel workers",
         NOTE,

@@ -30,7 +30,7 @@ def tactile_options(realtime: bool) -> list[str]:
 
 @contextmanager
 def subscriber(realtime: bool) -> Iterator[None]:
-    """Run this process in real time, if that is chosen and allowed; no child may be started in the block.
+    """Run this process as a controller runs, in real time if that is chosen; no child may be started in the block.
 
     Under ordinary scheduling, it could be preempted while it holds a lock of the middleware, and block all publishers.
     """
@@ -38,8 +38,7 @@ def subscriber(realtime: bool) -> Iterator[None]:
     try:
         yield
     finally:
-        if realtime:
-            demote_process()
+        demote_process()
 
 
 def granted(pids: Mapping[str, int]) -> dict[str, int]:

@@ -3,8 +3,9 @@
 
 """Real-time scheduling of a process: priority, cores, and a message about what is in force.
 
-A process without such settings is left as it is. What the machine does not allow is reported, and the process goes on
-without it: late data is better than none. `acts_core.runtime.realtime_guard` stops a thread that never pauses.
+Without a priority, threads have short time slices of the ordinary scheduler. What the machine does not allow is
+reported, and the process goes on without it: late data is better than none. `realtime_guard` stops a thread that never
+pauses.
 """
 
 from __future__ import annotations
@@ -18,7 +19,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from acts_core.errors import SettingsError
-from acts_core.runtime.realtime_guard import LogCallback, given_up, guard_process, guard_thread
+from acts_core.runtime.scheduling.realtime_guard import LogCallback, given_up, guard_process, guard_thread
+from acts_core.runtime.scheduling.time_slices import SHORTEST_NS, set_time_slice
 from acts_core.settings import setting, validate
 
 # As the process was started, for instance by taskset: later its main thread may itself be bound to some of them.
@@ -113,6 +115,8 @@ def format_cores(cores: Collection[int]) -> str:
 def enter_realtime(config: RealtimeConfig, who: str, log: LogCallback) -> None:
     """Schedule all threads of this process, and those that they start from now on, as `config` asks.
 
+    Under the ordinary scheduler they have the shortest time slices (see `time_slices`).
+
     All of them, and not only the one that must not be late: it shares Python's lock with the others, and waits for
     whichever has it and was put aside for some other program. The middleware's threads stand before the executor's too.
 
@@ -129,10 +133,11 @@ def enter_realtime(config: RealtimeConfig, who: str, log: LogCallback) -> None:
     log : callable
         See `LogCallback`. Also called from another thread, should the guard end real time.
     """
-    if not config.realtime_priority and not config.cores:
-        return
     done: list[str] = []
     problems: list[str] = []
+    # Also if a priority is asked for: it may be refused.
+    for thread in _threads():
+        set_time_slice(SHORTEST_NS, thread)
     if config.realtime_priority:
         problem = given_up() or _set_priority(config.realtime_priority)
         if problem:
@@ -149,6 +154,8 @@ def enter_realtime(config: RealtimeConfig, who: str, log: LogCallback) -> None:
             problems.append(problem)
         else:
             done.append(f"cores {format_cores(config.cores)}")
+    if not done and not problems:
+        return
     level = "warning" if problems else "info"
     log(level, f"{who}: " + ", ".join(done) + "".join(f"; {problem}" for problem in problems))
 

@@ -26,6 +26,8 @@ from collections.abc import Callable, Collection, Mapping
 from contextlib import suppress
 from pathlib import Path
 
+from acts_core.runtime.scheduling.time_slices import set_time_slice
+
 LogCallback = Callable[[str, str], None]
 """Takes a level ("info", "warning" or "error") and a sentence."""
 
@@ -182,11 +184,12 @@ def given_up() -> str:
 
 
 def demote_process() -> None:
-    """Put every real-time thread of this process back on the ordinary scheduler."""
+    """Put every real-time thread of this process back on the ordinary scheduler, with its time slices."""
     for path in _TASKS.iterdir():
         with suppress(ProcessLookupError):
             if _is_realtime(int(path.name)):
                 os.sched_setscheduler(int(path.name), os.SCHED_OTHER, os.sched_param(0))
+        set_time_slice(0, int(path.name))
 
 
 def _limit_unbroken_runs() -> None:
