@@ -87,7 +87,7 @@ class BaselineServices:
             return Baseline.load(path, rows, cols) if path is not None and is_there(path, error=SettingsError) else None
 
         baseline = None if path is None else wait_for(load, f"reading calibration_file = {path}")
-        withdrawn, self._published = self._published, None
+        self._published = None
         self._path, self._tracker, self._heard_s = path, tracker, None
         if baseline is not None:
             tracker.set(baseline)
@@ -96,8 +96,8 @@ class BaselineServices:
         elif path is not None:
             service = self._node.resolve_service_name("~/calibrate")
             self._node.get_logger().info(f"no baseline yet: {path} is not there, the service {service} writes it")
-        if baseline is None and withdrawn is not None:
-            # That topic is kept for late joiners, and whoever subtracts the former one would go on.
+        if baseline is None:
+            # Whoever subtracts a former one, be it of a driver that has ended, would go on.
             self._publisher.publish(baseline_message(Baseline.none(rows, cols), self._frame_id))
 
     def observe(self, frames: Sequence[tuple[SampleFrame, int]]) -> None:

@@ -104,6 +104,12 @@ def start(rig: Rig, stream: Stream, path: Path) -> list[Baseline]:
     return baselines
 
 
+def await_baseline(rig: Rig, baselines: list[Baseline]) -> Baseline:
+    """The newest, once there is one."""
+    rig.spin_until(lambda: bool(baselines) and baselines[-1].source != Baseline.SOURCE_NONE, "the baseline")
+    return baselines[-1]
+
+
 def start_calibrated(rig: Rig, stream: Stream, path: Path) -> None:
     """A driver on the stream, which flows, and a calibration of it."""
     start(rig, stream, path)
@@ -134,8 +140,7 @@ def test_calibrate_and_tare(rig: Rig, stream: Stream, tmp_path: Path) -> None:
     assert "no frames: is the driver configured" in answer.message
     stream.start()
     calibrate(rig)
-    rig.spin_until(lambda: bool(baselines), "the baseline")
-    first = baselines[0]
+    first = await_baseline(rig, baselines)
     assert (first.rows, first.cols, first.source) == (ROWS, COLS, Baseline.SOURCE_CALIBRATION)
     assert first.header.frame_id == "plate"
     assert first.header.stamp.sec > 0
@@ -195,17 +200,27 @@ def test_the_file_is_read_at_the_start(rig: Rig, stream: Stream, tmp_path: Path)
     tracked = SavedBaseline(counts, counts / 10, counts > 0, BaselineSource.CALIBRATION, time_ns=5 * 10**9)
     tracked.save(path)
     baselines = start(rig, stream, path)
-    rig.spin_until(lambda: bool(baselines), "the baseline of the file")
-    assert list(baselines[0].baseline) == [12.5] * SIZE
-    assert baselines[0].header.stamp.sec == 5
-    assert baselines[0].source == Baseline.SOURCE_FILE
+    first = await_baseline(rig, baselines)
+    assert list(first.baseline) == [12.5] * SIZE
+    assert first.header.stamp.sec == 5
+    assert first.source == Baseline.SOURCE_FILE
+
+
+def test_a_driver_without_a_baseline_withdraws_that_of_the_driver_before(
+    rig: Rig, stream: Stream, tmp_path: Path
+) -> None:
+    baselines = start(rig, stream, tmp_path / "skin.npz")
+    rig.spin_until(lambda: bool(baselines), "that there is none")
+    assert baselines[-1].source == Baseline.SOURCE_NONE
+    assert (baselines[-1].rows, baselines[-1].cols, baselines[-1].header.frame_id) == (ROWS, COLS, "plate")
+    assert list(baselines[-1].valid) == [False] * SIZE
 
 
 def test_a_baseline_that_the_parameters_take_away_is_withdrawn(rig: Rig, stream: Stream, tmp_path: Path) -> None:
     baselines = start(rig, stream, tmp_path / "skin.npz")
     stream.start()
     calibrate(rig)
-    rig.spin_until(lambda: bool(baselines), "the baseline")
+    await_baseline(rig, baselines)
     close_port(rig)
     assert rig.set_parameters(calibration_file="", rows=ROWS + 1) == (True, "")
     rig.spin_until(lambda: baselines[-1].source == Baseline.SOURCE_NONE, "that there is none any more")
