@@ -84,10 +84,11 @@ print(time_slice_ns(thread.native_id))
 """) == ["0"]
 
 
-def test_a_processor_whose_system_calls_are_not_known_is_left_alone() -> None:
-    assert run("""
+@pytest.mark.parametrize("other", ["platform.machine = lambda: 'riscv64'", "sys.maxsize = 2**31 - 1"])
+def test_a_processor_whose_system_calls_are_not_known_is_left_alone(other: str) -> None:
+    assert run(f"""
 import platform
-platform.machine = lambda: "riscv64"
+{other}
 set_time_slice(SHORTEST_NS)
 print(time_slice_ns())
 enter_realtime(RealtimeConfig(), "reader", log)

@@ -15,6 +15,7 @@ import ctypes
 import os
 import platform
 import struct
+import sys
 
 SHORTEST_NS = 100_000
 """The shortest slice that the kernel gives [ns]."""
@@ -67,5 +68,6 @@ def _attributes(thread: int) -> tuple[int, ...]:
 def _call(which: int, *arguments: object) -> None:
     # Errors leave everything as it is: a short slice is of use, but nothing depends on it.
     numbers = _NUMBERS.get(platform.machine())
-    if numbers is not None:
+    # A program of 32 bits has other numbers, on the same machine.
+    if numbers is not None and sys.maxsize > 2**32:
         ctypes.CDLL(None).syscall(numbers[which], *arguments)
