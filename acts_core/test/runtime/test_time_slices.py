@@ -11,7 +11,7 @@ import pytest
 from acts_core.runtime.scheduling import SHORTEST_NS, time_slice_ns
 
 HEAD = """
-import os, subprocess, sys, threading
+import os, subprocess, sys, threading, time
 from acts_core.runtime.scheduling import *
 def log(level, sentence):
     print(level, sentence)
@@ -79,6 +79,9 @@ def test_a_thread_that_has_ended_has_none_and_gets_none() -> None:
 thread = threading.Thread(target=lambda: None)
 thread.start()
 thread.join()
+# The kernel has it a moment longer than Python.
+while os.path.exists(f"/proc/self/task/{thread.native_id}"):
+    time.sleep(0.001)
 set_time_slice(SHORTEST_NS, thread.native_id)
 print(time_slice_ns(thread.native_id))
 """) == ["0"]
