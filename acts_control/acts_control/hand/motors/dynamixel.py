@@ -70,7 +70,7 @@ class DynamixelHand:
         try:
             # What a crashed program has left on is off from here on, whatever fails below. Motors that hear this and
             # cannot answer would hear all that is said to the others, too, and not be stopped by their watchdog.
-            self._port.send(table.TORQUE, {joint.motor_id: 0 for joint in self._hand.joints})
+            self._switch_all_off()
             self._find_all()
             # With torque, the operating mode would be locked.
             self._each(table.TORQUE, 0)
@@ -117,6 +117,13 @@ class DynamixelHand:
             Naming the motors that did not say that they have done so.
         """
         self._is_on = False
+        # To all at once first: one after the other, each that is silent would keep the torque of those after it on.
+        try:
+            self._switch_all_off()
+        except HandLostError:
+            raise
+        except HandError:
+            pass  # each is asked below
         silent = []
         for joint in self._hand.joints:
             try:
@@ -217,6 +224,10 @@ class DynamixelHand:
         self._port.disconnect()
 
     # --- one after the other
+
+    def _switch_all_off(self) -> None:
+        """In one packet that nobody answers."""
+        self._port.send(table.TORQUE, {joint.motor_id: 0 for joint in self._hand.joints})
 
     def _each(self, register: table.Register, value: int) -> None:
         for joint in self._hand.joints:

@@ -19,7 +19,7 @@ from dynamixel_sdk import COMM_RX_TIMEOUT, Protocol2PacketHandler
 from acts_control.hand.description import LEAP_RIGHT, HandDescription, Joint
 from acts_control.hand.motors import DynamixelConfig, DynamixelHand, HandError, HandLostError
 from acts_control.hand.motors.dynamixel_port import DynamixelPort
-from acts_control.hand.motors.dynamixel_table import P_GAIN
+from acts_control.hand.motors.dynamixel_table import P_GAIN, Register
 from acts_core.errors import SettingsError
 
 pytestmark = pytest.mark.slow
@@ -335,6 +335,27 @@ def test_motors_that_hear_but_cannot_answer_are_switched_off_too(bus: Bus, monke
         first.connect()
     assert {motor["torque_enable"] for motor in bus.motors()} == {0}
     first.close()
+
+
+def test_a_release_waits_for_no_silent_motor_before_the_others_are_off(
+    bus: Bus, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    hand = bus.hand()
+    hand.connect()
+    hand.enable()
+    bus.command("lose 0")
+    write, seen = DynamixelPort.write, []
+
+    def noted(port: DynamixelPort, joint: Joint, register: Register, value: int) -> None:
+        seen.append([motor["torque_enable"] for motor in bus.motors()])
+        write(port, joint, register, value)
+
+    monkeypatch.setattr(DynamixelPort, "write", noted)
+    with pytest.raises(HandError, match=r"motors 0 \(index_mcp_side\) did not answer"):
+        hand.release()
+    assert seen[0] == [1, *[0] * 15]
+    bus.command("find 0")
+    hand.release()
 
 
 @pytest.mark.parametrize("port", ["/dev/ptmx", "/dev/zero", "/dev/null", "/", "/etc/hostname"])
