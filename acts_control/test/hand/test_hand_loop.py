@@ -217,6 +217,32 @@ def test_a_motor_whose_power_was_gone_for_a_moment_is_set_up_again(
     assert torques(bus) == {1}
 
 
+def test_a_motor_whose_power_was_gone_while_the_torque_was_off_is_set_up_before_it_gets_any(
+    bus: Bus, running: Running, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    running.until_phase(HandPhase.ENABLED)
+    assert running.loop.release() == ""
+    hand, read, off = running.loop._bus, running.loop._bus.read, [2]
+
+    def without_power() -> HandReading:
+        if off:
+            hand._port.reboot(LEAP_RIGHT.joints[off.pop()])  # type: ignore[attr-defined]
+        return read()
+
+    monkeypatch.setattr(hand, "read", without_power)
+    running.until(lambda: not off)
+    # Its own limit of the current is several times the hand's.
+    running.until(lambda: {motor["goal_current"] for motor in bus.motors()} == {350})
+    running.until(lambda: running.loop.status.recovered == 1)
+    assert any("index_pip: its settings are gone, as after a loss of power" in told for _, told in running.log)
+    assert running.loop.status.phase is HandPhase.RELEASED
+    assert torques(bus) == {0}
+    assert running.loop.enable() == ""
+    reading = running.loop.status.reading
+    assert reading is not None
+    assert reading.q_rad[2] == pytest.approx(0.0, abs=0.01)
+
+
 def test_what_was_commanded_long_ago_is_not_resumed_with_another_joint(running: Running) -> None:
     running.until_phase(HandPhase.ENABLED)
     running.loop.command({"ring_pip": 1.8})

@@ -153,16 +153,18 @@ class DynamixelHand:
             tuple(joint.direction * one.speed * table.RAD_S_PER_UNIT for joint, one in pairs),
             tuple(float(joint.direction * one.current) for joint, one in pairs),
             tuple(one.temperature_c for one in states),
-            tuple(table.fault_words(one.hardware_error) or self._unwell(k, one.torque) for k, one in enumerate(states)),
+            tuple(table.fault_words(one.hardware_error) or self._unwell(k, one) for k, one in enumerate(states)),
             any(one.watchdog == table.WATCHDOG_EXPIRED for one in states),
         )
 
-    def _unwell(self, index: int, torque: int) -> str:
+    def _unwell(self, index: int, state: table.Gathered) -> str:
         """What is to be told of a motor that has no error now."""
         if not self._is_set_up[index]:
             return "it had switched itself off"
         # Its power was gone for a moment.
-        return "torque is off, as after a loss of power" if self._is_on and not torque else ""
+        if self._is_on and not state.torque:
+            return "torque is off, as after a loss of power"
+        return "" if state.is_what_was_chosen else "its settings are gone, as after a loss of power"
 
     def command(self, q_rad: Sequence[float]) -> None:
         """Send every joint to an angle, in one packet that nobody answers.

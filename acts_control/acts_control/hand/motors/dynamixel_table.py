@@ -20,6 +20,7 @@ class Register(NamedTuple):
 
 
 RETURN_DELAY, MODE, TORQUE, HARDWARE_ERROR = Register(9, 1), Register(11, 1), Register(64, 1), Register(70, 1)
+RETURN_LEVEL = Register(68, 1)
 D_GAIN, I_GAIN, P_GAIN = Register(80, 2), Register(82, 2), Register(84, 2)
 WATCHDOG, GOAL_CURRENT, GOAL_POSITION = Register(98, 1), Register(102, 2), Register(116, 4)
 CURRENT, POSITION, TEMPERATURE = Register(126, 2), Register(132, 4), Register(146, 1)
@@ -45,7 +46,7 @@ _FAULTS = {0: "input voltage", 2: "overheating", 3: "encoder", 4: "electrical sh
 # Current (2), speed (4) and position (4) follow one another in the control table.
 GATHERED = (
     *range(CURRENT.address, CURRENT.address + 10),
-    *(register.address for register in (HARDWARE_ERROR, TEMPERATURE, WATCHDOG, TORQUE)),
+    *(register.address for register in (HARDWARE_ERROR, TEMPERATURE, WATCHDOG, TORQUE, RETURN_LEVEL)),
 )
 """Addresses of the bytes that are read each cycle, by indirect addresses; `Gathered` takes them apart."""
 
@@ -60,11 +61,20 @@ class Gathered(NamedTuple):
     temperature_c: int
     watchdog: int
     torque: int
+    return_level: int
 
     @classmethod
     def of(cls, data: bytes) -> Gathered:
         """From the bytes of `GATHERED`."""
-        return cls(signed(data[0:2]), signed(data[2:6]), signed(data[6:10]), *data[10:14])
+        return cls(signed(data[0:2]), signed(data[2:6]), signed(data[6:10]), *data[10:15])
+
+    @property
+    def is_what_was_chosen(self) -> bool:
+        """Whether these are the bytes of `GATHERED`: a motor that has lost its power has forgotten which to gather.
+
+        No motor that answers at all has a return level of 0, which is what such a motor has in all these places.
+        """
+        return self.return_level != 0
 
 
 def signed(data: bytes) -> int:
