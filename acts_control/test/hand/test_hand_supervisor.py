@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -324,6 +325,20 @@ def test_after_a_failed_motor_without_touch_the_hand_stops() -> None:
     goal = hand.goal.copy()
     assert hand.step([], steps=50) is HandState.STOPPED
     assert np.array_equal(hand.goal, goal)
+
+
+@pytest.mark.parametrize(
+    ("wanted", "then"),
+    [("stop", HandState.STOPPED), ("release", HandState.OPEN), ("grasp", HandState.CLOSING)],
+)
+@pytest.mark.parametrize("make", [a_hand, a_holding_hand])
+def test_what_is_asked_for_while_a_motor_starts_anew_is_done_when_it_is_back(
+    make: Callable[[], RigidHand], wanted: str, then: HandState
+) -> None:
+    hand = make()
+    assert getattr(hand.supervisor, wanted)() == ""
+    hand.supervisor.restart(recovered=True)
+    assert hand.step(GRIPPED) is then
 
 
 def test_what_was_asked_for_before_the_hand_was_lost_is_not_done_when_it_is_back() -> None:

@@ -8,6 +8,7 @@ Plain logic of one step, for the loop's own thread; `grasp`, `release` and `stop
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import isfinite
@@ -112,7 +113,8 @@ class HandSupervisor:
         self._rule = StepRule(self._hand, config)
         self._state, self._reason = self.status.state, self.status.reason
         self._resumed = self._state
-        self._wanted: str | None = None
+        # The last one counts. Filled from any thread: nothing that comes in between is overwritten.
+        self._wanted: deque[str] = deque()
         self._grasp = Grasp(config)
         self._regions: dict[str, RegionContact] = {}
         self._touch_s = -float("inf")
@@ -128,29 +130,33 @@ class HandSupervisor:
         """Close until something is gripped, then hold it; why that cannot be, or nothing."""
         if self.status.is_stale:
             return f"{no_touch(self.status.touch_age_s)}: is the skin's topic `regions` published?"
-        self._wanted = "grasp"
+        self._wanted.append("grasp")
         return ""
 
     def release(self) -> str:
         """Open the hand."""
-        self._wanted = "release"
+        self._wanted.append("release")
         return ""
 
     def stop(self) -> str:
         """Stand still, the torque on; what is held stays held."""
-        self._wanted = "stop"
+        self._wanted.append("stop")
         return ""
 
     # --- from the loop's thread
 
     def restart(self, *, recovered: bool) -> None:
-        """The motors were without torque, and hold now where they are; `recovered`: because one had failed."""
+        """The motors were without torque, and hold now where they are; `recovered`: because one had failed.
+
+        What was asked for while a motor was started anew is done now, else the hand grips again if it did before.
+        """
         self._rule.reset()
         self._reset_reflexes()
-        if recovered and self._state in (HandState.CLOSING, HandState.HOLDING, HandState.AVOIDING):
-            self._wanted = self._wanted or "grasp"
-        else:
-            self._wanted = None  # what was asked for before the hand was lost is old
+        if not recovered:
+            self._wanted.clear()  # what was asked for before the hand was lost is old
+        elif self._state in (HandState.CLOSING, HandState.HOLDING, HandState.AVOIDING):
+            self._wanted.appendleft("grasp")
+        if not (recovered and self._wanted):
             self._become(HandState.STOPPED, "goals stand where the joints are")
         self.status = replace(self.status, state=self._state, reason=self._reason)
 
@@ -311,7 +317,9 @@ class HandSupervisor:
     # --- changes
 
     def _obey(self) -> None:
-        wanted, self._wanted = self._wanted, None
+        wanted = ""
+        while self._wanted:
+            wanted = self._wanted.popleft()
         if wanted == "grasp":
             self._reset_reflexes()
             self._grasp.reset()

@@ -198,9 +198,13 @@ class HandReflexesNode(MotorNode):
 
     def _answer(self, name: str) -> Callable[[Trigger.Request, Trigger.Response], Trigger.Response]:
         def on_request(_request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-            return answered(response, self.why_still() or getattr(self._supervisor, name)())
+            return answered(response, self._why_not() or getattr(self._supervisor, name)())
 
         return on_request
+
+    def _why_not(self) -> str:
+        """Why nothing can be asked of the hand; while a motor is started anew, what is asked for is done after that."""
+        return "" if self.loop.status.phase is HandPhase.RECOVERING else self.why_still()
 
     def _present(self) -> SupervisorStatus:
         """What the hand is about: without torque nothing, whatever it was about when it had some."""

@@ -6,16 +6,22 @@
 from __future__ import annotations
 
 import signal
+from dataclasses import replace
 
 import pytest
+import rclpy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from dynamixel_bus import DEADLINE_S, TIMEOUT_MS, Bus
 from hand_node_rig import Spin, node_and_user
 from hand_rig import all_regions, region
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from std_srvs.srv import Trigger
 
+from acts_control.hand.control import HandPhase
 from acts_control.hand.description import LEAP_RIGHT
+from acts_control.hand.nodes.reflexes_node import HandReflexesNode
 from acts_core.skin import RegionContact as Touch
 from acts_msgs.msg import HandStatus, HandTiming, RegionContact, RegionContacts
 from acts_ros.qos import STREAM
@@ -136,6 +142,28 @@ def test_the_hand_grasps_avoids_and_opens_by_touch_and_ends_in_order(bus: Bus) -
         process.communicate(timeout=DEADLINE_S)
         assert process.returncode == 0
     assert {motor["torque_enable"] for motor in bus.motors()} == {0}
+
+
+def test_what_is_asked_for_while_a_motor_is_started_anew_is_no_failure() -> None:
+    context = Context()
+    rclpy.init(context=context, domain_id=DOMAIN_ID)
+    # Its loop is not launched: the hand stays as it is put here.
+    hand, user = HandReflexesNode(context=context), Node("user", context=context)
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(hand)
+    executor.add_node(user)
+    try:
+        hand.loop.status = replace(hand.loop.status, phase=HandPhase.RECOVERING, reason="index_pip: overload")
+        for name in ("stop", "release"):
+            client = user.create_client(Trigger, f"hand_reflexes/{name}")
+            answer = client.call_async(Trigger.Request())
+            executor.spin_until_future_complete(answer, timeout_sec=DEADLINE_S)
+            assert answer.result().success, answer.result().message
+    finally:
+        executor.shutdown()
+        user.destroy_node()
+        hand.destroy_node()
+        context.try_shutdown()
 
 
 def answer_of(node: Node, until: Spin, name: str) -> Trigger.Response:
