@@ -198,6 +198,18 @@ class HandSupervisor:
         self._refusal = why
         return False
 
+    def watch(self, now_s: float) -> None:
+        """Judge the touch that has come, while the torque is off and there are no steps; `now_s` as in `touch` [s]."""
+        age_s = now_s - self._touch_s
+        self.status = replace(
+            self.status,
+            touch_age_s=age_s,
+            is_stale=age_s > self._config.touch_stale_after_s,
+            refused=self._refused + self._rule.refused,
+            refusal=self._refusal,
+            unfelt=self._unfelt,
+        )
+
     def step(self, reading: HandReading, goal_rad: Sequence[float], now_s: float, dt_s: float) -> Array:
         """The goals of all joints for now.
 

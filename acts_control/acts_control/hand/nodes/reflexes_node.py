@@ -118,16 +118,25 @@ class TouchedHand:
 
     def step(self, reading: HandReading, goal_rad: Sequence[float], now_s: float, dt_s: float) -> Sequence[float]:
         """See `acts_control.hand.control.Behaviour`."""
-        taken = self._regions.take_all()[-_TOUCH_TRIES:]
-        self._touched_ns = None
-        while taken and not self._feel(taken.pop()[0], now_s):
-            pass
+        self._take(now_s)
         before = self._supervisor.status
         goals = [float(angle) for angle in self._supervisor.step(reading, goal_rad, now_s, dt_s)]
         status = self._supervisor.status
         if (status.state, status.events) != (before.state, before.events):
             self._on_change()
         return goals
+
+    def watch(self, now_s: float) -> None:
+        """Take touch while the torque is off, so that it is known how old it is; from the loop's own thread."""
+        self._take(now_s)
+        self._supervisor.watch(now_s)
+
+    def _take(self, now_s: float) -> None:
+        """Hand the newest touch that can be used to the supervisor."""
+        taken = self._regions.take_all()[-_TOUCH_TRIES:]
+        self._touched_ns = None
+        while taken and not self._feel(taken.pop()[0], now_s):
+            pass
 
     def _feel(self, data: bytes, now_s: float) -> bool:
         """Whether the supervisor can use a message."""
@@ -164,11 +173,11 @@ class HandReflexesNode(MotorNode):
         self._timing_publisher = self.create_publisher(HandTiming, "hand/timing", STATE)
         regions = self.create_raw_polled_subscription(RegionContacts, "regions", STREAM, depth=_TOUCH_DEPTH)
         clock = self.get_clock()
-        touched = TouchedHand(self._supervisor, regions, lambda: clock.now().nanoseconds, self._publish_status)
-        self._times, self._timed_s = touched.times, time.monotonic()
+        self._touched = TouchedHand(self._supervisor, regions, lambda: clock.now().nanoseconds, self._publish_status)
+        self._times, self._timed_s = self._touched.times, time.monotonic()
         self._told = SupervisorStatus()
         self._reported_refused = 0
-        self.start_with(settings, touched, "disable", "regions")
+        self.start_with(settings, self._touched, "disable", "regions")
         for name in ("grasp", "release", "stop"):
             self.create_service(Trigger, f"~/{name}", self._answer(name))
         self._steady_timers = (
@@ -195,6 +204,11 @@ class HandReflexesNode(MotorNode):
         if refused:
             level, words = max(level, WARN), f"messages left out: {refused}, the last: {status.refusal}; {words}"
         return level, words, {**values, **hand}
+
+    def _on_reading(self, reading: HandReading) -> None:
+        super()._on_reading(reading)
+        if self.loop.status.phase is not HandPhase.ENABLED:
+            self._touched.watch(time.monotonic())
 
     def _answer(self, name: str) -> Callable[[Trigger.Request, Trigger.Response], Trigger.Response]:
         def on_request(_request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:

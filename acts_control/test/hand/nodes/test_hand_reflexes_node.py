@@ -144,6 +144,37 @@ def test_the_hand_grasps_avoids_and_opens_by_touch_and_ends_in_order(bus: Bus) -
     assert {motor["torque_enable"] for motor in bus.motors()} == {0}
 
 
+def test_touch_is_known_while_the_torque_is_off(bus: Bus) -> None:
+    parameters = (
+        *(f"port:={bus.link}", f"answer_timeout_ms:={TIMEOUT_MS}", "silence_s:=2.0", "motor_watchdog_s:=0.0"),
+        *("touch_stale_after_s:=2.0", "rate_hz:=100.0", "autostart:=false"),
+    )
+    with node_and_user(DOMAIN_ID, *parameters, program="hand_reflexes") as (_process, node, until):
+        statuses: list[HandStatus] = []
+        reports: list[DiagnosticArray] = []
+        node.create_subscription(HandStatus, "hand/status", statuses.append, 10)
+        node.create_subscription(DiagnosticArray, "/diagnostics", reports.append, 10)
+        regions = node.create_publisher(RegionContacts, "regions", STREAM)
+        message = RegionContacts(regions=[message_of(one) for one in all_regions()])
+
+        def is_touched() -> bool:
+            message.header.stamp = node.get_clock().now().to_msg()
+            regions.publish(message)
+            return bool(statuses) and statuses[-1].touch_age < 1.0
+
+        def says(words: str) -> bool:
+            return any(words in status.message for report in reports for status in report.status)
+
+        until(is_touched)
+        reports.clear()
+        until(lambda: is_touched() and says("released: connected"))
+        assert not says("no touch")
+        # Nor does what was felt long ago count, once it is on.
+        until(lambda: says("no touch for "))
+        assert answer_of(node, until, "enable").success
+        assert answer_of(node, until, "grasp").message.startswith("no touch for ")
+
+
 def test_what_is_asked_for_while_a_motor_is_started_anew_is_no_failure() -> None:
     context = Context()
     rclpy.init(context=context, domain_id=DOMAIN_ID)
