@@ -128,7 +128,7 @@ class HandLoop:
             return ""
         if not self._enabled or not self._thread.is_alive():
             return f"the torque is off: {status.reason}"
-        state = "not connected" if status.phase is HandPhase.CONNECTING else status.phase.name.lower()
+        state = "not connected" if status.phase is HandPhase.CONNECTING else status.phase.words
         return f"the hand is {state} ({status.reason}); its torque comes on as soon as it can, unless it is released"
 
     def release(self) -> str:

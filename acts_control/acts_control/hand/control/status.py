@@ -20,6 +20,11 @@ class HandPhase(IntEnum):
     RECOVERING = 3
     GIVEN_UP = 4
 
+    @property
+    def words(self) -> str:
+        """For a person."""
+        return self.name.lower().replace("_", " ")
+
 
 @dataclass(frozen=True)
 class HandStatus:

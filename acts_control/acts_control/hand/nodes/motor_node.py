@@ -117,7 +117,7 @@ class MotorNode(PollingNode):
             "unanswered": status.unanswered,
             "recovered": status.recovered,
         }
-        level, words = _LEVELS.get(status.phase, OK), f"{status.phase.name.lower()}: {status.reason}"
+        level, words = _LEVELS.get(status.phase, OK), f"{status.phase.words}: {status.reason}"
         if self.settings.interface == _CMD_LEAP:
             # What is told as read is what was sent: no heat, no current, and no torque that were off.
             if status.phase in (HandPhase.RELEASED, HandPhase.GIVEN_UP):
@@ -135,7 +135,7 @@ class MotorNode(PollingNode):
         status = self.loop.status
         if status.phase is HandPhase.ENABLED:
             return ""
-        state = "not connected" if status.phase is HandPhase.CONNECTING else status.phase.name.lower().replace("_", " ")
+        state = "not connected" if status.phase is HandPhase.CONNECTING else status.phase.words
         advice = "; call enable" if status.phase is HandPhase.RELEASED else ""
         return f"the hand is {state}: {status.reason}{advice}"
 

@@ -225,7 +225,7 @@ class HandReflexesNode(MotorNode):
         status, loop = self._supervisor.status, self.loop.status
         if loop.phase is HandPhase.ENABLED:
             return status
-        reason = f"the hand is {loop.phase.name.lower()}: {loop.reason}"
+        reason = f"the hand is {loop.phase.words}: {loop.reason}"
         return replace(status, state=HandState.STOPPED, reason=reason, active=())
 
     def _publish_status(self) -> None:

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import signal
+import time
 from dataclasses import replace
 
 import pytest
@@ -190,6 +191,13 @@ def test_what_is_asked_for_while_a_motor_is_started_anew_is_no_failure() -> None
             answer = client.call_async(Trigger.Request())
             executor.spin_until_future_complete(answer, timeout_sec=DEADLINE_S)
             assert answer.result().success, answer.result().message
+        hand.loop.status = replace(hand.loop.status, phase=HandPhase.GIVEN_UP, reason="index_pip: overload, 2 times")
+        told: list[HandStatus] = []
+        user.create_subscription(HandStatus, "hand/status", told.append, 10)
+        end_s = time.monotonic() + DEADLINE_S
+        while not told or told[-1].reason != "the hand is given up: index_pip: overload, 2 times":
+            assert time.monotonic() < end_s, told[-1:]
+            executor.spin_once(timeout_sec=0.05)
     finally:
         executor.shutdown()
         user.destroy_node()
