@@ -166,6 +166,19 @@ def test_where_one_motor_is_silent_the_others_are_switched_off(bus: Bus) -> None
     assert "not all motors could be switched off: motors 14 (" in told[-1]
 
 
+def test_who_ends_a_hand_with_a_silent_motor_is_told_to_cut_its_power(bus: Bus) -> None:
+    # Motors without a watchdog: nothing stops the silent one.
+    running = Running(bus, silence_s=10.0)
+    try:
+        running.until_phase(HandPhase.ENABLED)
+        bus.command("lose 14")
+    finally:
+        running.loop.close()
+    told = [sentence for level, sentence in running.log if level == "error"]
+    assert any("14 (thumb_mcp) did not answer when they were switched off; motors that are" in one for one in told)
+    assert any("cut their power to be sure" in one for one in told)
+
+
 def test_torque_that_comes_on_for_a_part_of_the_motors_is_switched_off_again(bus: Bus, running: Running) -> None:
     running.until_phase(HandPhase.ENABLED)
     running.loop.release()

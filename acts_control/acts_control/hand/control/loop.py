@@ -363,7 +363,7 @@ class HandLoop:
             self._release()
             self._set(HandPhase.RELEASED, "shutting down")
         except HandError as error:
-            self._log("error", f"{error}: the motors' own watchdog stops them")
+            self._log("error", f"{error}; {_CUT_POWER}")
 
     def _release(self) -> None:
         self._bus.release()
