@@ -73,6 +73,8 @@ def test_where_limits_are_tightened_the_gate_lets_the_plate_come_back() -> None:
     ("changes", "words"),
     [
         ({"connected": False}, "connection to the robot lost"),
+        ({"connected": False, "silent_s": 0.1}, "connection to the robot lost"),
+        ({"connected": False, "silent_s": 2.5}, "no data from the robot for 2.50 s"),
         ({"stopped": "robot: protective stop"}, "robot: protective stop"),
         ({"waiting_s": 0.25}, "the robot has not taken a command for 0.25 s"),
         ({"joints": (NAN, 0.0)}, "the robot reports joint angles (nan, 0.0)"),

@@ -238,9 +238,10 @@ def test_a_controller_that_stalls_while_motion_ends_is_lost_too() -> None:
     with ExitStack() as stack:
         rig = Rig("127.0.17.12", stack)
         rig.balance()
+        # In this order: motion could otherwise end before the controller stands still.
+        rig.pause()
         assert rig.loop.stop("stopped by request")
         assert rig.loop.is_stopping
-        rig.pause()
         assert rig.await_phase(Phase.STOPPED, TOLD_WITHIN_S + 1.0).startswith("no data from the robot")
         rig.resume()
 

@@ -19,7 +19,7 @@ from types import SimpleNamespace
 import pytest
 
 from acts_control.robots.base import CommandRefusedError
-from acts_control.robots.ur import UrConfig, UrRobot
+from acts_control.robots.ur import UrConfig, UrRobot, ur_process
 from acts_control.robots.ur.gate import JointGate
 from acts_control.robots.ur.state import UrState
 from acts_control.robots.ur.ur_probe import DASHBOARD_PORT, RTDE_PORT, SCRIPT_PORT, probe
@@ -204,10 +204,11 @@ def test_a_reading_has_the_plates_tilt_and_how_far_the_arm_is_from_level() -> No
     q_rad = list(ur5e.LEVEL_Q_RAD)
     q_rad[3:5] = ur5e.wrist_angles_for_tilt(q_rad, 0.02, -0.03, 0.7)
     q_rad[0] += 0.4
-    reading = STATE._replace(q_rad=tuple(q_rad)).reading(UrConfig(mount_yaw_rad=0.7), 0.1)
+    reading = STATE._replace(q_rad=tuple(q_rad), silent_s=0.3).reading(UrConfig(mount_yaw_rad=0.7), 0.1)
     assert reading.tilt_rad == pytest.approx((0.02, -0.03))
     assert reading.off_level == pytest.approx(0.4)
-    assert (reading.connected, reading.time_s, reading.joints, reading.waiting_s) == (True, 2.5, tuple(q_rad), 0.1)
+    assert (reading.connected, reading.time_s, reading.joints) == (True, 2.5, tuple(q_rad))
+    assert (reading.waiting_s, reading.silent_s) == (0.1, 0.3)
 
 
 class StopsMeanwhile:
@@ -245,3 +246,47 @@ def test_a_program_that_a_safety_function_stops_is_never_told_without_that(value
         connection._receive = StopsMeanwhile(values)
         state = UrState(*connection._read())  # type: ignore[arg-type]
     assert state.is_playing or state.safety_stop == "emergency stop"
+
+
+class FallsSilent(StopsMeanwhile):
+    """A controller that tells nothing more after 1 s, until the library ends the connection; and a clock."""
+
+    _time_s = 0.0
+
+    def __init__(self) -> None:
+        """Of no emergency stop."""
+
+    def _is_stopped(self) -> bool:
+        return False
+
+    def isConnected(self) -> bool:  # noqa: N802
+        return self._time_s < 3.5
+
+    def getTimestamp(self) -> float:  # noqa: N802
+        return min(self._time_s, 1.0)
+
+    def monotonic(self) -> float:
+        return self._time_s
+
+    def sleep(self, seconds: float) -> None:
+        self._time_s += seconds
+        if self._time_s > 4.0:
+            raise TimeoutError
+
+
+def test_how_long_a_controller_was_silent_is_told_with_the_end_of_the_connection(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    controller = FallsSilent()
+    monkeypatch.setattr(ur_process, "time", controller)
+    told: list[tuple[object, ...]] = []
+    with socket.socket() as link:
+        connection = _Connection(link, HOST, 125.0)
+    monkeypatch.setattr(connection, "_tell", lambda _kind, *words: told.append(words))
+    connection._receive = controller
+    with pytest.raises(TimeoutError):
+        connection._tell_readings()
+    *while_connected, last = [UrState(*words) for words in told]  # type: ignore[arg-type]
+    assert all(state.connected and state.silent_s < 0.02 for state in while_connected)
+    assert not last.connected
+    assert last.silent_s == pytest.approx(2.5, abs=0.02)

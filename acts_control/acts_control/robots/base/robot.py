@@ -78,6 +78,8 @@ class RobotReading(NamedTuple):
         Why the robot does not do what it is told, in words; empty while it does.
     waiting_s : float
         How long the oldest command that has not been taken yet has been waiting [s].
+    silent_s : float
+        How long the robot had told nothing before this: what is not connected any more may have been silent first [s].
     """
 
     connected: bool
@@ -87,6 +89,7 @@ class RobotReading(NamedTuple):
     tilt_rad: tuple[float, float]
     stopped: str = ""
     waiting_s: float = 0.0
+    silent_s: float = 0.0
 
 
 class Robot(Protocol):

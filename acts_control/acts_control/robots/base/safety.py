@@ -94,6 +94,9 @@ class RobotWatch:
     def loss(self, reading: RobotReading, dt: float) -> str:
         """That the robot is gone or stands still, in words; empty when it is there. To be called instead of `step`."""
         if not reading.connected:
+            # What connects to a robot may end a silent connection before enough steps of ours have passed.
+            if reading.silent_s > self._config.robot_stale_after_s:
+                return f"no data from the robot for {reading.silent_s:.2f} s"
             return "connection to the robot lost"
         self._still_s = self._still_s + dt if reading.time_s == self._time_s else 0.0
         self._time_s = reading.time_s

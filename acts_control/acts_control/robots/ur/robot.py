@@ -277,8 +277,8 @@ class UrRobot:
                 raise RobotError(f"{self._config.robot_ip}: {self._how_it_ended()}")
             kind, *words = json.loads(packet)
             if kind == "reading":
-                connected, timestamp_s, q_rad, safety_bits, runtime_state = words
-                self._state = UrState(connected, timestamp_s, tuple(q_rad), safety_bits, runtime_state)
+                connected, timestamp_s, q_rad, safety_bits, runtime_state, silent_s = words
+                self._state = UrState(connected, timestamp_s, tuple(q_rad), safety_bits, runtime_state, silent_s)
                 continue
             name, _ = self._pending.popleft()
             if kind == "failed":

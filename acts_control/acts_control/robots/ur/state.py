@@ -41,6 +41,8 @@ class UrState(NamedTuple):
         Joint angles, base to wrist 3 [rad].
     safety_bits, runtime_state : int
         safety_status_bits and runtime_state.
+    silent_s : float
+        How long it had told nothing before that [s].
     """
 
     connected: bool
@@ -48,6 +50,7 @@ class UrState(NamedTuple):
     q_rad: tuple[float, ...]
     safety_bits: int
     runtime_state: int
+    silent_s: float = 0.0
 
     @property
     def safety_stop(self) -> str:
@@ -72,12 +75,13 @@ class UrState(NamedTuple):
         stopped = self._stopped()
         if len(self.q_rad) != ur5e.JOINTS or not all(map(isfinite, self.q_rad)):
             stopped = stopped or f"the robot reports joint angles {self.q_rad}"
-            return RobotReading(
-                self.connected, self.timestamp_s, self.q_rad, _UNKNOWN, (_UNKNOWN,) * 2, stopped, waiting_s
-            )
-        off_level = max(abs(angle - level) for angle, level in zip(self.q_rad, config.level_q_rad, strict=True))
-        tilt = ur5e.tilt_of(self.q_rad, config.mount_yaw_rad)
-        return RobotReading(self.connected, self.timestamp_s, self.q_rad, off_level, tilt, stopped, waiting_s)
+            off_level, tilt = _UNKNOWN, (_UNKNOWN, _UNKNOWN)
+        else:
+            off_level = max(abs(angle - level) for angle, level in zip(self.q_rad, config.level_q_rad, strict=True))
+            tilt = ur5e.tilt_of(self.q_rad, config.mount_yaw_rad)
+        return RobotReading(
+            self.connected, self.timestamp_s, self.q_rad, off_level, tilt, stopped, waiting_s, self.silent_s
+        )
 
     def _stopped(self) -> str:
         if self.safety_stop:

@@ -91,7 +91,7 @@ class _Connection:
         signal.alarm(_CONNECT_S)
         self._receive = rtde_receive.RTDEReceiveInterface(self._host, self._rate_hz, _VARIABLES)
         signal.alarm(0)
-        self._tell("reading", *self._read())
+        self._tell("reading", *self._read(), 0.0)
         threading.Thread(target=self._tell_readings, name="readings", daemon=True).start()
 
     def _take_control(self) -> None:
@@ -103,14 +103,16 @@ class _Connection:
 
     def _tell_readings(self) -> None:
         seen = None
+        seen_s = time.monotonic()
         while True:
             newest = self._receive.isConnected(), self._receive.getTimestamp()
             if newest == seen:
                 time.sleep(_NEXT_LOOK / self._rate_hz)
                 continue
-            seen = newest
+            seen, before_s, seen_s = newest, seen_s, time.monotonic()
             try:
-                self._tell("reading", *self._read())
+                # The library says of a controller that it tells nothing, too, that it is not connected: after 2.5 s.
+                self._tell("reading", *self._read(), seen_s - before_s)
             except OSError:
                 return  # the other process has gone
             time.sleep(_FIRST_LOOK / self._rate_hz)
