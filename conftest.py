@@ -11,6 +11,7 @@ the run for ever.
 
 import faulthandler
 import fcntl
+import gc
 import os
 import signal
 import sys
@@ -72,6 +73,17 @@ def _environment() -> Iterator[None]:
 def pytest_configure(config: pytest.Config) -> None:
     """Keep the standard error output: pytest redirects it while a test runs."""
     config.stash[_STDERR] = os.dup(sys.__stderr__.fileno())
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collection() -> Iterator[None]:
+    """Search for garbage only among what comes to be while tests run: modules and tests stay, and are many."""
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.freeze()
+        gc.enable()
 
 
 @pytest.hookimpl(trylast=True)
