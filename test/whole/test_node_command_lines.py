@@ -5,9 +5,12 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import subprocess
+import sys
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -30,19 +33,57 @@ SET = sorted(
     }
 )
 DOMAIN_ID = 224
+DEADLINE_S = 60.0
 
 
-def refused(package: str, executable: str, *words: str) -> str:
+# Imports what nodes import, and carries out each command line that it reads in a copy of itself: a program for each of
+# them would import all of it again. The programs are all alike, and start in the tests of launch files.
+COPIES = """
+import importlib, importlib.metadata, json, os, sys, tempfile
+for line in sys.stdin:
+    package, executable, words = json.loads(line)
+    scripts = importlib.metadata.distribution(package).entry_points.select(group="console_scripts", name=executable)
+    (program,) = (script.load() for script in scripts)
+    importlib.import_module(program._module)
+    with tempfile.TemporaryFile() as said:
+        child = os.fork()
+        if not child:
+            os.dup2(said.fileno(), 1)
+            os.dup2(said.fileno(), 2)
+            sys.argv = [executable, *words]
+            sys.exit(program())
+        code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+        said.seek(0)
+        print(json.dumps([code, said.read().decode()]), flush=True)
+"""
+
+Refused = Callable[..., str]
+
+
+def program(package: str, executable: str) -> Path:
+    return Path(get_package_prefix(package)) / "lib" / package / executable
+
+
+@pytest.fixture(scope="module")
+def refused() -> Iterator[Refused]:
     """What a node says that refuses its command line."""
-    finished = subprocess.run(
-        [str(Path(get_package_prefix(package)) / "lib" / package / executable), *words],
-        capture_output=True,
-        text=True,
-        timeout=60,
-        env={**os.environ, "ROS_DOMAIN_ID": str(DOMAIN_ID)},
-    )
-    assert finished.returncode == REFUSED_EXIT_CODE, finished.stdout + finished.stderr
-    return finished.stderr
+    environment = {**os.environ, "ROS_DOMAIN_ID": str(DOMAIN_ID)}
+    with subprocess.Popen(
+        [sys.executable, "-c", COPIES], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=environment
+    ) as process:
+        assert process.stdin is not None
+        assert process.stdout is not None
+
+        def ask(package: str, executable: str, *words: str) -> str:
+            assert program(package, executable).is_file()
+            print(json.dumps([package, executable, words]), file=process.stdin, flush=True)
+            code, said = json.loads(process.stdout.readline())
+            assert code == REFUSED_EXIT_CODE, said
+            return str(said)
+
+        yield ask
+        process.stdin.close()
+        assert process.wait(DEADLINE_S) == 0
 
 
 def test_the_launch_files_set_parameters_of_these_nodes() -> None:
@@ -63,7 +104,7 @@ def test_the_launch_files_set_parameters_of_these_nodes() -> None:
 
 @pytest.mark.parametrize(("package", "executable", "parameter"), SET, ids=[executable for _, executable, _ in SET])
 def test_a_node_reads_what_a_launch_file_sets_and_refuses_what_it_does_not_know(
-    package: str, executable: str, parameter: str
+    refused: Refused, package: str, executable: str, parameter: str
 ) -> None:
     node, _, name = parameter.partition(".")
     assert f"{name}_" in refused(package, executable, "--set", f"{node}.{name}_=1")
@@ -71,8 +112,16 @@ def test_a_node_reads_what_a_launch_file_sets_and_refuses_what_it_does_not_know(
 
 
 def test_what_is_set_has_an_effect() -> None:
-    assert "'Q' is not one of" in refused("acts_control", "ball_trajectory", "--set", "ball_trajectory.trajectory=Q")
+    finished = subprocess.run(
+        [str(program("acts_control", "ball_trajectory")), "--set", "ball_trajectory.trajectory=Q"],
+        capture_output=True,
+        text=True,
+        timeout=DEADLINE_S,
+        env={**os.environ, "ROS_DOMAIN_ID": str(DOMAIN_ID)},
+    )
+    assert finished.returncode == REFUSED_EXIT_CODE, finished.stdout + finished.stderr
+    assert "'Q' is not one of" in finished.stderr
 
 
-def test_ball_state_has_a_command_line_as_the_others() -> None:
+def test_ball_state_has_a_command_line_as_the_others(refused: Refused) -> None:
     assert "--frob" in refused("acts_control", "ball_state", "--frob")
