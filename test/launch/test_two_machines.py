@@ -16,6 +16,7 @@ from contextlib import ExitStack
 from dataclasses import dataclass
 
 import pytest
+from launch_support import shipped_parameters_and
 
 from acts_core.errors import LaunchError
 from acts_tools.two_machines.conditions import Conditions
@@ -58,7 +59,10 @@ class Touch:
 def running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Touch]:
     folder = tmp_path_factory.mktemp("two_machines")
     acts = [sys.executable, "-m", "acts_tools"]
+    # From the start on.
+    capped = shipped_parameters_and(folder, "tactile", "/plate/driver", f"{{rate_cap_hz: {RATE_HZ}}}")
     launch = [*acts, "launch", "--own", "acts_bringup", "tactile.launch.xml", f"run_dir:={folder}"]
+    launch.append(f"params_file:={capped}")
     node = [
         sys.executable,
         "-m",
@@ -82,7 +86,6 @@ def running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Touch]:
                 lambda report: min(report.received(CONTACT), report.received("/far/contact")) > 0, START_S, "contacts"
             )
             deadline_s = time.monotonic() + DEADLINE_S
-            assert touch.on_near_machine("driver", "set", f"rate_cap_hz={RATE_HZ}") == 0
             # Refused until enough of the skin has been seen.
             while touch.on_near_machine("driver", "tare") != 0:
                 assert time.monotonic() < deadline_s, "no tare"
