@@ -10,7 +10,7 @@ from pathlib import Path
 
 from acts_core.array import MAX_SIDE
 from acts_core.runtime import RealtimeConfig
-from acts_core.settings import Changeable, default_of, describe, setting
+from acts_core.settings import Changeable, default_of, describe, refuse_doubles, setting
 from acts_driver.baseline import BaselineParameters
 from acts_driver.board import BoardParameters
 from acts_driver.port import SerialSource, Source, check_port
@@ -95,6 +95,10 @@ class SourceParameters:
         maximum=1e6,
         changeable=Changeable.UNCONFIGURED,
     )
+
+
+# A sampling scheme may bring settings of its own; its own parameter would silently take the place of one of ours.
+refuse_doubles(RealtimeConfig, BaselineParameters, BoardParameters, SourceParameters)
 
 
 @dataclass(frozen=True)

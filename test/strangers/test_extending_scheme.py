@@ -125,6 +125,13 @@ def test_driver_and_board_refuse_what_exists_in_python_only(tmp_path: Path) -> N
         assert "scheme = 'page_comb': allowed is one of" in result.stderr
 
 
+def test_a_scheme_whose_setting_would_replace_a_parameter_of_the_driver_is_refused(tmp_path: Path) -> None:
+    environment = with_example(tmp_path, python_code().replace("page_comb_step", "baud"))
+    result = run(["import acts_driver.settings"], environment)
+    assert result.returncode == 1
+    assert "parameter 'baud' is declared 2 times: begin it with the name of its thing" in result.stderr
+
+
 def test_a_scheme_without_a_number_is_sampled_in_python_beside_those_of_the_firmware(tmp_path: Path) -> None:
     asked = "from acts_core.sampling import SamplingConfig\n"
     asked += "from acts_tools.firmware.board_sampler import sampler_of\n"

@@ -5,13 +5,15 @@
 
 from __future__ import annotations
 
+import inspect
 import pkgutil
 from collections.abc import Iterable
 from importlib import import_module
 
 from acts_core.errors import SettingsError
 from acts_core.sampling import schemes
-from acts_core.sampling.basis import SamplingScheme
+from acts_core.sampling.basis import CommonSettings, SamplingScheme
+from acts_core.settings import describe
 
 
 def _find() -> dict[str, type[SamplingScheme]]:
@@ -20,12 +22,48 @@ def _find() -> dict[str, type[SamplingScheme]]:
         module = import_module(f"{schemes.__name__}.{info.name}")
         for scheme in vars(module).values():
             if isinstance(scheme, type) and issubclass(scheme, SamplingScheme) and scheme.__module__ == module.__name__:
+                if inspect.isabstract(scheme):
+                    continue  # what several schemes of the module share
+                check_words(scheme)
                 if scheme.name in found:
                     first = found[scheme.name].__module__
                     raise SettingsError(f"name = {scheme.name!r} of {module.__name__}: {first} has it already")
                 found[scheme.name] = scheme
+    check_names(found.values())
     check_numbers(found.values())
     return dict(sorted(found.items()))
+
+
+def check_words(scheme: type[SamplingScheme]) -> None:
+    """Check that a scheme says what it is called, and what its frames are.
+
+    Raises
+    ------
+    SettingsError
+    """
+    for word in ("name", "description"):
+        if not isinstance(getattr(scheme, word, None), str):
+            raise SettingsError(f"scheme {scheme.__module__}.{scheme.__name__}: it has no {word}; give the class one")
+
+
+def check_names(schemes: Iterable[type[SamplingScheme]]) -> None:
+    """Check the names of own settings: no other scheme has a setting of that name, nor have all schemes together.
+
+    Raises
+    ------
+    SettingsError
+        It names the scheme, the setting and who has it already.
+    """
+    owners = dict.fromkeys(("scheme", *describe(CommonSettings)), "every scheme")
+    for scheme in schemes:
+        for own in scheme.own_settings:
+            for name in dict.fromkeys((own.name, own.parameter)):
+                if name in owners:
+                    raise SettingsError(
+                        f"own setting {name!r} of scheme {scheme.name!r}: {owners[name]} has one of that name; "
+                        "begin it with the name of its scheme"
+                    )
+                owners[name] = f"scheme {scheme.name!r}"
 
 
 def check_numbers(schemes: Iterable[type[SamplingScheme]]) -> None:

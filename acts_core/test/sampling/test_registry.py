@@ -1,13 +1,13 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Numbers on the wire that cannot be are refused at the start, with those that can."""
+"""Names and numbers on the wire that cannot be are refused at the start, with those that can."""
 
 import pytest
 
 from acts_core.errors import SettingsError
-from acts_core.sampling import SCHEME_NUMBERS, SCHEMES, OwnSetting, SamplingScheme
-from acts_core.sampling.registry import check_numbers
+from acts_core.sampling import SCHEME_NUMBERS, SCHEMES, OwnSetting, SamplingScheme, Share
+from acts_core.sampling.registry import check_names, check_numbers, check_words
 
 
 def scheme_of(number: int | None, own_number: int | None = None) -> type[SamplingScheme]:
@@ -31,3 +31,27 @@ def test_a_scheme_with_anothers_number_is_refused_with_the_next_free_one() -> No
 def test_an_own_setting_with_anothers_number_or_behind_a_gap_is_refused(number: int) -> None:
     with pytest.raises(SettingsError, match=rf"'mine_step': {number}.*allowed is each of \[7, 8, 14"):
         check_numbers([*SCHEMES.values(), scheme_of(200, own_number=number)])
+
+
+@pytest.mark.parametrize(
+    ("own", "owner"),
+    [
+        (OwnSetting("seed", "a seed", 1, 1, 9), "every scheme"),
+        (OwnSetting("fixed_row", "a row", 1, 1, 9), "scheme 'fixed'"),
+        (OwnSetting("mine_quota", "taxels", 1, 1, 9, share=Share("search_share", "a share", 0.5)), "scheme 'tracking'"),
+    ],
+)
+def test_an_own_setting_that_would_replace_anothers_is_refused(own: OwnSetting, owner: str) -> None:
+    mine = type("Mine", (SamplingScheme,), {"name": "mine", "own_settings": (own,)})
+    with pytest.raises(
+        SettingsError, match=rf"'{own.parameter}' of scheme 'mine': {owner} has one of that name; begin"
+    ):
+        check_names([*SCHEMES.values(), mine])
+
+
+@pytest.mark.parametrize("missing", ["name", "description"])
+def test_a_scheme_that_does_not_say_what_it_is_called_or_does_is_refused(missing: str) -> None:
+    words = {"name": "mine", "description": "frames of mine", "__module__": "mine"}
+    del words[missing]
+    with pytest.raises(SettingsError, match=rf"scheme mine\.Mine: it has no {missing}; give the class one"):
+        check_words(type("Mine", (SamplingScheme,), words))
