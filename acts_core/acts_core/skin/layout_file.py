@@ -220,6 +220,12 @@ def _radius(section: Section, key: str, length_m: float) -> float:
 
 def _block(section: Section, matrix: tuple[int, int]) -> NDArray[np.intp]:
     """Taxels where the wires down cross the wires across; shape (wires down, wires across)."""
+    for key, value in section.values.items():
+        if key not in _WIRES_KEYS and value is None:  # YAML takes what follows a comma for a key of its own
+            raise section.error(
+                f"{key} stands alone behind a comma: put wires with commas in quotes, such as across: 'rows 0, 2 to 3'",
+                key,
+            )
     section.check_keys(_WIRES_KEYS)
     down_kind, down = _wires(section, "down", matrix)
     across_kind, across = _wires(section, "across", matrix)
@@ -271,8 +277,9 @@ def _picture(top: Section, wired: list[_Wired], rows: int, cols: int) -> tuple[i
             raise one.section.error(f"at: the patch reaches beyond the picture of {size[0]} x {size[1]}", "at")
     if size[0] * size[1] != rows * cols:
         raise top.error(
-            f"a picture of {size[0]} x {size[1]}: it has a place for each of the {rows * cols} taxels of the matrix, "
-            "also for those without skin; give picture: [rows, columns] with that product",
+            f"a picture of {size[0]} x {size[1]}: it has a place for each of the {rows * cols} taxels of the matrix of "
+            f"{rows} x {cols}, also for those without skin; give picture: [rows, columns] with that product, or, where "
+            "yours is another, matrix: [rows, columns]",
             "picture",
         )
     return size

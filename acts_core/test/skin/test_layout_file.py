@@ -82,6 +82,9 @@ def test_without_a_size_it_is_that_of_the_file(tmp_path: Path) -> None:
     read(tmp_path, HAND)
     hand = layout(str(tmp_path / "hand.yaml"))
     assert hand.picture(np.arange(24).reshape(4, 6)).shape == (hand.rows, hand.cols)
+    (tmp_path / "hand.yaml").write_text(HAND.replace("matrix: [4, 6]\n", ""))
+    with pytest.raises(SettingsError, match=r"1024 taxels of the matrix of 32 x 32.*yours is another, matrix: \[rows"):
+        layout(str(tmp_path / "hand.yaml"))
     (tmp_path / "hand.yaml").write_text(HAND.replace("matrix: [4, 6]\n", "picture: [32, 32]\n"))
     assert layout(str(tmp_path / "hand.yaml")).taxels.size == 32 * 32
 
@@ -107,6 +110,8 @@ def test_shipped_files_have_nothing_that_a_copy_could_not(tmp_path: Path, name: 
         ("cols 5 to 4", "cols 6 to 4", ["hand.yaml:8: patch tip: wires: down = 'cols 6 to 4'", "0 to 5"]),
         ("cols 5 to 4", "columns 5", ["hand.yaml:8:", "'columns 5'", "such as 'rows 0 to 7'"]),
         ("cols 5 to 4", "rows 1", ["hand.yaml:8:", "both rows"]),
+        ("'rows 0, 2 to 3'", "rows 0, 2 to 3", ["hand.yaml:8:", "2 to 3 stands alone behind a comma", "in quotes"]),
+        ("'rows 0, 2 to 3'", "rows 0, 2", ["hand.yaml:8:", "2 stands alone behind a comma", "in quotes"]),
         ("rows 0, 2 to 3", "rows 0, 2 to 0", ["hand.yaml:8:", "a wire is named twice"]),
         ("cols 5 to 4", "cols 5 to 4 by 0", ["hand.yaml:8:", "by 0"]),
         ("rows 3 to 2", "rows 2 to 1", ["hand.yaml:13: patch palm: wires:", "row 1, column 2", "patch palm already"]),
