@@ -109,6 +109,14 @@ def test_another_hand_is_another_file(tmp_path: Path) -> None:
     assert pose.tip("right")[0] == pytest.approx(-0.02 + 0.05 * math.sin(0.3))
 
 
+def test_a_file_that_was_changed_is_read_anew(tmp_path: Path) -> None:
+    path = tmp_path / "gripper.yaml"
+    path.write_text(GRIPPER)
+    assert hand_description(str(path)).name == "gripper"
+    path.write_text(GRIPPER.replace("name: gripper", "name: pliers"))
+    assert hand_description(str(path)).name == "pliers"
+
+
 @pytest.mark.parametrize(
     ("wrong", "right", "told"),
     [
@@ -124,7 +132,11 @@ def test_another_hand_is_another_file(tmp_path: Path) -> None:
         ("motor: 2", "motor: two", "5: joint right: motor = 'two': needed is a whole number"),
         ("motor: 2, ", "", "5: joint right: motor = None"),
         ("zero_rad: 2.0}", "zero_red: 2.0}", "did you mean 'zero_rad'"),
-        ("parent: body, joint: right", "parent: bdy, joint: right", "8: link right_jaw: parent = 'bdy'"),
+        (
+            "parent: body, joint: right",
+            "parent: bdy, joint: right",
+            "8: link right_jaw: parent = 'bdy'.*body, left_jaw: .*before this",
+        ),
         ("joint: right,", "joint: rigt,", "8: link right_jaw: joint = 'rigt': allowed is one of left, right"),
         ("axis: [0, 1, 0]", "axis: [0, 2, 0]", "8: link right_jaw: axis = .*its length is 2"),
         ("axis: [0, 1, 0]", "axis: [0, .nan, 0]", "8: link right_jaw: axis = .*3 finite numbers"),

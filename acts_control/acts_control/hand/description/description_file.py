@@ -21,7 +21,6 @@ _FARTHEST_RAD, _FARTHEST_M = 4.0 * math.pi, 1.0
 _KEYS = ("name", "base", "joints", "links", "fingers", "regions", "postures")
 
 
-@lru_cache
 def hand_description(name_or_path: str) -> HandDescription:
     """A hand by the name of a shipped one, or the path of a file (what ends in .yaml).
 
@@ -32,10 +31,15 @@ def hand_description(name_or_path: str) -> HandDescription:
     """
     if name_or_path.endswith((".yaml", ".yml")):
         return _read(Path(name_or_path))
-    path = _SHIPPED / f"{name_or_path}.yaml"
+    return _shipped(name_or_path)
+
+
+@lru_cache
+def _shipped(name: str) -> HandDescription:
+    path = _SHIPPED / f"{name}.yaml"
     if not is_there(path, error=SettingsError):
         shipped = ", ".join(sorted(file.stem for file in _SHIPPED.glob("*.yaml")))
-        raise SettingsError(f"hand {name_or_path!r}: allowed is one of {shipped}, or the path of a .yaml file")
+        raise SettingsError(f"hand {name!r}: allowed is one of {shipped}, or the path of a .yaml file")
     return _read(path)
 
 
@@ -90,7 +94,11 @@ def _link(one: Section, name: str, parents: list[str], joints: set[str]) -> Link
         raise one.error("the base has this name, which nothing moves; give the link another")
     _place(one, "position_m")
     axis = _unit(one, "axis")
-    return Link(name, one.one_of("parent", parents), one.one_of("joint", joints), one.transform(), axis)
+    try:
+        parent = one.one_of("parent", parents)
+    except SettingsError as error:
+        raise SettingsError(f"{error}: the base, and the links that stand before this one") from error
+    return Link(name, parent, one.one_of("joint", joints), one.transform(), axis)
 
 
 def _finger(one: Section, name: str, links: set[str], joints: set[str]) -> Finger:
