@@ -57,6 +57,12 @@ def test_an_unknown_method_is_refused() -> None:
         method_named("magic")
 
 
+def test_a_method_of_the_node_with_the_name_of_a_baseline_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(METHODS, "linear", METHODS["fusion"])
+    with pytest.raises(SettingsError, match=r"'linear'.*methods/registry\.py.*none of paper, .*linear"):
+        method_named("linear")
+
+
 def test_the_names_of_the_node_mean_the_same_methods() -> None:
     assert {name: method_named(name) for name in METHODS if name in ALIASES} == {
         "fusion": FACTORIES["acts"],

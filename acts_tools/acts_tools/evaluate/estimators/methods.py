@@ -110,9 +110,14 @@ def method_named(name: str) -> MethodFactory:
     Raises
     ------
     SettingsError
-        When there is none; the message names those that exist.
+        When there is none; the message names those that exist. When a method of the node has the name of a baseline.
     """
     known_as = report_name(name)
+    if name in METHODS and name in FACTORIES:
+        raise SettingsError(
+            f"method {name!r} in acts_recon/methods/registry.py: the evaluation has a baseline of this name, which it "
+            f"would score instead; give the method a name that is none of {', '.join(FACTORIES)}"
+        )
     if known_as in FACTORIES:
         return FACTORIES[known_as]
     if known_as in METHODS:
