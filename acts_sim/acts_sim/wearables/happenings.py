@@ -3,7 +3,7 @@
 
 """What happens to worn skins in the paper's figure 8: six scenes by name.
 
-To add one, write a function that returns contacts and register it.
+To add one, write a function that returns contacts and register it; `acts evaluate wearables` then has it.
 """
 
 from __future__ import annotations
@@ -47,6 +47,10 @@ class SceneKind:
         Of the paper.
     layout : str
         Of the skin.
+    told_as : str
+        The kind of impact that its events are to be told as: tap, press, step, impact or slide.
+    rebounds : bool
+        Whether they are to be told as a bounce.
     stiffness_n_per_m3 : float
         Of the skin with what is soft below and above it.
     make : callable
@@ -56,6 +60,8 @@ class SceneKind:
     name: str
     figure: str
     layout: str
+    told_as: str
+    rebounds: bool
     stiffness_n_per_m3: float
     make: Make
 
@@ -64,11 +70,19 @@ SCENES: dict[str, SceneKind] = {}
 """Every scene by its name."""
 
 
-def register(name: str, figure: str, on: str, stiffness_n_per_m3: float = _FLESH_N_PER_M3) -> Callable[[Make], Make]:
-    """Register the decorated function in `SCENES`, on the skin of a layout."""
+def register(
+    name: str,
+    figure: str,
+    on: str,
+    told_as: str,
+    *,
+    rebounds: bool = False,
+    stiffness_n_per_m3: float = _FLESH_N_PER_M3,
+) -> Callable[[Make], Make]:
+    """Register the decorated function in `SCENES`, on the skin of a layout; all else is as of `SceneKind`."""
 
     def enter(make: Make) -> Make:
-        SCENES[name] = SceneKind(name, figure, on, stiffness_n_per_m3, make)
+        SCENES[name] = SceneKind(name, figure, on, told_as, rebounds, stiffness_n_per_m3, make)
         return make
 
     return enter
@@ -80,7 +94,7 @@ def _near(rng: np.random.Generator, patch: SkinPatch, within_m: float) -> tuple[
     return float(patch.origin_m[0] + dx_m), float(patch.origin_m[1] + dy_m)
 
 
-@register("arm_tap", "8B", on="arm")
+@register("arm_tap", "8B", on="arm", told_as="tap")
 def _arm_tap(rng: np.random.Generator, arranged: Layout, begin_s: float) -> list[Contact]:
     """Three fingertips tap an arm at once, for 60 to 110 ms."""
     duration_s = float(rng.uniform(0.06, 0.11))
@@ -90,7 +104,7 @@ def _arm_tap(rng: np.random.Generator, arranged: Layout, begin_s: float) -> list
     return [Pressing(FINGERTIPS, motion, span_s, place_m, float(rng.uniform(0, 2 * np.pi)))]
 
 
-@register("ball_catch", "8C", on="glove")
+@register("ball_catch", "8C", on="glove", told_as="impact")
 def _ball_catch(rng: np.random.Generator, arranged: Layout, begin_s: float) -> list[Contact]:
     """A tennis ball flies into the palm at 3 to 5 m/s, and four fingers close around it."""
     # Ball and palm together are softer than ball and table, and lose more.
@@ -108,7 +122,7 @@ def _ball_catch(rng: np.random.Generator, arranged: Layout, begin_s: float) -> l
     return contacts
 
 
-@register("footstep", "8D", on="insole", stiffness_n_per_m3=_SOLE_N_PER_M3)
+@register("footstep", "8D", on="insole", told_as="step", stiffness_n_per_m3=_SOLE_N_PER_M3)
 def _footstep(rng: np.random.Generator, arranged: Layout, begin_s: float) -> list[Contact]:
     """A step: the heel strikes, and the weight rolls over the outer edge and the ball of the foot to the toes."""
     stance_s, weight = float(rng.uniform(0.55, 0.75)), float(rng.uniform(0.8, 1.1))
@@ -126,14 +140,14 @@ def _footstep(rng: np.random.Generator, arranged: Layout, begin_s: float) -> lis
     return contacts
 
 
-@register("helmet_hit", "8E", on="helmet")
+@register("helmet_hit", "8E", on="helmet", told_as="impact", rebounds=True)
 def _helmet_hit(rng: np.random.Generator, arranged: Layout, begin_s: float) -> list[Contact]:
     """A foam bullet hits a helmet at 15 to 22 m/s."""
     throw = thrown(float(rng.uniform(15.0, 22.0)), 0.0, math.pi / 2, *_near(rng, arranged.patches[0], 0.045))
     return [Bullet(_BULLET.radius_m, collide(_BULLET, throw, begin_s))]
 
 
-@register("chest_touch", "8F", on="chest")
+@register("chest_touch", "8F", on="chest", told_as="press")
 def _chest_touch(rng: np.random.Generator, arranged: Layout, begin_s: float) -> list[Contact]:
     """A palm comes at 0.05 to 0.15 m/s, rests on a chest for half a second to one, and leaves."""
     until_s, depth_m = float(rng.uniform(0.5, 1.0)), float(rng.uniform(*PALM.depth_m))
@@ -142,7 +156,7 @@ def _chest_touch(rng: np.random.Generator, arranged: Layout, begin_s: float) -> 
     return [Pressing(PALM, motion, (begin_s, begin_s + until_s), place_m, float(rng.uniform(0, 2 * np.pi)))]
 
 
-@register("juggling", "8G", on="leg")
+@register("juggling", "8G", on="leg", told_as="impact", rebounds=True)
 def _juggling(rng: np.random.Generator, arranged: Layout, begin_s: float) -> list[Contact]:
     """A football is kept up with a thigh: four touches, between them flights of 0.2 to 0.45 m height."""
     heights_m = rng.uniform(0.20, 0.45, 5)

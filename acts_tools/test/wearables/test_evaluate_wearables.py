@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,10 +14,10 @@ import pytest
 
 from acts_core.skin import layout
 from acts_recon.impacts import Kind
-from acts_sim.wearables import worn_scene
+from acts_sim.wearables import SCENES, worn_scene
 from acts_tools.cli import main
 from acts_tools.evaluate.wearables.watching import Watcher
-from acts_tools.evaluate.wearables.wearables_command import SKINS
+from acts_tools.evaluate.wearables.wearables_command import SKINS, tally
 
 
 def test_a_hit_and_an_untouched_skin_are_reported(tmp_path: Path) -> None:
@@ -40,6 +41,12 @@ def test_a_hit_and_an_untouched_skin_are_reported(tmp_path: Path) -> None:
 def test_nothing_to_evaluate_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["evaluate", "wearables", "--scene", "--untouched"]) == 1
     assert "--scene and --untouched name nothing; name a scene or a skin" in capsys.readouterr().err
+
+
+def test_a_scene_that_was_added_is_evaluated(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(SCENES, "chest_tap", replace(SCENES["arm_tap"], name="chest_tap", layout="chest"))
+    found = tally("chest_tap", 1, 64, 3.0, 1)
+    assert (found.events, found.missed, found.as_expected) == (1, 0, 1)
 
 
 def test_there_is_a_layout_of_every_skin_that_is_watched() -> None:

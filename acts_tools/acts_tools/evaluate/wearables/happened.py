@@ -21,16 +21,6 @@ WITHIN_MS = 2.0
 _SAME_S = 0.05
 _AT_ONCE_S = 0.005
 
-EXPECTED: dict[str, tuple[Kind, bool]] = {
-    "arm_tap": (Kind.TAP, False),
-    "ball_catch": (Kind.IMPACT, False),
-    "footstep": (Kind.STEP, False),
-    "helmet_hit": (Kind.IMPACT, True),
-    "chest_touch": (Kind.PRESS, False),
-    "juggling": (Kind.IMPACT, True),
-}
-"""What each scene's events are to be told as, and whether as a bounce."""
-
 
 @dataclass
 class Tally:
@@ -40,7 +30,7 @@ class Tally:
     ----------
     scenes, events, missed : int
     as_expected : int
-        Events that were told as what `EXPECTED` says.
+        Events that were told as what `SceneKind` says.
     parts, false : int
         Further touches that were told while something touched: fingers, the forefoot; and while nothing did.
     onset_ms, first_onset_ms : list of float
@@ -81,7 +71,8 @@ class Tally:
             over.remove(nearest)
             error_ms = 1e3 * (nearest.onset_s - event.onset_s)
             errors_ms.append(error_ms)
-            self.as_expected += (nearest.kind, nearest.bounced) == EXPECTED[self.name]
+            expected = Kind[shown.kind.told_as.upper()], shown.kind.rebounds
+            self.as_expected += (nearest.kind, nearest.bounced) == expected
             self.within_sd.append(abs(error_ms) <= 1e3 * nearest.onset_sd_s)
             at_s, begun = first[nearest.number]
             self.first_onset_ms.append(1e3 * (begun.onset_s - event.onset_s))
