@@ -26,7 +26,8 @@ class Curve:
     by : str
         `PUBLISHED`, `SAME`, `OURS`, `TRUTH` or `OTHERS`; sets the style of the line.
     scheme : str
-        Scheme of sampling, or another word that sets the colour; empty for the next colour.
+        Scheme of sampling, or a colour of matplotlib such as "C0"; empty, or a scheme without a colour of its own
+        (`drawing/style.py`), for the next colour.
     low, high : list of float
         Interval of each y; empty for none.
     points : bool

@@ -70,6 +70,16 @@ def test_other_arrays_are_told_apart() -> None:
         assert looks.colour(Curve("ours", [], [], OURS, "tracking"), panels[0]) not in {colour for colour, _ in seen}
 
 
+def test_a_scheme_that_was_added_has_a_colour_of_its_own(page: Any) -> None:
+    from acts_tools.figures.drawing.style import Looks
+
+    names = ("tracking", "adaptive", "spiral", "comb")
+    panels = [Panel(one, curves=[Curve(name, [0.0, 1.0], [0.0, 1.0], OURS, name) for name in names]) for one in "ab"]
+    diagrams(page, panels)
+    looks = Looks(panels)
+    assert len({looks.colour(curve, panels[0]) for curve in panels[0].curves}) == 4
+
+
 def test_a_published_curve_has_the_colour_of_its_counterpart() -> None:
     from acts_tools.figures.drawing.style import Looks
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from matplotlib.colors import is_color_like
 from matplotlib.rcsetup import cycler
 
 from acts_tools.figures.sheet import OTHERS, OURS, PUBLISHED, SAME, TRUTH, Curve, Panel
@@ -37,6 +38,9 @@ _CYCLE = (
     "#c2185b",
 )
 """Of curves that belong to no scheme, and C0, C1, ...: as many as a figure needs, none of them that of `tracking`."""
+
+_FREE = tuple(colour for colour in _CYCLE if colour not in _SCHEMES.values())
+"""Of curves of a scheme that has no colour of its own: no other scheme's."""
 
 _MARKERS = "os^Dv<>PXph*"
 
@@ -68,6 +72,12 @@ _MARKED_MAX = 40
 """A line of more points has no markers."""
 
 
+def _own_colour(curve: Curve) -> str:
+    """That of its scheme, or the colour that it gives; empty for a scheme that has none, as one that was added."""
+    given = _SCHEMES.get(curve.scheme, curve.scheme)
+    return given if is_color_like(given) else ""
+
+
 class Looks:
     """How each curve of a figure looks; curves of one label look alike in all panels.
 
@@ -80,17 +90,19 @@ class Looks:
         self._numbers: dict[str, int] = {}
         for panel in panels:
             for curve in panel.curves:
-                if not curve.scheme and not curve.beside:
+                if not _own_colour(curve) and not curve.beside:
                     self._numbers.setdefault(curve.label, len(self._numbers))
 
     def colour(self, curve: Curve, panel: Panel) -> str:
         """Of its scheme, of the curve that it is compared with, or the next of the cycle."""
-        if curve.scheme:
-            return _SCHEMES.get(curve.scheme, curve.scheme)
+        own = _own_colour(curve)
+        if own:
+            return own
         for other in panel.curves:
             if curve.beside and other.label == curve.beside:
                 return self.colour(other, panel)
-        return _CYCLE[self._numbers.get(curve.label, 0) % len(_CYCLE)]
+        cycle = _FREE if curve.scheme else _CYCLE
+        return cycle[self._numbers.get(curve.label, 0) % len(cycle)]
 
     def line(self, curve: Curve) -> dict[str, Any]:
         """Settings of its line, without the colour."""
