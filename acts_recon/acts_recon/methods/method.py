@@ -102,10 +102,12 @@ class Method(ABC):
     ) -> NDArray[np.float32]:
         """Take one frame of samples and return `image`, as it is at its end.
 
+        Nobody has checked the frame: `SkinSetup.placed_samples` does, and turns `indices` into places in `image`.
+
         Parameters
         ----------
         indices, counts : np.ndarray [shape=(m,), dtype=uint16]
-            Row-major taxel indices of the matrix in the order of measurement, and what was measured.
+            Row-major taxel indices of the matrix in the order of measurement, and what was measured, less the baseline.
         end_s, duration_s : float
             When the last measurement ended, on any clock, and how long all of them took [s]; they are evenly spaced.
 

@@ -37,11 +37,13 @@ class SamplingScheme(ABC):
     """
 
     name: ClassVar[str]
+    """By which users choose it, in lower case and with _ between words."""
     number: ClassVar[int | None] = None
     """On the wire, 1 to 255; None for one that no board has."""
     description: ClassVar[str]
     """What a frame is."""
     own_settings: ClassVar[tuple[OwnSetting, ...]] = ()
+    """Their names begin with its own, for all schemes' settings are in one place; `config.own` reads them."""
     measures_all: ClassVar[bool] = False
     """Whether every frame has all taxels, whatever `m` says."""
     repeats: ClassVar[bool] = False
@@ -53,7 +55,18 @@ class SamplingScheme(ABC):
 
     @abstractmethod
     def frame(self, measure: Measure) -> Samples:
-        """Sample one frame; as `acts_core.sampling.Sampler.frame`."""
+        """Sample one frame: `config.m` taxels, each once unless the scheme `repeats`, in any order.
+
+        Parameters
+        ----------
+        measure : Measure
+            To be called once for each sample, in order; `measured` does.
+
+        Returns
+        -------
+        indices, counts : np.ndarray [shape=(m,), dtype=uint16]
+            Row-major taxel indices of the matrix in the order of measurement, and what was measured there.
+        """
 
     @classmethod  # noqa: B027  (most take any)
     def check_m(cls, rows: int, cols: int, m: int) -> None:

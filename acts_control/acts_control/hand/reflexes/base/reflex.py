@@ -120,7 +120,8 @@ class Wish(NamedTuple):
     Attributes
     ----------
     steps : np.ndarray [shape=(joints,)]
-        How many base steps each joint's goal is to move; positive closes. See `acts_control.hand.control.step_rule`.
+        How fast each joint's goal is to move, in units of `Sensed.step_rad_s`; positive closes. A wish lasts for this
+        step of the loop only, and the speed is the same at any rate. See `acts_control.hand.control.step_rule`.
     why : str
         In words, for a person.
     claimed : np.ndarray [shape=(joints,), dtype=bool] or None
