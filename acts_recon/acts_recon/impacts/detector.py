@@ -15,9 +15,9 @@ from acts_core.skin import ForceResponse, Response
 from acts_recon.contacts import BlobConfig, BlobTracker, TrackedBlob
 from acts_recon.images import LEAST_NOISE_COUNTS, LONGEST_PAUSE_S, Borders, borders_of
 from acts_recon.impacts.config import ImpactConfig
-from acts_recon.impacts.footprint_fit import Footprint
+from acts_recon.impacts.footprint_fit import FORCE_SD, Footprint
 from acts_recon.impacts.impact import UNKNOWN_DIRECTION_SD_RAD, Impact, Kind
-from acts_recon.impacts.onset_fit import follow_back
+from acts_recon.impacts.onset_fit import follow_back, follow_back_impact
 from acts_recon.impacts.samples import RecentSamples
 from acts_recon.impacts.touch import Touch, impulse_of, reach_m_of
 
@@ -25,8 +25,6 @@ Array = NDArray[np.float64]
 
 _UNSEEN_S = 0.02
 _NUMBERS = 2**32
-# Of a fitted footprint's force: the taxels' sensitivities, and how far it is from a Gaussian.
-_FORCE_SD = 0.2
 
 
 def _covers(blob: TrackedBlob, x_m: float, y_m: float) -> bool:
@@ -274,9 +272,12 @@ class ImpactDetector:
             time, force_n = fitted.time_s, fitted.force_n
             path_x_m, path_y_m = fitted.path(time)
             x_m, y_m = (float(one[0]) for one in fitted.path(fitted.time_s[[fitted.force_n.argmax()]]))
-            peak_n, peak_sd_n = float(fitted.force_n.max()), _FORCE_SD * float(fitted.force_n.max())
+            peak_n, peak_sd_n = float(fitted.force_n.max()), FORCE_SD * float(fitted.force_n.max())
         force = (time, force_n) if fitted is None else (fitted.time_s, fitted.force_n)
-        onset_s, onset_sd_s = touch.onset(self._untouched_before(touch), force if is_short else None)
+        followed = None if fitted is None else follow_back_impact(fitted)
+        onset_s, onset_sd_s = touch.onset(
+            self._untouched_before(touch), force if is_short and fitted is None else None, followed
+        )
         if not is_short and touch.slow_onset is not None:
             onset_s, onset_sd_s = touch.slow_onset
         if stays:
@@ -308,7 +309,7 @@ class ImpactDetector:
             peak_sd_n=peak_sd_n,
             bounced=kind is Kind.IMPACT and not stays,
             impulse_n_s=impulse_n_s,
-            impulse_sd_n_s=_FORCE_SD * impulse_n_s if fitted is not None else impulse_n_s * peak_sd_n / peak_n,
+            impulse_sd_n_s=FORCE_SD * impulse_n_s if fitted is not None else impulse_n_s * peak_sd_n / peak_n,
             direction_rad=direction,
             direction_sd_rad=direction_sd,
             velocity_m_s=velocity,

@@ -26,6 +26,9 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
+FORCE_SD = 0.2
+"""Of a fitted footprint's force, as a share: the taxels' sensitivities, and how far it is from the model."""
+
 _SPREAD = 0.05  # of the taxels' sensitivities
 _MISFIT = 0.05  # how far a footprint is from the model, as a share of the largest force on a taxel
 _STEPS = 30
@@ -50,6 +53,8 @@ class Footprint:
     ----------
     time_s, force_n : np.ndarray [shape=(n,), dtype=float64]
         Its force, once a frame and at least five times, from the first pressed sample to the last [s, N].
+    log_covariance : np.ndarray [shape=(n, n), dtype=float64]
+        Of the natural logarithms of `force_n`.
     middle_s : float
         Mean time of the force [s].
     x_m, y_m : float
@@ -62,6 +67,7 @@ class Footprint:
 
     time_s: Array
     force_n: Array
+    log_covariance: Array
     middle_s: float
     x_m: float
     y_m: float
@@ -178,11 +184,20 @@ def fit_footprint(
     covariance = inverse @ (scores.T @ scores) @ inverse * clusters.size / max(clusters.size - state.size, 1)
     top_n, width_mm = np.exp(state[4 : 4 + nodes]), np.exp(state[4 + nodes :])
     forces_n = _VOLUME * top_n * width_mm**2 / (1e6 * taxel_area_m2)
+    # Of the force, which goes with amplitude times the square of the width.
+    of_force = np.hstack((np.zeros((nodes, 4)), np.eye(nodes), 2.0 * np.eye(nodes)))
     # mm/ms are m/s.
     centre_x_m, centre_y_m = (1e-3 * state[:2]).tolist()
     middle_s = 1e-3 * model.middle
     return Footprint(
-        1e-3 * model.at, forces_n, middle_s, centre_x_m, centre_y_m, state[2:4].copy(), covariance[2:4, 2:4]
+        1e-3 * model.at,
+        forces_n,
+        of_force @ inverse @ of_force.T,
+        middle_s,
+        centre_x_m,
+        centre_y_m,
+        state[2:4].copy(),
+        covariance[2:4, 2:4],
     )
 
 

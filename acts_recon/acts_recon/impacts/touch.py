@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from acts_recon.contacts import TrackedBlob
 from acts_recon.impacts.config import ImpactConfig
 from acts_recon.impacts.impact import Kind
+from acts_recon.impacts.onset_fit import FollowedBack
 
 MAX_FRAMES = 512
 """Frames that are kept of a touch; at higher rates than 12,800 frames/s those of the end of an impact are not."""
@@ -108,7 +109,12 @@ class Touch:
             self._rows[self._n] = time_s, force_n, sd_n, x_m, y_m
             self._n += 1
 
-    def onset(self, untouched_s: NDArray[np.float64], force: Force | None = None) -> tuple[float, float]:
+    def onset(
+        self,
+        untouched_s: NDArray[np.float64],
+        force: Force | None = None,
+        followed: FollowedBack | None = None,
+    ) -> tuple[float, float]:
         """When it first touched, and the standard deviation [s].
 
         Parameters
@@ -116,11 +122,15 @@ class Touch:
         untouched_s : np.ndarray [shape=(n,), dtype=float64]
             When the taxels there were measured and not pressed, before its first sample.
         force : (time_s, force_n), optional
-            Its force over time: from the first two values it is followed back to 0.
+            Its force in images: from the first two values it is followed back to 0.
+        followed : FollowedBack, optional
+            As its samples say; then `force` is not used.
         """
         latest_s = self.first_sample_s
         earliest_s = float(untouched_s.max(initial=latest_s - (self.began_s - self.before_s)))
-        return _between(earliest_s, latest_s, None if force is None else _zero(force, 0, 1))
+        if followed is None:
+            return _between(earliest_s, latest_s, None if force is None else _zero(force, 0, 1))
+        return _weighed(earliest_s, latest_s, followed)
 
     def end(self, untouched_s: NDArray[np.float64], after_s: float, force: Force | None = None) -> tuple[float, float]:
         """When it was last touched, and the standard deviation [s]; as `onset`. `after_s`: not later."""
@@ -181,3 +191,12 @@ def _between(earliest_s: float, latest_s: float, guess_s: float | None) -> tuple
     """A moment that lies between two, and its standard deviation [s]."""
     middle_s, sd_s = (earliest_s + latest_s) / 2, (latest_s - earliest_s) / math.sqrt(12)
     return (middle_s, sd_s) if guess_s is None else (min(max(guess_s, earliest_s), latest_s), sd_s)
+
+
+def _weighed(earliest_s: float, latest_s: float, followed: FollowedBack) -> tuple[float, float]:
+    """A first touch, and its standard deviation, of when samples were not pressed yet and when the force was 0 [s]."""
+    zero_s, zero_sd_s = min(followed.zero_s, latest_s), followed.zero_sd_s
+    # A taxel that was not pressed may have been touched: the earliest moment is uncertain, too.
+    gap_sd_s = math.hypot(latest_s - earliest_s, followed.wait_s) / math.sqrt(12)
+    share = zero_sd_s**2 / (zero_sd_s**2 + gap_sd_s**2)
+    return share * (earliest_s + latest_s) / 2 + (1 - share) * zero_s, math.sqrt(share) * gap_sd_s

@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Following a slow touch back to its first moment."""
+"""Following a touch back to its first moment."""
 
 from __future__ import annotations
 
@@ -11,7 +11,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from acts_recon.impacts.onset_fit import Rise, follow_back
+from acts_recon.impacts.footprint_fit import Footprint
+from acts_recon.impacts.onset_fit import Rise, follow_back, follow_back_impact
 
 BLUR_M2 = 5.6e-6
 
@@ -61,3 +62,40 @@ def test_too_few_samples_tell_nothing() -> None:
     whole = rise(0.0, 0.1, 0.02, np.random.default_rng(1))
     few = replace(whole, time_s=whole.time_s[:3], force_n=whole.force_n[:3], noise_n=whole.noise_n[:3])
     assert follow_back(few) is None
+
+
+def bounce(first_s: float, nodes: int = 8, log_sd: float = 0.0) -> Footprint:
+    """A ball that touches for 9 ms from 0 s on, whose force is known from a moment on."""
+    time_s = np.linspace(first_s, 0.0085, nodes)
+    force_n = 50.0 * np.sin(math.pi * time_s / 0.009) ** 1.5
+    return Footprint(time_s, force_n, log_sd**2 * np.eye(nodes), 0.004, 0.0, 0.0, np.zeros(2), np.eye(2))
+
+
+@pytest.mark.parametrize("first_s", [0.0002, 0.0005, 0.001, 0.002])
+@pytest.mark.parametrize("nodes", [5, 8])
+def test_an_impact_that_slows_down_is_not_followed_back_too_far(first_s: float, nodes: int) -> None:
+    followed = follow_back_impact(bounce(first_s, nodes))
+    assert followed is not None
+    assert abs(followed.zero_s) < 0.15 * first_s
+    assert abs(followed.zero_s) < followed.zero_sd_s < first_s
+    assert followed.wait_s == pytest.approx(first_s, rel=0.15)
+
+
+def test_a_first_force_that_is_less_certain_makes_the_onset_less_certain() -> None:
+    certain, uncertain = (follow_back_impact(bounce(0.001, log_sd=log_sd)) for log_sd in (0.0, 1.0))
+    assert certain is not None
+    assert uncertain is not None
+    assert uncertain.zero_s == certain.zero_s
+    assert uncertain.zero_sd_s > 2 * certain.zero_sd_s
+
+
+def test_a_taxel_does_not_wait_longer_than_the_rest_of_the_rise() -> None:
+    """Of a first sample that was late the force says little."""
+    followed = follow_back_impact(bounce(0.003, 5))
+    assert followed is not None
+    assert followed.wait_s == pytest.approx(0.0015, rel=0.1)
+    assert followed.zero_sd_s > 0.001
+
+
+def test_an_impact_that_is_strongest_at_first_is_not_followed_back() -> None:
+    assert follow_back_impact(bounce(0.006)) is None
