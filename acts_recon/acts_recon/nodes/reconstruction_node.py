@@ -101,6 +101,9 @@ class ReconstructionNode(Node):
         )
         if self._settings.subtract_baseline:
             self.create_subscription(Baseline, "baseline", self._on_baseline, **qos.overridable(qos.LATCHED))
+        # Messages that are recovered after all that the executor has to do, with the times of their reception [ns].
+        self._held: list[tuple[TactileSamples, int]] = []
+        self._is_behind = False
         if subscribes:
             self._waiting: PolledSubscription[TactileSamples] = PolledSubscription(
                 self.create_subscription(TactileSamples, "samples", self._on_samples, **qos.overridable(qos.STREAM))
@@ -152,9 +155,23 @@ class ReconstructionNode(Node):
     def _on_samples(self, samples: TactileSamples) -> None:
         # With those that have come meanwhile: one by one, all that waits would be as late as the queue is long.
         waiting = self._waiting.take_all()
-        now_ns = time.time_ns()
         # It came no later than the next, whose reception is known.
-        received = [(samples, waiting[0][1] if waiting else now_ns), *waiting]
+        held = [(samples, waiting[0][1] if waiting else time.time_ns()), *waiting]
+        if not self._is_behind:
+            self._take_held(held)
+            return
+        # The events executor calls back once for each message, also where it was taken with another. If each call
+        # recovered frames, more calls would come than end, and timers and services would wait longer and longer.
+        if not self._held:
+            assert self.executor is not None
+            self.executor.create_task(lambda: self._take_held(self._held))
+        self._held += held
+
+    def _take_held(self, received: list[tuple[TactileSamples, int]]) -> None:
+        """Recover messages that have come together, each with the time at which it was received [ns]."""
+        now_ns = time.time_ns()
+        self._held = []
+        self._is_behind = len(received) > 1
         frames = []
         for message, received_ns in received:
             try:

@@ -1,16 +1,25 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The node where frames come late; ROS_DOMAIN_IDs 26 and 27."""
+"""The node where frames come late; ROS_DOMAIN_IDs 26, 27 and 217."""
 
+import threading
 import time
 from collections.abc import Callable
+from contextlib import ExitStack
 
 import numpy as np
 import pytest
-from recon_bench import Bench
+import rclpy
+from diagnostic_msgs.msg import DiagnosticArray
+from recon_bench import DEADLINE_S, Bench
 
 from acts_core.frames import SampleFrame, Scheme
+from acts_msgs.msg import TactileSamples
+from acts_recon.nodes.reconstruction_node import ReconstructionNode
+from acts_ros import qos
+from acts_ros.executor import make_executor
+from acts_ros.polled import PolledSubscription, PollingNode
 
 pytestmark = pytest.mark.slow
 
@@ -119,3 +128,43 @@ def test_of_messages_that_have_waited_the_newest_is_published_whatever_their_sta
     for sequence in range(100, 103):
         bench.send(sequence, cells, cells)
         bench.contact(sequence)
+
+
+def test_a_node_that_is_too_slow_for_its_frames_still_reports(monkeypatch: pytest.MonkeyPatch) -> None:
+    pause = threading.Event()
+    with ExitStack() as ends:
+        rclpy.init(domain_id=217)
+        ends.callback(rclpy.try_shutdown)
+        # As the program runs it: on the events executor, where there is one.
+        executor = make_executor()
+        ends.callback(executor.shutdown)
+        node = ReconstructionNode(namespace="/plate")
+        ends.callback(node.destroy_node)
+        step = node._pipeline.step
+
+        def slow_step(frame: SampleFrame, stamp_ns: int) -> None:
+            pause.wait(0.005)
+            step(frame, stamp_ns)
+
+        monkeypatch.setattr(node._pipeline, "step", slow_step)
+        executor.add_node(node)
+        peer = PollingNode("peer", namespace="/plate")
+        ends.callback(peer.destroy_node)
+        reports: PolledSubscription[DiagnosticArray] = peer.create_polled_subscription(
+            DiagnosticArray, "/diagnostics", qos.STREAM
+        )
+        publisher = peer.create_publisher(TactileSamples, "samples", qos.STREAM)
+        ended = rclpy.task.Future()
+        thread = threading.Thread(target=executor.spin_until_future_complete, args=(ended,))
+        thread.start()
+        ends.callback(thread.join)
+        ends.callback(ended.set_result, None)
+        sequence, told = 0, 0
+        deadline_s = time.monotonic() + DEADLINE_S
+        while told < 8:
+            assert time.monotonic() < deadline_s, f"{told} reports in {DEADLINE_S:g} s"
+            # Several frames while one is recovered.
+            publisher.publish(TactileSamples(sequence=sequence, rows=32, cols=32, indices=[0], counts=[0]))
+            sequence += 1
+            told += len(reports.take_all())
+            pause.wait(0.001)
