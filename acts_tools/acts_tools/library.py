@@ -59,7 +59,7 @@ def run(arguments: argparse.Namespace) -> int:
     ActsError
         When the frames cannot be read, have no labels, or the file cannot be written.
     """
-    require_writable(arguments.output)
+    require_writable(arguments.output, reads=[] if arguments.frames is None else [arguments.frames])
     if arguments.frames is not None:
         refuse_unused(arguments, "with --frames", "presses", "seed")
     if arguments.frames is None:

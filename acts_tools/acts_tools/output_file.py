@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import tempfile
+from collections.abc import Sequence
 from pathlib import Path
 
 from acts_core.errors import RecordingError
@@ -31,7 +32,7 @@ def make_folder(folder: Path, option: str) -> None:
         ) from error
 
 
-def require_writable(path: Path | None, *, makes_folder: bool = False) -> None:
+def require_writable(path: Path | None, *, makes_folder: bool = False, reads: Sequence[Path] = ()) -> None:
     """Raise an error, before any work, if a file for results cannot be written; None is allowed.
 
     An existing file is not changed.
@@ -42,14 +43,18 @@ def require_writable(path: Path | None, *, makes_folder: bool = False) -> None:
         The file.
     makes_folder : bool
         Whether to make its folder.
+    reads : sequence of Path
+        Files that the command reads.
 
     Raises
     ------
     RecordingError
-        When `path` cannot be written.
+        When `path` cannot be written, or is one of those that are read.
     """
     if path is None:
         return
+    if any(path.exists() and other.exists() and path.samefile(other) for other in reads):
+        raise RecordingError(f"{path}: is read, and would be lost if the result were written there; give another name")
     if makes_folder:
         try:
             path.parent.mkdir(parents=True, exist_ok=True)

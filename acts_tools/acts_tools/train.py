@@ -212,4 +212,4 @@ def _check(arguments: argparse.Namespace) -> None:
         refuse_unused(arguments, "with --frames", "presses")
     if arguments.frames is None and arguments.topic:
         raise SettingsError(f"--topic {arguments.topic}: a topic of the bags of --frames, which were not given")
-    require_writable(arguments.output)
+    require_writable(arguments.output, reads=arguments.frames or ())
