@@ -171,13 +171,14 @@ def _lines(plural: str, singular: str, broken: tuple[int, ...], same: list[tuple
 def _address(bits: tuple[int, ...]) -> Finding:
     if not bits:
         return Finding(Level.PASS, "multiplexer", "every column is itself")
-    words = ", ".join(f"{bit} (pin {_FIRST_ADDRESS_PIN + bit})" for bit in bits)
+    words = " and ".join(f"{bit} (pin {_FIRST_ADDRESS_PIN + bit})" for bit in bits)
+    line, which = (f"bit {words} does", "that line") if len(bits) == 1 else (f"bits {words} do", "those lines")
     apart = " and ".join(str(1 << bit) for bit in bits)
     return Finding(
         Level.FAIL,
         "multiplexer",
-        f"address bit {words} does not switch: columns {apart} apart respond as one",
-        "check that line from the board to the multiplexer",
+        f"address {line} not switch: columns {apart} apart respond as one",
+        f"check {which} from the board to the multiplexer",
     )
 
 

@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import pytest
@@ -156,6 +156,14 @@ def test_a_broken_address_line_is_told_from_shorted_columns(bit: int) -> None:
     found = faults(Skin(Wiring(address_bit=bit)).findings())
     assert found.keys() == {"multiplexer"}
     assert f"address bit {bit} (pin {33 + bit})" in found["multiplexer"].text
+
+
+def test_several_broken_address_lines_are_all_named() -> None:
+    untouched = measure_untouched(Skin().record(60, touched=False))
+    touch = measure_touched(Skin().record(240, touched=True), untouched, THRESHOLDS)
+    (found,) = faults(judge_touched(replace(touch, broken_bits=(1, 3)), untouched, THRESHOLDS)).values()
+    words = "address bits 1 (pin 34) and 3 (pin 36) do not switch: columns 2 and 8 apart respond as one"
+    assert (found.text, found.advice) == (words, "check those lines from the board to the multiplexer")
 
 
 def test_a_plug_with_eight_loose_rows() -> None:
