@@ -20,6 +20,7 @@ from __future__ import annotations
 import dataclasses
 import difflib
 import math
+import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
@@ -148,7 +149,8 @@ def checked(name: str, value: Any, default: SettingValue, info: SettingInfo) -> 
     try:
         converted = _converted(value, default)
     except (TypeError, ValueError, OverflowError):
-        raise _error(name, value, f"a value of type {_type_name(default)}", info) from None
+        hint = " (1e-3 is text in YAML, write 1.0e-3)" if isinstance(default, float) and _is_power(value) else ""
+        raise _error(name, value, f"a value of type {_type_name(default)}{hint}", info) from None
     if info.choices and converted not in info.choices:
         raise _error(name, value, "", info)
     if info.length is not None and len(cast(Sequence[Any], converted)) != info.length:
@@ -221,6 +223,11 @@ def _converted(value: Any, default: SettingValue) -> SettingValue:
     if not all(isinstance(item, (int, float)) and not isinstance(item, bool) for item in value):
         raise TypeError
     return tuple(float(item) for item in value)
+
+
+def _is_power(value: Any) -> bool:
+    """Whether it is a text such as 1e-3, which YAML 1.1 does not take for a number."""
+    return isinstance(value, str) and re.fullmatch(r"[-+]?\d+(\.\d*)?[eE][-+]?\d+", value) is not None
 
 
 def _type_name(default: SettingValue) -> str:

@@ -169,6 +169,7 @@ def test_a_wrong_key_of_a_skin_is_told_with_its_place(tmp_path: Path, lines: lis
     ("lines", "words"),
     [
         (["m: 0.5"], ["skins.yaml:4: skin left: m = 0.5"]),
+        (["pitch_m: 4e-3"], ["skins.yaml:4: skin left: pitch_m = '4e-3'", "write 1.0e-3", "0 to 1"]),
         (["scheme: adaptiv"], ["skins.yaml:4: skin left: scheme = 'adaptiv'", "adaptive"]),
         (["rows: 65"], ["skins.yaml:4: skin left: rows = 65", "1 to 64"]),
         (["rows: 7", "cols: 7"], ["skins.yaml:3: skin left: m = 55: an array of 7 x 7 has 49 taxels"]),
