@@ -18,7 +18,7 @@ from acts_core.frames import SampleFrame, Scheme
 from acts_msgs.msg import TactileSamples
 from acts_recon.nodes.reconstruction_node import ReconstructionNode
 from acts_ros import qos
-from acts_ros.executor import make_executor
+from acts_ros.executor import make_executor, spin_for
 from acts_ros.polled import PolledSubscription, PollingNode
 
 pytestmark = pytest.mark.slow
@@ -154,11 +154,16 @@ def test_a_node_that_is_too_slow_for_its_frames_still_reports(monkeypatch: pytes
             DiagnosticArray, "/diagnostics", qos.STREAM
         )
         publisher = peer.create_publisher(TactileSamples, "samples", qos.STREAM)
-        ended = rclpy.task.Future()
-        thread = threading.Thread(target=executor.spin_until_future_complete, args=(ended,))
+        ended = threading.Event()
+
+        def spin() -> None:
+            while not ended.is_set():
+                spin_for(executor, 0.1)
+
+        thread = threading.Thread(target=spin)
         thread.start()
         ends.callback(thread.join)
-        ends.callback(ended.set_result, None)
+        ends.callback(ended.set)
         sequence, told = 0, 0
         deadline_s = time.monotonic() + DEADLINE_S
         while told < 8:
