@@ -13,6 +13,8 @@ from acts_core.runtime.scheduling import SHORTEST_NS, time_slice_ns
 HEAD = """
 import os, subprocess, sys, threading, time
 from acts_core.runtime.scheduling import *
+# The process of the tests may have short ones already, which its children inherit.
+set_time_slice(0)
 def log(level, sentence):
     print(level, sentence)
 go = threading.Event()
