@@ -73,36 +73,24 @@ def record(path: Path, topics: list[str] | None, duration_s: float | None) -> in
     """
     require_rosbags()
     # Imported here, because they are slow to import and other commands do not need them.
-    import rclpy
-    from rclpy.signals import SignalHandlerOptions
-
-    from acts_ros import middleware
     from acts_ros.bags.recorder import Recorder
     from acts_ros.bags.writing import BagWriter
-    from acts_ros.executor import make_executor, spin_for
+    from acts_ros.executor import spin_for
+    from acts_tools.running.node import command_node
     from acts_tools.running.stopping import StopFlag
 
     bag = BagWriter(path, f"acts record {__version__}")
-    with StopFlag() as stop:
-        middleware.init(signal_handler_options=SignalHandlerOptions.NO)
-        node = rclpy.create_node("acts_recorder", start_parameter_services=False, enable_rosout=False)
-        executor = make_executor()
-        executor.add_node(node)
+    with StopFlag() as stop, command_node("acts_recorder") as (node, executor):
         recorder = Recorder(node, bag, topics, _say)
         _say(f"recording to {path}, Ctrl-C ends it")
         started_s = time.monotonic()
-        try:
-            # Close the bag before ROS is shut down, so that it is complete if that fails.
-            with closing(bag), closing(recorder):
-                while not stop.is_set and (duration_s is None or time.monotonic() - started_s < duration_s):
-                    recorder.discover()
-                    spin_for(executor, _TURN_S)
-                    bag.flush()
-                ended_s = time.monotonic()
-        finally:
-            executor.shutdown()
-            node.destroy_node()
-            rclpy.try_shutdown()
+        # Close the bag before ROS is shut down, so that it is complete if that fails.
+        with closing(bag), closing(recorder):
+            while not stop.is_set and (duration_s is None or time.monotonic() - started_s < duration_s):
+                recorder.discover()
+                spin_for(executor, _TURN_S)
+                bag.flush()
+            ended_s = time.monotonic()
     _summarise(recorder, bag, started_s, ended_s)
     return 0 if recorder.is_complete else 1
 

@@ -76,40 +76,26 @@ def run(arguments: argparse.Namespace) -> int:
 def _heard(timeout_s: float) -> Statuses:
     """Reports of some seconds from the first one on; empty if there is none within the time."""
     # Imported here, because they are slow to import and other commands do not need them.
-    import rclpy
     from diagnostic_msgs.msg import DiagnosticArray
-    from rclpy.context import Context
     from rclpy.executors import SingleThreadedExecutor
-    from rclpy.node import Node
 
-    from acts_ros import middleware
     from acts_ros.executor import spin_for
+    from acts_tools.running.node import command_node
     from acts_tools.running.stopping import StopFlag
 
     statuses = Statuses(_TOPICS)
-    with StopFlag() as stop:
-        # rclpy installs no signal handlers for a context of our own.
-        context = Context()
-        middleware.init(args=[], context=context)
-        node = Node("acts_diagnostics", context=context, start_parameter_services=False, enable_rosout=False)
-        executor = SingleThreadedExecutor(context=context)
-        executor.add_node(node)
+    with StopFlag() as stop, command_node("acts_diagnostics", SingleThreadedExecutor) as (node, executor):
         for topic in _TOPICS:
             node.create_subscription(DiagnosticArray, topic, partial(_take, statuses, topic), _DEPTH)
         end_s = time.monotonic() + timeout_s
         is_first = True
-        try:
-            while not stop.is_set and time.monotonic() < end_s:
-                spin_for(executor, _TURN_S)
-                if is_first and not statuses.is_empty:
-                    is_first, end_s = False, time.monotonic() + _ALL_S
-            if stop.is_set and statuses.is_empty:
-                # Not the answer that nobody reports: the time for it is not over.
-                raise KeyboardInterrupt
-        finally:
-            executor.shutdown()
-            node.destroy_node()
-            rclpy.try_shutdown(context=context)
+        while not stop.is_set and time.monotonic() < end_s:
+            spin_for(executor, _TURN_S)
+            if is_first and not statuses.is_empty:
+                is_first, end_s = False, time.monotonic() + _ALL_S
+        if stop.is_set and statuses.is_empty:
+            # Not the answer that nobody reports: the time for it is not over.
+            raise KeyboardInterrupt
     return statuses
 
 

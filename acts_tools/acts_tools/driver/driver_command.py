@@ -133,19 +133,11 @@ _ABSOLUTE = {"model": _absolute_model, "layout": _absolute_layout}
 
 
 def _call(kind: Any, name: str, request: Any) -> Any:
-    import rclpy
-    from rclpy.context import Context
     from rclpy.executors import SingleThreadedExecutor
-    from rclpy.node import Node
 
-    from acts_ros import middleware
+    from acts_tools.running.node import command_node
 
-    context = Context()
-    middleware.init(args=[], context=context)
-    node = Node("acts_driver_command", context=context, start_parameter_services=False, enable_rosout=False)
-    executor = SingleThreadedExecutor(context=context)
-    executor.add_node(node)
-    try:
+    with command_node("acts_driver_command", SingleThreadedExecutor) as (node, executor):
         client: Client[Any, Any] = node.create_client(kind, name)
         if not client.wait_for_service(timeout_sec=_FOUND_S):
             raise BoardError(
@@ -164,7 +156,3 @@ def _call(kind: Any, name: str, request: Any) -> Any:
                     f"{name} has not answered within {_ANSWER_S:g} s: the driver was killed or hangs, see its output"
                 )
         return future.result()
-    finally:
-        executor.shutdown()
-        node.destroy_node()
-        rclpy.try_shutdown(context=context)

@@ -54,38 +54,26 @@ def run(arguments: argparse.Namespace) -> int:
         raise SettingsError(f"--duration {arguments.duration:g} is not a positive time in seconds")
     topics = list(dict.fromkeys(map(full_name, arguments.topics)))
     # Imported here, because they are slow to import and other commands do not need them.
-    import rclpy
-    from rclpy.signals import SignalHandlerOptions
-
-    from acts_ros import middleware
-    from acts_ros.executor import make_executor, spin_for
+    from acts_ros.executor import spin_for
     from acts_tools.listen.listener import Listener
+    from acts_tools.running.node import command_node
     from acts_tools.running.stopping import StopFlag
 
     end_s = None if arguments.duration is None else time.monotonic() + arguments.duration
-    with StopFlag() as stop:
-        middleware.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
-        node = rclpy.create_node("acts_listener", start_parameter_services=False, enable_rosout=False)
-        executor = make_executor()
-        executor.add_node(node)
+    with StopFlag() as stop, command_node("acts_listener") as (node, executor):
         listener = Listener(node, topics)
         heard: set[str] = set()
         report_s = time.monotonic() + arguments.every
-        try:
-            while not stop.is_set and (end_s is None or time.monotonic() < end_s):
-                listener.discover()
-                turn_s = min(report_s - time.monotonic(), 0.1)
-                spin_for(executor, max(turn_s, 0.001))
-                now_s = time.monotonic()
-                if now_s >= report_s:
-                    report_s += arguments.every
-                    intervals = {topic: arrivals.take(now_s) for topic, arrivals in listener.arrivals.items()}
-                    heard |= {topic for topic, interval in intervals.items() if interval.total_received}
-                    _print(topics, intervals, listener, as_json=arguments.json)
-        finally:
-            executor.shutdown()
-            node.destroy_node()
-            rclpy.try_shutdown()
+        while not stop.is_set and (end_s is None or time.monotonic() < end_s):
+            listener.discover()
+            turn_s = min(report_s - time.monotonic(), 0.1)
+            spin_for(executor, max(turn_s, 0.001))
+            now_s = time.monotonic()
+            if now_s >= report_s:
+                report_s += arguments.every
+                intervals = {topic: arrivals.take(now_s) for topic, arrivals in listener.arrivals.items()}
+                heard |= {topic for topic, interval in intervals.items() if interval.total_received}
+                _print(topics, intervals, listener, as_json=arguments.json)
     return 0 if len(heard) == len(topics) else 1
 
 

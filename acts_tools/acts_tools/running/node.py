@@ -1,0 +1,47 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""The ROS node of a command, from the initialisation of ROS to its end."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+import rclpy
+from rclpy.executors import Executor
+from rclpy.node import Node
+from rclpy.signals import SignalHandlerOptions
+
+from acts_ros import middleware
+from acts_ros.executor import make_executor
+
+
+@contextmanager
+def command_node(name: str, make: Callable[[], Executor] = make_executor) -> Iterator[tuple[Node, Executor]]:
+    """A node without parameters and log topic, and the executor that calls it back, for the length of a block.
+
+    Signals are left to the command.
+
+    Parameters
+    ----------
+    name : str
+        Of the node.
+    make : callable
+        Makes the executor; by default the one for 1 kHz.
+
+    Raises
+    ------
+    SettingsError
+        As of `acts_ros.middleware.init`.
+    """
+    middleware.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
+    node = rclpy.create_node(name, start_parameter_services=False, enable_rosout=False)
+    executor = make()
+    executor.add_node(node)
+    try:
+        yield node, executor
+    finally:
+        executor.shutdown()
+        node.destroy_node()
+        rclpy.try_shutdown()
