@@ -19,6 +19,7 @@ from typing import Any
 
 from acts_core.errors import LaunchError
 from acts_ros.processes.launcher import leave_with_parent
+from acts_tools.running.ending import wait_or_kill
 from acts_tools.two_machines.conditions import Conditions, Traffic
 
 _TOOLS = {"ip": "iproute2", "mount": "mount", "nsenter": "util-linux", "unshare": "util-linux"}
@@ -104,11 +105,7 @@ class Machine:
             yield process
         finally:
             process.terminate()
-            try:
-                process.wait(_STOP_TIMEOUT_S)
-            except subprocess.TimeoutExpired:
-                process.kill()
-                process.wait()
+            wait_or_kill(process, _STOP_TIMEOUT_S)
 
 
 @contextmanager
@@ -148,9 +145,5 @@ def two_machines() -> Iterator[TwoMachines]:
         yield TwoMachines(cable, start["pids"])
     finally:
         cable.stdin.close()
-        try:
-            cable.wait(_STOP_TIMEOUT_S)
-        except subprocess.TimeoutExpired:
-            cable.kill()
-            cable.wait()
+        wait_or_kill(cable, _STOP_TIMEOUT_S)
         cable.stdout.close()

@@ -18,6 +18,7 @@ from pathlib import Path
 from acts_core.errors import LaunchError
 from acts_ros.processes.launcher import leave_with_parent
 from acts_ros.processes.packages import executable
+from acts_tools.running.ending import wait_or_kill
 
 NAMESPACE = "/plate"
 M = 55
@@ -139,11 +140,7 @@ def _running(command: Sequence[str], log_path: Path) -> Iterator[subprocess.Pope
         yield process
     finally:
         process.terminate()
-        try:
-            process.wait(_STOP_TIMEOUT_S)
-        except subprocess.TimeoutExpired:
-            process.kill()
-            process.wait()
+        wait_or_kill(process, _STOP_TIMEOUT_S)
         process.stdout.close()
 
 
