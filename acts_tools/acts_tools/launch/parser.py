@@ -92,6 +92,15 @@ def _optional(element: Element, name: str) -> Template | None:
     return None if value is None else substitutions.parse(value)
 
 
+def _pair(element: Element, first: str, second: str) -> tuple[Template, Template]:
+    """The two attributes of a child that has nothing else, such as `remap`."""
+    element.take()
+    with located(element.place):
+        pair = _required(element, first), _required(element, second)
+    element.finish()
+    return pair
+
+
 def _declare(element: Element, condition: Condition | None) -> DeclareArgument:
     choices = tuple(_choice(child) for child in element.take("choice"))
     return DeclareArgument(
@@ -161,17 +170,12 @@ def _group(element: Element, condition: Condition | None) -> Group:
 
 
 def _include(element: Element, condition: Condition | None) -> Include:
-    arguments = []
-    for child in element.take("arg"):
-        child.take()
-        with located(child.place):
-            arguments.append((_required(child, "name"), _required(child, "value")))
-        child.finish()
+    arguments = tuple(_pair(child, "name", "value") for child in element.take("arg"))
     return Include(
         place=element.place,
         condition=condition,
         file=_required(element, "file"),
-        arguments=tuple(arguments),
+        arguments=arguments,
     )
 
 
@@ -189,17 +193,12 @@ def _node(element: Element, condition: Condition | None) -> Node:
         respawn=_optional(element, "respawn") or (Text("false"),),
         respawn_delay_s=_delay(element),
         parameters=tuple(_parameter(child) for child in children if child.tag == "param"),
-        remaps=tuple(_remap(child) for child in children if child.tag == "remap"),
+        remaps=tuple(_pair(child, "from", "to") for child in children if child.tag == "remap"),
     )
 
 
 def _executable(element: Element, condition: Condition | None) -> Executable:
-    variables = []
-    for child in element.take("env"):
-        child.take()
-        with located(child.place):
-            variables.append((_required(child, "name"), _required(child, "value")))
-        child.finish()
+    variables = tuple(_pair(child, "name", "value") for child in element.take("env"))
     command = _command_line(element.require("cmd"))
     if not command:
         raise element.error("cmd is empty: needed is a program and its arguments")
@@ -208,7 +207,7 @@ def _executable(element: Element, condition: Condition | None) -> Executable:
         condition=condition,
         command=command,
         name=_optional(element, "name"),
-        environment=tuple(variables),
+        environment=variables,
         output=_optional(element, "output") or (Text("log"),),
         respawn=_optional(element, "respawn") or (Text("false"),),
         respawn_delay_s=_delay(element),
@@ -228,14 +227,6 @@ def _delay(element: Element) -> float:
             f"Attribute respawn_delay of Entity {element.tag} expected to be a non-negative value but got `{text}`"
         )
     return delay_s
-
-
-def _remap(element: Element) -> tuple[Template, Template]:
-    element.take()
-    with located(element.place):
-        rule = _required(element, "from"), _required(element, "to")
-    element.finish()
-    return rule
 
 
 def _parameter(element: Element) -> ParameterFile | ParameterValue:

@@ -118,35 +118,27 @@ class _Kind:
     describe: Callable[[tuple[Template, ...]], str]
 
 
-def _variable(arguments: tuple[Template, ...], scope: Scope) -> str:
+def _value(arguments: tuple[Template, ...], scope: Scope, values: dict[str, str], what: str) -> str:
+    """The value of the name that is the first argument; where there is none, the second argument."""
     name = perform(arguments[0], scope)
-    if name in scope.variables:
-        return scope.variables[name]
+    if name in values:
+        return values[name]
     if len(arguments) > 1:
         return perform(arguments[1], scope)
-    raise LaunchError(f"launch configuration '{name}' does not exist")
-
-
-def _environment(arguments: tuple[Template, ...], scope: Scope) -> str:
-    name = perform(arguments[0], scope)
-    if name in scope.environment:
-        return scope.environment[name]
-    if len(arguments) > 1:
-        return perform(arguments[1], scope)
-    raise LaunchError(f"environment variable '{name}' does not exist")
+    raise LaunchError(f"{what} '{name}' does not exist")
 
 
 _SUBSTITUTIONS: dict[str, _Kind] = {
     "var": _Kind(
         range(1, 3),
         "var substitution expects 1 or 2 arguments",
-        _variable,
+        lambda arguments, scope: _value(arguments, scope, scope.variables, "launch configuration"),
         lambda arguments: f"LaunchConfig({describe(arguments[0])})",
     ),
     "env": _Kind(
         range(1, 3),
         "env substitution expects 1 or 2 arguments",
-        _environment,
+        lambda arguments, scope: _value(arguments, scope, scope.environment, "environment variable"),
         lambda arguments: f"EnvVar({describe(arguments[0])})",
     ),
     "find-pkg-share": _Kind(
