@@ -28,7 +28,7 @@ COMMANDS = {
     "diagnostics": ("acts_tools.diagnostics.command", "print the diagnostics of the running nodes"),
     "selftest": ("acts_tools.selftest.command", "test a board, its wiring and its skin"),
     "doctor": ("acts_tools.doctor.command", "check this machine, and say how to correct what is wrong"),
-    "train": ("acts_tools.train", "train a dictionary for the reconstruction"),
+    "train": ("acts_tools.training.command", "train a dictionary for the reconstruction"),
     "library": ("acts_tools.library", "write a library of known objects for the classification"),
     "bench": ("acts_tools.bench.command", "measure throughput, CPU and latency"),
     "evaluate": ("acts_tools.evaluate.command", "score what is made of touch, recorded or simulated"),

@@ -1,4 +1,4 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Parts of `acts train`: sources of frames, and checkpoints."""
+"""`acts train`: learn a dictionary. Its sources of frames, its choice of patches, and checkpoints."""

@@ -15,7 +15,7 @@ from acts_core.sampling import SamplingConfig
 from acts_recon.sparse import Dictionary, load_dictionary, shipped_dictionary_path
 from acts_sim.pressing import OBJECTS
 from acts_tools.evaluate.images.recovery import Recording, Task, evaluate
-from acts_tools.train import model_frames
+from acts_tools.training.frames import model_frames
 
 pytestmark = pytest.mark.slow
 

@@ -9,14 +9,14 @@ import pytest
 
 from acts_core.errors import ActsError, ArrayError, RecordingError, SettingsError
 from acts_recon.sparse import load_dictionary
-from acts_tools import train
 from acts_tools.cli import Parser
+from acts_tools.training import command
 
 
 def run(*words: object) -> int:
     parser = Parser()
-    train.add_parser(parser.add_subparsers())
-    return train.run(parser.parse_args(["train", *(str(word) for word in words)]))
+    command.add_parser(parser.add_subparsers())
+    return command.run(parser.parse_args(["train", *(str(word) for word in words)]))
 
 
 OF_FRAMES = ("--patches", 400, "--atoms", 50, "--sparsity", 4, "--iterations", 2)

@@ -20,8 +20,8 @@ from acts_msgs.msg import Baseline, Contact, TactileSamples
 from acts_recon.sparse import load_dictionary
 from acts_ros.bags.message_types import Definitions
 from acts_ros.bags.writing import BagWriter
-from acts_tools import train
 from acts_tools.cli import Parser
+from acts_tools.training import command
 from acts_tools.training.bag_frames import bag_frames
 from acts_tools.training.frames import recorded_frames
 
@@ -104,8 +104,8 @@ def test_a_dictionary_from_a_bag_and_an_npz_file(frames: Frames, tmp_path: Path)
     words = ["train", "-o", str(tmp_path / "d.npz"), "--frames", str(bag), str(tmp_path / "f.npz")]
     words += ["--patch-size", "6", "--patches", "400", "--atoms", "50", "--sparsity", "4", "--iterations", "2"]
     parser = Parser()
-    train.add_parser(parser.add_subparsers())
-    assert train.run(parser.parse_args(words)) == 0
+    command.add_parser(parser.add_subparsers())
+    assert command.run(parser.parse_args(words)) == 0
     provenance = load_dictionary(tmp_path / "d.npz", patch_size=6).provenance
     assert "60 frames of /plate/samples in touch (sha256 " in provenance
     assert "60 frames of f.npz (sha256 " in provenance

@@ -44,7 +44,7 @@ from acts_tools.bench.references.multiply_adds import peak_per_s
 from acts_tools.bench.references.peers import SCIKIT_LEARN, SPAMS, missing, peer
 from acts_tools.bench.result import Figure, Result
 from acts_tools.bench.workbench import Workbench
-from acts_tools.train import model_frames
+from acts_tools.training.frames import model_frames
 
 M = 55
 TOUCH_COUNTS = 60

@@ -22,7 +22,8 @@ from acts_sim.pressing import OBJECTS
 from acts_tools.bench.references.peers import SCIKIT_LEARN, missing, peer
 from acts_tools.bench.result import Figure, Result
 from acts_tools.bench.workbench import Workbench
-from acts_tools.train import choose_patches, model_frames
+from acts_tools.training.frames import model_frames
+from acts_tools.training.patches import choose_patches
 
 PRESSES = 3000
 PATCHES = 15000
@@ -109,9 +110,7 @@ def _learn_as_well(
 def _patches() -> tuple[Patches, Patches]:
     """Patches for learning and for scoring, each of norm 1."""
     frames = model_frames(list(OBJECTS.values()), PRESSES, seed=0)
-    patches = choose_patches(
-        frames, PATCHES + OTHERS, size=8, touch_counts=60.0, min_active=4, coherence=0.99, rng=_rng()
-    )
+    patches = choose_patches(frames, PATCHES + OTHERS, _rng())
     patches /= np.linalg.norm(patches, axis=1, keepdims=True)
     return patches[:-OTHERS], patches[-OTHERS:]
 

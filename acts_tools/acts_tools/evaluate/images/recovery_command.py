@@ -22,7 +22,7 @@ from acts_tools.evaluate.images import options
 from acts_tools.evaluate.images.recovery import Recording
 from acts_tools.evaluate.images.tasks import evaluate_all
 from acts_tools.large_files import tell_if_large
-from acts_tools.train import model_frames
+from acts_tools.training.frames import model_frames
 
 
 def add_parser(commands: Any) -> None:

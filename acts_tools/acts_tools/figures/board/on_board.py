@@ -22,7 +22,7 @@ from acts_tools.figures.run import Run
 from acts_tools.figures.sheet import OURS, PUBLISHED, SAME, Contours, Curve, Panel, Picture
 from acts_tools.firmware.board_sampler import BoardSampler
 from acts_tools.firmware.board_times import output_us, sampling_us
-from acts_tools.train import model_frames
+from acts_tools.training.frames import model_frames
 
 _M = (50, 100, 200, 300, 400, 500)
 _ATOMS = (50, 100, 200, 300, 400, 500)

@@ -23,7 +23,8 @@ from acts_tools.evaluate.images.recovery import Recording, Task, evaluate
 from acts_tools.evaluate.scene_frames import FOLLOW_COUNTS
 from acts_tools.figures.run import Run
 from acts_tools.firmware.board_sampler import sampler_of
-from acts_tools.train import choose_patches, model_frames
+from acts_tools.training.frames import model_frames
+from acts_tools.training.patches import PatchChoice, choose_patches
 
 PUBLISHED_SCHEMES = {"adaptive": "Binary Sampling", "uniform": "Down Sampling", "random": "Random Sampling"}
 """The paper's schemes, and what its figure files call them."""
@@ -167,6 +168,6 @@ def learn(
     config = KsvdConfig(atoms=atoms)
     rng = np.random.default_rng(run.seed)
     pressed = model_frames(list(items), frames, run.seed)
-    chosen = choose_patches(pressed, patches, size=8, touch_counts=60.0, min_active=4, coherence=0.99, rng=rng)
+    chosen = choose_patches(pressed, patches, rng)
     learnt = learn_dictionary(chosen, config, rng=rng, progress=lambda state: show(state.iteration / config.iterations))
-    return Dictionary(learnt, 8, {}, f"{atoms} atoms of {len(items)} objects")
+    return Dictionary(learnt, PatchChoice.size, {}, f"{atoms} atoms of {len(items)} objects")

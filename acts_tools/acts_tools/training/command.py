@@ -13,12 +13,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from acts_core.errors import RecordingError, SettingsError
 from acts_core.files import without_contact
 from acts_core.settings import default_of
-from acts_recon.learning import KsvdConfig, KsvdProgress, learn_dictionary, prune_coherent, random_patches
+from acts_recon.learning import KsvdConfig, KsvdProgress, learn_dictionary
 from acts_recon.sparse import Dictionary, save_dictionary
 from acts_sim.pressing import OBJECTS, FoamConfig, object_named
 from acts_tools.arguments import refuse_unused
@@ -26,14 +25,7 @@ from acts_tools.output_file import require_writable
 from acts_tools.progress import Progress
 from acts_tools.training.checkpoint import Checkpoint
 from acts_tools.training.frames import Source, model_frames, recorded_frames
-
-__all__ = ["add_parser", "choose_patches", "model_frames", "run"]
-
-_PLACES_PER_PATCH = 40
-"""Number of positions that are tried per patch: most of the skin is untouched in most frames."""
-
-_DISTINCT_OF_PATCHES = 2.5
-"""Number of patches before pruning, per patch after it."""
+from acts_tools.training.patches import PatchChoice, choose_patches
 
 
 def add_parser(subparsers: Any) -> None:
@@ -62,15 +54,25 @@ def add_parser(subparsers: Any) -> None:
     parser.add_argument("--presses", type=int, default=3000, help="frames of the contact model (default: %(default)s)")
     parser.add_argument("--seed", type=int, default=0, help="random seed (default: %(default)s)")
     parser.add_argument("--patches", type=int, default=15000, help="largest number of patches (default: %(default)s)")
-    parser.add_argument("--patch-size", type=int, default=8, help="side of a patch in taxels (default: %(default)s)")
     parser.add_argument(
-        "--min-active", type=int, default=4, help="pressed taxels that a patch needs (default: %(default)s; paper: 16)"
+        "--patch-size", type=int, default=PatchChoice.size, help="side of a patch in taxels (default: %(default)s)"
     )
-    parser.add_argument("--touch-counts", type=float, default=60.0, help="touch threshold (default: %(default)s)")
+    parser.add_argument(
+        "--min-active",
+        type=int,
+        default=PatchChoice.min_active,
+        help="pressed taxels that a patch needs (default: %(default)s; paper: 16)",
+    )
+    parser.add_argument(
+        "--touch-counts",
+        type=float,
+        default=PatchChoice.touch_counts,
+        help="touch threshold (default: %(default)s)",
+    )
     parser.add_argument(
         "--coherence",
         type=float,
-        default=0.99,
+        default=PatchChoice.coherence,
         help="patches with a larger coherence are pruned (default: %(default)s)",
     )
     for name, text in (
@@ -94,15 +96,13 @@ def run(arguments: argparse.Namespace) -> int:
     config = KsvdConfig(atoms=arguments.atoms, sparsity=arguments.sparsity, iterations=arguments.iterations)
     rng = np.random.default_rng(arguments.seed)
     source, settings = _source(arguments)
-    patches = choose_patches(
-        source.frames,
-        arguments.patches,
+    choice = PatchChoice(
         size=arguments.patch_size,
         touch_counts=arguments.touch_counts,
         min_active=arguments.min_active,
         coherence=arguments.coherence,
-        rng=rng,
     )
+    patches = choose_patches(source.frames, arguments.patches, rng, choice)
     settings = {
         **asdict(config),
         "seed": arguments.seed,
@@ -162,33 +162,6 @@ def _source(arguments: argparse.Namespace) -> tuple[Source, dict[str, Any]]:
     description = f"{arguments.presses} presses of {len(objects)} objects into the ACTS contact model"
     made = {"presses": arguments.presses, "objects": [item.name for item in objects], **asdict(FoamConfig())}
     return Source(frames, description), made
-
-
-def choose_patches(
-    frames: NDArray[np.uint16],
-    n_patches: int,
-    *,
-    size: int,
-    touch_counts: float,
-    min_active: int,
-    coherence: float,
-    rng: np.random.Generator,
-) -> NDArray[np.float32]:
-    """Choose at most `n_patches` pressed patches of frames, no two alike (paper, "Tactile Dictionary Learning").
-
-    Returns
-    -------
-    np.ndarray [shape=(n, size * size), dtype=float32]
-    """
-    patches = random_patches(
-        frames,
-        _PLACES_PER_PATCH * n_patches,
-        size=size,
-        touch_counts=touch_counts,
-        min_active=min_active,
-        rng=rng,
-    )[: int(_DISTINCT_OF_PATCHES * n_patches)]
-    return patches[prune_coherent(patches, coherence)][:n_patches]
 
 
 def _check(arguments: argparse.Namespace) -> None:
