@@ -27,7 +27,7 @@ from acts_tools.bench.rigs.memory import GROWTH_MAX_MB_PER_H, JUDGED_S, Memory
 from acts_tools.bench.rigs.processes import NAMESPACE, START_TIMEOUT_S, check_alive, driver, virtual_board
 from acts_tools.bench.rigs.skin import pressed
 from acts_tools.bench.workbench import Workbench
-from acts_tools.driver.driver_status import driver_values
+from acts_tools.driver.status import driver_values
 from acts_tools.percentiles import percentiles
 from acts_tools.process_load import cpu_s
 

@@ -18,7 +18,7 @@ from acts_tools.bench.rigs.graph import Graph
 from acts_tools.bench.rigs.processes import NAMESPACE, START_TIMEOUT_S, check_alive, driver, virtual_board
 from acts_tools.bench.rigs.trial import Status, Trial, observe
 from acts_tools.bench.workbench import Workbench
-from acts_tools.driver.driver_status import driver_values
+from acts_tools.driver.status import driver_values
 
 
 def driver_trial(workbench: Workbench, asked_hz: float, seconds: float, board_options: Sequence[str]) -> Trial:

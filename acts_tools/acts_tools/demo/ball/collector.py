@@ -16,7 +16,7 @@ from acts_ros import qos
 from acts_ros.messages import seconds_of
 from acts_ros.polled import PollingNode
 from acts_tools.demo.ball.recording import Recording
-from acts_tools.driver.driver_status import driver_values
+from acts_tools.driver.status import driver_values
 
 # Twice the number of messages per second of the most frequent topic.
 _DEPTH = 256
