@@ -96,7 +96,7 @@ class Joints:
     notes: tuple[str, ...] = ()
 
 
-def joint_track(bag: Any, path: Path, topic: str, *, numbers_only: bool = False) -> Joints:
+def joint_track(bag: Any, path: Path, topic: str, *, numbers_only: bool) -> Joints:
     """Recorded joint states.
 
     Publishers may share the topic; what each of them says of its joints is kept until it says more.

@@ -111,7 +111,7 @@ def live_hand(
     run_dir: Path,
     log_path: Path,
     stop: StopFlag,
-    line: Callable[[HandCollector], str] = lambda _collector: "",
+    line: Callable[[HandCollector], str],
 ) -> Iterator[LiveHand]:
     """Launch a simulated hand and wait until it has touch and torque; stop it at the end of the block.
 

@@ -35,6 +35,7 @@ _OPEN_RAD = np.array(LEAP_RIGHT.postures["open"])
 _NEARLY_OPEN_RAD = 0.05
 _OPENING_S = 2.0
 _OPENINGS = 3
+_GRASP_S = 10.0
 _GRAVITY_M_S2 = 9.81
 
 
@@ -116,9 +117,9 @@ class LiveRig:
                 return True
         return False
 
-    def grasp(self, timeout_s: float = 10.0) -> bool:
+    def grasp(self) -> bool:
         """Close the hand; return whether it then holds something."""
-        end_s = self._time_s + timeout_s
+        end_s = self._time_s + _GRASP_S
         self._begin_grasp()
         while self.run(end_s - self._time_s, self._has_closed) and self.state is HandState.STOPPED:
             # A delay of the machine of a tenth of a second stops the grasp; try again, as a person would.

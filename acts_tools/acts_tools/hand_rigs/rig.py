@@ -37,6 +37,8 @@ _FRAMES = 2
 """Frames of the board in each step of the world: 1000 per second."""
 _MAX_SPEED_RAD_S = 12.0
 """Largest speed of a goal, as in the node `hand_reflexes` [rad/s]."""
+_GRASP_S = 6.0
+"""Longest time in which the hand closes [s]."""
 _KINEMATICS = HandKinematics(LEAP_RIGHT)
 
 
@@ -154,11 +156,11 @@ class HandRig:
                 return True
         return False
 
-    def grasp(self, timeout_s: float = 6.0) -> bool:
+    def grasp(self) -> bool:
         """Close the hand; return whether it then holds something."""
         self.run(0.02)
         self.supervisor.grasp()
-        self.run(timeout_s, lambda: self.state in (HandState.HOLDING, HandState.OPEN))
+        self.run(_GRASP_S, lambda: self.state in (HandState.HOLDING, HandState.OPEN))
         return self.state is HandState.HOLDING
 
     def object_m(self) -> NDArray[np.float64]:

@@ -119,11 +119,6 @@ def test_the_cosines_are_those_that_the_paper_compared_with(recording_path: Call
         np.testing.assert_allclose(cosine_dictionary().atoms, archive["dct_unit_exact"], atol=1e-6)
 
 
-def test_too_many_haar_atoms_are_refused() -> None:
-    with pytest.raises(DictionaryError, match="1156"):
-        haar_dictionary(atoms=2000)
-
-
 def test_dictionaries_by_name(tmp_path: Path) -> None:
     np.savez(tmp_path / "any.npz", mine=cosine_dictionary().atoms, text="words")
     assert dictionary_named(f"{tmp_path}/any.npz:mine").patch_size == 8

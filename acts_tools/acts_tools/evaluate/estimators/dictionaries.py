@@ -49,21 +49,14 @@ def cosine_dictionary() -> Dictionary:
     return Dictionary((waves / np.linalg.norm(waves, axis=0)).astype(np.float32), _SIDE, {}, "overcomplete DCT")
 
 
-def haar_dictionary(atoms: int = _ATOMS) -> Dictionary:
+def haar_dictionary() -> Dictionary:
     """Overcomplete Haar: products of boxes and steps of 1, 2, 4, ... pixels at every position along rows and columns.
 
-    There are 1156 products for a patch of 8 x 8; those `atoms` that cover most pixels are used, normalised.
-
-    Raises
-    ------
-    DictionaryError
-        When there are fewer of them.
+    There are 1156 products for a patch of 8 x 8; the 1000 that cover most pixels are used, normalised.
     """
     line = _haar_line(_SIDE)
     products = np.array([np.kron(along_cols, along_rows) for along_cols in line for along_rows in line])
-    if len(products) < atoms:
-        raise DictionaryError(f"{atoms} Haar atoms: a patch of {_SIDE} x {_SIDE} has {len(products)}; use fewer atoms")
-    widest = np.argsort(-np.count_nonzero(products, axis=1), kind="stable")[:atoms]
+    widest = np.argsort(-np.count_nonzero(products, axis=1), kind="stable")[:_ATOMS]
     chosen = products[widest].T
     return Dictionary((chosen / np.linalg.norm(chosen, axis=0)).astype(np.float32), _SIDE, {}, "overcomplete Haar")
 

@@ -22,9 +22,7 @@ _RUN_UP_S = 1.0
 """Time that is played before the classified frame [s]."""
 
 
-def run_recorded(
-    recorded: FramesFile, ms: Sequence[int], show: Callable[[float], None] = lambda _: None
-) -> dict[str, Any]:
+def run_recorded(recorded: FramesFile, ms: Sequence[int], show: Callable[[float], None]) -> dict[str, Any]:
     """Classify the strongest frame of every recording by the strongest frames of other recordings.
 
     The first half of each object's recordings, in the order of the file, is the library; the rest is classified.

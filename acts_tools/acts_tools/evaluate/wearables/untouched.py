@@ -50,7 +50,7 @@ def watch_untouched(
     m: int,
     noise_counts: float,
     rng: np.random.Generator,
-    show: Callable[[int], None] = lambda _: None,
+    show: Callable[[int], None],
 ) -> Untouched:
     """Calibrate an untouched skin in its first seconds, as the driver does, and watch it.
 

@@ -60,15 +60,14 @@ def scene_of(name: str, seed: int, number: int) -> WornScene:
     return worn_scene(name, np.random.default_rng([seed, number]))
 
 
-def tally(name: str, seeds: int, m: int, noise_counts: float, seed: int, progress: Progress | None = None) -> Tally:
+def tally(name: str, seeds: int, m: int, noise_counts: float, seed: int, progress: Progress) -> Tally:
     """Watch scenes of one name."""
     found, watcher = Tally(name), None
     for number in range(seeds):
         shown = scene_of(name, seed, number)
         watcher = watcher or Watcher(shown.layout, noise_counts)
         found.add(shown, watcher.watch(shown, m, noise_counts, number + 1))
-        if progress is not None:
-            progress.show(number + 1, name)
+        progress.show(number + 1, name)
     return found
 
 
@@ -96,7 +95,7 @@ def _run(arguments: argparse.Namespace) -> int:
     for number, name in enumerate(arguments.untouched):
         rng = np.random.default_rng([arguments.seed, number])
         with Progress(name, seconds) as progress:
-            alone = watch_untouched(name, seconds, arguments.m, arguments.noise_counts, rng, show=progress.show)
+            alone = watch_untouched(name, seconds, arguments.m, arguments.noise_counts, rng, progress.show)
         results.add({"untouched": name, "scheme": SCHEME, **asdict(alone)})
         print(
             f"{name:12} {alone.seconds / 60:7.1f} {alone.frames:7} {alone.told:5} {alone.drift_counts:12.1f}",

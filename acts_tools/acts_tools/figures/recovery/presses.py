@@ -153,7 +153,7 @@ def learn(
     atoms: int,
     patches: int,
     frames: int,
-    show: Callable[[float], None] = lambda _: None,
+    show: Callable[[float], None],
 ) -> Dictionary:
     """Learn a dictionary from presses of some objects, with the settings of `acts train`.
 
