@@ -6,10 +6,16 @@
 from __future__ import annotations
 
 import os
+import tempfile
 from pathlib import Path
 
 # A run needs about 2 MB for each skin.
 _NEEDED_BYTES = 1 << 24
+
+
+def run_folder(prefix: str) -> tempfile.TemporaryDirectory[str]:
+    """Make the folder of a run, in memory where that is possible; it is removed at the end of the block."""
+    return tempfile.TemporaryDirectory(prefix=prefix, dir=shared_memory())
 
 
 def shared_memory(shared: Path = Path("/dev/shm")) -> Path | None:

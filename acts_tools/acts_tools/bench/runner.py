@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import os
 import sys
-import tempfile
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from datetime import datetime, timezone
@@ -18,7 +17,7 @@ from acts_core.errors import ActsError
 from acts_tools.bench import machine
 from acts_tools.bench.registry import MEASUREMENTS, Entry
 from acts_tools.bench.workbench import Workbench
-from acts_tools.run_folder import shared_memory
+from acts_tools.run_folder import run_folder
 from acts_tools.running.stopping import StopFlag
 
 OTHERS_WARNING_PERCENT = 10.0
@@ -106,7 +105,7 @@ def load_average() -> list[float]:
 
 def _measure(entry: Entry, seconds: float, stop: StopFlag) -> dict[str, Any]:
     others = machine.OthersMeter()
-    with tempfile.TemporaryDirectory(prefix="acts_bench_", dir=shared_memory()) as folder:
+    with run_folder("acts_bench_") as folder:
         result = entry.load().measure(Workbench(seconds, Path(folder), stop))
     return {
         "summary": entry.summary,

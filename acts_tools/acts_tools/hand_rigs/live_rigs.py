@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Callable
 from contextlib import ExitStack
 from dataclasses import asdict
@@ -21,7 +20,7 @@ from acts_tools.hand_rigs.live import NAMESPACE, live_hand
 from acts_tools.hand_rigs.live_rig import LiveRig
 from acts_tools.hand_rigs.recording import HandRecording
 from acts_tools.hand_rigs.rig import RigOptions
-from acts_tools.run_folder import shared_memory
+from acts_tools.run_folder import run_folder
 from acts_tools.running.stopping import StopFlag
 
 
@@ -73,7 +72,7 @@ class LiveRigs:
         """Launch a hand with this world and these reflexes."""
         self.close()
         self.recording, self.world = HandRecording(), world
-        folder = Path(self._stack.enter_context(tempfile.TemporaryDirectory(prefix="acts_hand_", dir=shared_memory())))
+        folder = Path(self._stack.enter_context(run_folder("acts_hand_")))
         arguments = {
             "object": world.object,
             "object_size": f"{world.object_size_m:.6f}",

@@ -8,7 +8,6 @@ from __future__ import annotations
 import argparse
 import signal
 import sys
-import tempfile
 import time
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext
@@ -107,10 +106,10 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _simulated(arguments: argparse.Namespace, stack: ExitStack) -> SimulatedSkin:
-    from acts_tools.run_folder import shared_memory
+    from acts_tools.run_folder import run_folder
     from acts_tools.selftest.simulation import simulated_skin
 
-    folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="acts_selftest_", dir=shared_memory())))
+    folder = Path(stack.enter_context(run_folder("acts_selftest_")))
     return stack.enter_context(
         simulated_skin(folder, arguments.rows, arguments.cols, arguments.protocol, arguments.hardware_fault)
     )

@@ -9,7 +9,6 @@ import argparse
 import json
 import os
 import sys
-import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +21,7 @@ from acts_tools.bench.skins.options import NAME, SECONDS, SUMMARY, options_from
 from acts_tools.bench.skins.processes import RATE_HZ
 from acts_tools.bench.workbench import Workbench
 from acts_tools.ros_domain import use_free_domain
-from acts_tools.run_folder import shared_memory
+from acts_tools.run_folder import run_folder
 from acts_tools.running.stopping import StopFlag
 
 
@@ -70,7 +69,7 @@ def run(arguments: argparse.Namespace, path: Path) -> dict[str, Any]:
         "load": options.load,
         "realtime": "on" if options.realtime else "off",
     }
-    with StopFlag() as stop, tempfile.TemporaryDirectory(prefix="acts_bench_", dir=shared_memory()) as folder:
+    with StopFlag() as stop, run_folder("acts_bench_") as folder:
         report |= measure(Workbench(seconds, Path(folder), stop), options)
     report["load_average_after"] = runner.load_average()
     report["cpu_percent_total"] = judgement.total_percent(report)

@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import socket
-import tempfile
 from pathlib import Path
 
 import rclpy
@@ -27,7 +26,7 @@ from acts_tools.demo.files import DemoFiles
 from acts_tools.percentiles import percentiles
 from acts_tools.process_load import LoadMeter
 from acts_tools.ros_domain import use_free_domain
-from acts_tools.run_folder import shared_memory
+from acts_tools.run_folder import run_folder
 from acts_tools.running.launched import START_TIMEOUT_S, launched
 from acts_tools.running.stopping import StopFlag
 from acts_tools.running.watcher import Watcher
@@ -162,7 +161,7 @@ def _run(seconds: float | None, files: DemoFiles, robot_ip: str, realtime_priori
     print(f"Ball balancing with simulated skin, ball and UR5e: {trajectory.replace(',', ', ')}; {duration_s:.0f} s")
     print("The same nodes run on the real robot; only launch arguments differ. Everything below is measured live.")
     recording = Recording()
-    with StopFlag() as stop, tempfile.TemporaryDirectory(prefix="acts_demo_", dir=shared_memory()) as run_dir:
+    with StopFlag() as stop, run_folder("acts_demo_") as run_dir:
         launch_arguments = [
             f"trajectory:={trajectory}",
             f"run_dir:={run_dir}",
