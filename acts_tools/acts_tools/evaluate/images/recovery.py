@@ -149,6 +149,57 @@ class _Notices:
         self.missed += not noticed
 
 
+class _Scored:
+    """The scores of all frames of a task: settled contacts, their onsets, and the untouched skin."""
+
+    def __init__(self) -> None:
+        self._settled, self._onset = FrameScores(), FrameScores()
+        self._settled_errors, self._onset_errors = np.zeros(calibration.SUMS), np.zeros(calibration.SUMS)
+        self._contact_us: list[float] = []
+        self._untouched_us: list[float] = []
+        self._untouched_invented: list[float] = []
+        self._first_ms: list[float] = []
+        self._further_ms: list[float] = []
+        self._missed = 0
+
+    def add(self, frame: _Frame, onset_s: float) -> None:
+        """Add a frame; a contact counts as new for `onset_s` [s]."""
+        if not frame.in_contact:
+            self._untouched_us.append(frame.spent_us)
+            self._untouched_invented.append(float(frame.scores[INVENTED]))
+            return
+        new = frame.since_s < onset_s
+        (self._onset if new else self._settled).add(frame.scores)
+        errors = self._onset_errors if new else self._settled_errors
+        errors += frame.errors
+        self._contact_us.append(frame.spent_us)
+
+    def add_notices(self, notices: _Notices) -> None:
+        """Add the delays of a recording."""
+        self._first_ms += notices.first_ms
+        self._further_ms += notices.further_ms
+        self._missed += notices.missed
+
+    def summary(self, period_s: float) -> dict[str, Any]:
+        """Plain numbers of the report; `period_s` is the time between frames [s]."""
+        notice_ms = self._first_ms + self._further_ms
+        return {
+            **self._settled.summary(),
+            "sigma": calibration.summary(self._settled_errors),
+            "notice_ms": percentiles(notice_ms, ("p50", "p99"), decimals=None),
+            "notice_further_ms": percentiles(self._further_ms, ("p50", "p99"), decimals=None),
+            "contacts": len(notice_ms),
+            "contacts_missed": self._missed,
+            "frame_us": percentiles(self._contact_us or self._untouched_us, ("median", "p99"), decimals=None),
+            "rate_hz": 1.0 / period_s,
+            "onset": {**self._onset.summary(), "sigma": calibration.summary(self._onset_errors)},
+            "untouched": {
+                "frames": len(self._untouched_invented),
+                "invented_rate": mean(self._untouched_invented),
+            },
+        }
+
+
 def method_of(task: Task, dictionary: Dictionary) -> Method:
     """Make the recovery method of a task. It is told the noise that is added, as by a calibration.
 
@@ -187,14 +238,8 @@ def evaluate(
     # The first call may compile kernels.
     nothing = np.zeros(task.sampling.m, dtype=np.uint16)
     method.step(np.arange(task.sampling.m, dtype=np.uint16), nothing, 0.0, task.duration_s)
-    settled, onset = FrameScores(), FrameScores()
-    settled_errors, onset_errors = np.zeros(calibration.SUMS), np.zeros(calibration.SUMS)
-    contact_us: list[float] = []
-    untouched_us: list[float] = []
-    untouched_invented: list[float] = []
-    first_ms: list[float] = []
-    further_ms: list[float] = []
-    missed = number = 0
+    scored = _Scored()
+    number = 0
     for which, recording in enumerate(recordings):
         notices = _Notices(recording, task.touch_counts)
         method.reset()
@@ -204,36 +249,14 @@ def evaluate(
             if number % _IMAGES_BETWEEN_SHOWS == 0:
                 show(number)
             notices.look(frame)
-            if frame.in_contact:
-                new = frame.since_s < its_task.onset_s
-                (onset if new else settled).add(frame.scores)
-                errors = onset_errors if new else settled_errors
-                errors += frame.errors
-                contact_us.append(frame.spent_us)
-            else:
-                untouched_us.append(frame.spent_us)
-                untouched_invented.append(float(frame.scores[INVENTED]))
+            scored.add(frame, its_task.onset_s)
         notices.end()
-        first_ms += notices.first_ms
-        further_ms += notices.further_ms
-        missed += notices.missed
+        scored.add_notices(notices)
     return {
         "scheme": task.sampling.scheme,
         "m": task.sampling.m,
         "method": task.method,
-        **settled.summary(),
-        "sigma": calibration.summary(settled_errors),
-        "notice_ms": percentiles(first_ms + further_ms, ("p50", "p99"), decimals=None),
-        "notice_further_ms": percentiles(further_ms, ("p50", "p99"), decimals=None),
-        "contacts": len(first_ms) + len(further_ms),
-        "contacts_missed": missed,
-        "frame_us": percentiles(contact_us or untouched_us, ("median", "p99"), decimals=None),
-        "rate_hz": 1.0 / task.period_s,
-        "onset": {**onset.summary(), "sigma": calibration.summary(onset_errors)},
-        "untouched": {
-            "frames": len(untouched_invented),
-            "invented_rate": mean(untouched_invented),
-        },
+        **scored.summary(task.period_s),
     }
 
 
