@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from acts_core.errors import RecordingError, SettingsError
 from acts_core.files import without_contact
@@ -117,6 +118,20 @@ def run(arguments: argparse.Namespace) -> int:
         arguments.output.with_name(arguments.output.name + ".partial"),
         {**settings, "patches_sha256": hashlib.sha256(patches.tobytes()).hexdigest()},
     )
+    atoms = _learn(patches, config, rng, checkpoint)
+    provenance = f"Learnt by K-SVD (acts train) from {source.description}."
+    dictionary = Dictionary(atoms, arguments.patch_size, settings, provenance)
+    save_dictionary(dictionary, arguments.output)
+    checkpoint.remove()
+    size_kb = arguments.output.stat().st_size / 1000
+    print(f"{arguments.output}: {dictionary.n_atoms} atoms, {size_kb:.0f} kB, sha256 {dictionary.sha256}")
+    return 0
+
+
+def _learn(
+    patches: NDArray[np.float32], config: KsvdConfig, rng: np.random.Generator, checkpoint: Checkpoint
+) -> NDArray[np.float32]:
+    """The atoms of patches, from where an interrupted run has left off."""
     state = checkpoint.load()
     done = 0 if state is None else state.iteration
     print(
@@ -131,18 +146,11 @@ def run(arguments: argparse.Namespace) -> int:
                 residual = 100 * progress.relative_error
                 bar.show(progress.iteration, f"residual {residual:.2f} %, {progress.replaced} atoms replaced")
 
-            atoms = learn_dictionary(patches, config, rng=rng, progress=show, save=checkpoint.save, resume=state)
+            return learn_dictionary(patches, config, rng=rng, progress=show, save=checkpoint.save, resume=state)
     except KeyboardInterrupt:
         if checkpoint.path.exists():
             print(f"interrupted; progress is saved in {checkpoint.path}: the same command continues", file=sys.stderr)
         raise
-    provenance = f"Learnt by K-SVD (acts train) from {source.description}."
-    dictionary = Dictionary(atoms, arguments.patch_size, settings, provenance)
-    save_dictionary(dictionary, arguments.output)
-    checkpoint.remove()
-    size_kb = arguments.output.stat().st_size / 1000
-    print(f"{arguments.output}: {dictionary.n_atoms} atoms, {size_kb:.0f} kB, sha256 {dictionary.sha256}")
-    return 0
 
 
 def _source(arguments: argparse.Namespace) -> tuple[Source, dict[str, Any]]:
