@@ -48,11 +48,14 @@ class FramesFile:
     rate_hz: float | None = None
     label: tuple[str, ...] = ()
 
-    def peak_frames(self) -> NDArray[np.uint16]:
-        """Of each recording the frame with most counts on live taxels; np.ndarray [shape=(n, rows, cols)]."""
+    def peaks(self) -> list[int]:
+        """Of each recording the index of the frame with most counts on live taxels."""
         sums = np.einsum("nrc,rc->n", self.frames, self.live, dtype=np.int64, casting="unsafe")
-        peaks = [s + int(np.argmax(sums[s : s + n])) for s, n in zip(self.start, self.length, strict=True)]
-        return self.frames[peaks]
+        return [int(s + np.argmax(sums[s : s + n])) for s, n in zip(self.start, self.length, strict=True)]
+
+    def peak_frames(self) -> NDArray[np.uint16]:
+        """The frames of `peaks`; np.ndarray [shape=(n, rows, cols)]."""
+        return self.frames[self.peaks()]
 
 
 def without_contact(largest_counts: int, touch_counts: float) -> str:

@@ -44,10 +44,7 @@ def run_recorded(recorded: FramesFile, ms: Sequence[int], show: Callable[[float]
             f"{missing} in the file: needed are a rate and a label for every recording (start, length)"
         )
     flat = recorded.frames * recorded.live
-    peaks = [
-        int(s + np.argmax(flat[s : s + n].sum(axis=(1, 2), dtype=np.int64)))
-        for s, n in zip(recorded.start, recorded.length, strict=True)
-    ]
+    peaks = recorded.peaks()
     largest = [int(flat[peak].max()) for peak in peaks]
     if max(largest) <= TOUCH_COUNTS:
         raise RecordingError(f"nothing was touched: {without_contact(max(largest), TOUCH_COUNTS)}")
