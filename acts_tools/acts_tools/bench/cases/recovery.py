@@ -54,6 +54,8 @@ CALLS = 50
 SAME = 0.01
 """Tolerance of residuals, relative to the samples: rounding causes such differences where two atoms tie."""
 
+_TITLES = {"press": "a press", "skin": "the whole skin"}
+
 Samples = tuple[NDArray[np.uint16], NDArray[np.uint16]]
 
 
@@ -73,9 +75,11 @@ def measure(workbench: Workbench) -> Result:
     peak = peak_per_s()
     figures = [Figure("peak", "multiply-adds of one core, in registers", peak / 1e9, "thousand million/s")]
     problems: list[str] = []
-    for kind, title, frames in (("press", "a press", _presses()), ("skin", "the whole skin", _pressed_everywhere())):
+    for kind, frames in (("press", _presses()), ("skin", _pressed_everywhere())):
         workbench.check_stop()
-        figures += _compare(kind, title, frames, layout, atoms, peak, workbench, problems)
+        compared = _compare(kind, frames, layout, atoms, peak, workbench)
+        figures += compared.figures
+        problems += compared.problems
     return Result(figures, problems)
 
 
@@ -108,14 +112,13 @@ def patch_problems(layout: PatchLayout, atoms: NDArray[np.float32], samples: Sam
 
 def _compare(
     kind: str,
-    title: str,
     frames: list[Samples],
     layout: PatchLayout,
     atoms: NDArray[np.float32],
     peak: float,
     workbench: Workbench,
-    problems: list[str],
-) -> list[Figure]:
+) -> Result:
+    """Time one kind of frames; `peak` is the largest number of multiply-adds a second."""
     work = [patch_problems(layout, atoms, samples) for samples in frames]
     recover = _recovery(layout, atoms)
     contenders: dict[str, Callable[[], Any]] = {
@@ -130,14 +133,14 @@ def _compare(
     with warnings.catch_warnings():
         # scikit-learn warns of atoms that are equal on the few measured taxels; here it is only timed.
         warnings.simplefilter("ignore")
-        problems += _disagreements(work[0], linear_model, spams)
+        problems = _disagreements(work[0], linear_model, spams)
         seconds = _take_turns(contenders, workbench)
     seconds["ours"] /= CALLS
     ours_us = 1e6 * float(np.median(seconds["ours"])) / len(frames)
     limit_us = 1e6 * sum(multiply_adds(one) for patches in work for one in patches) / len(frames) / peak
     n_patches = sum(map(len, work)) / len(frames)
     figures = [
-        Figure(f"{kind}.us", f"FastOMP, {title}: {n_patches:.0f} of 49 patches pressed", ours_us, "us"),
+        Figure(f"{kind}.us", f"FastOMP, {_TITLES[kind]}: {n_patches:.0f} of 49 patches pressed", ours_us, "us"),
         Figure(f"{kind}.limit_us", "    the arithmetic limit", limit_us, "us"),
         Figure(f"{kind}.to_limit", "    to the arithmetic limit", ours_us / limit_us, "times", is_ratio=True),
     ]
@@ -152,7 +155,7 @@ def _compare(
         ratio = float(np.median(seconds[name] / seconds["ours"]))
         figures.append(Figure(f"{kind}.{name}_us", f"    {label}", theirs_us, "us"))
         figures.append(Figure(f"{kind}.{name}_ratio", f"    {label}, to ours", ratio, "times", is_ratio=True))
-    return figures
+    return Result(figures, problems)
 
 
 def _recovery(layout: PatchLayout, atoms: NDArray[np.float32]) -> Callable[[Samples], None]:
