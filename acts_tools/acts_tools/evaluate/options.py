@@ -34,6 +34,12 @@ def add_seeds(parser: argparse.ArgumentParser, seeds: int, what: str) -> None:
     parser.add_argument("--json", type=Path, metavar="OUT", help="write the results here, too")
 
 
+def add_seed_and_json(parser: argparse.ArgumentParser) -> None:
+    """Add what those have that repeat nothing: the seed, and a file of the results."""
+    parser.add_argument("--seed", type=random_seed, default=1, metavar="X", help="random seed (default: %(default)s)")
+    parser.add_argument("--json", type=Path, metavar="OUT", help="also write the results to a JSON file")
+
+
 def add_m(parser: argparse.ArgumentParser, default: Sequence[int]) -> None:
     """Add ``--m``, one or several."""
     parser.add_argument(

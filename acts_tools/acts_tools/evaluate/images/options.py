@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 from typing import Any
 
 from acts_core.errors import SettingsError
@@ -14,10 +13,11 @@ from acts_core.sampling import OWN_SETTINGS, SCHEMES, SamplingConfig
 from acts_core.settings import SettingValue, default_of, describe, from_text, unknown_key_message
 from acts_recon.methods import METHODS
 from acts_recon.sparse import Dictionary, shipped_dictionary_path
-from acts_tools.arguments import random_seed, taxels
+from acts_tools.arguments import taxels
 from acts_tools.evaluate.estimators.dictionaries import dictionary_named
 from acts_tools.evaluate.estimators.methods import ALIASES, method_names, report_name
 from acts_tools.evaluate.images.recovery import Task
+from acts_tools.evaluate.options import add_seed_and_json
 from acts_tools.evaluate.scene_frames import FOLLOW_COUNTS
 
 METHOD = "acts"
@@ -79,8 +79,7 @@ def add_common_arguments(parser: argparse.ArgumentParser, **defaults: float) -> 
             metavar="X",
             help=f"{own.parameter_description} (default: %(default)s)",
         )
-    parser.add_argument("--seed", type=random_seed, default=1, metavar="X", help="random seed (default: %(default)s)")
-    parser.add_argument("--json", type=Path, metavar="OUT", help="also write the results to a JSON file")
+    add_seed_and_json(parser)
 
 
 def _method_setting(word: str) -> tuple[str, SettingValue]:

@@ -13,11 +13,12 @@ from acts_core.errors import SettingsError
 from acts_core.files import load_frames
 from acts_core.settings import default_of
 from acts_sim.pressing import OBJECTS, PressingConfig, object_named
-from acts_tools.arguments import at_least_one, random_seed, refuse_unused, taxels
+from acts_tools.arguments import at_least_one, refuse_unused, taxels
 from acts_tools.evaluate import report
 from acts_tools.evaluate.objects.classification import M_OVER_TIME, MS, Trials, run_trials
 from acts_tools.evaluate.objects.classification_recorded import run_recorded
 from acts_tools.evaluate.objects.classification_report import draw, table, times
+from acts_tools.evaluate.options import add_seed_and_json
 from acts_tools.large_files import tell_if_large
 from acts_tools.output_file import require_picture, require_writable
 from acts_tools.progress import Progress
@@ -66,8 +67,7 @@ def add_parser(commands: Any) -> None:
             metavar="X",
             help=f"{text} (default: %(default)s)",
         )
-    parser.add_argument("--seed", type=random_seed, default=1, metavar="X", help="random seed (default: %(default)s)")
-    parser.add_argument("--json", type=Path, metavar="OUT", help="also write the results to a JSON file")
+    add_seed_and_json(parser)
     parser.add_argument("--picture", type=Path, metavar="PNG", help="draw both curves (not with --frames)")
     parser.set_defaults(evaluate=_run)
 
