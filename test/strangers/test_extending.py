@@ -36,9 +36,9 @@ from acts_recon.methods import METHODS, Method, SkinSetup
 from acts_recon.objects import build_object_library, save_object_library
 from acts_ros.qos import STATE, STREAM
 from acts_sim.pressing import object_named
+from acts_tools.evaluate.classification.trials import Trials, run_trials
 from acts_tools.evaluate.estimators.methods import method_named, method_names
 from acts_tools.evaluate.images.recovery import Recording, Task, evaluate
-from acts_tools.evaluate.objects.classification import Trials, run_trials
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = (ROOT / "docs" / "extending.md").read_text()

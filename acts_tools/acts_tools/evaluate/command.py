@@ -8,11 +8,11 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
+from acts_tools.evaluate.classification import classification_command
 from acts_tools.evaluate.gait import gait_command
 from acts_tools.evaluate.hand import hand_command
 from acts_tools.evaluate.images import events_command, objects_command, recovery_command
 from acts_tools.evaluate.impacts import impacts_command, ricochet_command
-from acts_tools.evaluate.objects import classification_command
 from acts_tools.evaluate.outlines import outlines_command
 from acts_tools.evaluate.public import convert_command
 from acts_tools.evaluate.slip import slip_command, slip_sampled_command

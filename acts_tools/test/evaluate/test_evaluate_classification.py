@@ -18,9 +18,9 @@ from acts_sim.pressing import PressingArm, object_named
 from acts_tools import library
 from acts_tools.cli import Parser
 from acts_tools.evaluate import command
-from acts_tools.evaluate.objects.classification import Trials, accuracy, run_trials
-from acts_tools.evaluate.objects.classification_report import draw
-from acts_tools.evaluate.objects.contenders import ACTS, contenders
+from acts_tools.evaluate.classification.contenders import ACTS, contenders
+from acts_tools.evaluate.classification.tables import draw
+from acts_tools.evaluate.classification.trials import Trials, accuracy, run_trials
 
 pytestmark = pytest.mark.slow
 

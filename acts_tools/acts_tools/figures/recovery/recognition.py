@@ -12,8 +12,8 @@ import numpy as np
 
 from acts_recon.fusion import known_noise
 from acts_sim.pressing import OBJECTS
-from acts_tools.evaluate.objects.classification import MIDDLE_MS, Trials, answers, arm_of, press_of
-from acts_tools.evaluate.objects.contenders import ours, papers
+from acts_tools.evaluate.classification.contenders import ours, papers
+from acts_tools.evaluate.classification.trials import MIDDLE_MS, Trials, answers, arm_of, press_of
 from acts_tools.evaluate.scene_frames import SAMPLE_US
 from acts_tools.evaluate.statistics import wilson
 from acts_tools.figures.figure import Figure

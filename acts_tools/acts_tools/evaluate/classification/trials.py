@@ -22,7 +22,7 @@ from acts_recon.fusion import known_noise
 from acts_recon.objects import ImageClassifierConfig, ObjectLibrary, build_object_library
 from acts_sim.pressing import RATE_HZ as RECORDED_HZ
 from acts_sim.pressing import ContactObject, FoamConfig, PressingArm, PressingConfig
-from acts_tools.evaluate.objects.contenders import TOUCH_COUNTS, Contender, contenders
+from acts_tools.evaluate.classification.contenders import TOUCH_COUNTS, Contender, contenders
 from acts_tools.evaluate.scene_frames import SAMPLE_US
 from acts_tools.evaluate.statistics import wilson
 from acts_tools.firmware.board_sampler import BoardSampler

@@ -14,8 +14,8 @@ import numpy as np
 from acts_core.errors import RecordingError
 from acts_core.files import FramesFile, without_contact
 from acts_recon.objects import ImageClassifierConfig, build_object_library
-from acts_tools.evaluate.objects.classification import accuracy, answers
-from acts_tools.evaluate.objects.contenders import TOUCH_COUNTS, contenders
+from acts_tools.evaluate.classification.contenders import TOUCH_COUNTS, contenders
+from acts_tools.evaluate.classification.trials import accuracy, answers
 
 NEAREST = "nearest"
 _RUN_UP_S = 1.0

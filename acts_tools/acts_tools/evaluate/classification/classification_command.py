@@ -15,9 +15,9 @@ from acts_core.settings import default_of
 from acts_sim.pressing import OBJECTS, PressingConfig, object_named
 from acts_tools.arguments import at_least_one, refuse_unused, taxels
 from acts_tools.evaluate import report
-from acts_tools.evaluate.objects.classification import M_OVER_TIME, MS, Trials, run_trials
-from acts_tools.evaluate.objects.classification_recorded import run_recorded
-from acts_tools.evaluate.objects.classification_report import draw, table, times
+from acts_tools.evaluate.classification.recorded import run_recorded
+from acts_tools.evaluate.classification.tables import draw, table, times
+from acts_tools.evaluate.classification.trials import M_OVER_TIME, MS, Trials, run_trials
 from acts_tools.evaluate.options import add_seed_and_json
 from acts_tools.large_files import tell_if_large
 from acts_tools.output_file import require_picture, require_writable
