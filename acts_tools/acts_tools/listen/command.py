@@ -59,11 +59,12 @@ def run(arguments: argparse.Namespace) -> int:
     from acts_tools.running.node import command_node
     from acts_tools.running.stopping import StopFlag
 
-    end_s = None if arguments.duration is None else time.monotonic() + arguments.duration
     with StopFlag() as stop, command_node("acts_listener") as (node, executor):
         listener = Listener(node, topics)
         heard: set[str] = set()
-        report_s = time.monotonic() + arguments.every
+        begin_s = time.monotonic()
+        end_s = None if arguments.duration is None else begin_s + arguments.duration
+        report_s = begin_s + arguments.every
         while not stop.is_set and (end_s is None or time.monotonic() < end_s):
             listener.discover()
             turn_s = min(report_s - time.monotonic(), 0.1)

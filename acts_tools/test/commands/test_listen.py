@@ -10,7 +10,9 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
@@ -124,6 +126,30 @@ def test_who_hears_nothing_is_told(talker: Node) -> None:
     finished = subprocess.run(command, capture_output=True, text=True, timeout=DEADLINE_S)
     assert finished.returncode == 1
     assert "/nobody  no publisher found yet" in finished.stdout
+
+
+def test_the_duration_begins_when_it_listens(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    now_s = 0.0
+
+    @contextmanager
+    def slowly_made(_name: str) -> Iterator[tuple[None, None]]:
+        nonlocal now_s
+        now_s += 5.0
+        yield None, None
+
+    def spin_for(_executor: None, seconds: float) -> None:
+        nonlocal now_s
+        now_s += seconds
+
+    monkeypatch.setattr("acts_tools.running.node.command_node", slowly_made)
+    monkeypatch.setattr("acts_ros.executor.spin_for", spin_for)
+    monkeypatch.setattr("acts_tools.listen.listener.Listener.discover", lambda _self: None)
+    monkeypatch.setattr("acts_tools.listen.command.time", SimpleNamespace(monotonic=lambda: now_s))
+    assert main(["listen", "-d", "0.35", "--every", "0.1", "/nobody"]) == 1
+    assert set(capsys.readouterr().out.splitlines()) == {"/nobody  no publisher found yet"}
+    assert now_s == pytest.approx(5.35, abs=0.1)
 
 
 @pytest.mark.parametrize("name", ["bad topic", "", "/", "/a//b", "/1a", "/a-b", "/touché"])
