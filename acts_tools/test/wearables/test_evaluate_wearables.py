@@ -18,6 +18,7 @@ from acts_sim.wearables import SCENES, worn_scene
 from acts_tools.cli import main
 from acts_tools.evaluate.wearables.watching import Watcher
 from acts_tools.evaluate.wearables.wearables_command import SKINS, tally
+from acts_tools.progress import Progress
 
 
 def test_a_hit_and_an_untouched_skin_are_reported(tmp_path: Path) -> None:
@@ -45,7 +46,8 @@ def test_nothing_to_evaluate_is_refused(capsys: pytest.CaptureFixture[str]) -> N
 
 def test_a_scene_that_was_added_is_evaluated(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(SCENES, "chest_tap", replace(SCENES["arm_tap"], name="chest_tap", layout="chest"))
-    found = tally("chest_tap", 1, 64, 3.0, 1)
+    with Progress("chest_tap", 1) as progress:
+        found = tally("chest_tap", 1, 64, 3.0, 1, progress)
     assert (found.events, found.missed, found.as_expected) == (1, 0, 1)
 
 
