@@ -6,8 +6,8 @@
 #include <cstdint>
 
 #include "acts_firmware/wire/command.hpp"
-#include "published_recovery.hpp"
-#include "published_timing.hpp"
+#include "board/published_recovery.hpp"
+#include "board/published_timing.hpp"
 
 extern "C" {
 

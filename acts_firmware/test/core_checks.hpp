@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "acts_firmware/firmware.hpp"
-#include "wired_board.hpp"
+#include "board/wired_board.hpp"
 
 extern int failures;
 

@@ -12,8 +12,8 @@
 #include "acts_firmware/sampling/sampler.hpp"
 #include "acts_firmware/wire/command.hpp"
 #include "acts_firmware/wire/packet.hpp"
-#include "published_timing.hpp"
-#include "wired_board.hpp"
+#include "board/published_timing.hpp"
+#include "board/wired_board.hpp"
 
 namespace {
 

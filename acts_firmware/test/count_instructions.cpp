@@ -19,9 +19,9 @@
 #include "../teensy/arduino/Arduino.h"
 #include "../teensy/qemu/instruction_counter.hpp"
 #include "acts_firmware.hpp"
-#include "published_recovery.hpp"
-#include "published_timing.hpp"
-#include "wired_board.hpp"
+#include "board/published_recovery.hpp"
+#include "board/published_timing.hpp"
+#include "board/wired_board.hpp"
 
 namespace {
 

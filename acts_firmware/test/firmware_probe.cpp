@@ -10,7 +10,7 @@
 #include "acts_firmware/board/wiring.hpp"
 #include "acts_firmware/firmware.hpp"
 #include "acts_firmware/wire/results.hpp"
-#include "wired_board.hpp"
+#include "board/wired_board.hpp"
 
 namespace {
 

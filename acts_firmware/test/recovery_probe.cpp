@@ -8,7 +8,7 @@
 
 #include "acts_firmware/recovery/image_recovery.hpp"
 #include "acts_firmware/recovery/object_classifier.hpp"
-#include "published_recovery.hpp"
+#include "board/published_recovery.hpp"
 
 namespace {
 

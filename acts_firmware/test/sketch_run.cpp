@@ -24,7 +24,7 @@
 #include <cstring>
 #include <deque>
 
-#include "wired_board.hpp"
+#include "board/wired_board.hpp"
 
 volatile std::uint32_t CCM_CCGR3 = 0;
 volatile std::uint16_t WDOG1_WCR = WDOG_WCR_WDA | WDOG_WCR_SRS;

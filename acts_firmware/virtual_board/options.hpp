@@ -12,11 +12,11 @@
 
 #include "acts_firmware/firmware.hpp"
 #include "acts_firmware/sampling/sampler.hpp"
+#include "board/wired_board.hpp"
+#include "board/wiring_faults.hpp"
 #include "faults.hpp"
 #include "option_error.hpp"
 #include "realtime.hpp"
-#include "wired_board.hpp"
-#include "wiring_faults.hpp"
 
 namespace acts {
 

@@ -3,21 +3,16 @@
 
 #include "process.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iostream>
 #include <memory>
-#include <sstream>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
+#include "board/published_recovery.hpp"
+#include "board/published_timing.hpp"
 #include "option_error.hpp"
-#include "published_recovery.hpp"
-#include "published_timing.hpp"
 
 namespace acts {
 
@@ -29,17 +24,6 @@ constexpr std::int64_t kNapNs = 50'000'000;       // the terminal is looked afte
 // A terminal's Ctrl-C and `ros2 launch` signal all processes together. The host is to close its port before the board
 // is gone, and `ros2 launch` reports code 255 for a process that ends while it sends a signal itself.
 constexpr std::int64_t kGoOnNs = 300'000'000;
-
-std::string json_text(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      quoted += '\\';
-    }
-    quoted += c;
-  }
-  return quoted + "\"";
-}
 
 std::unique_ptr<Field> make_field(const Options& options, std::int64_t start_ns) {
   const SamplingConfig& sampling = options.sampling;
@@ -249,120 +233,6 @@ void Process::send() {
   if (const std::optional<Fault> cut = link_.send(firmware_->output(), terminal_, now)) {
     cut_stream(*cut, now);
   }
-}
-
-void Process::take_faults(std::int64_t monotonic_ns) {
-  end_faults(monotonic_ns);
-  for (const std::string& line : control_ ? control_->read_lines() : std::vector<std::string>()) {
-    try {
-      plan_.add(parse_fault(line));
-    } catch (const FaultError& error) {
-      std::cerr << "virtual_board: --control: " << error.what() << std::endl;
-    }
-  }
-  while (const std::optional<Fault> fault = plan_.take(monotonic_ns - epoch_.monotonic_ns)) {
-    begin(*fault);
-  }
-  // A stream that nobody reads has no packet to be cut in.
-  while (!terminal_.open()) {
-    const std::optional<Fault> cut = link_.take_cut();
-    if (!cut) {
-      break;
-    }
-    cut_stream(*cut, monotonic_ns);
-  }
-}
-
-void Process::begin(const Fault& fault) {
-  switch (fault.kind) {
-    case FaultKind::kFreeze:
-      frozen_ = fault;
-      frozen_until_ns_ = report(fault, false) + fault.value_ns();
-      break;
-    case FaultKind::kJump:
-      time_.jump(fault.value_ns());
-      start_ns_ += fault.value_ns();
-      last_start_ns_ += fault.value_ns();
-      report(fault, false);
-      report(fault, true);
-      break;
-    default:
-      link_.arm(fault);
-      break;
-  }
-}
-
-void Process::cut_stream(const Fault& fault, std::int64_t monotonic_ns) {
-  const bool loses_port = fault.kind == FaultKind::kUnplug || fault.value > 0.0;
-  if (loses_port) {
-    if (!unplugged_) {
-      terminal_.unplug();
-    }
-    unplugged_ = fault;
-    serve_terminal();
-  }
-  link_.clear();
-  if (fault.kind == FaultKind::kReset) {
-    power_up(monotonic_ns);
-    if (terminal_.open()) {
-      firmware_->start_stream();
-    }
-  }
-  const std::int64_t began_ns = report(fault, false);
-  if (loses_port) {
-    plug_in_at_ns_ = began_ns + fault.value_ns();
-  } else {
-    report(fault, true);
-  }
-}
-
-void Process::end_faults(std::int64_t monotonic_ns) {
-  if (unplugged_ && monotonic_ns >= plug_in_at_ns_) {
-    terminal_.plug_in();
-    report(*unplugged_, true);
-    unplugged_.reset();
-  }
-  if (frozen_ && monotonic_ns >= frozen_until_ns_) {
-    start_ns_ = time_.to_board_ns(monotonic_ns);
-    report(*frozen_, true);
-    frozen_.reset();
-  }
-}
-
-// Says that a fault has begun or is over, and returns the time it gives, from which the fault's own time counts.
-std::int64_t Process::report(const Fault& fault, bool is_over) const {
-  const std::int64_t monotonic_ns = now_ns(CLOCK_MONOTONIC);
-  if (!options_.print_status) {
-    return monotonic_ns;
-  }
-  std::cout << "{\"fault\": " << json_text(fault.text) << ", \"over\": " << (is_over ? "true" : "false")
-            << ", \"monotonic_ns\": " << monotonic_ns << ", \"epoch_monotonic_ns\": " << time_.to_host_ns(0)
-            << ", \"port\": " << json_text(terminal_.port()) << "}" << std::endl;
-  return monotonic_ns;
-}
-
-std::int64_t Process::status_period_ns() const {
-  return static_cast<std::int64_t>(options_.status_period_s * 1e9);
-}
-
-void Process::print_start() const {
-  if (!options_.print_status) {
-    return;
-  }
-  const SamplingConfig& sampling = options_.sampling;
-  std::ostringstream line;
-  line << "{\"link\": " << json_text(options_.link) << ", \"port\": " << json_text(terminal_.port())
-       << ", \"pid\": " << getpid() << ", \"epoch_realtime_ns\": " << epoch_.realtime_ns
-       << ", \"epoch_monotonic_ns\": " << epoch_.monotonic_ns << ", \"drift_ppm\": " << options_.drift_ppm
-       << ", \"rows\": " << sampling.rows << ", \"cols\": " << sampling.cols << ", \"scheme\": \""
-       << name_of(sampling.scheme) << "\", \"m\": " << sampling.m
-       << ", \"frame_period_us\": " << static_cast<double>(step_ns_) / 1000.0 << "}";
-  std::cout << line.str() << std::endl;
-}
-
-void Process::print_status() const {
-  std::cout << "{\"frames\": " << frames_ << ", \"overruns\": " << firmware_->overruns()
-            << ", \"connected\": " << (terminal_.open() ? "true" : "false") << "}" << std::endl;
 }
 
 }  // namespace acts

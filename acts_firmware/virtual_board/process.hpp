@@ -10,15 +10,15 @@
 #include <optional>
 
 #include "acts_firmware/firmware.hpp"
-#include "claim.hpp"
+#include "board/virtual_board.hpp"
 #include "control_pipe.hpp"
 #include "faults.hpp"
-#include "faulty_link.hpp"
-#include "field.hpp"
+#include "field/field.hpp"
 #include "host_clock.hpp"
+#include "link/claim.hpp"
+#include "link/faulty_link.hpp"
+#include "link/pseudo_terminal.hpp"
 #include "options.hpp"
-#include "pseudo_terminal.hpp"
-#include "virtual_board.hpp"
 
 namespace acts {
 

@@ -182,6 +182,13 @@ def test_folders_of_tests_are_no_larger() -> None:
     assert {str(folder): n for folder, n in found.items() if n > MODULES_MAX} == {}
 
 
+def test_folders_of_cpp_are_no_larger() -> None:
+    sources = {path.with_suffix("") for suffix in ("cpp", "hpp") for path in ROOT.glob(f"acts_firmware/**/*.{suffix}")}
+    found = Counter(path.parent for path in sources)
+    assert len(found) > 10
+    assert {str(folder): n for folder, n in found.items() if n > MODULES_MAX} == {}
+
+
 def test_all_folders_of_tests_are_run(pytestconfig: pytest.Config) -> None:
     folders = {str(path.relative_to(ROOT)) for path in [ROOT / "test", *ROOT.glob("acts_*/test")]}
     assert sorted(pytestconfig.getini("testpaths")) == sorted(folders)

@@ -3,7 +3,7 @@
 
 """The folder that simulated processes share: it belongs to one user, and each file in it to one process.
 
-The virtual board does the same in C++ (acts_firmware/virtual_board/claim.cpp).
+The virtual board does the same in C++ (acts_firmware/virtual_board/link/claim.cpp).
 """
 
 from __future__ import annotations

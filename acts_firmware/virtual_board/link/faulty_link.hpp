@@ -14,7 +14,7 @@
 #include "acts_firmware/sampling/random.hpp"
 #include "acts_firmware/wire/transmit_queue.hpp"
 #include "faults.hpp"
-#include "pseudo_terminal.hpp"
+#include "link/pseudo_terminal.hpp"
 
 namespace acts {
 

@@ -9,7 +9,7 @@
 
 #include "acts_firmware/board/board.hpp"
 #include "acts_firmware/limits.hpp"
-#include "wiring_faults.hpp"
+#include "board/wiring_faults.hpp"
 
 namespace acts {
 

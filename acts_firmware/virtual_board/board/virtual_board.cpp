@@ -1,7 +1,7 @@
 // Copyright 2026 ACTS contributors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "virtual_board.hpp"
+#include "board/virtual_board.hpp"
 
 #include <cmath>
 

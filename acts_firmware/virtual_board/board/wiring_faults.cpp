@@ -1,7 +1,7 @@
 // Copyright 2026 ACTS contributors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "wiring_faults.hpp"
+#include "board/wiring_faults.hpp"
 
 #include <algorithm>
 #include <cerrno>

@@ -11,9 +11,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "field.hpp"
-#include "mapped_file.hpp"
-#include "wired_board.hpp"
+#include "board/wired_board.hpp"
+#include "field/field.hpp"
+#include "field/mapped_file.hpp"
 
 namespace acts {
 

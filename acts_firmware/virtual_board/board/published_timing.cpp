@@ -1,7 +1,7 @@
 // Copyright 2026 ACTS contributors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "published_timing.hpp"
+#include "board/published_timing.hpp"
 
 #include <array>
 #include <cstddef>

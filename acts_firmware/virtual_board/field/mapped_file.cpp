@@ -1,7 +1,7 @@
 // Copyright 2026 ACTS contributors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "mapped_file.hpp"
+#include "field/mapped_file.hpp"
 
 #include <fcntl.h>
 #include <sys/mman.h>

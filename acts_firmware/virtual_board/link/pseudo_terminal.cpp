@@ -1,7 +1,7 @@
 // Copyright 2026 ACTS contributors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "pseudo_terminal.hpp"
+#include "link/pseudo_terminal.hpp"
 
 #include <fcntl.h>
 #include <poll.h>

@@ -1,7 +1,7 @@
 // Copyright 2026 ACTS contributors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "claim.hpp"
+#include "link/claim.hpp"
 
 #include <fcntl.h>
 #include <pwd.h>

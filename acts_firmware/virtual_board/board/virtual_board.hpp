@@ -7,8 +7,8 @@
 #include <cstdint>
 
 #include "acts_firmware/sampling/random.hpp"
-#include "field.hpp"
-#include "wired_board.hpp"
+#include "board/wired_board.hpp"
+#include "field/field.hpp"
 
 namespace acts {
 

@@ -1,7 +1,7 @@
 // Copyright 2026 ACTS contributors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "wired_board.hpp"
+#include "board/wired_board.hpp"
 
 #include <algorithm>
 

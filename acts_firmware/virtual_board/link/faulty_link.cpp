@@ -1,7 +1,7 @@
 // Copyright 2026 ACTS contributors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "faulty_link.hpp"
+#include "link/faulty_link.hpp"
 
 #include <algorithm>
 #include <cmath>

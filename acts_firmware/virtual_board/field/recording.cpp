@@ -9,8 +9,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "field.hpp"
-#include "mapped_file.hpp"
+#include "field/field.hpp"
+#include "field/mapped_file.hpp"
 
 namespace acts {
 
