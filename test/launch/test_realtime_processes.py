@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import os
 import subprocess
-import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -24,14 +23,7 @@ DEADLINE_S = 60.0
 GUARD_PRIORITY = 21
 
 
-def realtime_is_allowed() -> bool:
-    tried = "import os; os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(21))"
-    return subprocess.run([sys.executable, "-c", tried], capture_output=True).returncode == 0
-
-
 pytestmark = pytest.mark.slow
-
-needs_realtime = pytest.mark.skipif(not realtime_is_allowed(), reason="SCHED_FIFO is not allowed here (`acts doctor`)")
 
 
 class Child:
@@ -92,7 +84,7 @@ def check_all(child: Child, who: str) -> None:
     assert child.log.read_text().count("SCHED_FIFO") == 1
 
 
-@needs_realtime
+@pytest.mark.usefixtures("realtime")
 def test_the_driver(folder: Path) -> None:
     port = folder / "board"
     with running(folder, 140, "acts_firmware", "virtual_board", "--link", str(port)) as board:
@@ -102,14 +94,14 @@ def test_the_driver(folder: Path) -> None:
             check_all(driver, "driver")
 
 
-@needs_realtime
+@pytest.mark.usefixtures("realtime")
 def test_the_simulated_world(folder: Path) -> None:
     words = ros_words(f"field_ring:={folder}/field.ring", "joint_ring:=none", *PARAMETERS)
     with running(folder, 141, "acts_sim", "ball_world", *words) as world:
         check_all(world, "ball_world")
 
 
-@needs_realtime
+@pytest.mark.usefixtures("realtime")
 def test_the_simulated_robot(folder: Path) -> None:
     words = ("--host", "127.0.14.1", "--realtime-priority", "20", "--cpu-affinity", f"{CORE},")
     with running(folder, 142, "acts_sim", "ur_controller", *words) as robot:
@@ -117,13 +109,13 @@ def test_the_simulated_robot(folder: Path) -> None:
         assert os.sched_getscheduler(robot.process.pid) == os.SCHED_FIFO
 
 
-@needs_realtime
+@pytest.mark.usefixtures("realtime")
 def test_the_reconstruction(folder: Path) -> None:
     with running(folder, 143, "acts_recon", "reconstruction", *ros_words(*PARAMETERS)) as reconstruction:
         check_all(reconstruction, "reconstruction")
 
 
-@needs_realtime
+@pytest.mark.usefixtures("realtime")
 def test_the_control(folder: Path) -> None:
     with running(folder, 144, "acts_control", "ball_control", *ros_words(*PARAMETERS, "autostart:=false")) as control:
         check_all(control, "ball_control")

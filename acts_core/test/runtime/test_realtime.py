@@ -38,17 +38,8 @@ config = RealtimeConfig(realtime_priority=10, cpu_affinity="{CORE},")
 """
 
 
-def may_be_realtime() -> bool:
-    tried = "import os; os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(11))"
-    return subprocess.run([sys.executable, "-c", tried], capture_output=True).returncode == 0
-
-
 # A thread that runs away under SCHED_FIFO keeps others from the core.
 pytestmark = [pytest.mark.alone, pytest.mark.slow]
-
-needs_realtime = pytest.mark.skipif(
-    not may_be_realtime(), reason="SCHED_FIFO is not allowed here (`acts doctor` tells what is missing)"
-)
 
 
 def run(code: str, **options: object) -> subprocess.CompletedProcess[str]:
@@ -66,7 +57,7 @@ def on_the_same_core() -> Iterator[None]:
     os.sched_setaffinity(0, before)
 
 
-@needs_realtime
+@pytest.mark.usefixtures("realtime")
 def test_all_threads_run_as_asked_and_those_that_they_start() -> None:
     finished = run("""
 go = threading.Event()
@@ -87,7 +78,7 @@ go.set()
     assert lines[3] == "fifo 12 fifo 12 fifo 12 fifo 13"
 
 
-@needs_realtime
+@pytest.mark.usefixtures("realtime")
 def test_threads_that_another_thread_starts_meanwhile_run_so_too() -> None:
     finished = run("""
 def left_out():
@@ -139,7 +130,7 @@ print(policy(), os.sched_getaffinity(0))
     assert state == f"other {{{CORE}}}"
 
 
-@needs_realtime
+@pytest.mark.usefixtures("realtime")
 @pytest.mark.usefixtures("on_the_same_core")
 def test_a_thread_that_runs_away_in_python_is_put_back() -> None:
     finished = run("""
@@ -170,7 +161,7 @@ error.wait(30)
     assert "real time was given up after reader had run away" in refused[0]
 
 
-@needs_realtime
+@pytest.mark.usefixtures("realtime")
 @pytest.mark.usefixtures("on_the_same_core")
 def test_a_thread_that_runs_away_in_c_without_the_interpreters_lock_is_put_back() -> None:
     finished = run("""
@@ -189,7 +180,7 @@ threading.Thread(target=run_away).start()
     assert "error: reader (thread" in finished.stdout
 
 
-@needs_realtime
+@pytest.mark.usefixtures("realtime")
 @pytest.mark.usefixtures("on_the_same_core")
 def test_a_thread_that_runs_away_with_the_interpreters_lock_ends_the_process() -> None:
     finished = run("""

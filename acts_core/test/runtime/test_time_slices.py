@@ -24,9 +24,11 @@ def started():
     return thread.native_id
 """
 
-needs_slices = pytest.mark.skipif(
-    time_slice_ns() == 0, reason="kernels before 6.12 have no time slices to choose (`acts doctor` tells)"
-)
+
+@pytest.fixture
+def _slices() -> None:
+    if time_slice_ns() == 0:
+        pytest.skip("kernels before 6.12 have no time slices to choose (`acts doctor` tells)")
 
 
 def run(code: str) -> list[str]:
@@ -36,7 +38,7 @@ def run(code: str) -> list[str]:
     return finished.stdout.split()
 
 
-@needs_slices
+@pytest.mark.usefixtures("_slices")
 def test_a_process_that_asks_for_nothing_has_short_slices_in_every_thread_and_child_until_it_is_demoted() -> None:
     before, *short, again = run("""
 before = started()
@@ -52,7 +54,7 @@ print(time_slice_ns(before))
     assert int(before) > SHORTEST_NS
 
 
-@needs_slices
+@pytest.mark.usefixtures("_slices")
 def test_a_process_that_may_have_no_priority_has_short_slices() -> None:
     words = run("""
 import resource
@@ -66,7 +68,7 @@ print(time_slice_ns())
     assert words[-1] == str(SHORTEST_NS)
 
 
-@needs_slices
+@pytest.mark.usefixtures("_slices")
 def test_policy_and_nice_value_are_kept() -> None:
     assert run("""
 os.nice(5)

@@ -22,13 +22,6 @@ TOO_MUCH = (
 )
 
 
-def realtime_is_allowed() -> bool:
-    return subprocess.run(["chrt", "-f", "20", "true"], capture_output=True).returncode == 0
-
-
-needs_realtime = pytest.mark.skipif(not realtime_is_allowed(), reason="SCHED_FIFO is not allowed here (`acts doctor`)")
-
-
 def wait_for_words(board: BoardProcess, words: str) -> None:
     end_s = time.monotonic() + DEADLINE_S
     while words not in board.errors.read_text():
@@ -36,7 +29,7 @@ def wait_for_words(board: BoardProcess, words: str) -> None:
         assert board.process.poll() is None, board.errors.read_text()
 
 
-@needs_realtime
+@pytest.mark.usefixtures("realtime")
 def test_it_runs_as_asked(tmp_path: Path) -> None:
     with BoardProcess(tmp_path, "--realtime-priority", 20, "--cpu-affinity", f"{CORE},") as board:
         wait_for_words(board, f"virtual_board: SCHED_FIFO priority 20, cores {CORE}\n")
@@ -44,7 +37,7 @@ def test_it_runs_as_asked(tmp_path: Path) -> None:
         assert os.sched_getaffinity(board.process.pid) == {CORE}
 
 
-@needs_realtime
+@pytest.mark.usefixtures("realtime")
 def test_it_is_put_back_when_it_never_sleeps(tmp_path: Path) -> None:
     with BoardProcess(tmp_path, *TOO_MUCH, "--realtime-priority", 20) as board:
         wait_for_words(board, "the ordinary scheduler has it now")
