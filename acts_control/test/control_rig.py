@@ -182,10 +182,12 @@ class Bench:
         wait_for(future.done, f"an answer of {service}")
         return future.result()
 
-    def publish_contact(self, sequence: int, stamp_ns: int, x_m: float, y_m: float, *, touched: bool = True) -> None:
+    def publish_contact(
+        self, sequence: int, stamp_ns: int, x_m: float, y_m: float, *, touched: bool = True, frame_id: str = "plate"
+    ) -> None:
         """One contact message."""
         message = Contact(sequence=sequence, in_contact=touched)
-        message.header.frame_id = "plate"
+        message.header.frame_id = frame_id
         set_stamp(message.header.stamp, stamp_ns)
         message.centre_of_pressure.x, message.centre_of_pressure.y = x_m, y_m
         self.contacts.publish(message)

@@ -130,6 +130,21 @@ def test_a_nan_in_a_contact_is_counted_and_reported(bench: Bench) -> None:
     assert (level, values["not_finite"]) == (1, 1)
 
 
+@pytest.mark.parametrize("bench", [62], indirect=True)
+def test_contacts_in_another_frame_are_left_out_and_reported(bench: Bench) -> None:
+    node = start_state_node(bench, "frame_id:=arm/plate")
+    for sequence in range(3):
+        bench.publish_contact(sequence, bench.now_ns(), 0.01, -0.02)
+    wait_for(lambda: node._report()[2].get("in_another_frame") == 3, "contacts that are left out")
+    level, words, _ = node._report()
+    left_out = "3 contacts in the frame 'plate' were left out: that of the skin is 'arm/plate' (parameter frame_id)"
+    assert (level, words) == (1, f"no contact messages on /plate/contact; {left_out}")
+    assert not bench.states
+    bench.publish_contact(3, bench.now_ns(), 0.01, -0.02, frame_id="arm/plate")
+    wait_for(lambda: bool(bench.states), "a state")
+    assert (bench.states[-1].header.frame_id, bench.states[-1].contacts_received) == ("arm/plate", 1)
+
+
 @pytest.mark.parametrize("bench", [63], indirect=True)
 def test_the_trajectory_starts_with_balancing_pauses_and_starts_anew(bench: Bench) -> None:
     arguments = [

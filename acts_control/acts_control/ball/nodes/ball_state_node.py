@@ -28,7 +28,7 @@ from acts_ros.clocks import keep_system_clock, steady_timer
 from acts_ros.composition import parameters_from
 from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
-from acts_ros.messages import ns_of, read_contact, set_stamp
+from acts_ros.messages import ns_of, read_contact, set_stamp, skin_frame
 from acts_ros.parameters import declare, node_options, set_rate
 from acts_ros.polled import PollingNode
 from acts_ros.qos import STATE, STREAM
@@ -39,6 +39,9 @@ _STATISTICS_PERIOD_S = 1.0
 _CONTACTS = 128
 # While the control loop does not ask, since it is connecting or stopped, the node itself takes contacts so often [s].
 _UNDRIVEN_S = 0.1
+
+# A name that somebody else has sent is shown no further.
+_LONGEST_NAME = 64
 
 
 @dataclass(frozen=True)
@@ -51,6 +54,10 @@ class BallStateSettings(EstimatorConfig):
         minimum=1.0,
         maximum=2000.0,
         changeable=Changeable.RUNNING,
+    )
+    frame_id: str = setting(
+        "",
+        "frame of the skin; empty or none: the name of the namespace, with _ for /; contacts in another are left out",
     )
 
 
@@ -77,7 +84,11 @@ class BallStateNode(PollingNode):
         self._counter = StreamCounter()
         self._period_ns = round(1e9 / settings.publish_rate_hz)
         self._due_ns = 0
+        self._frame_id = skin_frame(self, settings.frame_id)
+        self._foreign = 0
+        self._foreign_frame = ""
         self._message = BallState()
+        self._message.header.frame_id = self._frame_id
         self._clock = self.get_clock()
         self._interval_start_s = time.monotonic()
         self._reported = 0
@@ -137,6 +148,11 @@ class BallStateNode(PollingNode):
         except PacketError as error:
             self.get_logger().warning(f"contact dropped: {error}", throttle_duration_sec=5.0)
             return
+        if contact.frame_id != self._frame_id:
+            # Its place is in other coordinates: a plate tilted by it might throw the ball off.
+            self._foreign_frame = contact.frame_id[:_LONGEST_NAME]
+            self._foreign += 1
+            return
         self._counter.step(contact.sequence, (received_ns - contact.stamp_ns) * 1e-9)
         self._estimator.step(
             ContactMeasurement(contact.stamp_ns, contact.in_contact, contact.x_m, contact.y_m, contact.force_n)
@@ -147,11 +163,10 @@ class BallStateNode(PollingNode):
             late = state_ns - self._due_ns
             self._due_ns += self._period_ns if 0 <= late < self._period_ns else late + self._period_ns
             if is_heard:
-                self._publish_state(contact.frame_id)
+                self._publish_state()
 
-    def _publish_state(self, frame_id: str) -> None:
+    def _publish_state(self) -> None:
         state, message = self._estimator.state, self._message
-        message.header.frame_id = frame_id
         set_stamp(message.header.stamp, state.stamp_ns)
         message.valid = state.valid
         message.position.x, message.position.y = state.x_m, state.y_m
@@ -187,12 +202,22 @@ class BallStateNode(PollingNode):
             "outliers": state.outliers,
             "not_finite": state.not_finite,
             "implausible": state.implausible,
+            "in_another_frame": self._foreign,
             "out_of_order": state.out_of_order,
             "restarts": state.restarts,
             "valid": state.valid,
         }
+        foreign = ""
+        if self._foreign:
+            foreign = (
+                f"{self._foreign} contacts in the frame {self._foreign_frame!r} were left out: "
+                f"that of the skin is {self._frame_id!r} (parameter frame_id)"
+            )
         if not arrived:
-            return WARN, f"no contact messages on {self._contacts.topic_name}", values
+            silent = f"no contact messages on {self._contacts.topic_name}"
+            return WARN, f"{silent}; {foreign}" if foreign else silent, values
+        if foreign:
+            return WARN, foreign, values
         if state.not_finite:
             return WARN, f"{state.not_finite} contacts were not finite and were left out", values
         if state.implausible:
