@@ -97,6 +97,14 @@ def test_a_clock_that_stands_still_is_a_lost_connection() -> None:
     assert words[27].startswith("no data from the robot for 0.1")
 
 
+@pytest.mark.parametrize("time_s", [NAN, math.inf])
+def test_a_clock_that_is_no_number_stands_still(time_s: float) -> None:
+    watch = RobotWatch(SafetyConfig(robot_stale_after_s=0.1))
+    words = [watch.step(NORMAL._replace(time_s=time_s), DT) for _ in range(30)]
+    assert words[20] == ""
+    assert words[29].startswith("no data from the robot for 0.1")
+
+
 def test_the_age_of_touch() -> None:
     assert touch_age_s(NOW_NS, NOW_NS - 7 * MS) == pytest.approx(0.007)
     assert touch_age_s(NOW_NS, NOW_NS + MS) == pytest.approx(-0.001)

@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import hypot, isfinite, sqrt
+from math import hypot, inf, isfinite, sqrt
 
 from acts_control.robots.base.robot import RobotReading, TiltLimits
 from acts_core.settings import Changeable, setting, validate
@@ -54,7 +54,7 @@ class SafetyConfig:
 def touch_age_s(now_ns: int, stamp_ns: int) -> float:
     """Age of a measurement [s]; infinite when its stamp lies in the future, which is a wrong clock, not fresh touch."""
     age_s = (now_ns - stamp_ns) * 1e-9
-    return age_s if age_s >= -_FUTURE_S else float("inf")
+    return age_s if age_s >= -_FUTURE_S else inf
 
 
 class RobotWatch:
@@ -62,7 +62,7 @@ class RobotWatch:
 
     def __init__(self, config: SafetyConfig) -> None:
         self._config = config
-        self._time_s = float("nan")
+        self._time_s = -inf
         self._still_s = 0.0
         self._joints = 0
 
@@ -98,7 +98,8 @@ class RobotWatch:
             if reading.silent_s > self._config.robot_stale_after_s:
                 return f"no data from the robot for {reading.silent_s:.2f} s"
             return "connection to the robot lost"
-        self._still_s = self._still_s + dt if reading.time_s == self._time_s else 0.0
+        # Not by "equal": nothing is equal to NaN, so that a clock of NaN would never stand still.
+        self._still_s = 0.0 if abs(reading.time_s - self._time_s) > 0.0 else self._still_s + dt
         self._time_s = reading.time_s
         if self._still_s > self._config.robot_stale_after_s:
             return f"no data from the robot for {self._still_s:.2f} s"
