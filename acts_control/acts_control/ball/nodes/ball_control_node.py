@@ -21,13 +21,7 @@ from std_srvs.srv import Trigger
 from acts_control.ball import Ball, BallReport, ControlLoop, LoopConfig, LoopStatus, Phase, Reference, ReferenceReport
 from acts_control.ball.nodes.ball_state_node import BallStateNode
 from acts_control.ball.nodes.ball_trajectory_node import BallTrajectoryNode
-from acts_control.names import (
-    CLOCK_REASON,
-    REFERENCE_TOPIC,
-    STATE_TOPIC,
-    STATUS_TOPIC,
-    TILT_TOPIC,
-)
+from acts_control.ball.nodes.names import CLOCK_REASON, REFERENCE_TOPIC, STATE_TOPIC, STATUS_TOPIC, TILT_TOPIC
 from acts_control.robots import make_robot, with_robots
 from acts_control.robots.base import Robot
 from acts_core.runtime import RealtimeConfig, enter_realtime
@@ -47,7 +41,6 @@ from acts_ros.qos import STATE, STREAM
 _LONG_AGO_S = 1e6
 
 _LEVELS = {Phase.CONNECTING: WARN, Phase.STOPPED: ERROR}
-
 
 # How long the last status may take to arrive where it is heard.
 _LAST_WORDS_S = 0.5

@@ -18,7 +18,7 @@ from typing import Any
 from geometry_msgs.msg import Vector3Stamped
 
 from acts_control.ball import Ball, BallEstimator, BallReport, ContactMeasurement, EstimatorConfig
-from acts_control.names import CLOCK_REASON, CONTACT_TOPIC, STATE_TOPIC, STATISTICS_TOPIC, TILT_TOPIC
+from acts_control.ball.nodes.names import CLOCK_REASON, CONTACT_TOPIC, STATE_TOPIC, STATISTICS_TOPIC, TILT_TOPIC
 from acts_core.errors import PacketError
 from acts_core.runtime import StreamCounter
 from acts_core.settings import Changeable, setting

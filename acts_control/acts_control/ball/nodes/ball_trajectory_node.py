@@ -18,7 +18,7 @@ from typing import Any
 from rclpy.node import Node
 
 from acts_control.ball import Phase, Reference, TimedReference, Trajectory, TrajectoryConfig
-from acts_control.names import CLOCK_REASON, REFERENCE_TOPIC, STATUS_TOPIC
+from acts_control.ball.nodes.names import CLOCK_REASON, REFERENCE_TOPIC, STATUS_TOPIC
 from acts_core.runtime import RateLimit
 from acts_core.settings import Changeable, setting
 from acts_core.stop_signals import StopSignals

@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Names that the three nodes share."""
+"""Topics of the three nodes, and why they run on the system's clock."""
 
 from __future__ import annotations
 
