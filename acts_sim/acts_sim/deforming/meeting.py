@@ -20,6 +20,9 @@ _UNTOUCHED_S = (0.045, 0.065)
 _LEAST_DEPTH = 0.002
 """Of the deepest: less is no touch."""
 
+_MIDDLE_M = 0.01
+"""How far from the skin's middle a body may first touch, along x and along y."""
+
 
 @dataclass(frozen=True)
 class Meeting:
@@ -69,7 +72,7 @@ class Meeting:
         return turned + np.array([self.x_m, self.y_m])
 
 
-def meeting(skin: ContactModel, body: Body, rng: np.random.Generator, *, middle_m: float = 0.01) -> Meeting:
+def meeting(skin: ContactModel, body: Body, rng: np.random.Generator) -> Meeting:
     """Let a body meet a skin once, somewhere near its middle.
 
     Parameters
@@ -79,11 +82,9 @@ def meeting(skin: ContactModel, body: Body, rng: np.random.Generator, *, middle_
     body : Body
     rng : np.random.Generator
         Of place, angle, strength and the time before.
-    middle_m : float
-        How far from the middle it may first touch, along x and along y [m].
     """
     before_s, after_s = rng.uniform(*_UNTOUCHED_S, 2).tolist()
-    x_m, y_m = rng.uniform(-middle_m, middle_m, 2).tolist()
+    x_m, y_m = rng.uniform(-_MIDDLE_M, _MIDDLE_M, 2).tolist()
     count = int((before_s + body.touch_s + after_s) * SCENE_RATE_HZ) + 1
     frames = np.zeros((count, skin.geometry.rows, skin.geometry.cols), dtype=np.uint16)
     shown = Meeting(frames, body, before_s, x_m, y_m, float(rng.uniform(0, 2 * np.pi)), float(rng.uniform(0.8, 1.1)))

@@ -10,6 +10,11 @@ from collections.abc import Sequence
 
 from acts_sim.dynamixel.motor import Motor
 
+# Of every joint: those of a finger of the LEAP hand about its root, with the gearbox.
+_INERTIA_KG_M2 = 1e-3
+_DAMPING_NM_S = 0.03
+_FRICTION_NM = 0.01
+
 
 class FreeJoints:
     """One joint per motor, each with inertia, friction and two stops.
@@ -19,8 +24,6 @@ class FreeJoints:
     motors : sequence of Motor
     limits_rad : sequence of (float, float)
         Stops of each joint, in the motor's angle [rad].
-    inertia_kg_m2, damping_nm_s, friction_nm : float
-        Values of every joint; by default of a finger of the LEAP hand about its root, with the gearbox.
 
     Attributes
     ----------
@@ -28,20 +31,10 @@ class FreeJoints:
         Indices of blocked joints.
     """
 
-    def __init__(
-        self,
-        motors: Sequence[Motor],
-        limits_rad: Sequence[tuple[float, float]],
-        inertia_kg_m2: float = 1e-3,
-        damping_nm_s: float = 0.03,
-        friction_nm: float = 0.01,
-    ) -> None:
+    def __init__(self, motors: Sequence[Motor], limits_rad: Sequence[tuple[float, float]]) -> None:
         self.blocked: set[int] = set()
         self._motors = motors
         self._limits_rad = limits_rad
-        self._inertia = inertia_kg_m2
-        self._damping = damping_nm_s
-        self._friction = friction_nm
         for motor, (low, high) in zip(motors, limits_rad, strict=True):
             motor.shaft.position_rad = min(max(math.pi, low), high)
 
@@ -54,8 +47,8 @@ class FreeJoints:
                 shaft.velocity_rad_s = 0.0
                 continue
             # Implicit Euler for both kinds of friction, which is stable for any step.
-            speed = (shaft.velocity_rad_s * self._inertia + torque * dt_s) / (self._inertia + self._damping * dt_s)
-            brake = self._friction * dt_s / self._inertia
+            speed = (shaft.velocity_rad_s * _INERTIA_KG_M2 + torque * dt_s) / (_INERTIA_KG_M2 + _DAMPING_NM_S * dt_s)
+            brake = _FRICTION_NM * dt_s / _INERTIA_KG_M2
             speed = math.copysign(max(abs(speed) - brake, 0.0), speed)
             low, high = self._limits_rad[index]
             position = shaft.position_rad + speed * dt_s

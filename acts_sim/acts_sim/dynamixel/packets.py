@@ -74,8 +74,9 @@ def _crc_entry(byte: int) -> int:
 _CRC_TABLE = [_crc_entry(byte) for byte in range(256)]
 
 
-def crc16(data: bytes, crc: int = 0) -> int:
-    """CRC-16 with polynomial 0x8005, highest bit first, starting at 0 or at the CRC of preceding data."""
+def crc16(data: bytes) -> int:
+    """CRC-16 with polynomial 0x8005, highest bit first, starting at 0."""
+    crc = 0
     for byte in data:
         crc = (crc << 8 & 0xFFFF) ^ _CRC_TABLE[crc >> 8 ^ byte]
     return crc
@@ -91,11 +92,9 @@ def unstuff(body: bytes) -> bytes:
     return body.replace(_MARK + b"\xfd", _MARK)
 
 
-def encode(motor_id: int, instruction: int, parameters: bytes = b"", *, stuffed: bool = True) -> bytes:
-    """A whole packet; with `stuffed` False its bytes are not stuffed, as in replies to fast reads."""
-    body = bytes([instruction]) + parameters
-    if stuffed:
-        body = stuff(body)
+def encode(motor_id: int, instruction: int, parameters: bytes = b"") -> bytes:
+    """A whole packet."""
+    body = stuff(bytes([instruction]) + parameters)
     packet = HEADER + bytes([motor_id]) + (len(body) + _CRC_BYTES).to_bytes(2, "little") + body
     return packet + crc16(packet).to_bytes(2, "little")
 

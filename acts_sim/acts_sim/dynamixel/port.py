@@ -54,9 +54,7 @@ class BusPort:
         When the link cannot be made.
     """
 
-    def __init__(
-        self, bus: Bus, step: Callable[[float], None], step_s: float, link: Path | None = None, baud: int = 4_000_000
-    ) -> None:
+    def __init__(self, bus: Bus, step: Callable[[float], None], step_s: float, link: Path | None, baud: int) -> None:
         self._bus = bus
         self._step = step
         self._step_s = step_s

@@ -83,7 +83,6 @@ class ContactModel:
     ----------
     geometry : ArrayGeometry
     config : FoamConfig
-    response : ForceResponse
     seed : int
         Seed of the sensitivities and the noise: the same calls in the same order give the same counts.
     """
@@ -92,13 +91,12 @@ class ContactModel:
         self,
         geometry: ArrayGeometry | None = None,
         config: FoamConfig | None = None,
-        response: ForceResponse | None = None,
         *,
         seed: int = 0,
     ) -> None:
         self.geometry = geometry or ArrayGeometry()
         self.config = config or FoamConfig()
-        self.response = response or ForceResponse()
+        self.response = ForceResponse()
         self._rng = np.random.default_rng(seed)
         shape = (self.geometry.rows, self.geometry.cols)
         self._gain = np.maximum(1 + self.config.gain_spread * self._rng.standard_normal(shape), 0.1)

@@ -47,7 +47,7 @@ def convex_polygon(x: Field, y: Field, corners: int, radius: float) -> Field:
     return np.max(sides, axis=0) - apothem
 
 
-def bar(x: Field, y: Field, length: float, width: float, angle: float = 0.0) -> Field:
+def bar(x: Field, y: Field, length: float, width: float, angle: float) -> Field:
     """Bar around the origin, turned by `angle` [rad]."""
     c, s = np.cos(angle), np.sin(angle)
     return box(c * x + s * y, -s * x + c * y, length, width)

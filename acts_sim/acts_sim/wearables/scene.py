@@ -17,7 +17,7 @@ from acts_core.skin import Layout, layout
 from acts_sim.pressing import ContactModel, FoamConfig
 from acts_sim.wearables.contacts import Contact
 from acts_sim.wearables.happenings import SCENES, SceneKind
-from acts_sim.wearables.resting_skin import RestConfig, RestingSkin
+from acts_sim.wearables.resting_skin import RestingSkin
 
 WORN_RATE_HZ = 4000.0
 """Frames per second of a scene; between them what is sampled is interpolated linearly."""
@@ -78,7 +78,7 @@ class WornScene:
         return float(_forces_n(self.skin, self.contacts, time_s).sum())
 
 
-def worn_scene(name: str, rng: np.random.Generator, rest: RestConfig | None = None) -> WornScene:
+def worn_scene(name: str, rng: np.random.Generator) -> WornScene:
     """Make a scene.
 
     Parameters
@@ -86,8 +86,6 @@ def worn_scene(name: str, rng: np.random.Generator, rest: RestConfig | None = No
     name : str
         One of `SCENES`.
     rng : np.random.Generator
-    rest : RestConfig, optional
-        Offsets and drift of the untouched skin.
 
     Raises
     ------
@@ -103,7 +101,7 @@ def worn_scene(name: str, rng: np.random.Generator, rest: RestConfig | None = No
     before_s, after_s = rng.uniform(*_UNTOUCHED_S, 2).tolist()
     contacts = tuple(kind.make(rng, arranged, before_s))
     count = int((max(one.end_s for one in contacts) + after_s) * WORN_RATE_HZ) + 1
-    resting = RestingSkin(arranged.taxels.size, rng, rest)
+    resting = RestingSkin(arranged.taxels.size, rng)
     now_s = float(rng.uniform(_LAG_S, 10 * _LAG_S))
     baseline = resting.counts(now_s - _LAG_S) + _CALIBRATION_COUNTS * rng.standard_normal(arranged.taxels.size)
     np.clip(baseline, 0, COUNT_MAX, out=baseline)  # a mean of readings

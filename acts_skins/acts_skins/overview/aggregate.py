@@ -14,6 +14,10 @@ _WORDS = ("OK", "Warning", "Error", "Stale")
 EXPECTED = ("driver", "reconstruction")
 """Nodes that every skin has."""
 
+_ROOT = "/Skins"
+# Nodes of no skin that are part of the tree from their first status on.
+_OTHERS = ("skin_contacts",)
+
 # Limit of nodes, because anybody in the domain can publish statuses of invented nodes.
 _NODES_MAX = 200
 
@@ -38,27 +42,19 @@ class Aggregate:
         Their names.
     prefix : str
         Common prefix of the skins' namespaces, such as ``robot/``; or empty.
-    root : str
-        Name of the tree's root.
     stale_after_s : float
         A node whose last status is older than this is stale [s].
-    others : sequence of str
-        Nodes of no skin that are part of the tree from their first status on.
     """
 
     def __init__(
         self,
         skins: Sequence[str],
         prefix: str = "",
-        root: str = "Skins",
         stale_after_s: float = 3.0,
-        others: Sequence[str] = ("skin_contacts",),
     ) -> None:
         self._skins = tuple(skins)
         self._prefix = prefix
-        self._root = f"/{root}"
         self._stale_after_s = stale_after_s
-        self._others = tuple(others)
         self._heard: dict[str, tuple[float, Status]] = {}
 
     def take(self, status: Status, now_s: float) -> None:
@@ -66,7 +62,7 @@ class Aggregate:
         if not status.name.startswith(self._prefix):
             return
         name = status.name.removeprefix(self._prefix)
-        if name in self._others or name.partition("/")[0] in self._skins:
+        if name in _OTHERS or name.partition("/")[0] in self._skins:
             if name not in self._heard and len(self._heard) >= _NODES_MAX:
                 return
             self._heard[name] = (now_s, status)
@@ -74,13 +70,13 @@ class Aggregate:
     def step(self, now_s: float) -> list[Status]:
         """The status of the root, then of every skin, each followed by its nodes."""
         parts = [self._skin(skin, now_s) for skin in self._skins]
-        parts += [[self._node(name, now_s)] for name in self._others if name in self._heard]
+        parts += [[self._node(name, now_s)] for name in _OTHERS if name in self._heard]
         heads = [part[0] for part in parts]
         level = _worst([head.level for head in heads])
         bad = [f"{_last(head.name)}: {head.message}" for head in heads if head.level != OK]
         skins = "skin" if len(self._skins) == 1 else "skins"
         whole = Status(
-            self._root,
+            _ROOT,
             level,
             "; ".join(bad) or f"{len(self._skins)} {skins}, all well",
             values={_last(head.name): _WORDS[head.level] for head in heads},
@@ -94,7 +90,7 @@ class Aggregate:
         level = _worst([node.level for node in nodes])
         bad = [f"{_last(node.name)}: {node.message}" for node in nodes if node.level != OK]
         head = Status(
-            f"{self._root}/{skin}",
+            f"{_ROOT}/{skin}",
             level,
             "; ".join(bad) or "all well",
             values={_last(node.name): _WORDS[node.level] for node in nodes},
@@ -102,7 +98,7 @@ class Aggregate:
         return [head, *nodes]
 
     def _node(self, name: str, now_s: float) -> Status:
-        full_name = f"{self._root}/{name}"
+        full_name = f"{_ROOT}/{name}"
         if name not in self._heard:
             return Status(full_name, STALE, "nothing heard of it yet")
         heard_s, status = self._heard[name]
