@@ -97,7 +97,17 @@ class SimulatedRobot(Process):
         self.host = host
         start = ", ".join(str(angle) for angle in q_rad)
         hooks = ["--hook-port", str(HOOK_PORT), "--unlock-after-s", "0"]
-        super().__init__(sys.executable, "-m", "acts_sim.ur.main", "--host", host, "--q0", start, *hooks)
+        super().__init__(
+            sys.executable,
+            "-m",
+            "acts_ros.executables.program",
+            "acts_sim.ur.main",
+            "--host",
+            host,
+            "--q0",
+            start,
+            *hooks,
+        )
         try:
             wait_for(lambda: "ready" in self.text() or self.process.poll() is not None, "the simulated robot")
             assert self.process.poll() is None

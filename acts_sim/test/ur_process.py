@@ -36,7 +36,16 @@ class Simulator:
         self.process = self._start()
 
     def _start(self) -> subprocess.Popen[str]:
-        command = [sys.executable, "-m", "acts_sim.ur.main", "--host", self.host, "--hook-port", str(HOOK_PORT)]
+        command = [
+            sys.executable,
+            "-m",
+            "acts_ros.executables.program",
+            "acts_sim.ur.main",
+            "--host",
+            self.host,
+            "--hook-port",
+            str(HOOK_PORT),
+        ]
         process = subprocess.Popen(
             [*command, *self.arguments], stdout=subprocess.PIPE, stderr=self.errors, text=True, env=dict(os.environ)
         )

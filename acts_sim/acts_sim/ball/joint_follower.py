@@ -14,12 +14,11 @@ from numpy.typing import NDArray
 
 from acts_core.errors import ActsError
 from acts_sim.ball.ball_plate import JointMotion
-from acts_sim.shared import TimedRingReader
-
-JOINT_RING_WIDTH = 12
-"""Values in a slot of the joint ring: six angles [rad], then six velocities [rad/s]."""
+from acts_sim.shared import JOINT_RING_WIDTH, TimedRingReader
 
 _RETRY_NS = 100_000_000
+# A ring whose newest slot is older than this is stale.
+_STALE_AFTER_NS = 100_000_000
 # A robot that misses a few of its 2 ms cycles is extrapolated; one that is silent for longer has stopped.
 _LONGEST_EXTRAPOLATION_NS = 20_000_000
 # Two slots further apart than this give no acceleration.
@@ -45,8 +44,6 @@ class JointFollower:
     ----------
     path : Path or None
         The ring; None where there is no robot.
-    stale_after_s : float
-        A ring whose newest slot is older than this counts as stale [s].
 
     Attributes
     ----------
@@ -56,11 +53,10 @@ class JointFollower:
         Why there is no ring, for messages; empty where there is one.
     """
 
-    def __init__(self, path: Path | None, stale_after_s: float = 0.1) -> None:
+    def __init__(self, path: Path | None) -> None:
         self.path = path
         self.source = JointSource.NONE if path is None else JointSource.MISSING
         self.problem = ""
-        self._stale_after_ns = int(stale_after_s * 1e9)
         self._reader: TimedRingReader | None = None
         self._retry_ns: int | None = None
         self._asked_ns: int | None = None
@@ -95,7 +91,7 @@ class JointFollower:
             return None
         slot_ns, slot, now = found
         ahead_ns = time_ns - slot_ns
-        self.source = JointSource.STALE if ahead_ns > self._stale_after_ns else JointSource.FOLLOWED
+        self.source = JointSource.STALE if ahead_ns > _STALE_AFTER_NS else JointSource.FOLLOWED
         if ahead_ns > _LONGEST_EXTRAPOLATION_NS:
             self._acceleration = np.zeros(6)
             return JointMotion.still(slot[:6] + slot[6:] * (_LONGEST_EXTRAPOLATION_NS / 1e9))

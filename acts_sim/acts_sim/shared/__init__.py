@@ -9,9 +9,10 @@ Into a ring come arrays with their times; out come those of any time in the last
 from acts_sim.shared.lines import LineSession
 from acts_sim.shared.options import add_settings, own_words, settings_from
 from acts_sim.shared.run_folder import FileClaim, default_run_dir, make_private
-from acts_sim.shared.timed_ring import TimedRingReader, TimedRingWriter
+from acts_sim.shared.timed_ring import JOINT_RING_WIDTH, TimedRingReader, TimedRingWriter
 
 __all__ = [
+    "JOINT_RING_WIDTH",
     "FileClaim",
     "LineSession",
     "TimedRingReader",

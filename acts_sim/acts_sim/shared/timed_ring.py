@@ -43,6 +43,9 @@ from numpy.typing import NDArray
 
 from acts_core.errors import ActsError
 
+JOINT_RING_WIDTH = 12
+"""Values in a slot of the ring of a UR5e's joints: six angles [rad], then six velocities [rad/s], base to wrist 3."""
+
 _MAGIC = b"ACTSRING"
 _VERSION = 1
 _HEADER = struct.Struct("<8sIIII")

@@ -17,17 +17,21 @@ from pathlib import Path
 
 import numpy as np
 
-from acts_core.errors import ActsError, exit_code
 from acts_core.runtime import RealtimeConfig, enter_realtime
 from acts_core.stop_signals import StopSignals
-from acts_sim.shared import FileClaim, LineSession, TimedRingWriter, add_settings, own_words, settings_from
+from acts_sim.shared import (
+    JOINT_RING_WIDTH,
+    FileClaim,
+    LineSession,
+    TimedRingWriter,
+    add_settings,
+    own_words,
+    settings_from,
+)
 from acts_sim.ur import Controller, ControllerConfig
 from acts_sim.ur.ports import Port, RtdePort, ScriptSession, Server, dashboard, hooks
 
 RTDE_PORT, DASHBOARD_PORT, SCRIPT_PORT = 30004, 29999, 30003
-
-JOINT_RING_WIDTH = 12
-"""Values in a slot of the joint ring: six angles [rad], six speeds [rad/s]."""
 
 
 @dataclass(frozen=True)
@@ -120,19 +124,7 @@ def run(options: argparse.Namespace, signals: StopSignals) -> None:
         server.run()
 
 
-def main(signals: StopSignals | None = None) -> int:
-    """Run the simulated controller; 0 after a signal, 2 when it cannot work with its arguments, 1 otherwise."""
-    options = parse(sys.argv[1:])
-    signals = StopSignals() if signals is None else signals
-    try:
-        run(options, signals)
-    except ActsError as error:
-        print(f"ur_controller: {error}", file=sys.stderr, flush=True)
-        return exit_code(error)
-    finally:
-        signals.ended()
+def main(signals: StopSignals) -> int:
+    """Run the simulated controller; 0 after a signal."""
+    run(parse(sys.argv[1:]), signals)
     return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -25,8 +25,7 @@ from acts_core.errors import REFUSED_EXIT_CODE
 from acts_core.robots import ur5e
 from acts_core.skin import ForceResponse
 from acts_ros import qos
-from acts_sim.ball.joint_follower import JOINT_RING_WIDTH
-from acts_sim.shared import TimedRingReader, TimedRingWriter
+from acts_sim.shared import JOINT_RING_WIDTH, TimedRingReader, TimedRingWriter
 
 pytestmark = pytest.mark.slow
 

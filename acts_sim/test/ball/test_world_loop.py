@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 
 from acts_core.robots import ur5e
-from acts_sim.ball.joint_follower import JOINT_RING_WIDTH, JointFollower, JointSource
+from acts_sim.ball.joint_follower import JointFollower, JointSource
 from acts_sim.ball.world import World, WorldConfig, WorldState
 from acts_sim.ball.world_loop import LEAD_NS, LONGEST_CATCH_UP_STEPS, STEP_NS, WAKE_NS, WorldLoop
-from acts_sim.shared import TimedRingReader, TimedRingWriter
+from acts_sim.shared import JOINT_RING_WIDTH, TimedRingReader, TimedRingWriter
 
 MS = 1_000_000
 

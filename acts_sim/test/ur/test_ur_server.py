@@ -20,8 +20,8 @@ import pytest
 from ur_process import HOOK_PORT, Simulator, wait_for
 
 from acts_core.robots import ur5e
-from acts_sim.shared import TimedRingReader
-from acts_sim.ur.main import JOINT_RING_WIDTH, parse
+from acts_sim.shared import JOINT_RING_WIDTH, TimedRingReader
+from acts_sim.ur.main import parse
 from acts_sim.ur.rtde import PacketType, encode
 
 pytestmark = pytest.mark.slow
@@ -194,7 +194,10 @@ def test_the_real_client_still_connects_after_all_that(simulator: Simulator) -> 
 def refusal(*arguments: str, code: int = 2) -> str:
     """What the program says when it cannot start."""
     finished = subprocess.run(
-        [sys.executable, "-m", "acts_sim.ur.main", *arguments], capture_output=True, text=True, timeout=60.0
+        [sys.executable, "-m", "acts_ros.executables.program", "acts_sim.ur.main", *arguments],
+        capture_output=True,
+        text=True,
+        timeout=60.0,
     )
     assert finished.returncode == code
     return finished.stderr
@@ -265,7 +268,11 @@ def test_sigterm_ends_it_whoever_is_connected() -> None:
 
 def test_help_names_every_setting() -> None:
     text = subprocess.run(
-        [sys.executable, "-m", "acts_sim.ur.main", "--help"], capture_output=True, text=True, timeout=30.0, check=True
+        [sys.executable, "-m", "acts_ros.executables.program", "acts_sim.ur.main", "--help"],
+        capture_output=True,
+        text=True,
+        timeout=30.0,
+        check=True,
     ).stdout
     for option in ("--host", "--q0", "--joint-ring", "--hook-port", "--speed-limit-rad-s", "--unlock-after-s"):
         assert option in text
