@@ -79,22 +79,14 @@ def declare(
     """
     where = node.get_fully_qualified_name()
     infos = describe(settings_class)
-    given: dict[str, Any] = {}
-    unknown: list[str] = []
-    for name in [str(name) for name in node.get_parameters_by_prefix("")]:
-        if name in _ROS_OWN or name.startswith(_ROS_OWN_PREFIXES):
-            continue
-        if name in infos:
-            given[name] = node.get_parameter(name).value
-        else:
-            unknown.append(name)
-        node.undeclare_parameter(name)
+    given = _taken_back(node)
     words = sys.argv if words is None else words
     for sentence in misnamed_sections(where, words):
         node.get_logger().warning(sentence)
-    _judge_unknown(node, unknown, list(infos), words)
+    _judge_unknown(node, [name for name in given if name not in infos], list(infos), words)
     try:
-        settings = from_mapping(settings_class, given, where)
+        known = {name: value for name, value in given.items() if name in infos}
+        settings = from_mapping(settings_class, known, where)
     except SettingsError as error:
         raise SettingsError(f"parameters of {where}: {error}") from None
     for name, info in infos.items():
@@ -106,6 +98,16 @@ def declare(
         node.add_on_set_parameters_callback(_Changes(where, settings, on_change, is_unconfigured))
     CheckedParameterService(node)
     return settings
+
+
+def _taken_back(node: Node) -> dict[str, Any]:
+    """The parameters that were given, but for those of ROS; their declaration is taken back."""
+    given: dict[str, Any] = {}
+    for name in [str(name) for name in node.get_parameters_by_prefix("")]:
+        if name not in _ROS_OWN and not name.startswith(_ROS_OWN_PREFIXES):
+            given[name] = node.get_parameter(name).value
+            node.undeclare_parameter(name)
+    return given
 
 
 def _judge_unknown(node: Node, unknown: Sequence[str], known: Sequence[str], words: Sequence[str]) -> None:

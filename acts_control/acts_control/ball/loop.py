@@ -242,7 +242,7 @@ class ControlLoop:
 
     def _servo(self, watch: RobotWatch) -> str:
         """Close the loop until motion has ended; the reason."""
-        config, robot = self._config, self._robot
+        config = self._config
         period = 1.0 / config.control_rate_hz
         controller = BallController(config)
         gate = TiltGate(config)
@@ -273,17 +273,14 @@ class ControlLoop:
             fault = gate.fault(tilt, dt)
             if not fault:
                 try:
-                    joints = robot.tilt(*tilt)
+                    joints = self._tilt(watch, tilt)
                     gate.sent(tilt)
                 except CommandRefusedError as error:
                     fault = str(error)
-                except RobotError as error:
-                    raise RobotError(self._cause(watch) or str(error)) from error
             refused = refused + 1 if fault else 0
             if refused > 1:
                 # Not even the way back to level can be sent.
-                robot.end_tilting()
-                self._await_end(watch)
+                self._end_tilting(watch)
                 return fault
             if fault:
                 controller.end(fault)
@@ -301,9 +298,21 @@ class ControlLoop:
                 late,
             )
             self._on_step(now_ns, measured)
-        robot.end_tilting()
-        self._await_end(watch)
+        self._end_tilting(watch)
         return controller.state.reason
+
+    def _tilt(self, watch: RobotWatch, tilt_rad: tuple[float, float]) -> tuple[float, ...]:
+        """Send a tilt; the joint positions that were sent for it."""
+        try:
+            return self._robot.tilt(*tilt_rad)
+        except CommandRefusedError:
+            raise
+        except RobotError as error:
+            raise RobotError(self._cause(watch) or str(error)) from error
+
+    def _end_tilting(self, watch: RobotWatch) -> None:
+        self._robot.end_tilting()
+        self._await_end(watch)
 
     def _take_changes(self, controller: BallController, gate: TiltGate) -> None:
         if self._newest_config is not self._config:

@@ -99,13 +99,7 @@ def export_recording(
     if "kind" in content:
         chosen, labels = _choose_frames(content, len(frames), recordings, label, kind, npz_path)
         rate_hz = DEFAULT_RATE_HZ
-        measured = _need(content, "measured", npz_path)
-        if measured.shape != frames.shape:
-            raise RecordingError(f"{npz_path}: measured of shape {measured.shape} for frames of {frames.shape}")
-        if not measured[chosen[:max_frames]].all():
-            raise RecordingError(
-                f"{npz_path}: some of the frames are subsampled; choose others, e.g. kind='full_raster'"
-            )
+        _require_measured(content, frames, chosen[:max_frames], npz_path)
     else:
         if kind is not None:
             raise RecordingError(f"{npz_path}: has no kind of frames to choose {kind!r} from")
@@ -128,6 +122,15 @@ def _need(content: dict[str, NDArray], name: str, path: Path) -> NDArray:
     if name not in content:
         raise RecordingError(f"{path}: has no array {name!r}, only {', '.join(sorted(content)) or 'nothing'}")
     return content[name]
+
+
+def _require_measured(content: dict[str, NDArray], frames: NDArray, chosen: NDArray[np.intp], path: Path) -> None:
+    """Refuse frames of a figure file of which not every taxel was measured."""
+    measured = _need(content, "measured", path)
+    if measured.shape != frames.shape:
+        raise RecordingError(f"{path}: measured of shape {measured.shape} for frames of {frames.shape}")
+    if not measured[chosen].all():
+        raise RecordingError(f"{path}: some of the frames are subsampled; choose others, e.g. kind='full_raster'")
 
 
 def _rate_hz(content: dict[str, NDArray], path: Path) -> float:
