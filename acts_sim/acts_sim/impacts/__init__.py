@@ -8,11 +8,12 @@ In come a ball and how it is thrown; out come full frames at a high rate, and wh
 
 from acts_sim.impacts.balls import BALLS, DROP_HEIGHT_M, Ball, ball_named
 from acts_sim.impacts.scene import SCENE_RATE_HZ, Scene, footprint_n, scene
-from acts_sim.impacts.throw import Collision, Throw, collide, dropped, thrown
+from acts_sim.impacts.throw import GRAVITY_M_S2, Collision, Throw, collide, dropped, thrown
 
 __all__ = [
     "BALLS",
     "DROP_HEIGHT_M",
+    "GRAVITY_M_S2",
     "SCENE_RATE_HZ",
     "Ball",
     "Collision",

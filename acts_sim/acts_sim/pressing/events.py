@@ -56,9 +56,17 @@ EVENTS: dict[str, Event] = {}
 
 
 def register(name: str, recordings: int) -> Callable[[Make], Make]:
-    """Register the decorated function in `EVENTS`."""
+    """Register the decorated function in `EVENTS`.
+
+    Raises
+    ------
+    SettingsError
+        When there is an event of this name already.
+    """
 
     def enter(make: Make) -> Make:
+        if name in EVENTS:
+            raise SettingsError(f"event {name!r} is registered twice; choose another name")
         EVENTS[name] = Event(name, recordings, make)
         return make
 

@@ -14,12 +14,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from acts_core.errors import SettingsError
 from acts_core.skin import Layout, SkinPatch
-from acts_sim.impacts import Ball, ball_named, collide, thrown
+from acts_sim.impacts import GRAVITY_M_S2, Ball, ball_named, collide, thrown
 from acts_sim.wearables.bodies import FINGER, FINGERTIPS, FOREFOOT, HEEL, MIDFOOT, PALM, TOES, held, rolled, tapped
 from acts_sim.wearables.contacts import Bouncing, Bullet, Caught, Contact, Pressing
-
-GRAVITY_M_S2 = 9.81
 
 # The skin's foam, and the flesh under it and in the hand above, in series: together 1 cm of 25 kPa.
 _FLESH_N_PER_M3 = 2.5e6
@@ -79,9 +78,17 @@ def register(
     rebounds: bool = False,
     stiffness_n_per_m3: float = _FLESH_N_PER_M3,
 ) -> Callable[[Make], Make]:
-    """Register the decorated function in `SCENES`, on the skin of a layout; all else is as of `SceneKind`."""
+    """Register the decorated function in `SCENES`, on the skin of a layout; all else is as of `SceneKind`.
+
+    Raises
+    ------
+    SettingsError
+        When there is a scene of this name already.
+    """
 
     def enter(make: Make) -> Make:
+        if name in SCENES:
+            raise SettingsError(f"scene {name!r} is registered twice; choose another name")
         SCENES[name] = SceneKind(name, figure, on, told_as, rebounds, stiffness_n_per_m3, make)
         return make
 

@@ -19,6 +19,7 @@ from acts_sim.pressing import (
     press_over_time,
 )
 from acts_sim.pressing.event_contacts import GOLF_BALL
+from acts_sim.pressing.events import register
 
 pytestmark = pytest.mark.slow
 
@@ -77,6 +78,11 @@ def test_two_taps_are_apart_and_the_second_comes_later() -> None:
 def test_an_unknown_event_is_refused() -> None:
     with pytest.raises(SettingsError, match="tap_2x2"):
         event_recordings("earthquake", 1, seed=1)
+
+
+def test_an_event_of_a_taken_name_is_refused() -> None:
+    with pytest.raises(SettingsError, match="'two_taps' is registered twice"):
+        register("two_taps", 1)(lambda rng: event_recordings("bounce", 1, seed=1)[0])
 
 
 def test_a_press_goes_down_and_up_again() -> None:

@@ -12,6 +12,7 @@ from acts_core.array import ArrayGeometry
 from acts_core.errors import SettingsError
 from acts_sim.pressing import ContactModel, FoamConfig
 from acts_sim.wearables import SCENES, WORN_RATE_HZ, RestConfig, RestingSkin, worn_scene
+from acts_sim.wearables.happenings import register
 
 
 @pytest.mark.parametrize("name", [name for name in SCENES if name not in ("ball_catch", "footstep")])
@@ -44,6 +45,11 @@ def test_a_seed_makes_the_same_scene_again_and_another_another() -> None:
 def test_a_scene_that_does_not_exist_is_refused() -> None:
     with pytest.raises(SettingsError, match=r"'head_butt'.*known are arm_tap, ball_catch"):
         worn_scene("head_butt", np.random.default_rng(1))
+
+
+def test_a_scene_of_a_taken_name_is_refused() -> None:
+    with pytest.raises(SettingsError, match="'arm_tap' is registered twice"):
+        register("arm_tap", "8B", on="arm", told_as="tap")(SCENES["juggling"].make)
 
 
 def test_a_resting_skin_drifts_as_fast_as_it_is_told_to() -> None:
