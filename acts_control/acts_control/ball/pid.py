@@ -120,6 +120,8 @@ class BallPid:
 
     Attributes
     ----------
+    config, max_tilt_rad
+        May be changed between two steps.
     state : PidState
         Changed in place by `step`.
     """

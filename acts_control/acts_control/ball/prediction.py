@@ -29,7 +29,15 @@ class TiltHistory:
         self._past: deque[tuple[int, float, float, float, float]] = deque()
 
     def add(self, now_ns: int, tilt_x_rad: float, tilt_y_rad: float) -> None:
-        """Note the tilt that the plate has now."""
+        """Note the tilt that the plate has now.
+
+        Parameters
+        ----------
+        now_ns : int
+            The time, by the clock of the stamps [ns]. Where it was set back, the tilts before are forgotten.
+        tilt_x_rad, tilt_y_rad : float
+            Rotation vector about the skin's x and y axes [rad].
+        """
         past = self._past
         if past and now_ns <= past[-1][0]:
             past.clear()

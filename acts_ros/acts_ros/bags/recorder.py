@@ -78,6 +78,11 @@ class Recorder:
         Full names of the topics; None for all that are not hidden.
     say : callable
         Called with a line for the user.
+
+    Attributes
+    ----------
+    records : dict of str to TopicRecord
+        Of every topic that is recorded, by its name.
     """
 
     def __init__(self, node: Node, bag: BagWriter, topics: Sequence[str] | None, say: Callable[[str], None]) -> None:

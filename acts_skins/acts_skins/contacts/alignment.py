@@ -99,7 +99,17 @@ class Aligned(Generic[F]):
 
 @dataclass
 class Counters:
-    """Numbers of frames of a skin that were received, and that were dropped."""
+    """Frames of a skin since the start.
+
+    Attributes
+    ----------
+    frames : int
+        All that were received.
+    future, out_of_order : int
+        Of these, dropped: stamped further ahead of the clock than `future_s`; not newer than the newest.
+    ahead_s : float
+        How far the last of `future` was ahead [s].
+    """
 
     frames: int = 0
     future: int = 0
@@ -125,6 +135,13 @@ class Aligner(Generic[F]):
     names : sequence of str
         The skins.
     config : AlignmentConfig
+
+    Attributes
+    ----------
+    counters : dict of str to Counters
+        By the skin's name.
+    clock_resets : int
+        How often the clock was set back.
     """
 
     def __init__(self, names: Sequence[str], config: AlignmentConfig) -> None:

@@ -19,6 +19,13 @@ class Cycle:
         Calls per second [Hz].
     work : callable
         Called without arguments; an exception ends the cycle and is kept in `failure`.
+
+    Attributes
+    ----------
+    cycles, missed : int
+        Calls so far, and deadlines that were skipped.
+    failure : Exception or None
+        What ended the cycle.
     """
 
     def __init__(self, rate_hz: float, work: Callable[[], None]) -> None:
