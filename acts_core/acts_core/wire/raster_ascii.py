@@ -27,9 +27,9 @@ class RasterDecoder(DelimitedDecoder):
     """Frames out of the lines of the published raster sketch; counters as in `DelimitedDecoder`.
 
     The first line after construction or `reset` is dropped and counted as `partial`: were it cut within a number,
-    nothing would tell. Every other line, also a refused one, takes a sequence number, so that a refused line shows as a
-    gap. `board_us` is the sum of the scan times, which leaves out the time the board spends printing: it is no clock
-    (`has_board_clock` is False).
+    nothing would tell. Empty lines are passed over. Every other line, also a refused one, takes a sequence number, so
+    that a refused line shows as a gap. `board_us` is the sum of the scan times, which leaves out the time the board
+    spends printing: it is no clock (`has_board_clock` is False).
 
     Parameters
     ----------
@@ -50,8 +50,10 @@ class RasterDecoder(DelimitedDecoder):
         self._board_us = 0
         self._may_be_cut = True
 
-    def _decode(self, packet: bytes) -> SampleFrame:
+    def _decode(self, packet: bytes) -> SampleFrame | None:
         line = packet.removesuffix(b"\r")
+        if not line:
+            return None  # an empty line, as one that ends in \n alone
         strange = line.translate(None, _NUMBER_CHARACTERS)
         if strange:
             place = line.index(strange[:1])

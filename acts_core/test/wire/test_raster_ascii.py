@@ -66,7 +66,7 @@ def test_the_first_line_is_never_used_since_it_may_be_cut_within_a_number() -> N
         (b"1,2,3,4,5,6,100,\r\n", "line of 7 numbers that ends with a comma"),
         (b"1,2,3,4,5,6,4294967296\r\n", "4294967296 us"),
         (b"1,2,3,4,5,6,00000000100\r\n", "of 11 digits"),
-        (b"\r\n", "1 numbers"),
+        (b"100\r\n", "1 numbers"),
         (b"bin dur: 12\r\n", "something else"),
         (b"1" * 200 + b"\r\n", "line longer than 41 bytes, the most that an array of 2 x 3 takes; is that its size"),
     ],
@@ -78,6 +78,15 @@ def test_a_bad_line_is_counted_and_leaves_a_gap(bad: bytes, words: str) -> None:
     assert [frame.sequence for frame in received] == [0, 2]
     assert (decoder.frames, decoder.malformed, decoder.crc_errors) == (2, 1, 0)
     assert words in decoder.last_error
+
+
+@pytest.mark.parametrize("empty", [b"\n", b"\r\n", b"\r\n\n\r\n"])
+def test_an_empty_line_is_no_frame_and_leaves_no_gap(empty: bytes) -> None:
+    decoder = opened()
+    good = line([1, 2, 3, 4, 5, 6])
+    received = decoder.feed(good + empty + good)
+    assert [frame.sequence for frame in received] == [0, 1]
+    assert (decoder.frames, decoder.malformed, decoder.bytes_discarded, decoder.last_error) == (2, 0, 9, "")
 
 
 def test_what_is_wrong_in_a_long_line_is_shown() -> None:
