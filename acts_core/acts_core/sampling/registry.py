@@ -7,13 +7,15 @@ from __future__ import annotations
 
 import inspect
 import pkgutil
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from importlib import import_module
 
 from acts_core.errors import SettingsError
 from acts_core.sampling import schemes
 from acts_core.sampling.basis import CommonSettings, SamplingScheme
 from acts_core.settings import describe
+
+_NUMBER_MAX = 255
 
 
 def _find() -> dict[str, type[SamplingScheme]]:
@@ -46,15 +48,21 @@ def check_words(scheme: type[SamplingScheme]) -> None:
             raise SettingsError(f"scheme {scheme.__module__}.{scheme.__name__}: it has no {word}; give the class one")
 
 
-def check_names(schemes: Iterable[type[SamplingScheme]]) -> None:
+def check_names(schemes: Iterable[type[SamplingScheme]], others: Mapping[str, str] | None = None) -> None:
     """Check the names of own settings: no other scheme has a setting of that name, nor have all schemes together.
+
+    Parameters
+    ----------
+    schemes : iterable of type
+    others : mapping of str to str, optional
+        Further names that are taken, and who has them, such as `the board`.
 
     Raises
     ------
     SettingsError
         It names the scheme, the setting and who has it already.
     """
-    owners = dict.fromkeys(("scheme", *describe(CommonSettings)), "every scheme")
+    owners = {**(others or {}), **dict.fromkeys(("scheme", *describe(CommonSettings)), "every scheme")}
     for scheme in schemes:
         for own in scheme.own_settings:
             for name in dict.fromkeys((own.name, own.parameter)):
@@ -67,16 +75,18 @@ def check_names(schemes: Iterable[type[SamplingScheme]]) -> None:
 
 
 def check_numbers(schemes: Iterable[type[SamplingScheme]]) -> None:
-    """Check the numbers on the wire: each is given once, and those of own settings have no gap.
+    """Check the numbers on the wire: each fits in its byte and is given once, and those of own settings have no gap.
 
     Raises
     ------
     SettingsError
-        It names the next free number.
+        It names what is allowed, or the next free number.
     """
     on_board = [scheme for scheme in schemes if scheme.number is not None]
     numbers = {scheme.name: scheme.number or 0 for scheme in on_board}
     for name, number in numbers.items():
+        if not 1 <= number <= _NUMBER_MAX:
+            raise SettingsError(f"number = {number} of scheme {name!r}: allowed is 1 to {_NUMBER_MAX}, one byte")
         others = [other for other in numbers if numbers[other] == number and other != name]
         if others:
             raise SettingsError(

@@ -27,6 +27,13 @@ def test_a_scheme_with_anothers_number_is_refused_with_the_next_free_one() -> No
         check_numbers([*SCHEMES.values(), scheme_of(3)])
 
 
+@pytest.mark.parametrize("number", [0, -1, 256])
+def test_a_number_that_does_not_fit_in_its_byte_is_refused(number: int) -> None:
+    check_numbers([*SCHEMES.values(), scheme_of(255)])
+    with pytest.raises(SettingsError, match=rf"number = {number} of scheme 'mine': allowed is 1 to 255, one byte"):
+        check_numbers([*SCHEMES.values(), scheme_of(number)])
+
+
 @pytest.mark.parametrize("number", [7, 99])
 def test_an_own_setting_with_anothers_number_or_behind_a_gap_is_refused(number: int) -> None:
     with pytest.raises(SettingsError, match=rf"'mine_step': {number}.*allowed is each of \[7, 8, 14"):
