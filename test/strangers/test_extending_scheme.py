@@ -132,6 +132,14 @@ def test_a_scheme_whose_setting_would_replace_a_parameter_of_the_driver_is_refus
     assert "parameter 'baud' is declared 2 times: begin it with the name of its thing" in result.stderr
 
 
+@pytest.mark.parametrize(("name", "owner"), [("led", "the board"), ("rate_cap_hz", "the driver")])
+def test_a_scheme_whose_setting_is_called_as_one_of_the_board_is_refused(tmp_path: Path, name: str, owner: str) -> None:
+    environment = with_example(tmp_path, python_code().replace("page_comb_step", name))
+    result = run(["import acts_driver.settings"], environment)
+    assert result.returncode == 1
+    assert f"own setting {name!r} of scheme 'page_comb': {owner} has one of that name; begin it with" in result.stderr
+
+
 def test_a_scheme_without_a_number_is_sampled_in_python_beside_those_of_the_firmware(tmp_path: Path) -> None:
     asked = "from acts_core.sampling import SamplingConfig\n"
     asked += "from acts_tools.firmware.board_sampler import sampler_of\n"

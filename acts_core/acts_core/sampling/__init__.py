@@ -24,6 +24,7 @@ from acts_core.sampling.registry import (
     SCHEME_NUMBERS,
     SCHEMES,
     check_frame,
+    check_names,
     frame_size,
 )
 from acts_core.sampling.sampler import Sampler, SamplingConfig, measure_in
@@ -44,6 +45,7 @@ __all__ = [
     "Share",
     "SkinMap",
     "check_frame",
+    "check_names",
     "frame_size",
     "measure_in",
     "with_fields",

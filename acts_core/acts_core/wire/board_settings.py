@@ -8,6 +8,7 @@ from __future__ import annotations
 import struct
 from dataclasses import dataclass
 from enum import IntEnum
+from inspect import get_annotations
 from typing import Any
 
 from acts_core.array import COUNT_MAX, MAX_SIDE
@@ -20,6 +21,7 @@ from acts_core.sampling import (
     SCHEMES,
     SamplingConfig,
     check_frame,
+    check_names,
     frame_size,
     with_fields,
 )
@@ -200,3 +202,7 @@ class BoardSettings(_Own):  # type: ignore[misc]
             )
         except SettingsError as error:
             raise version_mismatch(f"settings that cannot be ({error})") from error
+
+
+# A setting that a class declares itself takes the place of one that it inherits: the scheme's would be lost.
+check_names(SCHEMES.values(), dict.fromkeys(get_annotations(BoardSettings), "the board"))

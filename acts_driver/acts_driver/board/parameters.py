@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, fields, replace
+from inspect import get_annotations
 from typing import Any
 
 from acts_core.array import COUNT_MAX, MAX_SIDE
@@ -19,6 +20,7 @@ from acts_core.sampling import (
     OwnSetting,
     SamplingConfig,
     SkinMap,
+    check_names,
     with_fields,
 )
 from acts_core.settings import Changeable, setting
@@ -206,6 +208,9 @@ class BoardParameters(_Own):  # type: ignore[misc]
         asked = {name: value for name, value in self.given().items() if name in _SAMPLING}
         return SamplingConfig(rows=rows, cols=cols, **asked)
 
+
+# As in BoardSettings: the parameter that is declared here would take the place of the scheme's.
+check_names(SCHEMES.values(), dict.fromkeys(get_annotations(BoardParameters), "the driver"))
 
 BOARD_PARAMETERS = tuple(field.name for field in fields(BoardParameters))
 """Names of these parameters."""
