@@ -13,6 +13,7 @@ from matplotlib import pyplot
 from matplotlib.figure import Figure
 
 from acts_core.errors import ActsError, RecordingError, SettingsError
+from acts_recon.classifiers import CLASSIFIERS, SrcRecogniser
 from acts_recon.objects import build_object_library, load_object_library
 from acts_sim.pressing import PressingArm, object_named
 from acts_tools import library
@@ -68,6 +69,22 @@ def test_the_noise_of_recorded_presses_is_not_known() -> None:
         ours.update(taxels, counts, 100.0 + 0.00115 * number, 0.00115)
     # Where it is known how much untouched taxels vary, 0 is shown; where it is not, the mean of what they read.
     assert ours.recovery.image.mean() == pytest.approx(0.32, abs=0.1)
+
+
+@pytest.mark.parametrize("name", ["paper", "acts"])
+def test_a_classifier_of_the_node_with_the_name_of_one_in_reports_is_refused(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    class Other(SrcRecogniser):
+        pass
+
+    monkeypatch.setitem(CLASSIFIERS, name, Other)
+    pressed = np.zeros((1, 32, 32), dtype=np.uint16)
+    pressed[0, 14:18, 14:18] = 500
+    with pytest.raises(
+        SettingsError, match=rf"classifier '{name}' in .*classifiers/registry\.py: .* neither paper nor"
+    ):
+        contenders(*2 * [build_object_library(pressed, ["block"])], 64)
 
 
 def test_ours_is_above_the_papers_method_on_the_same_presses() -> None:

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
+from acts_core.errors import SettingsError
 from acts_core.sampling import SamplingConfig
 from acts_recon.classifiers import CLASSIFIERS, FusedImageRecogniser, ObjectRecogniser, SrcRecogniser
 from acts_recon.methods import Fusion, Recovery, SkinSetup
@@ -119,7 +120,18 @@ def contenders(
         Taxels per frame.
     noise_counts : float
         Standard deviation of a reading [counts]; 0: not known, as of recorded presses.
+
+    Raises
+    ------
+    SettingsError
+        When a classifier of the node has the name of the paper's or of ours in reports.
     """
+    for name in (PAPER, ACTS):
+        if name in CLASSIFIERS:
+            raise SettingsError(
+                f"classifier {name!r} in acts_recon/classifiers/registry.py: the evaluation calls another one so, "
+                f"which it would replace; give the classifier a name that is neither {PAPER} nor {ACTS}"
+            )
     further = {name: kind for name, kind in CLASSIFIERS.items() if kind not in (SrcRecogniser, FusedImageRecogniser)}
     return {
         PAPER: papers(coarse, m),
