@@ -14,7 +14,7 @@ from acts_core.array import COUNT_MAX
 from acts_driver.selftest.findings import Finding, Level, Thresholds, listed, taxels_listed
 from acts_driver.selftest.record import FrameRecord
 from acts_driver.selftest.same_lines import address_bits, groups_of, same_pairs
-from acts_driver.selftest.untouched import Untouched, high_taxels
+from acts_driver.selftest.untouched import Untouched, high_taxels, judge_high
 
 _SATURATED = 0.97 * COUNT_MAX
 _FIRST_ADDRESS_PIN = 33
@@ -64,17 +64,21 @@ def measure_touched(record: FrameRecord, skin: Untouched, thresholds: Thresholds
 
 def judge_touched(touch: Touched, skin: Untouched, thresholds: Thresholds) -> list[Finding]:
     """What of this is a fault."""
+    high = high_taxels(skin, thresholds)
     if touch.responds.mean() < thresholds.line_silent:
-        return [
-            Finding(
-                Level.FAIL,
-                "touch",
-                f"only {int(touch.responds.sum())} of {touch.responds.size} taxels responded",
-                "roll a hand over the whole skin while it asks for it; if you did, nothing of the skin is connected",
-            )
-        ]
-    open_rows, unpressed_rows = _silent(touch.responds.mean(axis=1), thresholds)
-    open_cols, unpressed_cols = _silent(touch.responds.mean(axis=0), thresholds)
+        silent = Finding(
+            Level.FAIL,
+            "touch",
+            f"only {int(touch.responds.sum())} of {touch.responds.size} taxels responded",
+            "roll a hand over the whole skin while it asks for it; if you did, nothing of the skin is connected",
+        )
+        return [silent, judge_high(skin, thresholds)] if high else [silent]
+    stuck = tuple(taxel for taxel in high if not touch.responds[taxel])
+    loaded = tuple(taxel for taxel in high if touch.responds[taxel])
+    rows, cols = touch.responds.shape
+    # A line whose only taxel is stuck is not open: it reads something.
+    open_rows, unpressed_rows = _silent(touch.responds.mean(axis=1), {row for row, _ in stuck if cols == 1}, thresholds)
+    open_cols, unpressed_cols = _silent(touch.responds.mean(axis=0), {col for _, col in stuck if rows == 1}, thresholds)
     findings = [
         _lines("rows", "row", open_rows, touch.same_rows),
         _lines("columns", "column", open_cols, touch.same_cols),
@@ -84,8 +88,6 @@ def judge_touched(touch: Touched, skin: Untouched, thresholds: Thresholds) -> li
     sound = np.ones(touch.responds.shape, dtype=bool)
     sound[list(open_rows)] = False
     sound[:, list(open_cols)] = False
-    stuck = tuple(taxel for taxel in high_taxels(skin, thresholds) if not touch.responds[taxel])
-    loaded = tuple(taxel for taxel in high_taxels(skin, thresholds) if touch.responds[taxel])
     flat.append(_stuck(stuck, loaded, skin))
     for taxel in stuck:
         sound[taxel] = False
@@ -121,8 +123,15 @@ def _scan_share(record: FrameRecord) -> float:
     return float(min(np.median([frame.duration_us for frame in full]) / max(period_us, 1e-9), 1.0))
 
 
-def _silent(alive: NDArray[np.float64], thresholds: Thresholds) -> tuple[tuple[int, ...], tuple[int, ...]]:
-    """Lines that never respond, with lines beside them that do: open. And those of which that cannot be said."""
+def _silent(
+    shares: NDArray[np.float64], left_out: set[int], thresholds: Thresholds
+) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """Lines that never respond, with lines beside them that do: open. And those of which that cannot be said.
+
+    In come the share of each line's taxels that respond, and the lines that are not judged.
+    """
+    judged = [line for line in range(len(shares)) if line not in left_out]
+    alive = shares[judged]
     silent = alive <= thresholds.line_silent
     open_lines: list[int] = []
     unpressed: list[int] = []
@@ -134,7 +143,7 @@ def _silent(alive: NDArray[np.float64], thresholds: Thresholds) -> tuple[tuple[i
         if end > line:
             beside = [alive[i] for i in (line - 1, end) if 0 <= i < len(alive)]
             is_open = beside and min(beside) >= thresholds.line_alive and end - line <= len(alive) // 2
-            (open_lines if is_open else unpressed).extend(range(line, end))
+            (open_lines if is_open else unpressed).extend(judged[line:end])
         line = max(end, line + 1)
     return tuple(open_lines), tuple(unpressed)
 

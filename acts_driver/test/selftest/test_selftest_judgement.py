@@ -172,6 +172,25 @@ def test_a_plug_with_eight_loose_rows() -> None:
     assert "rows 12 to 19" in found["open rows"].text
 
 
+@pytest.mark.parametrize("shape", [(1, 8), (8, 1)])
+def test_a_stuck_taxel_that_is_a_whole_line_is_not_told_as_an_open_line_too(shape: tuple[int, int]) -> None:
+    stuck, dead = ((3, 0), (6, 0)) if shape[1] == 1 else ((0, 3), (0, 6))
+    found = faults(Skin(Wiring(stuck={stuck: 700.0}), shape=shape).findings())
+    assert found.keys() == {"stuck taxels"}
+    assert found["stuck taxels"].taxels == (stuck,)
+    found = faults(Skin(Wiring(stuck={stuck: 700.0}, dead=(dead,)), shape=shape).findings())
+    assert found.keys() == {"stuck taxels", "open rows" if shape[1] == 1 else "open columns"}
+    assert found["stuck taxels"].taxels == (stuck,)
+    line = found["open rows"].rows if shape[1] == 1 else found["open columns"].cols
+    assert line == (6,)
+
+
+def test_a_skin_that_reads_high_and_never_responds_is_told_with_what_it_reads() -> None:
+    found = faults(Skin(Wiring(stuck={(0, 0): 700.0}), shape=(1, 1)).findings())
+    assert found.keys() == {"touch", "high taxels"}
+    assert found["high taxels"].taxels == ((0, 0),)
+
+
 def test_what_was_not_pressed_is_not_judged() -> None:
     skin = Skin()
     untouched = measure_untouched(skin.record(60, touched=False))
