@@ -13,7 +13,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from acts_core.errors import SettingsError
-from acts_tools.diagnostics.statuses import Statuses
+from acts_tools.diagnostics.statuses import SILENT_AFTER_S, Statuses
 
 if TYPE_CHECKING:
     from diagnostic_msgs.msg import DiagnosticArray
@@ -26,12 +26,13 @@ _DEPTH = 100
 _NOBODY = 3
 
 _EPILOG = """\
-exit codes: 0 all is OK, 1 a warning, 2 an error, 3 something is stale or no node reports
+exit codes: 0 all is OK, 1 a warning, 2 an error, 3 something is stale or silent, or no node reports
 
 examples:
   acts diagnostics                  every node with all its values
   acts diagnostics --brief          one line for each node
   acts diagnostics --json | jq .    for programs
+  acts diagnostics --watch 60       names also nodes that fall silent meanwhile; Ctrl-C prints at once
 
 docs/driver.md explains the values of the driver.
 """
@@ -52,13 +53,23 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument(
         "-t", "--timeout", type=float, default=10.0, metavar="SECONDS", help="how long to wait for a first report (10)"
     )
+    parser.add_argument(
+        "-w",
+        "--watch",
+        type=float,
+        default=_ALL_S,
+        metavar="SECONDS",
+        help=f"how long to listen from the first report on ({_ALL_S}); a node that is silent for more than "
+        f"{SILENT_AFTER_S:g} s at the end is named as stale",
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Listen and print; return the worst level, or 3 if no node reports."""
-    if not 0 < arguments.timeout < float("inf"):
-        raise SettingsError(f"--timeout {arguments.timeout:g} is not a positive time in seconds")
-    statuses = _heard(arguments.timeout)
+    for option, seconds in (("--timeout", arguments.timeout), ("--watch", arguments.watch)):
+        if not 0 < seconds < float("inf"):
+            raise SettingsError(f"{option} {seconds:g} is not a positive time in seconds")
+    statuses = _heard(arguments.timeout, arguments.watch)
     if statuses.is_empty:
         print(
             f"no node has reported on {' or '.join(_TOPICS)} within {arguments.timeout:g} s: are nodes running, and "
@@ -73,8 +84,8 @@ def run(arguments: argparse.Namespace) -> int:
     return statuses.worst
 
 
-def _heard(timeout_s: float) -> Statuses:
-    """Reports of some seconds from the first one on; empty if there is none within the time."""
+def _heard(timeout_s: float, watch_s: float) -> Statuses:
+    """Reports of `watch_s` from the first one on; empty if there is none within the timeout."""
     # Imported here, because they are slow to import and other commands do not need them.
     from diagnostic_msgs.msg import DiagnosticArray
     from rclpy.executors import SingleThreadedExecutor
@@ -92,10 +103,11 @@ def _heard(timeout_s: float) -> Statuses:
         while not stop.is_set and time.monotonic() < end_s:
             spin_for(executor, _TURN_S)
             if is_first and not statuses.is_empty:
-                is_first, end_s = False, time.monotonic() + _ALL_S
+                is_first, end_s = False, time.monotonic() + watch_s
         if stop.is_set and statuses.is_empty:
             # Not the answer that nobody reports: the time for it is not over.
             raise KeyboardInterrupt
+        statuses.tell_silent(time.monotonic())
     return statuses
 
 
@@ -103,4 +115,4 @@ def _take(statuses: Statuses, topic: str, array: DiagnosticArray) -> None:
     from acts_skins.overview.diagnostics_node import status_of
 
     for message in array.status:
-        statuses.take(topic, status_of(message))
+        statuses.take(topic, status_of(message), time.monotonic())

@@ -6,12 +6,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import Any
 
 from acts_skins.overview.aggregate import Status
 
 WORDS = ("OK", "WARN", "ERROR", "STALE")
 """Names of the levels, by their number; the exit code of a level is its number."""
+
+SILENT_AFTER_S = 3.0
+"""Nodes report once a second: one whose last report is older than this has fallen silent [s]."""
 
 
 class Statuses:
@@ -25,10 +29,21 @@ class Statuses:
 
     def __init__(self, topics: Sequence[str]) -> None:
         self._heard: dict[str, dict[str, Status]] = {topic: {} for topic in topics}
+        self._heard_s: dict[tuple[str, str], float] = {}
 
-    def take(self, topic: str, status: Status) -> None:
-        """Store a status that was received on a topic."""
+    def take(self, topic: str, status: Status, now_s: float = 0.0) -> None:
+        """Store a status that was received on a topic, and when [s]."""
         self._heard[topic][status.name] = status
+        self._heard_s[topic, status.name] = now_s
+
+    def tell_silent(self, now_s: float) -> None:
+        """Take a status for stale that came more than `SILENT_AFTER_S` before now, and say so in its message."""
+        for topic, heard in self._heard.items():
+            for name, status in heard.items():
+                age_s = now_s - self._heard_s[topic, name]
+                if age_s > SILENT_AFTER_S:
+                    message = f"silent for {age_s:.1f} s; before: {WORDS[_level(status)]}, {status.message}"
+                    heard[name] = replace(status, level=WORDS.index("STALE"), message=message)
 
     @property
     def is_empty(self) -> bool:

@@ -75,6 +75,19 @@ def test_json_has_it_all_and_the_newest_counts() -> None:
     }
 
 
+def test_a_node_that_has_fallen_silent_is_stale_and_told_with_its_last_report() -> None:
+    heard = Statuses(TOPICS)
+    heard.take(TOPICS[0], Status("plate/driver", 0, "1000 frames/s", "port"), now_s=10.0)
+    heard.take(TOPICS[0], Status("plate/reconstruction", 1, "busy"), now_s=14.9)
+    heard.tell_silent(15.0)
+    assert list(heard.lines(with_values=False)) == [
+        "/diagnostics",
+        "  STALE  plate/driver          silent for 5.0 s; before: OK, 1000 frames/s [port]",
+        "  WARN   plate/reconstruction  busy",
+    ]
+    assert heard.worst == 3
+
+
 @contextmanager
 def publishing(probe: Probe, level: bytes) -> Iterator[None]:
     """Somebody who reports again and again, from a thread."""
@@ -106,11 +119,26 @@ def test_the_command_prints_what_is_reported(monkeypatch: pytest.MonkeyPatch) ->
     assert result.stdout.splitlines() == ["/diagnostics", "  WARN   plate/driver  5 frames lost", "           lost  5"]
 
 
+def test_the_command_names_a_node_that_falls_silent_while_it_watches(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ROS_DOMAIN_ID", "189")
+    command = [sys.executable, "-m", "acts_tools", "diagnostics", "--timeout", "60", "--watch", "4"]
+    with Probe(189) as probe, subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        # Reliable: what is published once it is matched arrives.
+        publisher = probe.node.create_publisher(DiagnosticArray, "/diagnostics", 10)
+        probe.wait_for(publisher.get_subscription_count, 60, "the command's subscription")
+        publisher.publish(DiagnosticArray(status=[DiagnosticStatus(name="plate/driver", message="1000 frames/s")]))
+        told, _ = process.communicate(timeout=60)
+    assert process.returncode == 3
+    assert "  STALE  plate/driver  silent for " in told
+    assert " s; before: OK, 1000 frames/s" in told
+
+
 def test_where_nobody_reports_it_says_so(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("ROS_DOMAIN_ID", "189")
     assert main(["diagnostics", "--timeout", "0.2"]) == 3
     assert "no node has reported on /diagnostics or /diagnostics_agg within 0.2 s" in capsys.readouterr().err
     assert main(["diagnostics", "--timeout", "0"]) == 1
+    assert main(["diagnostics", "--watch", "nan"]) == 1
 
 
 def test_interrupted_before_anything_came_it_does_not_say_that_nobody_reports() -> None:
