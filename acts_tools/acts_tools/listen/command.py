@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from acts_core.errors import SettingsError
 from acts_core.names import full_name
+from acts_tools.diagnostics.statuses import SILENT_AFTER_S
 
 if TYPE_CHECKING:
     from acts_tools.listen.arrivals import Interval
@@ -74,20 +75,30 @@ def run(arguments: argparse.Namespace) -> int:
                 report_s += arguments.every
                 intervals = {topic: arrivals.take(now_s) for topic, arrivals in listener.arrivals.items()}
                 heard |= {topic for topic, interval in intervals.items() if interval.total_received}
-                _print(topics, intervals, listener, as_json=arguments.json)
+                _print(topics, intervals, listener, now_s, as_json=arguments.json)
     return 0 if len(heard) == len(topics) else 1
 
 
-def _print(topics: list[str], intervals: dict[str, Interval], listener: Listener, *, as_json: bool) -> None:
+def _print(
+    topics: list[str], intervals: dict[str, Interval], listener: Listener, now_s: float, *, as_json: bool
+) -> None:
+    ages_s = {name: now_s - said_s for name, said_s in listener.complained_s.items()}
     if as_json:
         topic_values = {topic: asdict(interval) for topic, interval in intervals.items()}
-        print(json.dumps({"topics": topic_values, "complaints": listener.complaints}), flush=True)
+        told = {"topics": topic_values, "complaints": listener.complaints, "complaint_ages_s": ages_s}
+        print(json.dumps(told), flush=True)
         return
     width = max(map(len, topics))
     for topic in topics:
         print(f"{topic:{width}}  {in_words(intervals.get(topic))}", flush=True)
     for name, words in listener.complaints.items():
-        print(f"  {name}: {words}", flush=True)
+        print(f"  {complaint_in_words(name, words, ages_s[name])}", flush=True)
+
+
+def complaint_in_words(name: str, words: str, age_s: float) -> str:
+    """One line about a component that has warned; with the age of its report where it has fallen silent since."""
+    silent = f" ({age_s:.0f} s ago, silent since)" if age_s > SILENT_AFTER_S else ""
+    return f"{name}: {words}{silent}"
 
 
 def in_words(interval: Interval | None) -> str:

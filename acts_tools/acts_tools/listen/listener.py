@@ -38,11 +38,14 @@ class Listener:
         Statistics of the topics that have appeared, by topic.
     complaints : dict of str to str
         Message of every component whose last report on a diagnostics topic is a warning or an error, by its name.
+    complained_s : dict of str to float
+        When each of these reports came, CLOCK_MONOTONIC [s].
     """
 
     def __init__(self, node: Node, topics: Sequence[str]) -> None:
         self.arrivals: dict[str, Arrivals] = {}
         self.complaints: dict[str, str] = {}
+        self.complained_s: dict[str, float] = {}
         self._node = node
         self._topics = topics
 
@@ -76,5 +79,7 @@ class Listener:
         for status in message.status:
             if status.level == b"\x00":
                 self.complaints.pop(status.name, None)
+                self.complained_s.pop(status.name, None)
             else:
                 self.complaints[status.name] = status.message
+                self.complained_s[status.name] = time.monotonic()

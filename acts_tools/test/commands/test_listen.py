@@ -22,7 +22,7 @@ from acts_msgs.msg import Contact, Contacts, Impact, Outline, RegionContacts, Ta
 from acts_ros.qos import STREAM
 from acts_tools.cli import main
 from acts_tools.listen.arrivals import Arrivals
-from acts_tools.listen.command import in_words
+from acts_tools.listen.command import complaint_in_words, in_words
 from acts_tools.listen.listener import Listener
 from acts_tools.testing.probe import Probe
 
@@ -85,6 +85,21 @@ def test_what_arrives_is_put_into_words() -> None:
     assert in_words(arrivals.take(4.6)) == "nothing for 3.0 s, 501 messages before"
 
 
+def test_the_complaint_of_a_node_that_has_fallen_silent_is_told_with_its_age(monkeypatch: pytest.MonkeyPatch) -> None:
+    now_s = 10.0
+    monkeypatch.setattr("acts_tools.listen.listener.time.monotonic", lambda: now_s)
+    listener = Listener(None, [])  # type: ignore[arg-type]
+    for level, name in ((b"\x01", "plate/driver"), (b"\x02", "arm/driver")):
+        listener._note_complaints(
+            DiagnosticArray(status=[DiagnosticStatus(level=level, name=name, message="no frames")])
+        )
+    now_s = 12.0
+    listener._note_complaints(DiagnosticArray(status=[DiagnosticStatus(level=b"\x00", name="arm/driver")]))
+    assert (listener.complaints, listener.complained_s) == ({"plate/driver": "no frames"}, {"plate/driver": 10.0})
+    assert complaint_in_words("plate/driver", "no frames", 2.0) == "plate/driver: no frames"
+    assert complaint_in_words("plate/driver", "no frames", 7.0) == "plate/driver: no frames (7 s ago, silent since)"
+
+
 @pytest.fixture
 def talker(monkeypatch: pytest.MonkeyPatch) -> Iterator[Node]:
     monkeypatch.setenv("ROS_DOMAIN_ID", "151")
@@ -119,6 +134,7 @@ def test_the_command_reports_as_long_as_it_runs(talker: Node) -> None:
     assert code == 0
     assert heard["total_lost"] == heard["total_received"] - 1
     assert report["complaints"] == {"plate/driver": "no frames"}
+    assert list(report["complaint_ages_s"]) == ["plate/driver"]
 
 
 def test_who_hears_nothing_is_told(talker: Node) -> None:
