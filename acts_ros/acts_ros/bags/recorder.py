@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
@@ -27,7 +27,7 @@ except ImportError:  # Humble
     from rclpy.qos_event import SubscriptionEventCallbacks, UnsupportedEventTypeError
 
 
-# A topic that came regularly has ended when nothing came for so many of its mean intervals, and for so long [s].
+# A topic that came regularly has ended or paused when nothing came for so many of its mean intervals, and so long [s].
 _ENDED_INTERVALS = 20
 _ENDED_S = 1.0
 _REGULAR_MESSAGES = 10
@@ -55,6 +55,26 @@ class TopicRecord:
     lost: int | None = 0
     first_s: float = 0.0
     last_s: float = 0.0
+    _gaps: list[tuple[float, float]] = field(default_factory=list)
+
+    def add(self, now_s: float) -> None:
+        """Count a message that is received now."""
+        if not self.received:
+            self.first_s = now_s
+        elif now_s - self.last_s > _ENDED_S:
+            # All that may turn out to be a pause: at most one a second.
+            self._gaps.append((self.last_s, now_s - self.last_s))
+        self.last_s = now_s
+        self.received += 1
+
+    def pauses(self) -> list[tuple[float, float]]:
+        """When nothing came in the midst of a topic that came regularly: begin and length [s], the longest first."""
+        if self.received < _REGULAR_MESSAGES or not self._gaps:
+            return []
+        pauses = sorted(self._gaps, key=lambda gap: -gap[1])
+        # Of the rest: a long pause would make up for the interval that it is measured by.
+        interval_s = (self.last_s - self.first_s - pauses[0][1]) / (self.received - 2)
+        return [pause for pause in pauses if pause[1] > max(_ENDED_S, _ENDED_INTERVALS * interval_s)]
 
     def silent_s(self, now_s: float) -> float | None:
         """For how long nothing has come of a topic that came regularly [s]; None where it still comes, or never did."""
@@ -180,9 +200,7 @@ class Recorder:
 
     def _on_message(self, record: TopicRecord, handle: Any, data: bytes) -> None:
         self._bag.write(handle, data)
-        record.last_s = time.monotonic()
-        record.first_s = record.first_s or record.last_s
-        record.received += 1
+        record.add(time.monotonic())
 
 
 def _on_lost(record: TopicRecord, status: Any) -> None:

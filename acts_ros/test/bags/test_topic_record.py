@@ -17,3 +17,32 @@ from acts_ros.bags.recorder import TopicRecord
 def test_a_silence_is_measured_by_the_rate_before_it(received: int, last_s: float, silent_s: float | None) -> None:
     record = TopicRecord("/plate/contact", "acts_msgs/msg/Contact", received, first_s=last_s - 1.0, last_s=last_s)
     assert record.silent_s(10.0) == silent_s
+
+
+def record_of(*times_s: float) -> TopicRecord:
+    record = TopicRecord("/plate/contact", "acts_msgs/msg/Contact")
+    for now_s in times_s:
+        record.add(now_s)
+    return record
+
+
+def test_pauses_in_the_midst_of_a_regular_topic_are_found_the_longest_first() -> None:
+    steps = [k / 64 for k in range(128)]
+    record = record_of(*steps, *(5 + step for step in steps), *(8.5 + step for step in steps))
+    assert (record.received, record.first_s, record.last_s) == (384, 0.0, 8.5 + 127 / 64)
+    assert record.pauses() == [(127 / 64, 5 - 127 / 64), (5 + 127 / 64, 3.5 - 127 / 64)]
+
+
+@pytest.mark.parametrize(
+    "times_s",
+    [
+        (),
+        (0.0, 9.0),
+        (*range(60),),  # once a second
+        (*range(20), *range(30, 50)),  # ten of its intervals
+        (0.0, *(5 + k / 100 for k in range(8))),  # too few to be regular
+        (*(k / 100 for k in range(50)), *(1.4 + k / 100 for k in range(50))),  # shorter than a second
+    ],
+)
+def test_what_is_no_pause_is_not_told(times_s: tuple[float, ...]) -> None:
+    assert record_of(*times_s).pauses() == []

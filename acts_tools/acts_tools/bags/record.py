@@ -106,6 +106,14 @@ def _summarise(recorder: Recorder, bag: BagWriter, started_s: float, ended_s: fl
     for topic in recorder.silent():
         _say(f"no message: {topic} had a publisher, but nothing came")
     for record in records:
+        pauses = record.pauses()
+        if pauses:
+            begin_s, length_s = pauses[0]
+            further = f", the longest of {len(pauses)} pauses" if len(pauses) > 1 else ""
+            _say(
+                f"paused: no message for {length_s:.1f} s from {record.topic}, {begin_s - started_s:.1f} s after the "
+                f"start{further}"
+            )
         silence_s = record.silent_s(ended_s)
         if silence_s is not None:
             _say(f"ended before: {record.topic} came regularly, but not in the last {silence_s:.1f} s")

@@ -192,6 +192,33 @@ def test_a_topic_that_ended_before_the_recording_is_named(tmp_path: Path) -> Non
     assert "ended before: /palm/contact" not in output
 
 
+def test_a_topic_that_paused_amid_the_recording_is_named(tmp_path: Path) -> None:
+    with Probe(84) as probe, acts("record", "-o", str(tmp_path / "bag"), "/plate/contact", domain_id=84) as process:
+        publisher = probe.node.create_publisher(Contact, "/plate/contact", QoSProfile(depth=100))
+        subscribed(probe, [publisher])
+        empty = bag_size(tmp_path / "bag")
+        for _ in range(50):
+            publisher.publish(Contact())
+        probe.wait_for(lambda: bag_size(tmp_path / "bag") > empty, TIMEOUT_S, "the messages before the pause")
+        silent_from_s = time.monotonic()
+        probe.wait_for(lambda: time.monotonic() > silent_from_s + 2.0, TIMEOUT_S, "two seconds to pass")
+        recorded = bag_size(tmp_path / "bag")
+        for _ in range(50):
+            publisher.publish(Contact())
+        probe.wait_for(lambda: bag_size(tmp_path / "bag") > recorded, TIMEOUT_S, "the messages after the pause")
+        process.send_signal(signal.SIGINT)
+        output, _ = process.communicate(timeout=TIMEOUT_S)
+    assert process.returncode == 0, output
+    assert re.search(r"paused: no message for [0-9.]+ s from /plate/contact, [0-9.]+ s after the start\n", output), (
+        output
+    )
+
+
+def bag_size(path: Path) -> int:
+    """Bytes that the recorder has written so far."""
+    return sum(file.stat().st_size for file in path.iterdir())
+
+
 def test_a_recording_of_all_topics_without_any_message_is_no_success(tmp_path: Path) -> None:
     with acts("record", "-o", str(tmp_path / "bag"), "-d", "0.5", "-a", domain_id=190) as process:
         output, _ = process.communicate(timeout=TIMEOUT_S)
