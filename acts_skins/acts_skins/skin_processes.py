@@ -66,6 +66,7 @@ class SkinProcesses:
             raise skin.section.error("port or replay is missing: without simulation samples come from one of them")
         port = str(folder / "board") if has_board else skin.port or "auto"
         parameters = tactile_parameters(skin, port)
+        skin.check_files()
         processes = self._simulation(skin, number, parameters, folder) if has_board else []
         processes.append(
             self._process(skin, "acts_skins", "tactile", *parameters.words, "--ros-args", *self._remaps(skin))

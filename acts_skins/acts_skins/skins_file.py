@@ -15,10 +15,11 @@ from pathlib import Path
 from typing import Any
 
 from acts_core.errors import ActsError, SettingsError
-from acts_core.files import Section, path_of, read_yaml
+from acts_core.files import Section, is_there, path_of, read_yaml, require_regular
 from acts_core.names import RULE, is_frame_name, is_short_name
 from acts_core.skin import LAYOUTS, layout_path
 from acts_core.transforms import Transform
+from acts_driver.port import AUTO, SERIAL_PREFIX
 from acts_skins.frame_tree import FrameTree, Pose
 
 _FRAME_RULE = f"the name of a frame {RULE}"
@@ -42,6 +43,9 @@ _PATHS_OF: dict[str, tuple[str, ...]] = {
 """Further parameters of the two nodes that are paths of files."""
 
 _NO_FILE = ("", "none")
+
+# Written by the driver's service ~/calibrate where it is missing.
+_MADE_LATER = ("calibration_file",)
 
 # As in the params file of tactile.launch.xml; the defaults of a board are for the paper's scheme.
 _DEFAULTS: dict[str, Any] = {"scheme": "tracking", "m": 55, "threshold_counts": 60}
@@ -85,6 +89,32 @@ class Skin:
     driver: Mapping[str, Any]
     reconstruction: Mapping[str, Any]
     section: Section = field(repr=False, compare=False)
+
+    def check_files(self) -> None:
+        """Check that the files are there that its nodes are to read.
+
+        Raises
+        ------
+        SettingsError
+            One is missing, or is no file, with file, line, skin and key.
+        """
+        if self.replay is not None:
+            self._check_file(self.section, "replay", self.replay, may_be_folder=True)
+        for node, given in (("driver", self.driver), ("reconstruction", self.reconstruction)):
+            for key in _PATHS_OF[node]:
+                if key not in _MADE_LATER and isinstance(text := given.get(key), str) and text not in _NO_FILE:
+                    further = self.section.section(node, f"{self.section.what}: {node}")
+                    self._check_file(further, key, Path(text), may_be_folder=False)
+
+    @staticmethod
+    def _check_file(section: Section, key: str, path: Path, *, may_be_folder: bool) -> None:
+        try:
+            if not may_be_folder:
+                require_regular(path, error=SettingsError)
+            elif not is_there(path, error=SettingsError):
+                raise SettingsError(f"{path}: there is nothing of this name")
+        except SettingsError as error:
+            raise section.error(f"{key} = {error}", key) from None
 
 
 @dataclass(frozen=True)
@@ -171,7 +201,7 @@ def read_skins(path: Path) -> SkinsFile:
 
 def _skin(name: str, section: Section) -> Skin:
     section.check_keys(_SKIN_KEYS)
-    port = section.text("port")
+    port = _port(section)
     if port is not None and "replay" in section.values:
         raise section.error("port and replay: samples come either from a board or from a recording", "replay")
     rate_hz = section.number("recording_rate_hz", 1000.0, highest=1_000_000)
@@ -188,6 +218,14 @@ def _skin(name: str, section: Section) -> Skin:
         _parameters(section, "reconstruction"),
         section,
     )
+
+
+def _port(section: Section) -> str | None:
+    """A port as the driver takes it: paths are absolute; `auto` and `serial:NUMBER` stay."""
+    text = section.text("port")
+    if text is None or not text.strip() or text == AUTO or text.startswith(SERIAL_PREFIX):
+        return text
+    return str(_beside(section, "port", text))
 
 
 def _file(section: Section, key: str) -> Path | None:
@@ -250,8 +288,7 @@ def _check_ports(skins: tuple[Skin, ...]) -> None:
     for skin in skins:
         if skin.port is None:
             continue
-        # Symbolic links, such as those in /dev/serial/by-id, are resolved to the device.
-        port = str(Path(skin.port).resolve()) if skin.port.startswith("/") else skin.port
+        port = _device(skin)
         if port in users:
             raise skin.section.error(f"port = {skin.port}: skin {users[port].name} has this port already", "port")
         users[port] = skin
@@ -261,3 +298,14 @@ def _check_ports(skins: tuple[Skin, ...]) -> None:
             "give serial:NUMBER or a path",
             "port",
         )
+
+
+def _device(skin: Skin) -> str:
+    """What a port is told from others by: symbolic links, such as those in /dev/serial/by-id, are resolved."""
+    assert skin.port is not None
+    if not skin.port.startswith("/"):
+        return skin.port
+    try:
+        return str(Path(skin.port).resolve())
+    except (OSError, ValueError, RuntimeError) as error:
+        raise skin.section.error(f"port = {skin.port!r}: {error}", "port") from None

@@ -223,6 +223,7 @@ def test_without_simulation_a_skin_is_one_process_at_its_port(tmp_path: Path) ->
 
 def test_a_recording_stands_in_for_the_ball_and_a_replay_for_the_board(tmp_path: Path) -> None:
     (tmp_path / "press.npy").touch()
+    (tmp_path / "touch.npz").touch()
     text = TWO.replace('port: "serial:1"', "recording: press.npy").replace('port: "serial:2"', "replay: touch.npz")
     commands = plan(skins_yaml(tmp_path, text), simulated=True)
     assert list(commands) == ["left/virtual_board", "left/tactile", "right/tactile"]
@@ -251,3 +252,35 @@ def test_a_skin_without_its_source_is_refused(
     with pytest.raises(SettingsError) as caught:
         plan(skins_yaml(tmp_path, TWO.replace(*change)), simulated=simulated)
     assert words in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("replay: gone.npz", "replay = {folder}/gone.npz: there is nothing of this name"),
+        ("replay: ~/gone", "replay = {folder}/home/gone: there is nothing of this name"),
+        ("reconstruction: {object_library: gone.npz}", "reconstruction: object_library = {folder}/gone.npz: cannot be"),
+        ("reconstruction: {force_response: .}", "reconstruction: force_response = {folder}: not a regular file"),
+        (
+            "reconstruction: {method: per_frame, dictionary: /gone}",
+            "reconstruction: dictionary = /gone: cannot be read (No such file",
+        ),
+        ("driver: {model: a/gone.npz}", "driver: model = {folder}/a/gone.npz: cannot be read (No such file"),
+    ],
+)
+def test_a_file_that_is_missing_is_refused_with_its_place_before_anything_starts(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str, words: str
+) -> None:
+    monkeypatch.setenv("HOME", str(tmp_path / "home"))
+    path = skins_yaml(tmp_path, TWO.replace('port: "serial:2"', text))
+    with pytest.raises(SettingsError) as caught:
+        plan(path, simulated=True)
+    assert f"skins.yaml:4: skin right: {words.format(folder=tmp_path)}" in str(caught.value)
+
+
+def test_a_calibration_and_what_is_no_file_may_be_missing(tmp_path: Path) -> None:
+    further = "driver: {calibration_file: new.npz, model: none}, reconstruction: {object_library: ''}"
+    commands = plan(
+        skins_yaml(tmp_path, TWO.replace('port: "serial:2"', f'port: "serial:2", {further}')), simulated=True
+    )
+    assert f"driver.calibration_file={tmp_path}/new.npz" in commands["right/tactile"]

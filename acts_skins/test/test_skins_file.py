@@ -243,6 +243,42 @@ def test_two_names_of_one_device_are_one_port(tmp_path: Path) -> None:
         read(tmp_path, text)
 
 
+@pytest.mark.parametrize(
+    ("given", "port"),
+    [
+        ("tty", "{folder}/tty"),
+        ("../dev/tty", "{folder}/../dev/tty"),
+        ("~/tty", "{folder}/home/tty"),
+        ("/dev/ttyACM1", "/dev/ttyACM1"),
+        ("auto", "auto"),
+        ("serial:12", "serial:12"),
+    ],
+)
+def test_a_port_is_found_beside_the_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, given: str, port: str
+) -> None:
+    monkeypatch.setenv("HOME", str(tmp_path / "home"))
+    (skin,) = read(tmp_path, of_skin(f"port: {given}")).skins
+    assert skin.port == port.format(folder=tmp_path)
+
+
+@pytest.mark.parametrize("first", ["~/tty", "home/tty", "home/../home/tty", "link/tty"])
+def test_one_port_is_known_whatever_its_path(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, first: str) -> None:
+    monkeypatch.setenv("HOME", str(tmp_path / "home"))
+    (tmp_path / "home").mkdir()
+    (tmp_path / "link").symlink_to(tmp_path / "home")
+    text = f"skins: {{a: {{port: {first}, {POSE}}}, b: {{port: {tmp_path}/home/tty, {POSE}}}}}"
+    with pytest.raises(SettingsError, match="skin a has this port already"):
+        read(tmp_path, text)
+
+
+@pytest.mark.parametrize("port", ['"a\\0b"', "loop"])
+def test_a_port_that_cannot_be_looked_for_is_refused_in_words(tmp_path: Path, port: str) -> None:
+    (tmp_path / "loop").symlink_to("loop")
+    with pytest.raises(SettingsError, match=r"skins.yaml:4: skin left: port = "):
+        read(tmp_path, of_skin(f"port: {port}"))
+
+
 def test_a_missing_file_is_named(tmp_path: Path) -> None:
     with pytest.raises(SettingsError, match=r"none\.yaml"):
         read_skins(tmp_path / "none.yaml")
