@@ -13,6 +13,7 @@ from typing import Any
 from acts_core.array import COUNT_MAX
 from acts_core.errors import RecordingError
 from acts_core.files import load_frames, without_contact
+from acts_core.words import counted
 from acts_recon.objects import ImageClassifierConfig, build_object_library, save_object_library
 from acts_sim.pressing import OBJECTS, PressingArm, object_named
 from acts_tools.arguments import at_least_one, random_seed, refuse_unused, whole
@@ -65,7 +66,8 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.frames is None:
         objects = [object_named(name) for name in arguments.objects] if arguments.objects else list(OBJECTS.values())
         frames, labels = PressingArm(objects, seed=arguments.seed).held_frames(arguments.presses)
-        source = f"{arguments.presses} presses of {len(objects)} objects into the ACTS contact model"
+        presses = counted(arguments.presses, "press", "presses")
+        source = f"{presses} of {counted(len(objects), 'object')} into the ACTS contact model"
     else:
         tell_if_large(arguments.frames)
         recorded = load_frames(arguments.frames, labels=True)
@@ -85,14 +87,15 @@ def run(arguments: argparse.Namespace) -> int:
             words = without_contact(largest, arguments.touch_counts)
             raise RecordingError(f"{arguments.frames}: {words}, or a lower --touch-counts")
         if len(touched) < len(chosen):
-            print(f"left out: {len(chosen) - len(touched)} recordings without a touch")
+            print(f"left out: {counted(len(chosen) - len(touched), 'recording')} without a touch")
         frames = peaks[touched]
         labels = [recorded.label[n] for n in touched]
         digest = hashlib.sha256(arguments.frames.read_bytes()).hexdigest()
-        source = f"{len(labels)} recordings of {arguments.frames.name} (sha256 {digest})"
+        source = f"{counted(len(labels), 'recording')} of {arguments.frames.name} (sha256 {digest})"
     library = build_object_library(
         frames, labels, touch_counts=arguments.touch_counts, provenance=f"Made by acts library from {source}."
     )
     save_object_library(library, arguments.output)
-    print(f"{arguments.output}: {library.n_classes} objects, {library.n_columns} frames, sha256 {library.sha256}")
+    size = f"{counted(library.n_classes, 'object')}, {counted(library.n_columns, 'frame')}"
+    print(f"{arguments.output}: {size}, sha256 {library.sha256}")
     return 0

@@ -16,6 +16,7 @@ from acts_core.array import COUNT_MAX, ArrayGeometry
 from acts_core.errors import PacketError
 from acts_core.frames import SampleFrame, Scheme
 from acts_core.wire.delimited import DelimitedDecoder
+from acts_core.words import counted
 
 _NUMBER_CHARACTERS = b"0123456789,"
 _DURATION_DIGITS = 10
@@ -64,13 +65,13 @@ class RasterDecoder(DelimitedDecoder):
         words = line.split(b",")
         if not words[-1] and len(words) > 1:
             raise PacketError(
-                f"line of {len(words) - 1} numbers that ends with a comma; after the {self._size} counts of an array "
-                f"of {self._rows} x {self._cols} and their commas there is the duration, without one"
+                f"line of {counted(len(words) - 1, 'number')} that ends with a comma; after the {self._size} counts of "
+                f"an array of {self._rows} x {self._cols} and their commas there is the duration, without one"
             )
         if len(words) != self._size + 1:
             raise PacketError(
-                f"line of {len(words)} numbers; an array of {self._rows} x {self._cols} has {self._size} counts and a "
-                "duration"
+                f"line of {counted(len(words), 'number')}; an array of {self._rows} x {self._cols} has "
+                f"{self._size} counts and a duration"
             )
         if b"" in words:
             raise PacketError(f"line with an empty value, number {words.index(b'') + 1} of {len(words)}")

@@ -66,7 +66,7 @@ def test_the_first_line_is_never_used_since_it_may_be_cut_within_a_number() -> N
         (b"1,2,3,4,5,6,100,\r\n", "line of 7 numbers that ends with a comma"),
         (b"1,2,3,4,5,6,4294967296\r\n", "4294967296 us"),
         (b"1,2,3,4,5,6,00000000100\r\n", "of 11 digits"),
-        (b"100\r\n", "1 numbers"),
+        (b"100\r\n", "line of 1 number; an array of 2 x 3"),
         (b"bin dur: 12\r\n", "something else"),
         (b"1" * 200 + b"\r\n", "line longer than 41 bytes, the most that an array of 2 x 3 takes; is that its size"),
     ],

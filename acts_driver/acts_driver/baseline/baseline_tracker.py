@@ -18,6 +18,7 @@ from acts_core.array import COUNT_MAX
 from acts_core.errors import CalibrationError
 from acts_core.frames import SampleFrame
 from acts_core.settings import setting, validate
+from acts_core.words import counted
 from acts_driver.baseline import baseline_kernels
 from acts_driver.baseline.baseline import Baseline, BaselineSource
 
@@ -183,9 +184,9 @@ class BaselineTracker:
             if touched.any():
                 row, col = divmod(int(np.flatnonzero(touched)[0]), self._shape[1])
                 raise CalibrationError(
-                    f"the skin was touched: {int(touched.sum())} taxels, for example row {row}, column {col}. Leave it "
-                    f"alone for {(needed + 1) * self.config.tare_s:g} s and call again; where nothing touches it, tare "
-                    "first"
+                    f"the skin was touched: {counted(int(touched.sum()), 'taxel')}, for example row {row}, column "
+                    f"{col}. Leave it alone for {(needed + 1) * self.config.tare_s:g} s and call again; where nothing "
+                    "touches it, tare first"
                 )
             known = self._freeze >= 0
             self._set(

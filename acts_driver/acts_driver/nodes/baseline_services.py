@@ -18,6 +18,7 @@ from acts_core.errors import ActsError, CalibrationError, SettingsError
 from acts_core.files import is_there, path_of
 from acts_core.frames import SampleFrame
 from acts_core.runtime import within_patience
+from acts_core.words import counted
 from acts_driver.baseline import Baseline, BaselineParameters, BaselineTracker
 from acts_msgs.msg import Baseline as BaselineMessage
 from acts_ros.clocks import steady_timer
@@ -92,7 +93,7 @@ class BaselineServices:
         if baseline is not None:
             tracker.set(baseline)
             self._publish(baseline)
-            self._node.get_logger().info(f"baseline of {int(baseline.valid.sum())} taxels from {path}")
+            self._node.get_logger().info(f"baseline of {counted(int(baseline.valid.sum()), 'taxel')} from {path}")
         elif path is not None:
             service = self._node.resolve_service_name("~/calibrate")
             self._node.get_logger().info(f"no baseline yet: {path} is not there, the service {service} writes it")

@@ -13,6 +13,7 @@ from std_srvs.srv import Trigger
 from acts_core.errors import ActsError
 from acts_core.settings import describe
 from acts_core.wire import BoardSettings
+from acts_core.words import counted
 from acts_driver.board import BoardSession, BoardStatus, settings_in_words, version_in_words
 from acts_msgs.msg import BoardState
 from acts_ros.qos import LATCHED, overridable
@@ -61,8 +62,8 @@ class BoardInterface:
         response.success = has_frames and not session.status.problem
         response.message = (
             f"board {state.board_id}, firmware {version_in_words(state)}, up {state.uptime_us * 1e-6:.1f} s: "
-            f"{settings_in_words(state.settings)}; model {state.model.kind.name.lower()}, {state.overruns} overruns, "
-            f"{state.bad_commands} bad commands"
+            f"{settings_in_words(state.settings)}; model {state.model.kind.name.lower()}, "
+            f"{counted(state.overruns, 'overrun')}, {counted(state.bad_commands, 'bad command')}"
             + (f"; {session.status.problem}" if session.status.problem else "")
             + f"; {frames}"
         )

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 
+from acts_core.words import counted
 from acts_driver.board import BoardSession, BoardStatus, settings_in_words, version_in_words
 from acts_driver.port import LogCallback, Reader, Source
 from acts_driver.protocols import Decoder
@@ -43,16 +44,19 @@ class Totals:
 
 
 _TROUBLES = {
-    "lost": "{} frames lost",
-    "discarded": "{} of them thrown away unread because they were late",
-    "crc_errors": "{} CRC errors",
-    "malformed": "{} malformed packets",
-    "overruns": "{} overruns of the board",
-    "repeated": "{} repeated frames",
-    "restarts": "{} restarts of the board",
-    "reconnects": "{} reconnections",
-    "consumer_errors": "{} failures to publish",
-    "clock_resets": "{} jumps of a clock",
+    "lost": ("frame lost", "frames lost"),
+    "discarded": (
+        "of them thrown away unread because it was late",
+        "of them thrown away unread because they were late",
+    ),
+    "crc_errors": ("CRC error", "CRC errors"),
+    "malformed": ("malformed packet", "malformed packets"),
+    "overruns": ("overrun of the board", "overruns of the board"),
+    "repeated": ("repeated frame", "repeated frames"),
+    "restarts": ("restart of the board", "restarts of the board"),
+    "reconnects": ("reconnection", "reconnections"),
+    "consumer_errors": ("failure to publish", "failures to publish"),
+    "clock_resets": ("jump of a clock", "jumps of a clock"),
 }
 # As late as this, a controller does without touch.
 _LATE_US = 50_000
@@ -162,19 +166,19 @@ class DriverReport:
     def _judge(self, added: Totals, fine: str) -> tuple[int, str]:
         if not self._reader.connected:
             return ERROR, self._reader.problem or f"{self._source.name} is closed"
-        troubles = [words.format(getattr(added, name)) for name, words in _TROUBLES.items() if getattr(added, name)]
+        troubles = [counted(getattr(added, name), *words) for name, words in _TROUBLES.items() if getattr(added, name)]
         if added.wrong_size:
             given, expected = self._stream.wrong_size_last, self._expected_size
             troubles.insert(
                 0,
-                f"{added.wrong_size} frames of {given[0]} x {given[1]} taxels dropped, expected are "
+                f"{counted(added.wrong_size, 'frame')} of {given[0]} x {given[1]} taxels dropped, expected are "
                 f"{expected[0]} x {expected[1]} (parameters rows and cols)",
             )
         if added.crc_errors or added.malformed:
             troubles.append(f"last: {self._decoder.last_error}")
         elif added.frames == 0 and added.bytes_discarded and self._decoder.last_error:
             # What never ends a packet is counted once, and goes on.
-            troubles.append(f"{added.bytes_discarded} bytes without one: {self._decoder.last_error}")
+            troubles.append(f"{counted(added.bytes_discarded, 'byte')} without one: {self._decoder.last_error}")
         delay_us = self._stream.clock.state.delay_us if self._stream.has_board_clock else 0.0
         if delay_us > _LATE_US:
             late = f"frames are read {delay_us / 1e6:.1f} s late"

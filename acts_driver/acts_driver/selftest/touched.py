@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX
+from acts_core.words import counted
 from acts_driver.selftest.findings import Finding, Level, Thresholds, listed, taxels_listed
 from acts_driver.selftest.record import FrameRecord
 from acts_driver.selftest.same_lines import address_bits, groups_of, same_pairs
@@ -197,7 +198,7 @@ def _stuck(stuck: tuple[tuple[int, int], ...], loaded: tuple[tuple[int, int], ..
         return Finding(
             Level.FAIL,
             "stuck taxels",
-            f"{taxels_listed(stuck)} read {readings} counts, pressed or not",
+            f"{taxels_listed(stuck)} {'reads' if len(stuck) == 1 else 'read'} {readings} counts, pressed or not",
             "a short through the skin there: calibrate, so that they read 0, or replace the skin",
             taxels=stuck,
         )
@@ -205,7 +206,7 @@ def _stuck(stuck: tuple[tuple[int, int], ...], loaded: tuple[tuple[int, int], ..
         return Finding(
             Level.WARN,
             "stuck taxels",
-            f"none, but {len(loaded)} taxels read high untouched: {taxels_listed(loaded)}",
+            f"none, but {counted(len(loaded), 'taxel reads', 'taxels read')} high untouched: {taxels_listed(loaded)}",
             "take away what presses them, or calibrate",
             taxels=loaded,
         )
@@ -255,7 +256,7 @@ def _taxels(dead: tuple[tuple[int, int], ...], weak: tuple[tuple[int, int], ...]
             Finding(
                 Level.WARN,
                 "weak taxels",
-                f"{taxels_listed(weak)} respond far less than those around",
+                f"{taxels_listed(weak)} {'responds' if len(weak) == 1 else 'respond'} far less than those around",
                 "press there again",
                 taxels=weak,
             )

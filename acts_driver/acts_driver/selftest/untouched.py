@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX
+from acts_core.words import counted
 from acts_driver.selftest.findings import Finding, Level, Thresholds, taxels_listed
 from acts_driver.selftest.record import FrameRecord
 
@@ -82,12 +83,13 @@ def judge_untouched(skin: Untouched, thresholds: Thresholds) -> list[Finding]:
     typical = float(np.nanmedian(noise)) if not np.isnan(noise).all() else 0.0
     loud = _where(noise > thresholds.noise_fail_counts)
     uneasy = _where(noise > max(thresholds.noise_ratio * typical, thresholds.noise_warn_counts))
+    is_noisier = "taxel is noisier than", "taxels are noisier than"
     if loud:
         findings.append(
             Finding(
                 Level.FAIL,
                 "noise",
-                f"{len(loud)} taxels are noisier than {thresholds.noise_fail_counts:g} counts: {taxels_listed(loud)}",
+                f"{counted(len(loud), *is_noisier)} {thresholds.noise_fail_counts:g} counts: {taxels_listed(loud)}",
                 "a loose contact, or something that moved on the skin: repeat it untouched, check the connector",
                 taxels=loud,
             )
@@ -97,7 +99,7 @@ def judge_untouched(skin: Untouched, thresholds: Thresholds) -> list[Finding]:
             Finding(
                 Level.WARN,
                 "noise",
-                f"{len(uneasy)} taxels are noisier than the others ({typical:.1f} counts): {taxels_listed(uneasy)}",
+                f"{counted(len(uneasy), *is_noisier)} the others ({typical:.1f} counts): {taxels_listed(uneasy)}",
                 "repeat it untouched; look for a loose contact where it comes again",
                 taxels=uneasy,
             )
@@ -131,7 +133,7 @@ def judge_high(skin: Untouched, thresholds: Thresholds) -> Finding:
     return Finding(
         Level.FAIL,
         "high taxels",
-        f"{len(high)} taxels read {span} counts untouched{at_end}: {taxels_listed(high)}",
+        f"{counted(len(high), 'taxel reads', 'taxels read')} {span} counts untouched{at_end}: {taxels_listed(high)}",
         "take away what lies on the skin; otherwise these taxels are stuck: touch them to know",
         taxels=high,
     )

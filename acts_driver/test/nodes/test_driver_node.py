@@ -122,7 +122,7 @@ def test_a_report_names_both_sizes_and_falls_back_to_fine(
     assert report(sent_now(0), sent_now(1))[0] == 0
     level, message = report(sent_now(2, rows=16, cols=24), sent_now(3))
     assert level == 1
-    assert "1 frames of 16 x 24 taxels dropped, expected are 32 x 32" in message
+    assert "1 frame of 16 x 24 taxels dropped, expected are 32 x 32" in message
     level, message = report(sent_now(4, rows=16, cols=24))
     assert level == 2
     assert "16 x 24" in message

@@ -315,13 +315,13 @@ def test_damage_is_told_after_everything_before_it() -> None:
     class Damaged:
         def frames(self) -> Iterator[SampleFrame]:
             yield frame(0)
-            raise RecordingError("the bag is damaged after 1 messages")
+            raise RecordingError("the bag is damaged after 1 message")
 
     source = ReplaySource("test", Damaged, delay_s=0.0)
     source.open()
     source.begin()
     assert [one.sequence for one in StreamDecoder().feed(source.read())] == [0]
-    assert source.silence == "the bag is damaged after 1 messages"
+    assert source.silence == "the bag is damaged after 1 message"
 
 
 def test_nodes_cannot_tell(rig: Rig, tmp_path: Path) -> None:

@@ -18,6 +18,7 @@ from acts_core.errors import PacketError, SettingsError
 from acts_core.names import ALLOWED, is_full_name
 from acts_core.settings import setting
 from acts_core.stop_signals import StopSignals
+from acts_core.words import counted
 from acts_msgs.msg import Contact, FootStep
 from acts_msgs.msg import Gait as GaitMessage
 from acts_recon.gait import FEET, Gait, GaitConfig, GaitTracker, Step
@@ -132,7 +133,7 @@ class GaitNode(PollingNode):
         self._reported = dict(self._received)
         if silent:
             return WARN, f"no contacts on {', '.join(silent)}", values
-        return OK, f"{sum(self._steps)} steps", values
+        return OK, counted(sum(self._steps), "step"), values
 
 
 def _gait_message(stamp_ns: int, gait: Gait) -> GaitMessage:

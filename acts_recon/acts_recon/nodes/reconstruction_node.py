@@ -24,6 +24,7 @@ from acts_core.frames import SampleFrame
 from acts_core.kernels import skip_extras
 from acts_core.runtime import LateFrames, RateLimit, Use, enter_realtime
 from acts_core.stop_signals import StopSignals
+from acts_core.words import counted
 from acts_msgs.msg import Baseline, TactileSamples
 from acts_msgs.msg import Contact as ContactMessage
 from acts_recon.frame_pipeline import ArraySizeError, FramePipeline
@@ -285,14 +286,17 @@ class ReconstructionNode(Node):
             "frame_us.median": 1e6 * median(durations_s) if durations_s else 0.0,
         }
         if new_rejected:
-            return WARN, f"{new_rejected} messages dropped that do not fit, see the log", values
+            words = counted(new_rejected, "message dropped that does not fit", "messages dropped that do not fit")
+            return WARN, f"{words}, see the log", values
         if not new_frames:
             return WARN, "no samples", values
         # What came after all was counted before.
         if new_lost > 0:
-            return WARN, f"{new_lost} frames lost before they came here, {rate_hz:.0f} frames/s", values
+            words = counted(new_lost, "frame lost before it came here", "frames lost before they came here")
+            return WARN, f"{words}, {rate_hz:.0f} frames/s", values
         if new_untold:
-            words = f"{new_untold} contacts left out because their frames came late, {rate_hz:.0f} frames/s"
+            left_out = "contact left out because its frame", "contacts left out because their frames"
+            words = f"{counted(new_untold, *left_out)} came late, {rate_hz:.0f} frames/s"
             return WARN, f"{words}: this machine is too slow or too busy (acts doctor tells)", values
         return OK, f"{rate_hz:.0f} frames/s", values
 

@@ -17,6 +17,7 @@ from rosbags.interfaces import Connection, ConnectionExtRosbag2, Qos
 
 from acts_core.errors import RecordingError
 from acts_core.files import TEXT_BYTES_MAX, is_there, require_regular
+from acts_core.words import counted
 from acts_ros.bags.message_types import Definitions
 from acts_ros.bags.salvage import largest_chunk
 from acts_ros.bags.storages import BagReader
@@ -117,9 +118,11 @@ class Bag:
                 yield connection.topic, stamp_ns, message
                 count += 1
         except RecordingError as error:
-            raise RecordingError(f"the bag '{self._path}', after {count} messages: {error}") from error
+            raise RecordingError(f"the bag '{self._path}', after {counted(count, 'message')}: {error}") from error
         except Exception as error:  # rosbags raises errors of many types on damaged bags
-            raise RecordingError(f"the bag '{self._path}' is damaged after {count} messages: {error}") from error
+            raise RecordingError(
+                f"the bag '{self._path}' is damaged after {counted(count, 'message')}: {error}"
+            ) from error
         expected = sum(connection.msgcount for connection in wanted)
         if count < expected and from_ns is None:
             raise RecordingError(

@@ -16,6 +16,7 @@ from rclpy.serialization import deserialize_message
 
 from acts_core.errors import ActsError, PacketError, SettingsError
 from acts_core.settings import setting
+from acts_core.words import counted
 from acts_msgs.msg import SkinContact, SkinContacts
 from acts_msgs.msg import SkinState as StateMessage
 from acts_ros import qos
@@ -192,12 +193,12 @@ class SkinContactsNode(PollingNode):
                 troubles.append(f"{skin.name} is {_silence(skin)}{ahead}")
         for (name, why), number in (refused - refused_before).items():
             shown = f"in the frame {self._foreign_frames[name]!r}" if why is _FOREIGN else why
-            troubles.append(f"{number} contacts of {name} {shown} dropped")
+            troubles.append(f"{counted(number, 'contact')} of {name} {shown} dropped")
         if missed > missed_before:
-            troubles.append(f"{missed - missed_before} cycles missed")
+            troubles.append(f"{counted(missed - missed_before, 'cycle')} missed")
         if troubles:
             return WARN, "; ".join(troubles), values
-        return OK, f"{len(self._placements)} skins in {self._base_frame}", values
+        return OK, f"{counted(len(self._placements), 'skin')} in {self._base_frame}", values
 
 
 def _silence(skin: AlignedSkin[bytes]) -> str:

@@ -10,6 +10,7 @@ import time
 from pathlib import Path
 
 from acts_core.errors import RecordingError
+from acts_core.words import counted
 from acts_ros.bags import require_rosbags
 
 
@@ -94,7 +95,7 @@ def play(path: Path, rate: float, loop: bool, topics: list[str] | None, delay_s:
                 player.finish()
                 report = player.report
                 _say(
-                    f"{report.published} messages in {max(0.0, time.monotonic() - started_s):.1f} s, "
+                    f"{counted(report.published, 'message')} in {max(0.0, time.monotonic() - started_s):.1f} s, "
                     f"at most {report.worst_lateness_s * 1e3:.1f} ms late"
                 )
         finally:

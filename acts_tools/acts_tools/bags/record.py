@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 from acts_core.errors import RecordingError
 from acts_core.names import full_name
+from acts_core.words import counted
 from acts_ros.bags import require_rosbags
 from acts_tools import __version__
 
@@ -120,7 +121,7 @@ def _summarise(recorder: Recorder, bag: BagWriter, started_s: float, ended_s: fl
     total = sum(record.received for record in records)
     if not total:
         _say("nothing was recorded; the bag is empty and can be deleted")
-    _say(f"{total} messages in {ended_s - started_s:.1f} s, {bag.size_bytes() / 1e6:.1f} MB in {bag.path}")
+    _say(f"{counted(total, 'message')} in {ended_s - started_s:.1f} s, {bag.size_bytes() / 1e6:.1f} MB in {bag.path}")
 
 
 def _say(text: str) -> None:

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+from acts_core.words import counted
 from acts_tools.doctor.finding import Finding, Level, unknown
 from acts_tools.doctor.machine import Machine
 
@@ -54,7 +55,7 @@ def abandoned(machine: Machine) -> Finding:
     return Finding(
         name,
         Level.NOTE,
-        f"{len(dead)} segments of Fast DDS in /dev/shm, whose processes are gone or in another container",
+        f"{counted(len(dead), 'segment')} of Fast DDS in /dev/shm, of processes that are gone or in another container",
         "rm -f /dev/shm/fastdds_* /dev/shm/sem.fastdds_*     # while no ROS process runs",
     )
 

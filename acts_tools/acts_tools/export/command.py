@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from acts_core.errors import RecordingError
+from acts_core.words import counted
 from acts_tools.arguments import refuse_unused
 
 if TYPE_CHECKING:
@@ -115,8 +116,8 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _tell(bag: Path, recording: Recording, n_rows: int) -> None:
-    joints = f", {len(recording.joint_columns)} joint columns" if recording.joint_columns else ""
-    print(f"{bag}: {n_rows} rows of {recording.skin or '/'}{joints}")
+    joints = f", {counted(len(recording.joint_columns), 'joint column')}" if recording.joint_columns else ""
+    print(f"{bag}: {counted(n_rows, 'row')} of {recording.skin or '/'}{joints}")
     for sentence in recording.notes():
         print(f"{bag}: {sentence}", file=sys.stderr)
 

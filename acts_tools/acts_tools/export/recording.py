@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import RecordingError
+from acts_core.words import counted
 from acts_msgs.msg import RegionContacts
 from acts_ros.bags import require_rosbags
 from acts_tools.bags.messages import is_in_counts, messages
@@ -112,8 +113,12 @@ class Recording:
 
     def notes(self) -> list[str]:
         """For the user, once the rows are read: what was left out, what is wrong with the bag, what may be meant."""
-        early = f"{self.early} frames left out, from before all else in the bag had come once" if self.early else ""
-        backward = f"{self.backward} frames {_BACKWARD}" if self.backward else ""
+        early = (
+            f"{counted(self.early, 'frame')} left out, from before all else in the bag had come once"
+            if self.early
+            else ""
+        )
+        backward = f"{counted(self.backward, 'frame')} {_BACKWARD}" if self.backward else ""
         return [sentence for sentence in (early, backward, *self._notes, self.hint) if sentence]
 
     def rows(self) -> Iterator[Row]:
@@ -250,7 +255,7 @@ def open_recording(path: Path, choice: Choice) -> Iterator[Recording]:
             joint_columns=joint_states.columns,
             hint=_layout_hint(bag, path, skin, choice.layout),
             _notes=(
-                *(f"{count} messages of {topic} {_BACKWARD}" for topic, count in left_out.items()),
+                *(f"{counted(count, 'message')} of {topic} {_BACKWARD}" for topic, count in left_out.items()),
                 *unlike,
                 *joint_states.notes,
                 bag.note or "",

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from sensor_msgs.msg import JointState
 
 from acts_core.errors import RecordingError
+from acts_core.words import counted
 from acts_msgs.msg import Contact, Contacts
 from acts_recon.contacts import Contact as FoundContact
 from acts_recon.contacts import TrackedBlob
@@ -159,7 +160,12 @@ def _numbers_of(told: list[tuple[int, dict[str, float]]]) -> tuple[list[tuple[in
         notes.append(f"{', '.join(never)} left out: no number of {'it' if len(never) == 1 else 'them'} was published")
     if now_and_then:
         count = sum(unknown[name] for name in now_and_then)
-        notes.append(f"{count} values of joints are no numbers, and those before them stay: {', '.join(now_and_then)}")
+        words = counted(
+            count,
+            "value of a joint is no number, and the one before it stays",
+            "values of joints are no numbers, and those before them stay",
+        )
+        notes.append(f"{words}: {', '.join(now_and_then)}")
     return numbers, notes
 
 

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from acts_core.errors import SettingsError
 from acts_core.names import full_name
+from acts_core.words import counted
 from acts_tools.diagnostics.statuses import SILENT_AFTER_S
 
 if TYPE_CHECKING:
@@ -108,7 +109,7 @@ def in_words(interval: Interval | None) -> str:
     if not interval.received:
         if interval.silent_s is None:
             return "nothing yet"
-        return f"nothing for {interval.silent_s:.1f} s, {interval.total_received} messages before"
+        return f"nothing for {interval.silent_s:.1f} s, {counted(interval.total_received, 'message')} before"
     words = f"{interval.received / interval.seconds:7.1f} messages/s"
     if interval.lost is not None:
         words += f"  {interval.lost:5d} lost ({interval.total_lost} in all)"

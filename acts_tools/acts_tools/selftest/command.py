@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 
 from acts_core.array import MAX_SIDE
 from acts_core.errors import ActsError
+from acts_core.words import counted
 from acts_tools.arguments import real, refuse_unused, whole
 from acts_tools.output_file import require_picture, require_writable
 
@@ -151,7 +152,9 @@ def _phases(
     _tell(f"leave the skin alone for {arguments.untouched_s:g} s")
     record = board.record(rows, cols, arguments.untouched_s, lambda record: None)
     if len(record.frames) < 2:
-        raise ActsError(f"{len(record.frames)} frames in {arguments.untouched_s:g} s: give a longer --untouched-s")
+        raise ActsError(
+            f"{counted(len(record.frames), 'frame')} in {arguments.untouched_s:g} s: give a longer --untouched-s"
+        )
     untouched = measure_untouched(record)
     timing = measure_timing(record, has_board_clock=board.has_board_clock, frame_period_us=frame_period_us)
     findings = [*judge_timing(timing, thresholds), *judge_untouched(untouched, thresholds)]

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.words import counted
 from acts_driver.selftest import Finding, Level, Thresholds, Timing, Touched, Untouched
 
 _WIDTH = 16
@@ -41,7 +42,7 @@ class SelfTest:
         """Summary in one line."""
         counts = {level: sum(finding.level is level for finding in self.findings) for level in Level}
         if self.level is Level.PASS:
-            return f"PASS: {len(self.findings)} items, nothing found"
+            return f"PASS: {counted(len(self.findings), 'item')}, nothing found"
         faults, warnings = _counted(counts[Level.FAIL], "fault"), _counted(counts[Level.WARN], "warning")
         return f"{self.level.name}: {faults}, {warnings}, {counts[Level.PASS]} good"
 

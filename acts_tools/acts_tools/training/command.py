@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from acts_core.errors import RecordingError, SettingsError
 from acts_core.files import without_contact
 from acts_core.settings import default_of
+from acts_core.words import counted
 from acts_recon.learning import KsvdConfig, KsvdProgress, learn_dictionary
 from acts_recon.sparse import Dictionary, save_dictionary
 from acts_sim.pressing import OBJECTS, FoamConfig, object_named
@@ -124,7 +125,7 @@ def run(arguments: argparse.Namespace) -> int:
     save_dictionary(dictionary, arguments.output)
     checkpoint.remove()
     size_kb = arguments.output.stat().st_size / 1000
-    print(f"{arguments.output}: {dictionary.n_atoms} atoms, {size_kb:.0f} kB, sha256 {dictionary.sha256}")
+    print(f"{arguments.output}: {counted(dictionary.n_atoms, 'atom')}, {size_kb:.0f} kB, sha256 {dictionary.sha256}")
     return 0
 
 
@@ -135,7 +136,8 @@ def _learn(
     state = checkpoint.load()
     done = 0 if state is None else state.iteration
     print(
-        f"{len(patches)} patches; learning {config.atoms} atoms in {config.iterations} iterations"
+        f"{counted(len(patches), 'patch', 'patches')}; learning {counted(config.atoms, 'atom')} in "
+        + counted(config.iterations, "iteration")
         + (f", the first {done} of them taken from {checkpoint.path}" if done else ""),
         flush=True,
     )
@@ -144,7 +146,9 @@ def _learn(
 
             def show(progress: KsvdProgress) -> None:
                 residual = 100 * progress.relative_error
-                bar.show(progress.iteration, f"residual {residual:.2f} %, {progress.replaced} atoms replaced")
+                bar.show(
+                    progress.iteration, f"residual {residual:.2f} %, {counted(progress.replaced, 'atom')} replaced"
+                )
 
             return learn_dictionary(patches, config, rng=rng, progress=show, save=checkpoint.save, resume=state)
     except KeyboardInterrupt:
@@ -164,10 +168,11 @@ def _source(arguments: argparse.Namespace) -> tuple[Source, dict[str, Any]]:
             raise RecordingError(f"{files}: {words}, or a lower --touch-counts")
         return recorded, {}
     objects = [object_named(name) for name in arguments.objects] if arguments.objects else list(OBJECTS.values())
-    print(f"pressing {len(objects)} objects into the contact model", flush=True)
+    print(f"pressing {counted(len(objects), 'object')} into the contact model", flush=True)
     with Progress("press", arguments.presses, keep=True, stream=sys.stdout) as bar:
         frames = model_frames(objects, arguments.presses, arguments.seed, bar.show)
-    description = f"{arguments.presses} presses of {len(objects)} objects into the ACTS contact model"
+    presses = counted(arguments.presses, "press", "presses")
+    description = f"{presses} of {counted(len(objects), 'object')} into the ACTS contact model"
     made = {"presses": arguments.presses, "objects": [item.name for item in objects], **asdict(FoamConfig())}
     return Source(frames, description), made
 

@@ -175,7 +175,7 @@ CASES = [
     Case(
         "shared memory", LACKS, "8 of 64 MiB", "--shm-size", machine={"space": lambda path: Space(64 * MIB, 8 * MIB)}
     ),
-    Case("left-over files", NOTE, "1 segments", "rm -f /dev/shm/fastdds", {"dev/shm/fastdds_2_el": ""}),
+    Case("left-over files", NOTE, "1 segment of", "rm -f /dev/shm/fastdds", {"dev/shm/fastdds_2_el": ""}),
     Case("left-over files", OK, "none", "", {"dev/shm/fastdds_port7400_el": ""}),
     Case("left-over files", UNKNOWN, "/proc/locks", "", {"proc/locks": None}),
     Case("swap", NOTE, "on", "swappiness=10", {"proc/swaps": "Filename Type\n/swap file"}),

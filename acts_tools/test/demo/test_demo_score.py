@@ -55,7 +55,7 @@ def test_the_first_two_seconds_of_holding_do_not_count() -> None:
     ("change", "words"),
     [
         ({"contact_rate_hz": 990.0}, "990.0 contacts/s"),
-        ({"frames_lost": 1}, "1 frames lost"),
+        ({"frames_lost": 1}, "1 frame lost between"),
         ({"stop_reason": "touch is stale"}, "touch is stale"),
         ({"finished": False}, "did not come to its end"),
         ({"reference": Track(), "segments": []}, "no segment was traced"),

@@ -184,7 +184,7 @@ def test_recordings_without_a_touch_and_what_no_taxel_reads_stay_out_of_a_librar
     made: dict[str, object] = {"frames": frames, "live": live, "start": [0, 2, 4], "length": [2, 2, 2]}
     np.savez(tmp_path / "f.npz", label=[1, 2, 3], **made)
     assert make_library("-o", tmp_path / "o.npz", "--frames", tmp_path / "f.npz") == 0
-    assert "left out: 1 recordings without a touch" in capsys.readouterr().out
+    assert "left out: 1 recording without a touch" in capsys.readouterr().out
     loaded = load_object_library(tmp_path / "o.npz")
     assert loaded.names == ("1", "3")
     assert np.flatnonzero(loaded.columns.sum(axis=1)).tolist() == [2 * 8 + 2, 6 * 8 + 6]

@@ -107,7 +107,7 @@ def test_a_rate_is_the_files_unless_another_is_given(tmp_path: Path, capsys: pyt
     assert main(["evaluate", "slip", "--frames", str(path)]) == 1
     assert "has no rate_hz; say how many frames a second with --rate-hz" in capsys.readouterr().err
     assert main(["evaluate", "slip", "--frames", str(path), "--rate-hz", "200"]) == 0
-    assert "1 recordings, 200 frames/s, 1 patches" in capsys.readouterr().out
+    assert "1 recording, 200 frames/s, 1 patch\n" in capsys.readouterr().out
 
 
 def test_patches_that_are_no_rectangles_are_refused_by_their_place(

@@ -138,7 +138,7 @@ def test_a_skin_in_the_root_namespace(topic: str, tmp_path: Path, capsys: pytest
     with pytest.raises(RecordingError, match="has no skin /foot; it has /, /plate"):
         rows_of(path, skin="foot")
     assert main(["export", str(path), "--skin", "/", "--to", "csv", "-o", str(tmp_path / "out")]) == 0
-    assert "1 rows of /\n" in capsys.readouterr().out
+    assert "1 row of /\n" in capsys.readouterr().out
     with (tmp_path / "out/frames.csv").open() as file:
         assert [row["contact.force_n"] for row in csv.DictReader(file)] == ["2"]
 
@@ -200,8 +200,12 @@ def test_contacts_and_joint_states_that_go_back_in_time_are_left_out_and_told(
         *(("/joint_states", joints(t, knee=float(t))) for t in (10, 20, 15, 16, 17)),
     )
     sentences = [
-        f"{count} messages of {topic} left out, not newer than one before: was a clock set?"
-        for count, topic in ((2, "/plate/contact"), (1, "/plate/contacts"), (3, "/joint_states"))
+        f"{count} of {topic} left out, not newer than one before: was a clock set?"
+        for count, topic in (
+            ("2 messages", "/plate/contact"),
+            ("1 message", "/plate/contacts"),
+            ("3 messages", "/joint_states"),
+        )
     ]
     rows, _ = rows_of(path)
     assert [row.joints.tolist() for row in rows if row.joints is not None] == [[10.0], [20.0], [20.0]]

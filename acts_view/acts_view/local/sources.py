@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from acts_core.errors import ActsError, SettingsError, ViewRequestError
 from acts_core.frames import SampleFrame
 from acts_core.sampling import SamplingConfig
+from acts_core.words import counted
 from acts_driver.baseline import Baseline, BaselineTracker
 from acts_driver.nodes.intake import Intake
 from acts_driver.replay import ReplayOptions, SeekableRecording, open_recording
@@ -139,7 +140,10 @@ class RecordedSource:
             if words and level < 2:
                 level, message = 1, f"{message}; {words}"
         if self.skin.rejected:
-            level, message = 1, f"{message}; {self.skin.rejected} frames do not fit: {self.skin.problem}"
+            level, message = (
+                1,
+                f"{message}; {counted(self.skin.rejected, 'frame does', 'frames do')} not fit: {self.skin.problem}",
+            )
         return {
             "note": "A recording is shown: there is nothing to record, and no node to ask.",
             "replay": {

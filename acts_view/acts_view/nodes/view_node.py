@@ -22,6 +22,7 @@ from rclpy.client import Client
 from rclpy.task import Future
 
 from acts_core.errors import ArrayError
+from acts_core.words import counted
 from acts_ros.clocks import steady_timer
 from acts_ros.diagnostics import OK, DiagnosticsReporter, Report
 from acts_ros.log import log_of
@@ -218,8 +219,7 @@ class ViewNode(PollingNode):
         self._heard = {name: one for name, one in self._heard.items() if now_s - one[0] < _FORGET_NODE_S}
 
     def _report(self) -> Report:
-        pages = "1 page" if self._pages == 1 else f"{self._pages} pages"
-        return OK, f"{pages} open", {"pages": self._pages, "skins": ", ".join(self._skins)}
+        return OK, f"{counted(self._pages, 'page')} open", {"pages": self._pages, "skins": ", ".join(self._skins)}
 
 
 def _shown(status: DiagnosticStatus) -> dict[str, Any]:

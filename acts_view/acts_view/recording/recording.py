@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from acts_core.errors import RecordingError, ViewRequestError
 from acts_core.runtime import LogCallback
+from acts_core.words import counted
 from acts_ros.bags import require_rosbags
 
 if TYPE_CHECKING:
@@ -179,7 +180,7 @@ class Recording:
             reason = reason or str(error)
         elapsed_s = time.monotonic() - present.began_s
         messages, lost = present.feed.messages, present.feed.lost
-        what = f"{messages} messages in {elapsed_s:.1f} s, {lost} lost, in {present.bag.path}"
+        what = f"{counted(messages, 'message')} in {elapsed_s:.1f} s, {lost} lost, in {present.bag.path}"
         if not messages:
             what = f"nothing came in {elapsed_s:.1f} s; the bag {present.bag.path} is empty"
         self._files |= {f"{present.name}.mcap": path for path in present.bag.path.glob("*.mcap")}

@@ -23,6 +23,7 @@ from acts_core.errors import PacketError
 from acts_core.runtime import StreamCounter
 from acts_core.settings import Changeable, setting
 from acts_core.stop_signals import StopSignals
+from acts_core.words import counted
 from acts_msgs.msg import BallState, Contact, StreamStatistics
 from acts_ros.clocks import keep_system_clock, steady_timer
 from acts_ros.composition import parameters_from
@@ -219,13 +220,12 @@ class BallStateNode(PollingNode):
         if foreign:
             return WARN, foreign, values
         if state.not_finite:
-            return WARN, f"{state.not_finite} contacts were not finite and were left out", values
+            words = "contact was not finite and was left out", "contacts were not finite and were left out"
+            return WARN, counted(state.not_finite, *words), values
         if state.implausible:
-            return (
-                WARN,
-                f"{state.implausible} contacts were at places or of forces beyond reason and were left out",
-                values,
-            )
+            beyond = "at places or of forces beyond reason and"
+            words = f"contact was {beyond} was left out", f"contacts were {beyond} were left out"
+            return WARN, counted(state.implausible, *words), values
         return OK, "ball" if state.valid else "no ball", values
 
 

@@ -21,6 +21,7 @@ from acts_control.hand.motors.bus import HandError, HandLostError, HandReading
 from acts_control.hand.motors.dynamixel_config import DynamixelConfig
 from acts_control.hand.motors.dynamixel_port import DynamixelPort, name_of
 from acts_control.hand.motors.port_words import usb_latency
+from acts_core.words import counted
 
 # A motor that has been told to start anew does not answer meanwhile.
 _REBOOT_TIMEOUT_S = 2.0
@@ -266,9 +267,10 @@ class DynamixelHand:
         if self._config.set_return_delay:
             for joint in slow:
                 self._port.write(joint, table.RETURN_DELAY, 0)
-            return [f"the return delay of {len(slow)} motors has been set to 0 in their EEPROM"]
+            return [f"the return delay of {counted(len(slow), 'motor')} has been set to 0 in their EEPROM"]
+        waiting = counted(len(slow), "motor waits before it answers", "motors wait before they answer")
         return [
-            f"{len(slow)} motors wait before they answer (return delay, register 9, up to 0.5 ms each): "
+            f"{waiting} (return delay, register 9, up to 0.5 ms each): "
             f"start once with set_return_delay true, which sets it to 0"
         ]
 

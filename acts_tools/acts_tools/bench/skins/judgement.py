@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from acts_core.words import counted
 from acts_tools.bench.rigs.memory import GROWTH_MAX_MB_PER_H
 from acts_tools.bench.runner import OTHERS_WARNING_PERCENT
 from acts_tools.bench.skins.processes import BENCH, RATE_HZ
@@ -37,10 +38,10 @@ def problems(report: Report) -> list[str]:
         if skin["silent_s"] >= _SILENT_S:
             found.append(f"{skin['name']}: nothing was received in the last {skin['silent_s']:.0f} s")
         if skin["lost"]:
-            found.append(f"{skin['name']}: {skin['lost']} frames lost{_where(skin)}")
-        counted = {name: count for name, count in skin["driver"].items() if count and name not in ("lost", "overruns")}
-        if counted:
-            counts = ", ".join(f"{count} {name}" for name, count in counted.items())
+            found.append(f"{skin['name']}: {counted(skin['lost'], 'frame')} lost{_where(skin)}")
+        troubles = {name: count for name, count in skin["driver"].items() if count and name not in ("lost", "overruns")}
+        if troubles:
+            counts = ", ".join(f"{count} {name}" for name, count in troubles.items())
             found.append(f"{skin['name']}: the driver counted {counts} on an undisturbed line")
     return found
 

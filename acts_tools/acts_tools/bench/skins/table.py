@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from acts_core.words import counted
 from acts_tools.bench.report import surroundings
 from acts_tools.bench.result import shortened
 
@@ -44,8 +45,8 @@ def markdown(report: Report) -> str:
 
 def _title(report: Report) -> str:
     count, load, rate_hz = len(report["skins"]), report["load"], report["settings"]["rate_hz"]
-    skins = "1 skin" if count == 1 else f"{count} skins"
-    beside = "nothing beside" if not load else f"{load} busy loop{'s' if load > 1 else ''} beside"
+    skins = counted(count, "skin")
+    beside = "nothing beside" if not load else f"{counted(load, 'busy loop')} beside"
     scheduled = "in real time" if report["realtime"] == "on" else "ordinary scheduling"
     conditions = f"{rate_hz:.0f} frames/s, M = {report['settings']['m']}, {report['seconds']:.0f} s"
     return f"{skins}, {conditions}, {beside}, {scheduled}"

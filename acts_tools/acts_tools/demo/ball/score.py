@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from acts_core.words import counted
 from acts_tools.demo.ball.recording import Recording
 from acts_tools.percentiles import percentiles
 
@@ -112,7 +113,7 @@ def failures(recording: Recording, results: dict[str, Any]) -> list[str]:
             "this machine was too slow for 1 kHz, or other programs took its CPU (acts doctor tells)"
         )
     if results["frames_lost"] > LIMITS["frames_lost"]:
-        found.append(f"{results['frames_lost']} frames lost between board and driver")
+        found.append(f"{counted(results['frames_lost'], 'frame')} lost between board and driver")
     if all(value is None for value in results["rms_mm"].values()):
         found.append("no segment was traced")
     for name, value in results["rms_mm"].items():

@@ -12,6 +12,7 @@ from typing import Any
 from acts_core.errors import SettingsError
 from acts_core.files import load_frames
 from acts_core.settings import default_of
+from acts_core.words import counted
 from acts_sim.pressing import OBJECTS, PressingConfig, object_named
 from acts_tools.arguments import at_least_one, refuse_unused, taxels
 from acts_tools.evaluate import report
@@ -84,8 +85,8 @@ def _run(arguments: argparse.Namespace) -> int:
         with Progress("recordings", 1) as progress:
             results = run_recorded(recorded, arguments.m or [55], progress.show)
         print(
-            f"{results['library']} recordings in the library, {results['presses']} classified, "
-            f"{results['classes']} objects"
+            f"{counted(results['library'], 'recording')} in the library, {results['presses']} classified, "
+            f"{counted(results['classes'], 'object')}"
         )
         print(table(results["over_m"], "m", "accuracy at M ="))
     else:

@@ -13,6 +13,7 @@ import numpy as np
 
 from acts_core.errors import RecordingError
 from acts_core.files import FramesFile, without_contact
+from acts_core.words import counted
 from acts_recon.objects import ImageClassifierConfig, build_object_library
 from acts_tools.evaluate.classification.contenders import TOUCH_COUNTS, contenders
 from acts_tools.evaluate.classification.trials import accuracy, answers
@@ -88,7 +89,7 @@ def _split(recorded: FramesFile, touched: Sequence[bool]) -> tuple[list[int], li
     for label in sorted(set(recorded.label)):
         own = [n for n, other in enumerate(recorded.label) if other == label and touched[n]]
         if len(own) < 2:
-            raise RecordingError(f"{label!r} has {len(own)} recordings with a touch; needed are at least 2")
+            raise RecordingError(f"{label!r} has {counted(len(own), 'recording')} with a touch; needed are at least 2")
         half = len(own) // 2
         known += own[:half]
         asked += own[half:]

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 from acts_core.errors import LaunchError, SettingsError
 from acts_core.settings import SettingValue
+from acts_core.words import counted
 from acts_tools.arguments import given_settings
 from acts_tools.evaluate import report
 from acts_tools.evaluate.statistics import wilson
@@ -98,7 +99,7 @@ def _run(arguments: argparse.Namespace) -> int:
         print(f"| {seed} | {_shown(outcome.ok)} | {_shown(outcome.kept)} | {numbers} |", flush=True)
     results.add(_summary(outcomes))
     for name in also:
-        print(f"{name}: set off {events[name]} times in {len(outcomes)} runs")
+        print(f"{name}: set off {counted(events[name], 'time')} in {counted(len(outcomes), 'run')}")
     return 0
 
 
@@ -163,7 +164,8 @@ def _summary(outcomes: Sequence[Any]) -> dict[str, object]:
         values = sorted(value for one in outcomes if (value := getattr(one, name)) is not None)
         if values:
             summary[name] = {"median": statistics.median(values), "largest": values[-1], "runs": len(values)}
-            print(f"{name}: median {statistics.median(values):.1f}, largest {values[-1]:.1f}, in {len(values)} runs")
+            runs = counted(len(values), "run")
+            print(f"{name}: median {statistics.median(values):.1f}, largest {values[-1]:.1f}, in {runs}")
     held = [one.details for one in outcomes if "held_s" in one.details]
     if held:
         minutes = sum(details["held_s"] for details in held) / 60.0
@@ -171,7 +173,7 @@ def _summary(outcomes: Sequence[Any]) -> dict[str, object]:
         summary["false_slips"] = {"per_minute": told / minutes, "minutes": minutes, "while_grasping": before}
         print(
             f"false slips: {told} in {minutes:.1f} min of holding, {told / minutes:.2f} a minute; before that {before} "
-            f"in {len(held)} grasps"
+            f"in {counted(len(held), 'grasp')}"
         )
     return summary
 

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import RecordingError
+from acts_core.words import counted
 from acts_tools.evaluate.public import insole, weiss
 from acts_tools.output_file import require_writable
 
@@ -52,7 +53,7 @@ def _run(arguments: argparse.Namespace) -> int:
             )
     except OSError as error:
         raise RecordingError(f"{arguments.output}: cannot be written ({error.strerror})") from error
-    print(f"{arguments.output}: {len(recordings)} recordings, {length.sum()} frames")
+    print(f"{arguments.output}: {counted(len(recordings), 'recording')}, {counted(length.sum(), 'frame')}")
     return 0
 
 

@@ -23,6 +23,7 @@ from acts_core.array import ArrayGeometry
 from acts_core.errors import RecordingError
 from acts_core.files import FramesFile, load_frames
 from acts_core.settings import default_of, describe
+from acts_core.words import counted
 from acts_recon.slip import SMALLEST_SIDE, SlipConfig, SlipDetector
 from acts_tools.arguments import real
 from acts_tools.evaluate import report
@@ -178,7 +179,9 @@ def _run(arguments: argparse.Namespace) -> int:
             "from one to another"
         )
     boxes = patches(recorded.live)
-    print(f"{len(recorded.start)} recordings, {rate_hz:g} frames/s, {len(boxes)} patches")
+    print(
+        f"{counted(len(recorded.start), 'recording')}, {rate_hz:g} frames/s, {counted(len(boxes), 'patch', 'patches')}"
+    )
     print("| recording | pressed frames of patches | slip told | steady | told while steady |\n|---|---|---|---|---|")
     watched: list[tuple[str, list[PatchResult]]] = []
     for number in range(len(recorded.start)):
