@@ -10,7 +10,8 @@ import struct
 import tokenize
 import zipfile
 import zlib
-from collections.abc import Collection
+from collections.abc import Collection, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -89,11 +90,30 @@ def read_npz(
         if unpacked > limit_bytes:
             raise error(f"{path}: unpacks to {unpacked / 1e6:.0f} MB; allowed are {limit_bytes / 1e6:.0f} MB{tail}")
         with np.load(path, allow_pickle=False) as arrays:
-            return {name: arrays[name] for name in arrays.files if names is None or name in names}
+            content = {}
+            for name in arrays.files:
+                if names is None or name in names:
+                    with _objects_refused(path, name, error):
+                        content[name] = arrays[name]
+            return content
     except OSError as failure:
         raise error(f"{path}: cannot be read ({failure.strerror or failure}){tail}") from failure
     except _DAMAGED as failure:
         raise error(f"{path}: a damaged npz file ({failure}){tail}") from failure
+
+
+@contextmanager
+def _objects_refused(path: Path, name: str, error: type[ActsError]) -> Iterator[None]:
+    """Refuse an array of Python objects by its name: as texts of a table are often saved; nothing is damaged."""
+    try:
+        yield
+    except ValueError as failure:
+        if "allow_pickle" not in str(failure):
+            raise
+        raise error(
+            f"{path}: {name} is an array of Python objects, which are not read; save it as numbers or text, such as "
+            f"{name}.astype(str)"
+        ) from failure
 
 
 def npz_names(path: Path) -> frozenset[str]:

@@ -158,7 +158,7 @@ def test_recordings_without_frames_are_left_out(tmp_path: Path) -> None:
         ({"rate_hz": np.zeros(0)}, "one positive number"),
         ({"label": ["a", "b"]}, r"label \(2,\), <U1: needed is a text or a whole number for each of 1"),
         ({"label": [0.5]}, "needed is a text or a whole number"),
-        ({"label": np.array([{}])}, "Object arrays cannot be loaded"),
+        ({"label": np.array([{}])}, r"label is an array of Python objects, .* such as label.astype\(str\)"),
     ],
 )
 def test_what_does_not_fit_is_refused(tmp_path: Path, arrays: dict[str, Any], words: str) -> None:

@@ -37,6 +37,13 @@ def test_arrays_are_read_by_name(tmp_path: Path) -> None:
     np.testing.assert_array_equal(found["a"], np.arange(300))
 
 
+def test_an_array_of_python_objects_is_refused_by_its_name_and_not_as_damaged(tmp_path: Path) -> None:
+    np.savez(tmp_path / "x.npz", a=np.arange(3), names=np.array(["one", "two"], dtype=object))
+    with pytest.raises(ActsError, match=r"x\.npz: names is an array of Python objects, .*names\.astype\(str\)$"):
+        read_npz(tmp_path / "x.npz", error=ActsError)
+    assert read_npz(tmp_path / "x.npz", ("a",), error=ActsError).keys() == {"a"}
+
+
 @pytest.mark.parametrize("path", ["/dev/zero", "/dev", "pipe"])
 def test_only_regular_files_are_read(path: str, tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "pipe")
