@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -42,11 +43,26 @@ class ModelFile:
     error: type[ActsError]
 
     def write(self, path: Path, fields: dict[str, Any]) -> None:
-        """Write a file, whatever its name ends in; raises `error` when it cannot be written."""
+        """Write a file as a whole or not at all, whatever its name ends in; raises `error` when it cannot be written.
+
+        What was there stays until the new file is on the disk.
+        """
         try:
-            # An open file: numpy would append .npz to any other name.
-            with path.open("wb") as file:
-                np.savez_compressed(file, format=self.format, **fields)
+            target = path.resolve()  # a link stays one
+            if target.exists() and not target.is_file():
+                raise self.error(f"{path}: not a regular file, so nothing is written to it; give another name")
+            fresh = target.with_name(target.name + ".new")
+            try:
+                # An open file: numpy would append .npz to any other name.
+                with fresh.open("wb") as file:
+                    np.savez_compressed(file, format=self.format, **fields)
+                    # Before the rename, as a power failure could otherwise lose both files.
+                    file.flush()
+                    os.fsync(file.fileno())
+                fresh.replace(target)
+            except BaseException:
+                fresh.unlink(missing_ok=True)
+                raise
         except OSError as error:
             raise self.error(f"{path}: cannot be written ({error.strerror})") from error
 

@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -52,22 +51,14 @@ class Checkpoint:
         RecordingError
             It cannot be written.
         """
-        fresh = self.path.with_name(self.path.name + ".new")
         self._file.write(
-            fresh,
+            self.path,
             {
                 "iteration": state.iteration,
                 "atoms": state.atoms,
                 "settings": json.dumps(dict(self.settings), sort_keys=True),
             },
         )
-        try:
-            # Sync before the rename, as a power failure could otherwise lose both files.
-            with fresh.open("rb") as file:
-                os.fsync(file.fileno())
-            fresh.replace(self.path)
-        except OSError as error:
-            raise RecordingError(f"{self.path}: cannot be written ({error.strerror})") from error
 
     def load(self) -> KsvdState | None:
         """Load the state; None if there is no file.
