@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import argparse
+import errno
 import importlib
 import os
 import sys
@@ -84,6 +85,13 @@ def main(argv: Sequence[str] | None = None) -> int:
     except BrokenPipeError:
         # The reader of our output has ended (`acts ... | head`); without this Python prints another error at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
+    except OSError as error:
+        if error.errno not in (errno.ENOSPC, errno.EDQUOT):
+            raise
+        # Any file may be the one that fills the disk; where a command does not say which, neither can this.
+        about = f"{error.filename}: " if error.filename else ""
+        print(f"error: {about}{error.strerror}: make room and try again", file=sys.stderr)
         return 1
 
 

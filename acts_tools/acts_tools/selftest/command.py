@@ -96,12 +96,14 @@ def run(arguments: argparse.Namespace) -> int:
     from acts_tools.selftest.picture import draw
 
     print(test.text())
+    path = arguments.json
     try:
-        if arguments.json is not None:
-            arguments.json.write_text(test.to_json())
-        draw(test, arguments.picture)
+        if path is not None:
+            path.write_text(test.to_json())
+        path = arguments.picture
+        draw(test, path)
     except OSError as error:
-        raise ActsError(f"{error.filename}: cannot be written ({error.strerror})") from error
+        raise ActsError(f"{path}: cannot be written ({error.strerror})") from error
     print(f"picture: {arguments.picture}")
     return 1 if test.level is Level.FAIL else 0
 

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import errno
 import re
 import signal
 import subprocess
@@ -55,6 +56,18 @@ def test_the_version_is_the_package_s(capsys: pytest.CaptureFixture[str]) -> Non
 def test_it_is_on_the_path_of_the_environment() -> None:
     said = subprocess.run(["acts", "--version"], capture_output=True, text=True, check=True).stdout
     assert said == f"acts {__version__}\n"
+
+
+@pytest.mark.parametrize(("file", "about"), [("results.json", "results.json: "), (None, "")])
+def test_a_full_disk_is_told_in_one_line(
+    file: str | None, about: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def fill_the_disk(_arguments: object) -> int:
+        raise OSError(errno.ENOSPC, "No space left on device", file)
+
+    monkeypatch.setattr("acts_tools.doctor.command.run", fill_the_disk)
+    assert main(["doctor"]) == 1
+    assert capsys.readouterr().err == f"error: {about}No space left on device: make room and try again\n"
 
 
 def test_ctrl_c_is_no_error_even_where_a_library_makes_one_of_it(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -114,3 +114,9 @@ def test_a_board_that_is_not_touched_and_one_that_is_no_board(tmp_path: Path) ->
     assert main(["selftest", "--hardware-fault", "open-row=5"]) == 1
     assert main(["selftest", "--sim", "--hardware-fault", "open-row=40"]) == 1
     assert main(["selftest", str(tmp_path / "nothing")]) == 1
+
+
+def test_a_disk_that_is_full_is_told_with_the_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["--sim", "--no-touch", "--untouched-s", "1", "--rows", "8", "--cols", "5"]
+    assert main(["selftest", *words, "--json", "/dev/full", "--picture", str(tmp_path / "test.png")]) == 1
+    assert "error: /dev/full: cannot be written (No space left on device)\n" in capsys.readouterr().err
