@@ -83,6 +83,15 @@ def test_a_recording_in_which_nothing_is_pressed_is_nothing_to_watch(
     )
 
 
+@pytest.mark.filterwarnings("error")
+def test_a_recording_in_which_nothing_is_pressed_is_drawn_without_a_legend(tmp_path: Path) -> None:
+    pressed = recording(slips=False)[:60]
+    picture = tmp_path / "p.png"
+    path = save(tmp_path / "f.npz", pressed, np.zeros_like(pressed))
+    assert main(["evaluate", "slip", "--frames", str(path), "--picture", str(picture)]) == 0
+    assert picture.read_bytes().startswith(b"\x89PNG")
+
+
 def test_single_frames_show_no_motion(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     output = tmp_path / "o.json"
     path = save(tmp_path / "f.npz", recording(slips=True)[-1:], recording(slips=False)[-1:])

@@ -258,5 +258,6 @@ def _draw(path: Path, watched: list[tuple[str, list[PatchResult]]]) -> None:
                 f"recording {name}: centre of pressure, rows (strong) and columns (pale); red: slip", fontsize=8
             )
             axes.set_ylabel("taxels")
-            axes.legend(fontsize=6, loc="upper right")
+            if axes.lines:
+                axes.legend(fontsize=6, loc="upper right")
         rows[-1].set_xlabel("time [s]")
