@@ -198,8 +198,8 @@ def test_what_cannot_be_is_refused(grasps: Path, tmp_path: Path) -> None:
     volts = tmp_path / "volts.npz"
     np.savez(volts, frames=np.full((2, 4, 4), 3.3), rate_hz=31.0, label=["a"])
     cases: list[tuple[Callable[[], int], type[ActsError], str]] = [
-        (lambda: evaluate("--frames", plain), RecordingError, "no `label` in the file"),
-        (lambda: evaluate("--frames", volts), RecordingError, "the largest count is 3, and only what is above"),
+        (lambda: evaluate("--frames", plain), RecordingError, "plain.npz: no `label` in the file"),
+        (lambda: evaluate("--frames", volts), RecordingError, "volts.npz: nothing was touched: the largest count"),
         (lambda: make_library("-o", tmp_path / "o.npz", "--frames", plain), RecordingError, "has no label"),
         (
             lambda: make_library("-o", tmp_path / "o.npz", "--frames", grasps, "--objects", "cat"),

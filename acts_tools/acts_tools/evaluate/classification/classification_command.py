@@ -9,7 +9,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from acts_core.errors import SettingsError
+from acts_core.errors import RecordingError, SettingsError
 from acts_core.files import load_frames
 from acts_core.settings import default_of
 from acts_core.words import counted
@@ -83,7 +83,10 @@ def _run(arguments: argparse.Namespace) -> int:
         tell_if_large(arguments.frames)
         recorded = load_frames(arguments.frames, labels=True)
         with Progress("recordings", 1) as progress:
-            results = run_recorded(recorded, arguments.m or [55], progress.show)
+            try:
+                results = run_recorded(recorded, arguments.m or [55], progress.show)
+            except RecordingError as error:
+                raise RecordingError(f"{arguments.frames}: {error}") from None
         print(
             f"{counted(results['library'], 'recording')} in the library, {results['presses']} classified, "
             f"{counted(results['classes'], 'object')}"
