@@ -8,6 +8,7 @@ from __future__ import annotations
 import csv
 import os
 from collections import defaultdict
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -41,17 +42,14 @@ class PublishedData:
         self.folder = folder
         self._numbers: dict[tuple[str, int, str], int] = {}
         self._points: dict[int, list[tuple[float, float]]] = defaultdict(list)
-        try:
-            with (folder / _INDEX).open(newline="") as file:
-                for row in csv.DictReader(file):
-                    self._numbers.setdefault((row["figure"], int(row["axes"]), row["label"]), int(row["curve_id"]))
-            with (folder / _CURVES).open(newline="") as file:
-                for row in csv.DictReader(file):
-                    self._points[int(row["curve_id"])].append((float(row["x"]), float(row["y"])))
-        except (OSError, KeyError, ValueError) as error:
-            raise RecordingError(
-                f"{folder}: no published curves ({error}); needed are {_INDEX} and {_CURVES}, see docs/paper.md"
-            ) from error
+        _read(folder / _INDEX, self._add_curve)
+        _read(folder / _CURVES, self._add_point)
+
+    def _add_curve(self, row: dict[str, str]) -> None:
+        self._numbers.setdefault((row["figure"], int(row["axes"]), row["label"]), int(row["curve_id"]))
+
+    def _add_point(self, row: dict[str, str]) -> None:
+        self._points[int(row["curve_id"])].append((float(row["x"]), float(row["y"])))
 
     def points(self, figure: str, label: str, axes: int = 0) -> NDArray[np.float64]:
         """Points of a curve by its file, label and axes; np.ndarray [shape=(n, 2), dtype=float64].
@@ -116,3 +114,23 @@ def published_data(folder: Path | None) -> PublishedData | None:
             return None
         folder = Path(named).expanduser()
     return PublishedData(folder)
+
+
+def _read(path: Path, add: Callable[[dict[str, str]], None]) -> None:
+    """Give each row of a table to `add`; errors name the file and the line."""
+    try:
+        with path.open(newline="") as file:
+            rows = csv.DictReader(file)
+            try:
+                for row in rows:
+                    add(row)
+            # What a line that was cut off lacks is None.
+            except (KeyError, TypeError, ValueError, csv.Error) as error:
+                raise RecordingError(
+                    f"{path}: line {rows.line_num} is damaged or lacks a column; docs/paper.md says which columns are "
+                    "needed"
+                ) from error
+    except OSError as error:
+        raise RecordingError(
+            f"{path}: no published curves ({error.strerror}); needed are {_INDEX} and {_CURVES}, see docs/paper.md"
+        ) from error

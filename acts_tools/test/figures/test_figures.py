@@ -127,6 +127,24 @@ def test_unknown_figures_and_folders_are_refused(tmp_path: Path, capsys: pytest.
     assert "--out" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(
+    ("curves", "error"),
+    [
+        ("curve_id,x,y\n1,2,3\n1,2", "curves.csv: line 3 is damaged or lacks a column; docs/paper.md says"),
+        ("curve,x,y\n1,2,3\n", "curves.csv: line 2 is damaged or lacks a column; docs/paper.md says"),
+        (None, "curves.csv: no published curves (No such file or directory); needed are curves_index.csv"),
+    ],
+)
+def test_damaged_curves_are_refused_by_file_and_line(
+    curves: str | None, error: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "curves_index.csv").write_text("curve_id,figure,axes,label\n1,a,0,x\n")
+    if curves is not None:
+        (tmp_path / "curves.csv").write_text(curves)
+    assert main(["figures", "4D", "--out", str(tmp_path / "out"), "--paper-data", str(tmp_path)]) == 1
+    assert error in capsys.readouterr().err
+
+
 def test_the_page_names_the_files_that_are_read() -> None:
     root = Path(__file__).resolve().parents[3]
     code = "".join(path.read_text() for path in (root / "acts_tools" / "acts_tools" / "figures").rglob("*.py"))
