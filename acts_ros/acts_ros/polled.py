@@ -1,11 +1,14 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Subscriptions that are polled, instead of a callback for every message.
+"""Subscriptions and services that are polled, instead of a callback for every message.
 
 A callback per message wakes the process each time, and after a delay it reaches the newest message only after all
 older ones. With a polled subscription the middleware queues the last messages, and the reader takes all of them at
 once when its own cycle begins.
+
+The callback of a service returns the answer, so the executor serves nothing else until it is known. A polled service is
+answered whenever that is.
 """
 
 from __future__ import annotations
@@ -17,6 +20,7 @@ from typing import Any, Generic, TypeVar
 
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
+from rclpy.service import Service
 from rclpy.subscription import Subscription
 
 from acts_ros.qos import overridable
@@ -59,17 +63,55 @@ class PolledSubscription(Generic[M]):
         return taken
 
 
+class PolledService:
+    """See `PollingNode.create_polled_service`."""
+
+    def __init__(self, service: Service) -> None:
+        self._service = service
+
+    def take(self) -> tuple[Any, Any] | None:
+        """The oldest request that nobody has taken yet, and its header; None where there is none."""
+        handle = self._service.handle
+        with handle:
+            request, header = handle.service_take_request(self._service.srv_type.Request)
+        return None if header is None else (request, header)
+
+    def answer(self, response: Any, header: Any) -> None:
+        """Send the answer to the request that came with this header."""
+        self._service.send_response(response, header)
+
+
 class PollingNode(Node):
-    """A node with subscriptions that are hidden from executors."""
+    """A node with subscriptions and services that are hidden from executors."""
 
     def __init__(self, *arguments: Any, **options: Any) -> None:
         self._polled: set[Subscription] = set()
+        self._polled_services: set[Service] = set()
         super().__init__(*arguments, **options)
 
     @property
     def subscriptions(self) -> Iterator[Subscription]:
         """Subscriptions that executors serve: all but the polled ones."""
         return (subscription for subscription in super().subscriptions if subscription not in self._polled)
+
+    @property
+    def services(self) -> Iterator[Service]:
+        """Services that executors serve: all but the polled ones."""
+        return (service for service in super().services if service not in self._polled_services)
+
+    def create_polled_service(self, kind: type, name: str) -> PolledService:
+        """Offer a service of which requests are taken and answered by the caller; to be called as the next one.
+
+        Parameters
+        ----------
+        kind : type
+            Service type.
+        name : str
+            Name.
+        """
+        service = self.create_service(kind, name, _never)
+        self._polled_services.add(service)
+        return PolledService(service)
 
     def create_polled_subscription(
         self, kind: type[M], topic: str, profile: QoSProfile, *, depth: int | None = None
@@ -109,5 +151,5 @@ class PollingNode(Node):
         return subscription
 
 
-def _never(_message: Any) -> None:
-    raise AssertionError("a polled subscription is not called back")
+def _never(*_arguments: Any) -> None:
+    raise AssertionError("what is polled is not called back")

@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Subscriptions that are read when their reader is due; ROS_DOMAIN_ID 134."""
+"""Subscriptions and services that are read when their reader is due; ROS_DOMAIN_ID 134."""
 
 import time
 from collections.abc import Callable, Iterator
@@ -12,6 +12,7 @@ from rclpy.context import Context
 from rclpy.executors import Executor, SingleThreadedExecutor
 from rclpy.node import Node
 from std_msgs.msg import Int32
+from std_srvs.srv import Trigger
 
 from acts_ros.executor import EventsExecutor
 from acts_ros.polled import PolledSubscription, PollingNode
@@ -94,6 +95,32 @@ def test_of_too_many_the_newest_are_kept(pair: Pair) -> None:
     taken = pair.take_until(99)
     assert taken[-8:] == list(range(92, 100))
     assert taken == sorted(taken)
+
+
+def test_a_service_is_answered_when_the_answer_is_known(pair: Pair) -> None:
+    service = pair.node.create_polled_service(Trigger, "later")
+    client = pair.peer.create_client(Trigger, "later")
+    pair.executor.add_node(pair.peer)
+    pair.until(client.service_is_ready)
+    assert service.take() is None
+    answers = [client.call_async(Trigger.Request()) for _ in range(2)]
+    taken: list[tuple[Trigger.Request, object]] = []
+
+    def are_there() -> bool:
+        request = service.take()
+        if request is not None:
+            taken.append(request)
+        return len(taken) == 2
+
+    pair.until(are_there)
+    # Meanwhile the executor goes on.
+    pair.send(5)
+    pair.until(lambda: 5 in pair.called)
+    assert not any(answer.done() for answer in answers)
+    for place, (_request, header) in enumerate(taken):
+        service.answer(Trigger.Response(success=True, message=str(place)), header)
+    pair.until(lambda: all(answer.done() for answer in answers))
+    assert [answer.result().message for answer in answers] == ["0", "1"]
 
 
 def test_the_time_of_reception_is_told(pair: Pair) -> None:

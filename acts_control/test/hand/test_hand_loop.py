@@ -192,6 +192,30 @@ def test_torque_that_comes_on_for_a_part_of_the_motors_is_switched_off_again(bus
     running.until(lambda: torques(bus) == {0})
 
 
+def test_torque_that_is_unwanted_while_it_comes_on_does_not_stay(
+    bus: Bus, running: Running, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    running.until_phase(HandPhase.ENABLED)
+    assert not running.loop.cancel_enable()  # it is on
+    assert running.loop.release() == ""
+    hand, enable = running.loop._bus, running.loop._bus.enable
+    cancelled: list[bool] = []
+
+    def stopped_meanwhile() -> None:
+        enable()
+        cancelled.append(running.loop.cancel_enable())
+
+    monkeypatch.setattr(hand, "enable", stopped_meanwhile)
+    assert running.loop.enable() == "the torque is off: stopped before it was on"
+    running.until(lambda: running.loop.status.reason == "stopped before it was on")
+    assert cancelled == [True]
+    assert running.loop.status.phase is HandPhase.RELEASED
+    assert torques(bus) == {0}
+    monkeypatch.setattr(hand, "enable", enable)
+    assert running.loop.enable() == ""
+    assert torques(bus) == {1}
+
+
 def test_an_answer_without_its_data_is_asked_for_again(running: Running, monkeypatch: pytest.MonkeyPatch) -> None:
     running.until_phase(HandPhase.ENABLED)
     running.loop.release()
@@ -415,7 +439,7 @@ def test_a_hand_that_was_given_up_begins_anew_when_it_is_enabled(bus: Bus) -> No
         for number in (1, 2):
             running.until_phase(HandPhase.ENABLED)
             bus.command("overload 6")
-            running.until(lambda number=number: len(moved.restarts) > number or not running.loop._enabled)
+            running.until(lambda number=number: len(moved.restarts) > number or not running.loop._wish.is_on)
         running.until_phase(HandPhase.GIVEN_UP)
         running.loop.enable()
         running.until_phase(HandPhase.ENABLED)

@@ -13,6 +13,7 @@ from acts_control.hand.control.loop import HandLoop
 from acts_control.hand.control.loop_config import HandLoopConfig
 from acts_control.hand.control.status import HandPhase
 from acts_control.hand.control.supervisor import HandSupervisor, SupervisorConfig, SupervisorStatus, no_touch
+from acts_control.hand.control.torque_wish import PendingAnswer
 
 __all__ = [
     "Behaviour",
@@ -21,6 +22,7 @@ __all__ = [
     "HandLoopConfig",
     "HandPhase",
     "HandSupervisor",
+    "PendingAnswer",
     "SupervisorConfig",
     "SupervisorStatus",
     "no_touch",

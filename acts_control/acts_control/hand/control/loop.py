@@ -12,16 +12,14 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 from acts_control.hand.control.behaviour import Behaviour
+from acts_control.hand.control.beyond_limits import RETURN_RAD_S, beyond_reach, to_be_brought_back
 from acts_control.hand.control.fault_memory import FaultMemory
 from acts_control.hand.control.loop_config import HandLoopConfig
 from acts_control.hand.control.status import HandPhase, HandStatus
+from acts_control.hand.control.torque_wish import PendingAnswer, TorqueWish
 from acts_control.hand.description import HandDescription
 from acts_control.hand.motors import HandBus, HandError, HandLostError, HandReading
 
-# A joint that is beyond a limit when the torque comes on is brought back so fast: slowly, for it may be held there.
-_RETURN_RAD_S = 0.5
-# A joint at its limit may read as a little beyond.
-_BEYOND_RAD = 0.02
 # Who asks for torque or a release waits no longer for the motors' answers; where many are silent, it takes longer.
 _ANSWER_S = 2.0
 _CUT_POWER = "motors that are silent may hold on: cut their power to be sure"
@@ -69,11 +67,9 @@ class HandLoop:
         self._lock = threading.Lock()
         self._target: dict[int, float] = {}
         self._commanded_s = -1e9
-        self._enabled = config.autostart
+        self._wish = TorqueWish(is_on=config.autostart)
         self._is_on = False  # whether the torque of a motor may be on
         self._closing = threading.Event()
-        # Whether it is known what has become of a wish for release, and of one for torque.
-        self._has_obeyed, self._has_enabled = threading.Event(), threading.Event()
         self._faults = FaultMemory(len(hand.joints), config.max_faults)
         self._thread = threading.Thread(target=self._run, name="hand_loop", daemon=True)
 
@@ -116,36 +112,59 @@ class HandLoop:
 
         Waits until it is on, for two seconds at most.
         """
-        if self._closing.is_set() or not self._thread.is_alive():
-            return f"the hand's loop has ended: {self.status.reason}"
-        self._faults.forget()
-        self._has_enabled.clear()
-        self._enabled = True
-        if self.status.phase not in (HandPhase.CONNECTING, HandPhase.ENABLED):
-            self._has_enabled.wait(_ANSWER_S)
-        status = self.status
-        if status.phase is HandPhase.ENABLED:
-            return ""
-        if not self._enabled or not self._thread.is_alive():
-            return f"the torque is off: {status.reason}"
-        state = "not connected" if status.phase is HandPhase.CONNECTING else status.phase.words
-        return f"the hand is {state} ({status.reason}); its torque comes on as soon as it can, unless it is released"
+        return self.ask_enable().wait()
+
+    def ask_enable(self) -> PendingAnswer:
+        """Like `enable`, for who does not wait here."""
+        if not self._closing.is_set() and self._thread.is_alive():
+            self._faults.forget()
+            self._wish.on()
+        waits = self.status.phase not in (HandPhase.CONNECTING, HandPhase.ENABLED)
+        return PendingAnswer(self._wish.on_is_known, self._why_not_on, self._answer_s(waits=waits))
+
+    def cancel_enable(self) -> bool:
+        """The torque stays off, if it was asked for and has not come on since; whether that is so."""
+        if not self._wish.is_under_way:
+            return False
+        self._wish.off("stopped before it was on")
+        return True
 
     def release(self) -> str:
         """Switch the torque off, now or as soon as the hand is connected; why it may still be on, or nothing.
 
         Waits for what the motors say to it, for two seconds at most.
         """
-        self._enabled = False
-        self._has_obeyed.clear()
-        if self.status.phase is not HandPhase.CONNECTING and self._thread.is_alive():
-            self._has_obeyed.wait(_ANSWER_S)
+        return self.ask_release().wait()
+
+    def ask_release(self) -> PendingAnswer:
+        """Like `release`, for who does not wait here."""
+        self._wish.off("released by request")
+        waits = self.status.phase is not HandPhase.CONNECTING
+        return PendingAnswer(self._wish.off_is_known, self._why_not_off, self._answer_s(waits=waits))
+
+    def _answer_s(self, *, waits: bool) -> float:
+        return _ANSWER_S if waits and self._thread.is_alive() else 0.0
+
+    def _why_not_on(self) -> str:
+        status = self.status
+        if self._closing.is_set() or not self._thread.is_alive():
+            return f"the hand's loop has ended: {status.reason}"
+        if not self._wish.is_on:
+            return f"the torque is off: {self._wish.why_off}"
+        if status.phase is HandPhase.ENABLED:
+            return ""
+        state = "not connected" if status.phase is HandPhase.CONNECTING else status.phase.words
+        return f"the hand is {state} ({status.reason}); its torque comes on as soon as it can, unless it is released"
+
+    def _why_not_off(self) -> str:
         status = self.status
         if not self._thread.is_alive():
             return f"the hand's loop has ended: {status.reason}"
+        if self._wish.is_on:
+            return "the torque was asked for again meanwhile"
         if status.phase is HandPhase.CONNECTING:
             return f"the hand is not connected ({status.reason}); it is released as soon as it is; {_CUT_POWER}"
-        if not self._has_obeyed.is_set():
+        if not self._wish.off_is_known.is_set():
             return f"the motors have not said within {_ANSWER_S:g} s that they are released; {_CUT_POWER}"
         return ""
 
@@ -158,7 +177,7 @@ class HandLoop:
             if self._is_on:
                 self._switch_off_at_last()
             self._bus.close()
-            self._tell_who_waits()
+            self._wish.tell_all()
 
     def _run_once(self) -> None:
         """Until the hand is lost, or the loop is to end."""
@@ -178,13 +197,8 @@ class HandLoop:
             self._set(HandPhase.GIVEN_UP, reason, reading=None)
             raise
         finally:
-            self._tell_who_waits()
+            self._wish.tell_all()
             self._bus.disconnect()
-
-    def _tell_who_waits(self) -> None:
-        """Whatever was asked for, `status` says what has become of it."""
-        self._has_obeyed.set()
-        self._has_enabled.set()
 
     def _connect(self) -> None:
         """Try until the hand is there."""
@@ -246,17 +260,18 @@ class HandLoop:
 
     def _obey_release(self) -> None:
         """Switch the torque off where that is wanted."""
-        if self._enabled:
+        if self._wish.is_on or (self._wish.off_is_known.is_set() and not self._is_on):
             return
-        if self.status.phase in (HandPhase.ENABLED, HandPhase.RECOVERING):
+        if self._is_on:
             self._release()
-            self._set(HandPhase.RELEASED, "released by request")
-        self._has_obeyed.set()
+        if self.status.phase is not HandPhase.GIVEN_UP:
+            self._set(HandPhase.RELEASED, self._wish.why_off)
+        self._wish.off_is_known.set()
 
     def _move(self, reading: HandReading, goal: list[float], dt_s: float, now_s: float) -> list[float]:
         """One cycle of a hand that is well: switch the torque on if that is wanted, and bring the goals nearer."""
         phase = self.status.phase
-        if not self._enabled and phase is not HandPhase.ENABLED:
+        if not self._wish.is_on and phase is not HandPhase.ENABLED:
             return []
         if reading.is_stopped and phase is HandPhase.ENABLED:
             self._log(
@@ -270,7 +285,7 @@ class HandLoop:
         for k, joint in enumerate(self._hand.joints):
             target, most = targets.get(k, goal[k]), step
             if joint.clipped(goal[k]) != goal[k]:
-                target, most = joint.clipped(goal[k]), min(step, _RETURN_RAD_S * dt_s)
+                target, most = joint.clipped(goal[k]), min(step, RETURN_RAD_S * dt_s)
             goal[k] += min(max(target - goal[k], -most), most)
         self._bus.command(goal)
         if self._behaviour is not None:
@@ -280,37 +295,25 @@ class HandLoop:
 
     def _switch_on(self, reading: HandReading, *, recovered: bool) -> list[float]:
         """Hold every joint where it is: the goals."""
-        far = self._far_off(reading)
+        far = beyond_reach(self._hand, reading)
         if far:
             self._give_up(far)
             return []
         self._is_on = True
         self._bus.enable()
+        if not self._wish.is_on:
+            # Meanwhile somebody has stopped or released it: from here on the hand would hold.
+            self._obey_release()
+            return []
         with self._lock:
             self._target.clear()  # what was wanted before is old
-        for joint, q_rad in zip(self._hand.joints, reading.q_rad, strict=True):
-            if abs(q_rad - joint.clipped(q_rad)) > _BEYOND_RAD:
-                self._log(
-                    "warning",
-                    f"{joint.name} is at {q_rad:.2f} rad, beyond its limits of {joint.lower_rad:g} to "
-                    f"{joint.upper_rad:g}: it is brought back at {_RETURN_RAD_S:g} rad/s",
-                )
+        for sentence in to_be_brought_back(self._hand, reading):
+            self._log("warning", sentence)
         if self._behaviour is not None:
             self._behaviour.restart(recovered=recovered)
         self._set(HandPhase.ENABLED, "holding", goal_rad=reading.q_rad)
-        self._has_enabled.set()
+        self._wish.has_come_on()
         return list(reading.q_rad)
-
-    def _far_off(self, reading: HandReading) -> str:
-        """Which joint cannot be where it is said to be, in words: bringing it back would drive it into its stop."""
-        for joint, q_rad in zip(self._hand.joints, reading.q_rad, strict=True):
-            if abs(q_rad - joint.clipped(q_rad)) > math.pi:
-                return (
-                    f"{joint.name} is said to be at {q_rad:.2f} rad, more than half a turn beyond its limits of "
-                    f"{joint.lower_rad:g} to {joint.upper_rad:g}: the torque stays off; check zero_rad, direction and "
-                    f"limits_rad in the description of the hand, and how the motor is mounted; then call enable"
-                )
-        return ""
 
     def _targets(
         self, reading: HandReading, goal: Sequence[float], now_s: float, dt_s: float
@@ -332,7 +335,7 @@ class HandLoop:
         """Motors have switched themselves off: start them anew, or give up what does it again and again."""
         # Who enables a hand that was given up has looked after these motors.
         is_forgiven = self.status.phase is HandPhase.GIVEN_UP
-        if is_forgiven and not self._enabled:
+        if is_forgiven and not self._wish.is_on:
             return
         for k, fault in enumerate(reading.faults):
             if not fault:
@@ -350,11 +353,11 @@ class HandLoop:
     def _give_up(self, reason: str) -> None:
         """All torque off, until somebody calls `enable`."""
         # First, so that it stays given up where the motors do not answer to the rest.
-        self._enabled = False
+        self._wish.off(reason)
         self._log("error", reason)
         self._release()
         self._set(HandPhase.GIVEN_UP, reason)
-        self._has_enabled.set()
+        self._wish.off_is_known.set()
 
     def _release_at_end(self) -> None:
         if not self._closing.is_set():

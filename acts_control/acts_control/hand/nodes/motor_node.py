@@ -10,12 +10,12 @@ from typing import Any
 
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
-from std_srvs.srv import Trigger
 
-from acts_control.hand.control import Behaviour, HandLoop, HandLoopConfig, HandPhase
+from acts_control.hand.control import Behaviour, HandLoop, HandLoopConfig, HandPhase, PendingAnswer
 from acts_control.hand.description import HandDescription, hand_description
 from acts_control.hand.motors import MOTORS, BusConfig, HandBus, HandReading, make_motors
 from acts_control.hand.nodes.cmd_leap import TORQUE_STAYS, CmdLeapBus
+from acts_control.hand.nodes.torque_services import TorqueServices
 from acts_core.runtime import RealtimeConfig, enter_realtime
 from acts_core.settings import setting
 from acts_ros.clocks import keep_system_clock
@@ -92,8 +92,8 @@ class MotorNode(PollingNode):
         # The first angles that a new node sends open the hand, and what it holds then falls: that has to be asked for.
         config = replace(settings, autostart=False) if settings.interface == _CMD_LEAP else settings
         self.loop = HandLoop(self.hand, bus, config, log_of(self), self._on_reading, behaviour)
-        self.create_service(Trigger, "~/enable", self._on_enable)
-        self.create_service(Trigger, f"~/{torque_off}", self._on_torque_off)
+        asks = {"~/enable": self.loop.ask_enable, f"~/{torque_off}": self._ask_release}
+        self.torque_services = TorqueServices(self, asks)
         # Nothing else keeps a second program from the motors there.
         only = [moved_by, _CMD_LEAP] if settings.interface == _CMD_LEAP else [moved_by]
         self.diagnostics = DiagnosticsReporter(self, settings.port, self.report, only_publishers=only)
@@ -106,6 +106,7 @@ class MotorNode(PollingNode):
     def close(self) -> None:
         """Release the hand in order."""
         self.loop.close()
+        self.torque_services.serve()  # who still waits for an answer
 
     def report(self) -> Report:
         """What the diagnostics say of the motors."""
@@ -148,16 +149,6 @@ class MotorNode(PollingNode):
         message.effort = list(reading.current_ma)
         self._publisher.publish(message)
 
-    def _on_enable(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-        return answered(response, self.loop.enable())
-
-    def _on_torque_off(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-        objection = self.loop.release()
-        return answered(response, TORQUE_STAYS if self.settings.interface == _CMD_LEAP else objection)
-
-
-def answered(response: Trigger.Response, objection: str) -> Any:
-    """The answer of a service that says why not, or nothing."""
-    response.success = not objection
-    response.message = objection
-    return response
+    def _ask_release(self) -> PendingAnswer:
+        pending = self.loop.ask_release()
+        return pending.told_as(TORQUE_STAYS) if self.settings.interface == _CMD_LEAP else pending

@@ -28,7 +28,8 @@ from acts_control.hand.control import (
 )
 from acts_control.hand.description import HandKinematics, hand_description
 from acts_control.hand.motors import HandReading, with_motors
-from acts_control.hand.nodes.motor_node import MotorNode, MotorSettings, answered
+from acts_control.hand.nodes.motor_node import MotorNode, MotorSettings
+from acts_control.hand.nodes.torque_services import answered
 from acts_control.hand.reflexes import REFLEXES, HandState, make_reflexes, with_reflexes
 from acts_core.errors import PacketError
 from acts_core.settings import setting
@@ -178,8 +179,9 @@ class HandReflexesNode(MotorNode):
         self._told = SupervisorStatus()
         self._reported_refused = 0
         self.start_with(settings, self._touched, "disable", "regions")
-        for name in ("grasp", "release", "stop"):
+        for name in ("grasp", "release"):
             self.create_service(Trigger, f"~/{name}", self._answer(name))
+        self.create_service(Trigger, "~/stop", self._on_stop)
         self._steady_timers = (
             steady_timer(self, 1.0 / settings.status_rate_hz, self._publish_status),
             steady_timer(self, _TIMING_PERIOD_S, self._publish_timing),
@@ -212,9 +214,17 @@ class HandReflexesNode(MotorNode):
 
     def _answer(self, name: str) -> Callable[[Trigger.Request, Trigger.Response], Trigger.Response]:
         def on_request(_request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+            self.torque_services.serve()  # what was asked for before this
             return answered(response, self._why_not() or getattr(self._supervisor, name)())
 
         return on_request
+
+    def _on_stop(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        # Who stops a hand whose torque is about to come on does not expect that it comes on afterwards.
+        self.torque_services.serve()
+        if self.loop.cancel_enable():
+            return answered(response, "")
+        return self._answer("stop")(request, response)
 
     def _why_not(self) -> str:
         """Why nothing can be asked of the hand; while a motor is started anew, what is asked for is done after that."""

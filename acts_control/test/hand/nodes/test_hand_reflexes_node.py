@@ -18,6 +18,7 @@ from hand_rig import all_regions, region
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
+from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 
 from acts_control.hand.control import HandPhase
@@ -174,6 +175,40 @@ def test_touch_is_known_while_the_torque_is_off(bus: Bus) -> None:
         until(lambda: says("no touch for "))
         assert answer_of(node, until, "enable").success
         assert answer_of(node, until, "grasp").message.startswith("no touch for ")
+
+
+def test_stop_is_answered_while_enable_waits_and_the_torque_stays_off(bus: Bus) -> None:
+    parameters = (
+        *(f"port:={bus.link}", f"answer_timeout_ms:={TIMEOUT_MS}", "silence_s:=10.0", "motor_watchdog_s:=0.0"),
+        *("rate_hz:=100.0", "autostart:=false"),
+    )
+    with node_and_user(DOMAIN_ID, *parameters, program="hand_reflexes") as (_process, node, until):
+        statuses: list[HandStatus] = []
+        readings: list[JointState] = []
+        node.create_subscription(HandStatus, "hand/status", statuses.append, 10)
+        node.create_subscription(JointState, "joint_states", readings.append, 10)
+        enable, stop = (node.create_client(Trigger, f"hand_reflexes/{name}") for name in ("enable", "stop"))
+        assert enable.wait_for_service(DEADLINE_S)
+        assert stop.wait_for_service(DEADLINE_S)
+        until(lambda: bool(readings))
+        # As long as one is silent none gets torque, and the answer to enable waits.
+        bus.command("lose 14")
+        enabled, stopped = enable.call_async(Trigger.Request()), stop.call_async(Trigger.Request())
+        until(stopped.done)
+        assert stopped.result().success, stopped.result().message
+        until(enabled.done)
+        assert enabled.result().message == "the torque is off: stopped before it was on"
+        bus.command("find 14")
+        until(lambda: statuses[-1].reason == "the hand is released: stopped before it was on")
+        readings.clear()
+        until(lambda: len(readings) > 10)
+        assert {motor["torque_enable"] for motor in bus.motors()} == {0}
+        assert statuses[-1].state == HandStatus.STATE_STOPPED
+        # Nor does that last: who wants it on after all is obeyed.
+        assert answer_of(node, until, "enable").success
+        assert answer_of(node, until, "stop").success
+        until(lambda: statuses[-1].reason == "stopped by request")
+        assert {motor["torque_enable"] for motor in bus.motors()} == {1}
 
 
 def test_what_is_asked_for_while_a_motor_is_started_anew_is_no_failure() -> None:
