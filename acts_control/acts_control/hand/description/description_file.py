@@ -52,11 +52,16 @@ def _read(path: Path) -> HandDescription:
         raise file.error("joints: at least one is needed", "joints")
     names = {joint.name for joint in joints}
     links: list[Link] = []
+    # By the name of each link, the joints that move it.
+    moved_by: dict[str, list[str]] = {base: []}
     for key, one in _entries(file, "links", "link"):
-        links.append(_link(one, key, [base, *(link.name for link in links)], names))
-    link_names = {base, *(link.name for link in links)}
-    fingers = {key: _finger(one, key, link_names, names) for key, one in _entries(file, "fingers", "finger")}
-    regions = {key: _region(one, key, link_names, fingers) for key, one in _entries(file, "regions", "region")}
+        links.append(_link(one, key, list(moved_by), names))
+        moved_by[key] = [*moved_by[links[-1].parent], links[-1].joint]
+    for key, one in _entries(file, "joints", "joint"):
+        if not any(link.joint == key for link in links):
+            raise one.error(f"it turns no link; describe the link, with joint: {key}, also if it carries no skin")
+    fingers = {key: _finger(one, key, moved_by, names) for key, one in _entries(file, "fingers", "finger")}
+    regions = {key: _region(one, key, set(moved_by), fingers) for key, one in _entries(file, "regions", "region")}
     postures = {key: _posture(one, joints) for key, one in _entries(file, "postures", "posture")}
     for needed in ("open", "pregrasp"):
         if needed not in postures:
@@ -101,7 +106,7 @@ def _link(one: Section, name: str, parents: list[str], joints: set[str]) -> Link
     return Link(name, parent, one.one_of("joint", joints), one.transform(), axis)
 
 
-def _finger(one: Section, name: str, links: set[str], joints: set[str]) -> Finger:
+def _finger(one: Section, name: str, moved_by: dict[str, list[str]], joints: set[str]) -> Finger:
     one.check_keys(("closes", "tip_link", "tip_m", "opposes"))
     closes = one.section("closes", f"finger {name}")
     if not closes.values:
@@ -113,9 +118,12 @@ def _finger(one: Section, name: str, links: set[str], joints: set[str]) -> Finge
     for joint, share in shares.items():
         if share <= 0.0:
             raise closes.error(f"{joint} = {share:g}: how much a joint takes part in closing is above 0", joint)
-    opposes = bool(one.flag("opposes"))
-    tip_m = _place(one, "tip_m")
-    return Finger(name, shares, one.one_of("tip_link", links), tip_m, opposes)
+    tip_link = one.one_of("tip_link", moved_by)
+    for joint in shares:
+        if joint not in moved_by[tip_link]:
+            movers = ", ".join(moved_by[tip_link]) or "no joint"
+            raise closes.error(f"{joint} does not move {tip_link}, the finger's tip_link; that is moved by {movers}", joint)
+    return Finger(name, shares, tip_link, _place(one, "tip_m"), bool(one.flag("opposes")))
 
 
 def _region(one: Section, name: str, links: set[str], fingers: dict[str, Finger]) -> Region:
