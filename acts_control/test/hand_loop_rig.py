@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from dynamixel_bus import DEADLINE_S, Bus
@@ -51,3 +51,19 @@ class Running:
 
     def until_phase(self, phase: HandPhase) -> None:
         self.until(lambda: self.loop.status.phase is phase)
+
+
+class Moved:
+    """A behaviour that does nothing but remember how it was started."""
+
+    def __init__(self) -> None:
+        self.restarts: list[bool] = []
+
+    def restart(self, *, recovered: bool) -> None:
+        self.restarts.append(recovered)
+
+    def step(self, reading: HandReading, goal_rad: Sequence[float], now_s: float, dt_s: float) -> Sequence[float]:
+        return goal_rad
+
+    def sent(self, began_s: float, sent_s: float) -> None:
+        pass

@@ -14,6 +14,8 @@ from acts_control.hand.control import HandSupervisor, SupervisorConfig
 from acts_control.hand.description import LEAP_RIGHT, HandKinematics
 from acts_control.hand.motors import HandReading
 from acts_control.hand.reflexes import HandState, Reflex, Sensed
+from acts_control.hand.reflexes.sharp_avoidance import SharpAvoidance, SharpAvoidanceConfig
+from acts_control.hand.reflexes.slip_prevention import SlipPrevention, SlipPreventionConfig
 from acts_core.skin import RegionContact
 
 LEAP = HandKinematics(LEAP_RIGHT)
@@ -81,3 +83,22 @@ class RigidHand:
 
     def angle(self, joint: str) -> float:
         return float(self.goal[NAMES.index(joint)])
+
+
+GRIPPED = [region(f"{finger}_distal", 0.8) for finger in LEAP_RIGHT.fingers]
+TIP = region("index_distal", 0.5, 1, sharpness=10.0)
+
+
+def a_hand(**settings: float) -> RigidHand:
+    sharp, slip = SharpAvoidance(SharpAvoidanceConfig()), SlipPrevention(SlipPreventionConfig())
+    hand = RigidHand(("slip", slip), ("sharp", sharp), **settings)
+    hand.supervisor.restart(recovered=False)
+    hand.step([])
+    return hand
+
+
+def a_holding_hand() -> RigidHand:
+    hand = a_hand(grip_settle_s=0.02)
+    assert hand.supervisor.grasp() == ""
+    assert hand.step(GRIPPED, steps=20) is HandState.HOLDING
+    return hand

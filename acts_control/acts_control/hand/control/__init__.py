@@ -12,8 +12,9 @@ from acts_control.hand.control.cycle_times import CycleTimes
 from acts_control.hand.control.loop import HandLoop
 from acts_control.hand.control.loop_config import HandLoopConfig
 from acts_control.hand.control.status import HandPhase
-from acts_control.hand.control.supervisor import HandSupervisor, SupervisorConfig, SupervisorStatus, no_touch
+from acts_control.hand.control.supervisor import HandSupervisor, SupervisorConfig, SupervisorStatus
 from acts_control.hand.control.torque_wish import PendingAnswer
+from acts_control.hand.control.touch import no_touch
 
 __all__ = [
     "Behaviour",

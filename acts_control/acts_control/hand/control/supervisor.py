@@ -11,13 +11,13 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from math import isfinite
 
 import numpy as np
 from numpy.typing import NDArray
 
 from acts_control.hand.control.grasp import Grasp, GraspConfig, towards
 from acts_control.hand.control.step_rule import StepRule, StepRuleConfig
+from acts_control.hand.control.touch import HandTouch, no_touch
 from acts_control.hand.description import HandKinematics
 from acts_control.hand.motors import HandReading
 from acts_control.hand.reflexes import HandState, Reflex, Sensed, Wish
@@ -26,14 +26,6 @@ from acts_core.settings import setting, validate
 from acts_core.skin import RegionContact
 
 Array = NDArray[np.float64]
-
-# Touch that is stamped further ahead of the clock is by another clock: it would count as the newest until then.
-_FUTURE_S = 0.05
-
-# Beyond what any skin of a hand says. With places farther off and longer normals, equations could not be solved.
-_LARGEST, _FARTHEST_M, _LONGEST_NORMAL = 1e6, 10.0, 1.01
-_LONGEST_NAME = 64
-_MOST_NAMES = 3
 
 
 @dataclass(frozen=True)
@@ -116,13 +108,8 @@ class HandSupervisor:
         # The last one counts. Filled from any thread: nothing that comes in between is overwritten.
         self._wanted: deque[str] = deque()
         self._grasp = Grasp(config)
-        self._regions: dict[str, RegionContact] = {}
-        self._touch_s = -float("inf")
-        self._is_new = False
+        self._touch = HandTouch(kinematics)
         self._was_stale = True
-        self._refused = 0
-        self._refusal = ""
-        self._unfelt: tuple[str, ...] = ()
 
     # --- from any thread
 
@@ -174,40 +161,22 @@ class HandSupervisor:
         bool
             False where it cannot be, and counts as not come.
         """
-        if not stamp_s <= now_s + _FUTURE_S:
-            return self.refuse(f"touch is stamped {stamp_s - now_s:.3g} s ahead of the clock")
-        # A message has all patches of its skin, also those that nothing touches: this one says nothing of the hand.
-        if not any(one.name in self._hand.regions for one in regions):
-            return self.refuse(
-                f"touch names {_listed([one.name for one in regions])}; the hand has "
-                f"{_listed(list(self._hand.regions))}: is `regions` the topic of another skin?"
-            )
-        objection = next(filter(None, map(self._objection, regions)), "")
-        if objection:
-            return self.refuse(objection)
-        if stamp_s > self._touch_s:
-            self._regions = {one.name: one for one in regions if one.name in self._hand.regions}
-            self._unfelt = tuple(name for name in self._hand.regions if name not in self._regions)
-            self._touch_s = stamp_s
-            self._is_new = True
-        return True
+        return self._touch.take(regions, stamp_s, now_s)
 
     def refuse(self, why: str) -> bool:
         """Count touch that has come and cannot be used; False."""
-        self._refused += 1
-        self._refusal = why
-        return False
+        return self._touch.refuse(why)
 
     def watch(self, now_s: float) -> None:
         """Judge the touch that has come, while the torque is off and there are no steps; `now_s` as in `touch` [s]."""
-        age_s = now_s - self._touch_s
+        age_s = self._touch.age_s(now_s)
         self.status = replace(
             self.status,
             touch_age_s=age_s,
             is_stale=age_s > self._config.touch_stale_after_s,
-            refused=self._refused + self._rule.refused,
-            refusal=self._refusal,
-            unfelt=self._unfelt,
+            refused=self._touch.refused + self._rule.refused,
+            refusal=self._touch.refusal,
+            unfelt=self._touch.unfelt,
         )
 
     def step(self, reading: HandReading, goal_rad: Sequence[float], now_s: float, dt_s: float) -> Array:
@@ -228,7 +197,8 @@ class HandSupervisor:
         """
         q, goal = np.array(reading.q_rad), np.array(goal_rad)
         self._obey()
-        is_stale = now_s - self._touch_s > self._config.touch_stale_after_s
+        age_s = self._touch.age_s(now_s)
+        is_stale = age_s > self._config.touch_stale_after_s
         if is_stale and (not self._was_stale or self._state is HandState.CLOSING):
             self._lose_touch()
         elif self._was_stale and not is_stale:
@@ -243,27 +213,27 @@ class HandSupervisor:
             goal,
             np.array(reading.current_ma),
             self._rule.step_rad_s,
-            {} if is_stale else self._regions,
-            self._is_new and not is_stale,
+            {} if is_stale else self._touch.regions,
+            self._touch.is_new and not is_stale,
             self._grasp.is_shaped,
         )
-        self._is_new = False
+        self._touch.is_new = False
         asked, active = self._ask(sensed, is_stale)
         refused_before = self._rule.refused
         goal = self._rule.goals(goal, q, sensed.current_ma, asked, dt_s)
         if self._rule.refused > refused_before:
-            self._refusal = f"a reflex asks for steps that are not finite; asking are {', '.join(active)}"
+            self._touch.refusal = f"a reflex asks for steps that are not finite; asking are {', '.join(active)}"
         self.status = SupervisorStatus(
             self._state,
             self._reason,
-            now_s - self._touch_s,
+            age_s,
             is_stale,
             tuple(active),
             {name: reflex.events for name, reflex in self._reflexes.items()},
             self.status.steps + 1,
-            self._refused + self._rule.refused,
-            self._refusal,
-            self._unfelt,
+            self._touch.refused + self._rule.refused,
+            self._touch.refusal,
+            self._touch.unfelt,
         )
         return goal
 
@@ -364,41 +334,3 @@ class HandSupervisor:
     def _reset_reflexes(self) -> None:
         for reflex in self._reflexes.values():
             reflex.reset()
-
-    def _objection(self, region: RegionContact) -> str:
-        """Why a region cannot be of this hand's skin, in words; empty where it can."""
-        name, known = region.name[:_LONGEST_NAME], self._hand.regions.get(region.name)
-        if known is not None and region.link != known.link:
-            said = f"region {name!r} is said to be on link {region.link[:_LONGEST_NAME]!r}"
-            if self._kinematics.has(region.link):
-                return f"{said}; in the description of the hand it is on {known.link!r}"
-            links = ", ".join(link.name for link in self._hand.links)
-            return f"{said}; the hand has {self._hand.base}, {links}"
-        if not _can_be(region):
-            return f"region {name!r} has numbers that no skin says"
-        return ""
-
-
-def no_touch(age_s: float) -> str:
-    """That touch is missing, and for how long, in words; infinite before the first [s]."""
-    return f"no touch for {age_s:.2g} s" if isfinite(age_s) else "no touch so far"
-
-
-def _listed(names: Sequence[str]) -> str:
-    """Names of regions for a person, shortened: anybody may have sent them."""
-    more = len(names) - _MOST_NAMES
-    shown = ", ".join(name[:_LONGEST_NAME] for name in names[:_MOST_NAMES])
-    return f"{shown} and {more} more" if more > 0 else shown or "no region at all"
-
-
-def _can_be(region: RegionContact) -> bool:
-    """Whether all numbers are such as a skin may say; NaN is not."""
-    numbers = (
-        *(region.force_n, region.area_m2, region.peak_n, region.spread_m, region.concentration),
-        *(region.sharpness, region.slip_m, *region.motion_m_s),
-    )
-    return (
-        all(abs(number) <= _LARGEST for number in numbers)
-        and all(abs(place_m) <= _FARTHEST_M for place_m in region.centre_m)
-        and all(abs(part) <= _LONGEST_NORMAL for part in region.normal)
-    )

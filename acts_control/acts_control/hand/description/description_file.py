@@ -122,7 +122,9 @@ def _finger(one: Section, name: str, moved_by: dict[str, list[str]], joints: set
     for joint in shares:
         if joint not in moved_by[tip_link]:
             movers = ", ".join(moved_by[tip_link]) or "no joint"
-            raise closes.error(f"{joint} does not move {tip_link}, the finger's tip_link; that is moved by {movers}", joint)
+            raise closes.error(
+                f"{joint} does not move {tip_link}, the finger's tip_link; that is moved by {movers}", joint
+            )
     return Finger(name, shares, tip_link, _place(one, "tip_m"), bool(one.flag("opposes")))
 
 

@@ -1,0 +1,120 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""What the hand's skin feels: the newest touch that can be of this hand; anything else is counted and left out."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import isfinite
+
+from acts_control.hand.description import HandKinematics
+from acts_core.skin import RegionContact
+
+# Touch that is stamped further ahead of the clock is by another clock: it would count as the newest until then.
+_FUTURE_S = 0.05
+
+# Beyond what any skin of a hand says. With places farther off and longer normals, equations could not be solved.
+_LARGEST, _FARTHEST_M, _LONGEST_NORMAL = 1e6, 10.0, 1.01
+_LONGEST_NAME = 64
+_MOST_NAMES = 3
+
+
+class HandTouch:
+    """What has come of touch.
+
+    Parameters
+    ----------
+    kinematics : HandKinematics
+
+    Attributes
+    ----------
+    regions : dict of str to RegionContact
+        The newest touch, by the names of the hand's regions.
+    unfelt : tuple of str
+        Regions of the hand of which it says nothing: nothing is felt there.
+    is_new : bool
+        Whether it has come since somebody set this to False.
+    refused : int
+        Messages left out, for what cannot be.
+    refusal : str
+        Why the last of them was; empty before the first.
+    """
+
+    def __init__(self, kinematics: HandKinematics) -> None:
+        self._kinematics = kinematics
+        self._hand = kinematics.hand
+        self._stamp_s = -float("inf")
+        self.regions: dict[str, RegionContact] = {}
+        self.unfelt: tuple[str, ...] = ()
+        self.is_new = False
+        self.refused = 0
+        self.refusal = ""
+
+    def take(self, regions: Sequence[RegionContact], stamp_s: float, now_s: float) -> bool:
+        """Take a message of touch, see `HandSupervisor.touch`."""
+        if not stamp_s <= now_s + _FUTURE_S:
+            return self.refuse(f"touch is stamped {stamp_s - now_s:.3g} s ahead of the clock")
+        # A message has all patches of its skin, also those that nothing touches: this one says nothing of the hand.
+        if not any(one.name in self._hand.regions for one in regions):
+            return self.refuse(
+                f"touch names {_listed([one.name for one in regions])}; the hand has "
+                f"{_listed(list(self._hand.regions))}: is `regions` the topic of another skin?"
+            )
+        objection = next(filter(None, map(self._objection, regions)), "")
+        if objection:
+            return self.refuse(objection)
+        if stamp_s > self._stamp_s:
+            self.regions = {one.name: one for one in regions if one.name in self._hand.regions}
+            self.unfelt = tuple(name for name in self._hand.regions if name not in self.regions)
+            self._stamp_s = stamp_s
+            self.is_new = True
+        return True
+
+    def refuse(self, why: str) -> bool:
+        """Count a message that has come and cannot be used; False."""
+        self.refused += 1
+        self.refusal = why
+        return False
+
+    def age_s(self, now_s: float) -> float:
+        """How old the newest touch is; infinite before the first [s]."""
+        return now_s - self._stamp_s
+
+    def _objection(self, region: RegionContact) -> str:
+        """Why a region cannot be of this hand's skin, in words; empty where it can."""
+        name, known = region.name[:_LONGEST_NAME], self._hand.regions.get(region.name)
+        if known is not None and region.link != known.link:
+            said = f"region {name!r} is said to be on link {region.link[:_LONGEST_NAME]!r}"
+            if self._kinematics.has(region.link):
+                return f"{said}; in the description of the hand it is on {known.link!r}"
+            links = ", ".join(link.name for link in self._hand.links)
+            return f"{said}; the hand has {self._hand.base}, {links}"
+        if not _can_be(region):
+            return f"region {name!r} has numbers that no skin says"
+        return ""
+
+
+def no_touch(age_s: float) -> str:
+    """That touch is missing, and for how long, in words; infinite before the first [s]."""
+    return f"no touch for {age_s:.2g} s" if isfinite(age_s) else "no touch so far"
+
+
+def _listed(names: Sequence[str]) -> str:
+    """Names of regions for a person, shortened: anybody may have sent them."""
+    more = len(names) - _MOST_NAMES
+    shown = ", ".join(name[:_LONGEST_NAME] for name in names[:_MOST_NAMES])
+    return f"{shown} and {more} more" if more > 0 else shown or "no region at all"
+
+
+def _can_be(region: RegionContact) -> bool:
+    """Whether all numbers are such as a skin may say; NaN is not."""
+    numbers = (
+        *(region.force_n, region.area_m2, region.peak_n, region.spread_m, region.concentration),
+        *(region.sharpness, region.slip_m, *region.motion_m_s),
+    )
+    return (
+        all(abs(number) <= _LARGEST for number in numbers)
+        and all(abs(place_m) <= _FARTHEST_M for place_m in region.centre_m)
+        and all(abs(part) <= _LONGEST_NORMAL for part in region.normal)
+    )
