@@ -29,6 +29,7 @@ class Running:
         **settings: Any,
     ) -> None:
         self.log: list[tuple[str, str]] = []
+        self.readings: list[HandReading] = []
         self.may_go_on = threading.Event()
         self.may_go_on.set()
         self.is_held = threading.Event()
@@ -38,7 +39,8 @@ class Running:
         self.loop = HandLoop(hand, motors, config, lambda *told: self.log.append(told), self._on_reading, behaviour)
         self.loop.launch()
 
-    def _on_reading(self, _reading: HandReading) -> None:
+    def _on_reading(self, reading: HandReading) -> None:
+        self.readings.append(reading)
         if not self.may_go_on.is_set():
             self.is_held.set()
         assert self.may_go_on.wait(DEADLINE_S)

@@ -67,7 +67,8 @@ def test_a_cable_torn_off_and_put_back_ends_with_an_enabled_hand(bus: Bus, runni
     running.until_phase(HandPhase.CONNECTING)
     bus.command("plug_in")
     running.until_phase(HandPhase.ENABLED)
-    assert any("is the cable plugged in" in sentence for _, sentence in running.log)
+    told = [sentence for level, sentence in running.log if level == "error"]
+    assert f"{bus.link} is gone (Input/output error); is the cable plugged in?" in told
 
 
 def test_a_motor_that_falls_silent_is_waited_for_and_named(bus: Bus, running: Running) -> None:
@@ -156,6 +157,7 @@ def test_a_motor_whose_power_was_gone_while_the_torque_was_off_is_set_up_before_
         return read()
 
     monkeypatch.setattr(hand, "read", without_power)
+    running.readings.clear()
     running.until(lambda: not off)
     # Its own limit of the current is several times the hand's.
     running.until(lambda: {motor["goal_current"] for motor in bus.motors()} == {350})
@@ -163,6 +165,8 @@ def test_a_motor_whose_power_was_gone_while_the_torque_was_off_is_set_up_before_
     assert any("index_pip: its settings are gone, as after a loss of power" in told for _, told in running.log)
     assert running.loop.status.phase is HandPhase.RELEASED
     assert torques(bus) == {0}
+    # What its registers hold then is no angle, and nobody is told that it were.
+    assert {round(reading.q_rad[2], 1) for reading in running.readings} == {0.0}
     assert running.loop.enable() == ""
     reading = running.loop.status.reading
     assert reading is not None

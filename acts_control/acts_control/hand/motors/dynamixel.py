@@ -49,6 +49,8 @@ class DynamixelHand:
         self._is_on = False  # whether the torque of all motors was switched on
         self._is_set_up = [False] * len(hand.joints)
         self._goal_rad = [joint.clipped(0.0) for joint in hand.joints]
+        # Of each motor what it said last; none before.
+        self._said: list[table.Gathered | None] = [None] * len(hand.joints)
 
     def connect(self) -> list[str]:
         """Open the port, find all motors, set them up with the torque off.
@@ -67,6 +69,7 @@ class DynamixelHand:
             The torque of the others is off.
         """
         self._is_on = False
+        self._said = [None] * len(self._hand.joints)
         self._port.open()
         try:
             # What a crashed program has left on is off from here on, whatever fails below. Motors that hear this and
@@ -137,23 +140,29 @@ class DynamixelHand:
             raise HandError(f"motors {', '.join(silent)} did not answer when they were switched off")
 
     def read(self) -> HandReading:
-        """The newest state of all motors.
+        """The newest state of all motors; of one that has lost its power, that from before.
 
         Raises
         ------
         HandError
-            When the answer does not come, or is damaged.
+            When the answer does not come, or is damaged, or a motor has lost its power before it has said anything.
         HandLostError
             When the port is gone.
         """
         joints = self._hand.joints
         states = [table.Gathered.of(data) for data in self._port.gather()]
-        pairs = list(zip(joints, states, strict=True))
+        known = [one if one.is_what_was_chosen else said for one, said in zip(states, self._said, strict=True)]
+        pairs = []
+        for joint, one in zip(joints, known, strict=True):
+            if one is None:
+                raise HandError(f"motor {name_of(joint)} has lost its power")
+            pairs.append((joint, one))
+        self._said = known
         return HandReading(
             tuple(_angle_rad(joint, one.ticks) for joint, one in pairs),
             tuple(joint.direction * one.speed * table.RAD_S_PER_UNIT for joint, one in pairs),
             tuple(float(joint.direction * one.current) for joint, one in pairs),
-            tuple(one.temperature_c for one in states),
+            tuple(one.temperature_c for _, one in pairs),
             tuple(table.fault_words(one.hardware_error) or self._unwell(k, one) for k, one in enumerate(states)),
             any(one.watchdog == table.WATCHDOG_EXPIRED for one in states),
         )

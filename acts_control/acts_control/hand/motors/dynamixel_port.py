@@ -10,6 +10,7 @@ but too short; what the port itself raises (OSError, termios.error) passes throu
 
 from __future__ import annotations
 
+import os
 import termios
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
@@ -21,7 +22,7 @@ from acts_control.hand.motors.dynamixel_config import DynamixelConfig
 from acts_control.hand.motors.dynamixel_table import ALERT, Register
 from acts_control.hand.motors.port_claim import PortClaim
 from acts_control.hand.motors.port_words import why_not
-from acts_core.runtime import is_multiplexer, is_stale_link
+from acts_core.runtime import errno_of, is_multiplexer, is_stale_link
 
 # A read of the port returns after this time, if not before with all that was asked for. Well below answer_timeout_ms.
 _READ_TIMEOUT_S = 0.001
@@ -205,7 +206,9 @@ class DynamixelPort:
         except (OSError, termios.error) as error:
             # The library is left in the middle of an exchange: it would call the port busy from now on.
             self.disconnect()
-            raise HandLostError(f"{self._config.port} is gone ({error}); is the cable plugged in?") from error
+            number = errno_of(error)
+            words = error if number is None else os.strerror(number)
+            raise HandLostError(f"{self._config.port} is gone ({words}); is the cable plugged in?") from error
 
 
 def name_of(joint: Joint) -> str:
