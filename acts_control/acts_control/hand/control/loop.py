@@ -122,6 +122,11 @@ class HandLoop:
         waits = self.status.phase not in (HandPhase.CONNECTING, HandPhase.ENABLED)
         return PendingAnswer(self._wish.on_is_known, self._why_not_on, self._answer_s(waits=waits))
 
+    @property
+    def is_torque_wanted(self) -> bool:
+        """Whether the torque is to be on: where it is off, it comes on as soon as it can."""
+        return self._wish.is_on
+
     def cancel_enable(self) -> bool:
         """The torque stays off, if it was asked for and has not come on since; whether that is so."""
         if not self._wish.is_under_way:

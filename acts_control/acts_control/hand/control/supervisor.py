@@ -145,7 +145,7 @@ class HandSupervisor:
             self._wanted.appendleft("grasp")
         if not (recovered and self._wanted):
             self._become(HandState.STOPPED, "goals stand where the joints are")
-        self.status = replace(self.status, state=self._state, reason=self._reason)
+        self.status = replace(self.status, state=self._state, reason=self._reason, active=())
 
     def touch(self, regions: Sequence[RegionContact], stamp_s: float, now_s: float) -> bool:
         """Take what the skin feels.

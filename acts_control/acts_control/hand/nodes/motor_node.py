@@ -138,6 +138,8 @@ class MotorNode(PollingNode):
             return ""
         state = "not connected" if status.phase is HandPhase.CONNECTING else status.phase.words
         advice = "; call enable" if status.phase is HandPhase.RELEASED else ""
+        if self.loop.is_torque_wanted:
+            advice = "; as soon as it can, its torque comes on and its joints stand still, unless that is switched off"
         return f"the hand is {state}: {status.reason}{advice}"
 
     def _on_reading(self, reading: HandReading) -> None:

@@ -220,6 +220,15 @@ def test_what_is_asked_for_while_a_motor_is_started_anew_is_no_failure() -> None
     executor.add_node(hand)
     executor.add_node(user)
     try:
+        # Who is told that the hand cannot be reached is also told what it does when it can be.
+        hand.loop.status = replace(hand.loop.status, phase=HandPhase.CONNECTING, reason="the cable is out")
+        answer = user.create_client(Trigger, "hand_reflexes/release").call_async(Trigger.Request())
+        executor.spin_until_future_complete(answer, timeout_sec=DEADLINE_S)
+        assert not answer.result().success
+        words = (
+            "the hand is not connected: the cable is out; as soon as it can, its torque comes on and its joints stand"
+        )
+        assert answer.result().message.startswith(words)
         hand.loop.status = replace(hand.loop.status, phase=HandPhase.RECOVERING, reason="index_pip: overload")
         for name in ("stop", "release"):
             client = user.create_client(Trigger, f"hand_reflexes/{name}")
