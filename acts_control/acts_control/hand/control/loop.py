@@ -16,13 +16,10 @@ from acts_control.hand.control.beyond_limits import RETURN_RAD_S, beyond_reach, 
 from acts_control.hand.control.fault_memory import FaultMemory
 from acts_control.hand.control.loop_config import HandLoopConfig
 from acts_control.hand.control.status import HandPhase, HandStatus
-from acts_control.hand.control.torque_wish import PendingAnswer, TorqueWish
+from acts_control.hand.control.torque_wish import CUT_POWER, PendingAnswer, TorqueWish
 from acts_control.hand.description import HandDescription
 from acts_control.hand.motors import HandBus, HandError, HandLostError, HandReading
 
-# Who asks for torque or a release waits no longer for the motors' answers; where many are silent, it takes longer.
-_ANSWER_S = 2.0
-_CUT_POWER = "motors that are silent may hold on: cut their power to be sure"
 _NOT_FINITE = "the goals stand still, for what was asked for cannot be"
 
 
@@ -69,12 +66,14 @@ class HandLoop:
         self._commanded_s = -1e9
         self._wish = TorqueWish(is_on=config.autostart)
         self._is_on = False  # whether the torque of a motor may be on
+        self._obeyed_s = 0.0  # when the motors have taken goals last
         self._closing = threading.Event()
         self._faults = FaultMemory(len(hand.joints), config.max_faults)
         self._thread = threading.Thread(target=self._run, name="hand_loop", daemon=True)
 
     def launch(self) -> None:
         """Start the thread."""
+        self._wish.is_served = True
         self._thread.start()
 
     def close(self, timeout_s: float = 10.0) -> None:
@@ -116,11 +115,11 @@ class HandLoop:
 
     def ask_enable(self) -> PendingAnswer:
         """Like `enable`, for who does not wait here."""
-        if not self._closing.is_set() and self._thread.is_alive():
+        if self._wish.is_served:
             self._faults.forget()
             self._wish.on()
-        waits = self.status.phase not in (HandPhase.CONNECTING, HandPhase.ENABLED)
-        return PendingAnswer(self._wish.on_is_known, self._why_not_on, self._answer_s(waits=waits))
+        waits = self._wish.is_served and self.status.phase not in (HandPhase.CONNECTING, HandPhase.ENABLED)
+        return PendingAnswer(self._wish.on_is_known, lambda: self._wish.why_not_on(self.status), waits=waits)
 
     @property
     def is_torque_wanted(self) -> bool:
@@ -144,34 +143,8 @@ class HandLoop:
     def ask_release(self) -> PendingAnswer:
         """Like `release`, for who does not wait here."""
         self._wish.off("released by request")
-        waits = self.status.phase is not HandPhase.CONNECTING
-        return PendingAnswer(self._wish.off_is_known, self._why_not_off, self._answer_s(waits=waits))
-
-    def _answer_s(self, *, waits: bool) -> float:
-        return _ANSWER_S if waits and self._thread.is_alive() else 0.0
-
-    def _why_not_on(self) -> str:
-        status = self.status
-        if self._closing.is_set() or not self._thread.is_alive():
-            return f"the hand's loop has ended: {status.reason}"
-        if not self._wish.is_on:
-            return f"the torque is off: {self._wish.why_off}"
-        if status.phase is HandPhase.ENABLED:
-            return ""
-        state = "not connected" if status.phase is HandPhase.CONNECTING else status.phase.words
-        return f"the hand is {state} ({status.reason}); its torque comes on as soon as it can, unless it is released"
-
-    def _why_not_off(self) -> str:
-        status = self.status
-        if not self._thread.is_alive():
-            return f"the hand's loop has ended: {status.reason}"
-        if self._wish.is_on:
-            return "the torque was asked for again meanwhile"
-        if status.phase is HandPhase.CONNECTING:
-            return f"the hand is not connected ({status.reason}); it is released as soon as it is; {_CUT_POWER}"
-        if not self._wish.off_is_known.is_set():
-            return f"the motors have not said within {_ANSWER_S:g} s that they are released; {_CUT_POWER}"
-        return ""
+        waits = self._wish.is_served and self.status.phase is not HandPhase.CONNECTING
+        return PendingAnswer(self._wish.off_is_known, lambda: self._wish.why_not_off(self.status), waits=waits)
 
     def _run(self) -> None:
         try:
@@ -182,6 +155,7 @@ class HandLoop:
             if self._is_on:
                 self._switch_off_at_last()
             self._bus.close()
+            self._wish.is_served = False
             self._wish.tell_all()
 
     def _run_once(self) -> None:
@@ -217,6 +191,7 @@ class HandLoop:
                     self._log("warning", f"{error}; trying again every {self._config.connect_retry_s:g} s")
                 told = str(error)
                 self._set(HandPhase.CONNECTING, told, reading=None)
+                self._bus.disconnect()  # or its port, opened already, may keep the next attempt from it
                 self._closing.wait(self._config.connect_retry_s)
                 continue
             self._is_on = False
@@ -286,17 +261,27 @@ class HandLoop:
         if phase is not HandPhase.ENABLED:
             return self._switch_on(reading, recovered=phase is HandPhase.RECOVERING)
         targets, reason = self._targets(reading, goal, now_s, dt_s)
-        step = self._config.max_speed_rad_s * dt_s
+        step, moved = self._config.max_speed_rad_s * dt_s, []
         for k, joint in enumerate(self._hand.joints):
             target, most = targets.get(k, goal[k]), step
             if joint.clipped(goal[k]) != goal[k]:
                 target, most = joint.clipped(goal[k]), min(step, RETURN_RAD_S * dt_s)
-            goal[k] += min(max(target - goal[k], -most), most)
-        self._bus.command(goal)
+            moved.append(goal[k] + min(max(target - goal[k], -most), most))
+        try:
+            self._bus.command(moved)
+        except HandLostError:
+            raise
+        except HandError:
+            # One answer may be lost, as that to a read; the next goals start from those before.
+            self._count(unanswered=1)
+            if now_s - self._obeyed_s > self._config.silence_s:
+                raise
+            return goal
+        self._obeyed_s = now_s
         if self._behaviour is not None:
             self._behaviour.sent(now_s, time.monotonic())
-        self._set(HandPhase.ENABLED, reason, goal_rad=tuple(goal))
-        return goal
+        self._set(HandPhase.ENABLED, reason, goal_rad=tuple(moved))
+        return moved
 
     def _switch_on(self, reading: HandReading, *, recovered: bool) -> list[float]:
         """Hold every joint where it is: the goals."""
@@ -306,6 +291,7 @@ class HandLoop:
             return []
         self._is_on = True
         self._bus.enable()
+        self._obeyed_s = time.monotonic()
         if not self._wish.is_on:
             # Meanwhile somebody has stopped or released it: from here on the hand would hold.
             self._obey_release()
@@ -371,7 +357,7 @@ class HandLoop:
             self._release()
             self._set(HandPhase.RELEASED, "shutting down")
         except HandError as error:
-            self._log("error", f"{error}; {_CUT_POWER}")
+            self._log("error", f"{error}; {CUT_POWER}")
 
     def _release(self) -> None:
         self._bus.release()

@@ -9,23 +9,31 @@ import threading
 import time
 from collections.abc import Callable
 
+from acts_control.hand.control.status import HandPhase, HandStatus
+
+CUT_POWER = "motors that are silent may hold on: cut their power to be sure"
+"""What is told of motors that have not said that their torque is off."""
+
+# Who asks for torque or a release waits no longer for the motors' answers; where many are silent, it takes longer.
+_ANSWER_S = 2.0
+
 
 class PendingAnswer:
-    """An answer that is known once something has happened, or nobody waits for it any longer.
+    """An answer that is known once something has happened, or two seconds have passed.
 
     Parameters
     ----------
     is_known : threading.Event
     words : callable
         The answer, once it is to be given: why not, or nothing.
-    timeout_s : float
-        For how long it is waited for [s].
+    waits : bool
+        Whether it is to be waited for at all.
     """
 
-    def __init__(self, is_known: threading.Event, words: Callable[[], str], timeout_s: float) -> None:
+    def __init__(self, is_known: threading.Event, words: Callable[[], str], *, waits: bool) -> None:
         self._is_known = is_known
         self._words = words
-        self._until_s = time.monotonic() + timeout_s
+        self._until_s = time.monotonic() + (_ANSWER_S if waits else 0.0)
 
     def poll(self) -> str | None:
         """The answer; None as long as it is to be waited for."""
@@ -35,7 +43,8 @@ class PendingAnswer:
 
     def told_as(self, words: str) -> PendingAnswer:
         """The same, with another answer."""
-        return PendingAnswer(self._is_known, lambda: words, self._until_s - time.monotonic())
+        self._words = lambda: words
+        return self
 
     def wait(self) -> str:
         """The answer, when it is known."""
@@ -57,6 +66,8 @@ class TorqueWish:
         Whether the torque is wanted.
     is_under_way : bool
         Whether it is, and has not come on since that was asked for.
+    is_served : bool
+        Whether the loop of the hand runs.
     why_off : str
         Why it is not, in words; empty before anybody has asked for that.
     on_is_known, off_is_known : threading.Event
@@ -65,6 +76,7 @@ class TorqueWish:
 
     def __init__(self, *, is_on: bool) -> None:
         self.is_on = self.is_under_way = is_on
+        self.is_served = False
         self.why_off = ""
         self.on_is_known, self.off_is_known = threading.Event(), threading.Event()
         self.off_is_known.set()
@@ -92,3 +104,26 @@ class TorqueWish:
         """Whatever was asked for, the status of the loop says what has become of it."""
         self.on_is_known.set()
         self.off_is_known.set()
+
+    def why_not_on(self, status: HandStatus) -> str:
+        """Why the torque is off that was asked for, in words; empty where it is on."""
+        if not self.is_served:
+            return f"the hand's loop has ended: {status.reason}"
+        if not self.is_on:
+            return f"the torque is off: {self.why_off}"
+        if status.phase is HandPhase.ENABLED:
+            return ""
+        state = "not connected" if status.phase is HandPhase.CONNECTING else status.phase.words
+        return f"the hand is {state} ({status.reason}); its torque comes on as soon as it can, unless it is released"
+
+    def why_not_off(self, status: HandStatus) -> str:
+        """Why the torque may be on that was asked to be off, in words; empty where it is off."""
+        if not self.is_served:
+            return f"the hand's loop has ended: {status.reason}"
+        if self.is_on:
+            return "the torque was asked for again meanwhile"
+        if status.phase is HandPhase.CONNECTING:
+            return f"the hand is not connected ({status.reason}); it is released as soon as it is; {CUT_POWER}"
+        if not self.off_is_known.is_set():
+            return f"the motors have not said within {_ANSWER_S:g} s that they are released; {CUT_POWER}"
+        return ""

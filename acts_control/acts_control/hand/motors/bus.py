@@ -68,6 +68,8 @@ class HandReading(NamedTuple):
 class HandBus(Protocol):
     """The motors of a hand. Every method may raise `HandError`: it is logged, and the motors are connected anew.
 
+    That of `read` and `command` is only counted, unless it is a `HandLostError` or goes on for `silence_s`.
+
     The hand's loop (`acts_control.hand.control.HandLoop`) calls all of them, from one thread. Motors that hear nothing
     for a while have to stop by themselves.
     """
@@ -75,8 +77,8 @@ class HandBus(Protocol):
     def connect(self) -> list[str]:
         """Find all motors and set them up, with the torque off; what a person should know of, in sentences.
 
-        Called again and again until it succeeds, and after `disconnect`. Motors that have switched themselves off are
-        told by `read`.
+        Called again and again until it succeeds, each time after `disconnect`. Motors that have switched themselves
+        off are told by `read`.
         """
 
     def enable(self) -> None:
