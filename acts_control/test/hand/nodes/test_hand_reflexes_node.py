@@ -190,7 +190,7 @@ def test_stop_is_answered_while_enable_waits_and_the_torque_stays_off(bus: Bus) 
         enable, stop = (node.create_client(Trigger, f"hand_reflexes/{name}") for name in ("enable", "stop"))
         assert enable.wait_for_service(DEADLINE_S)
         assert stop.wait_for_service(DEADLINE_S)
-        until(lambda: bool(readings))
+        until(lambda: bool(readings) and bool(statuses))
         # As long as one is silent none gets torque, and the answer to enable waits.
         bus.command("lose 14")
         enabled, stopped = enable.call_async(Trigger.Request()), stop.call_async(Trigger.Request())
