@@ -9,6 +9,7 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -85,7 +86,7 @@ for line in sys.stdin:
     os.waitpid(child, 0)
 """
 
-Run = Callable[..., tuple[int, bool]]
+Run = Callable[..., tuple[Any, bool]]
 
 
 @pytest.fixture
@@ -115,7 +116,7 @@ def server() -> Iterator[subprocess.Popen[str]]:
 def run(server: subprocess.Popen[str], package: Path) -> Run:
     """Run code in a new process with some environment variables: its `result`, and whether anything was compiled."""
 
-    def finished(code: str = CALL, **variables: str) -> tuple[int, bool]:
+    def finished(code: str = CALL, **variables: str) -> tuple[Any, bool]:
         assert server.stdin is not None
         assert server.stdout is not None
         server.stdin.write(json.dumps([code, str(package.parent), variables]) + "\n")
@@ -189,7 +190,7 @@ with warnings.catch_warnings(record=True) as told:
 def test_on_a_full_disk_a_kernel_runs_and_it_is_said_once(run: Run, package: Path) -> None:
     # Files cannot grow: as on a full disk, but for the number of the error.
     full = "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (0, resource.RLIM_INFINITY))"
-    (value, *told), is_compiled = run(WARNED.format(limit=full))  # type: ignore[misc]
+    (value, *told), is_compiled = run(WARNED.format(limit=full))
     assert (value, is_compiled, len(told)) == (2, True, 1)
     assert "cannot be kept in " in told[0]
     assert "File too large" in told[0]
@@ -200,7 +201,7 @@ def test_on_a_full_disk_a_kernel_runs_and_it_is_said_once(run: Run, package: Pat
 def test_where_no_folder_can_be_written_a_kernel_runs(run: Run, package: Path) -> None:
     (package / "__pycache__").write_text("")
     nowhere = dict.fromkeys(("NUMBA_CACHE_DIR", "XDG_CACHE_HOME", "HOME"), "/dev/null/x")
-    (value, *told), is_compiled = run(WARNED.format(limit="pass"), **nowhere)  # type: ignore[misc]
+    (value, *told), is_compiled = run(WARNED.format(limit="pass"), **nowhere)
     assert (value, is_compiled, len(told)) == (2, True, 1)
     assert "set NUMBA_CACHE_DIR" in told[0]
 

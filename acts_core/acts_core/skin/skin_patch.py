@@ -7,12 +7,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
 from acts_core.transforms import Transform
+
+T = TypeVar("T", bound=np.generic)
 
 _AT_THE_ORIGIN = Transform()
 
@@ -95,7 +98,7 @@ class SkinPatch:
         local = np.stack((np.sin(along), np.cos(along) * np.sin(across), np.cos(along) * np.cos(across)), axis=-1)
         return local @ self.rotation.T
 
-    def of(self, picture: NDArray[np.generic]) -> NDArray[np.generic]:
+    def of(self, picture: NDArray[T]) -> NDArray[T]:
         """This patch of a picture; a view of shape (end_row - first_row, end_col - first_col)."""
         return picture[self.first_row : self.end_row, self.first_col : self.end_col]
 

@@ -68,7 +68,7 @@ def test_fractions_are_rounded_and_any_order_in_memory_is_read(tmp_path: Path) -
 
 @pytest.mark.parametrize(("kind", "order"), [(np.uint8, "C"), (np.float16, "C"), (np.uint16, "F")])
 def test_frames_that_would_fill_the_memory_while_they_are_converted_are_refused(
-    tmp_path: Path, kind: type, order: Literal["C", "F"]
+    tmp_path: Path, kind: type[np.generic], order: Literal["C", "F"]
 ) -> None:
     path = tmp_path / "f.npz"
     frames = np.zeros((1000, 4, 5), dtype=kind, order=order)

@@ -6,7 +6,9 @@
 import re
 import struct
 import zlib
+from collections.abc import Iterable
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import pytest
@@ -57,7 +59,8 @@ def example(sequence: int = 7, m: int = 3) -> SampleFrame:
 
 
 def same(one: SampleFrame, other: SampleFrame) -> bool:
-    return all(np.array_equal(*values) for values in zip(one, other, strict=True))
+    pairs: Iterable[tuple[Any, Any]] = zip(one, other, strict=True)
+    return all(np.array_equal(*values) for values in pairs)
 
 
 def all_same(some: list[SampleFrame], others: list[SampleFrame]) -> bool:
@@ -252,7 +255,7 @@ def test_a_packet_of_many_chunks_that_is_too_long_is_rejected() -> None:
         ({"m": 4}, "48 bytes with 4 samples"),
     ],
 )
-def test_what_cannot_be_is_malformed_though_its_crc_is_right(changes: dict[str, int], words: str) -> None:
+def test_what_cannot_be_is_malformed_though_its_crc_is_right(changes: dict[str, Any], words: str) -> None:
     decoder = StreamDecoder()
     assert decoder.feed(packet_of(example(), **changes)) == []
     assert (decoder.malformed, decoder.crc_errors) == (1, 0)
@@ -294,7 +297,8 @@ def test_bad_samples_are_malformed_and_not_encoded(indices: list[int], counts: l
 
 
 def test_only_a_scheme_that_repeats_may_have_a_taxel_several_times() -> None:
-    again = {"indices": np.array([5, 6, 5, 5], dtype=np.uint16), "counts": np.array([1, 2, 3, 4], dtype=np.uint16)}
+    indices, counts = np.array([[5, 6, 5, 5], [1, 2, 3, 4]], dtype=np.uint16)
+    again: dict[str, Any] = {"indices": indices, "counts": counts}
     frame = example()._replace(scheme=Scheme.FIXED, **again)
     (found,) = StreamDecoder().feed(encode_frame(frame))
     assert found.indices.tolist() == [5, 6, 5, 5]
