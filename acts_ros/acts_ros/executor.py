@@ -22,7 +22,7 @@ from acts_core.stop_signals import StopSignals
 from acts_ros import middleware
 
 try:  # ROS 2 Kilted and newer; half the latency and a third of the CPU of the other at 1 kHz
-    from rclpy.experimental import EventsExecutor
+    from rclpy.experimental import EventsExecutor as EventsExecutor
 except ImportError:  # Humble and Jazzy
     EventsExecutor = None
 

@@ -14,9 +14,9 @@ from lz4.frame import LZ4FrameDecompressor
 from acts_core.errors import RecordingError
 
 if sys.version_info >= (3, 14):
-    from compression import zstd
+    from compression import zstd as zstd
 else:
-    from backports import zstd
+    from backports import zstd as zstd
 
 # Recorders close a chunk after some megabytes. It is unpacked as a whole, so a larger one could fill the memory.
 CHUNK_BYTES_MAX = 1 << 28

@@ -52,7 +52,9 @@ class Console:
         if isinstance(self._screen, io.TextIOWrapper):
             # Processes may write what the terminal has no characters for.
             self._screen.reconfigure(errors="backslashreplace")
-        self._log = None if folder is None else (folder / "launch.log").open("a", buffering=1, encoding="utf-8")
+        self._log: TextIO | None = (
+            None if folder is None else (folder / "launch.log").open("a", buffering=1, encoding="utf-8")
+        )
         self.screen_lost = False
 
     def close(self) -> None:

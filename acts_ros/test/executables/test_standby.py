@@ -18,7 +18,6 @@ from pathlib import Path
 import pytest
 
 from acts_core.errors import ActsError
-from acts_ros.executables import standby
 from acts_ros.executables.standby import STANDBY_WORD, Standby, take_standby_word
 
 DEADLINE_S = 30.0
@@ -150,6 +149,6 @@ def test_a_name_that_another_user_has_taken_is_said(monkeypatch: pytest.MonkeyPa
         taken.bind(f"\0acts/standby/{os.getppid()}/squatted")
         taken.listen()
         user = os.getuid()
-        monkeypatch.setattr(standby.os, "getuid", lambda: user + 1)
+        monkeypatch.setattr(os, "getuid", lambda: user + 1)
         with pytest.raises(ActsError, match=rf"squatted.*user {user}.*standby:=false"):
             Standby("squatted").wait_for_turn()

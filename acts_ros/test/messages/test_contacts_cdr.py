@@ -58,11 +58,11 @@ CONTACTS = st.builds(
 
 @st.composite
 def series(draw: st.DrawFn) -> SeriesFields:
-    newest = ContactFields(draw(STAMPS_NS), draw(NAMES), draw(NUMBERS), True, 0.1, 0.2, *[0.5] * 3, 7, *[0.25] * 6)
+    newest = ContactFields(draw(STAMPS_NS), draw(NAMES), draw(NUMBERS), True, 0.1, 0.2, *(0.5,) * 3, 7, *(0.25,) * 6)
     columns = draw(st.lists(st.tuples(SINGLES, SINGLES, SINGLES, NUMBERS), max_size=5))
     age_s, force_n, delay_s, missing = zip(*columns, strict=True) if columns else ((), (), (), ())
-    singles = [np.array(column, np.float32) for column in (age_s, force_n, delay_s)]
-    return SeriesFields(newest, *singles, np.array(missing, np.uint32))
+    ages_s, forces_n, delays_s = (np.array(column, np.float32) for column in (age_s, force_n, delay_s))
+    return SeriesFields(newest, ages_s, forces_n, delays_s, np.array(missing, np.uint32))
 
 
 def contacts_message(contacts: ContactsFields) -> Contacts:
@@ -191,14 +191,14 @@ def test_any_bytes_are_read_or_refused(data: bytes) -> None:
 
 
 @pytest.mark.parametrize("change", [{"number": -1}, {"force_n": 1e39}, {"active_taxels": 70000}, {"merged": 256}])
-def test_numbers_beyond_their_field_are_refused(change: dict[str, float]) -> None:
-    tracked = TrackedBlob(1, 0, *[0.0] * 8, 3, *[0.0] * 9)._replace(**change)  # type: ignore[arg-type]
+def test_numbers_beyond_their_field_are_refused(change: dict[str, Any]) -> None:
+    tracked = TrackedBlob(1, 0, *(0.0,) * 8, 3, *(0.0,) * 9)._replace(**change)
     with pytest.raises(PacketError, match="does not fit the message"):
         write_contacts(ContactsFields(0, "", 0, [tracked], 0))
 
 
 def test_the_newest_of_a_series_is_read_like_a_contact() -> None:
-    newest = ContactFields(5, "plate", 9, False, *[0.0] * 5, 0, *[0.0] * 6)
+    newest = ContactFields(5, "plate", 9, False, *(0.0,) * 5, 0, *(0.0,) * 6)
     nothing = np.empty(0, np.float32)
     data = write_series(SeriesFields(newest, nothing, nothing, nothing, np.empty(0, np.uint32)))
     assert read_contact(data) == read_series(data).newest == newest
