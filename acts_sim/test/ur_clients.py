@@ -26,6 +26,11 @@ from acts_core.robots import ur5e
 LEVEL = list(ur5e.LEVEL_Q_RAD)
 
 
+def is_at(receive: RTDEReceiveInterface, q_rad: list[float]) -> Callable[[], bool]:
+    """Whether an arm's joints are received as they are to be."""
+    return lambda: receive.getActualQ() == q_rad
+
+
 def hook(host: str, line: str) -> str:
     with socket.create_connection((host, HOOK_PORT), timeout=10.0) as connection:
         connection.sendall(line.encode() + b"\n")
@@ -195,7 +200,7 @@ def second_control(host: str) -> dict[str, Any]:
     target = plus(LEVEL, 0.05)
     control.moveJ(target, 3.0, 10.0)
     for receive in receives:
-        wait_for(lambda receive=receive: receive.getActualQ() == target, "the pose to be received")
+        wait_for(is_at(receive, target), "the pose to be received")
     return found
 
 
@@ -206,7 +211,7 @@ def two_robots(first: str, second: str) -> dict[str, Any]:
     targets = [plus(LEVEL, 0.1), plus(LEVEL, -0.1)]
     moves = [control.moveJ(target, 3.0, 10.0) for control, target in zip(controls, targets, strict=True)]
     for receive, target in zip(receives, targets, strict=True):
-        wait_for(lambda receive=receive, target=target: receive.getActualQ() == target, "both poses")
+        wait_for(is_at(receive, target), "both poses")
     return {"moves": moves}
 
 

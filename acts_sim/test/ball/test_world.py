@@ -4,6 +4,7 @@
 """The world as a whole: phases, seed, pushes, bad joints."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -162,6 +163,6 @@ def test_the_plates_own_acceleration_moves_the_load() -> None:
 @pytest.mark.parametrize(
     "change", [{"rows": 0}, {"cols": 65}, {"push_period_s": 0.0}, {"start_x_m": float("nan")}, {"seed": -1}]
 )
-def test_impossible_settings_are_refused(change: dict[str, float]) -> None:
+def test_impossible_settings_are_refused(change: dict[str, Any]) -> None:
     with pytest.raises(SettingsError, match=next(iter(change))):
         WorldConfig(**change)

@@ -60,14 +60,14 @@ def test_joints_are_followed_between_and_beyond_the_slots(joints: TimedRingWrite
 def test_without_a_ring_there_are_no_joints_and_a_reason(tmp_path: Path) -> None:
     follower = JointFollower(tmp_path / "joints.ring")
     assert follower.at(0) is None
-    assert follower.source is JointSource.MISSING
+    before = follower.source
     assert "start the process that writes it first" in follower.problem
     with TimedRingWriter(tmp_path / "joints.ring", JOINT_RING_WIDTH) as writer:
         assert follower.at(200 * MS) is None
         assert "nothing is written" in follower.problem
         writer.write(200 * MS, slot(200 * MS))
         assert follower.at(201 * MS) is not None
-        assert follower.source is JointSource.FOLLOWED
+        assert (before, follower.source) == (JointSource.MISSING, JointSource.FOLLOWED)
         assert follower.problem == ""
 
 
@@ -92,12 +92,12 @@ def test_a_robot_that_starts_anew_is_followed_again(tmp_path: Path) -> None:
     follower = JointFollower(path)
     assert follower.at(1 * MS) is not None
     assert follower.at(900 * MS) is not None
-    assert follower.source is JointSource.STALE
+    before = follower.source
     with TimedRingWriter(path, JOINT_RING_WIDTH) as new:
         new.write(900 * MS, np.full(JOINT_RING_WIDTH, 0.25))
         motion = follower.at(901 * MS)
         assert motion is not None
-        assert follower.source is JointSource.FOLLOWED
+        assert (before, follower.source) == (JointSource.STALE, JointSource.FOLLOWED)
         assert motion.q_rad[0] == pytest.approx(0.25, abs=1e-3)
 
 

@@ -5,6 +5,7 @@
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -18,7 +19,7 @@ pytestmark = pytest.mark.slow
 
 
 def evaluation(path: Path, **changes: object) -> Path:
-    content: dict[str, object] = {
+    content: dict[str, Any] = {
         "frames": np.arange(6 * 4 * 5).reshape(6, 4, 5).astype(np.uint16),
         "rate_hz": np.float64(31.0),
         "start": np.array([0, 2, 4]),
@@ -34,7 +35,7 @@ def evaluation(path: Path, **changes: object) -> Path:
 def figures(path: Path, **changes: object) -> Path:
     frames = np.full((3, 4, 4), 7.6, dtype=np.float32)
     frames[0, 0] = -10
-    content: dict[str, object] = {
+    content: dict[str, Any] = {
         "frames": frames,
         "measured": frames >= 0,
         "names": np.array(["a", "b", "c"]),

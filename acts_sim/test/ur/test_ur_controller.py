@@ -175,9 +175,9 @@ def test_watchdog_ends_the_program_when_the_client_falls_silent() -> None:
     for _ in range(20):
         robot.write(11, servo([angle + 1.0 for angle in ur5e.LEVEL_Q_RAD]))
         robot.cycles(10)
-    assert robot.controller.runtime == RuntimeState.PLAYING
+    before = robot.controller.runtime
     robot.cycles(150)
-    assert robot.controller.runtime == RuntimeState.STOPPED
+    assert (before, robot.controller.runtime) == (RuntimeState.PLAYING, RuntimeState.STOPPED)
     assert robot.controller.joints.at_rest
     assert "watchdog" in robot.log[-1]
 

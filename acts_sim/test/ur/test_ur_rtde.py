@@ -171,7 +171,7 @@ def test_packages_come_at_the_rate_asked_for(asked_hz: float, due_in_a_second: i
     session = port.session()
     ask(session, PacketType.SETUP_OUTPUTS, outputs("timestamp,", asked_hz))
     session.receive(encode(PacketType.START))
-    stamps = []
+    stamps: list[float] = []
     for _ in range(500):
         controller.tick()
         for _, payload in PacketReader().feed(session.tick()):

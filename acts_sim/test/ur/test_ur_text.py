@@ -57,12 +57,12 @@ def test_control_script_is_started_with_its_offset_and_others_are_refused() -> N
     session.receive(b"def dance():\n  movej([0,0,0,0,0,0])\nend\n")
     controller.tick()
     controller.tick()
-    assert controller.runtime == RuntimeState.STOPPED
+    before = controller.runtime
     assert "'dance' not started" in log[-1]
     session.receive(PROGRAM)
     controller.tick()
     controller.tick()
-    assert controller.runtime == RuntimeState.PLAYING
+    assert (before, controller.runtime) == (RuntimeState.STOPPED, RuntimeState.PLAYING)
     assert controller.output.get("output_int_register_24") == (1,)
     session.receive(b"x" * 2_000_000)
     session.receive(PROGRAM.replace(b"\n24\n", b"\n7\n"))
