@@ -81,6 +81,7 @@ def _environment() -> Iterator[None]:
 
 def pytest_configure(config: pytest.Config) -> None:
     """Keep the standard error output: pytest redirects it while a test runs."""
+    assert sys.__stderr__ is not None
     config.stash[_STDERR] = os.dup(sys.__stderr__.fileno())
 
 

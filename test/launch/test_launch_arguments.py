@@ -184,7 +184,7 @@ def test_of_what_was_not_given_nothing_is_said(tmp_path: Path, file: Path, sim: 
 
 
 @settings(max_examples=50, suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None)
-@given(text=st.text(st.characters(blacklist_categories=("Cs",), blacklist_characters="\0"), min_size=1))
+@given(text=st.text(st.characters(blacklist_categories=["Cs"], blacklist_characters="\0"), min_size=1))
 def test_a_board_is_simulated_unless_something_is_replayed(launch: Callable[..., Printed], text: str) -> None:
     board = "virtual_board" in repr([words[0] for words, _ in launch(TACTILE, replay=text)])
     assert board == (text == "none")

@@ -5,6 +5,7 @@
 
 import socket
 from pathlib import Path
+from typing import Any
 
 from launch_support import PACKAGE, START_S, pid_of
 
@@ -30,7 +31,7 @@ def test_a_second_launch_in_the_same_run_dir_is_refused_and_leaves_the_first_alo
 def test_a_second_simulated_robot_at_an_address_ends_its_launch(tmp_path: Path) -> None:
     address = "127.0.178.1"
     with socket.create_server((address, 30004)):
-        arguments = {"run_dir": str(tmp_path / "run"), "robot_ip": address}
+        arguments: dict[str, Any] = {"run_dir": str(tmp_path / "run"), "robot_ip": address}
         with launched(PACKAGE, "simulated_robot.launch.xml", domain_id=178, **arguments) as second:
             assert second.wait(START_S) == 1
             assert f"cannot listen on {address} port 30004" in second.output

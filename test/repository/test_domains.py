@@ -67,6 +67,7 @@ def used(tree: ast.Module) -> Iterator[int]:
                         and key.value == "ROS_DOMAIN_ID"
                         and isinstance(value, ast.Constant)
                     ):
+                        assert isinstance(value.value, str | int)
                         yield int(value.value)
 
 

@@ -130,7 +130,7 @@ def test_its_line_makes_it_a_choice_of_the_node_with_parameters_of_its_own(fadin
 
 def test_the_evaluation_knows_it_with_its_settings(fading: type[Method]) -> None:
     assert "fading" in method_names()
-    method = method_named("fading")(SkinSetup(ArrayGeometry()), None, {"fading_memory_s": 0.02, "patch_step": 4})
+    method = method_named("fading")(SkinSetup(ArrayGeometry()), None, {"fading_memory_s": 0.02, "patch_step": 4})  # type: ignore[arg-type]
     assert isinstance(method, fading)
     frames = np.zeros((40, 32, 32), dtype=np.uint16)
     frames[5:, 10:14, 10:14] = 400

@@ -13,6 +13,7 @@ import termios
 import tty
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from launch_support import START_S
@@ -70,7 +71,7 @@ def speed_of(port: str) -> int:
 
 def test_from_the_lines_of_an_arduino_to_contacts(port: str) -> None:
     package, file, *arguments = words_of("acts launch", port)
-    given = dict(word.split(":=", 1) for word in arguments)
+    given: dict[str, Any] = dict(word.split(":=", 1) for word in arguments)
     with launched(package, file, domain_id=192, **given) as launch:
         contact = launch.wait_for_messages("/plate/contact", Contact, 10, START_S)[-1]
         speed = speed_of(port)

@@ -72,9 +72,9 @@ def refused() -> Iterator[Refused]:
         [sys.executable, "-c", COPIES], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=environment
     ) as process:
         assert process.stdin is not None
-        assert process.stdout is not None
 
         def ask(package: str, executable: str, *words: str) -> str:
+            assert process.stdout is not None
             assert program(package, executable).is_file()
             print(json.dumps([package, executable, words]), file=process.stdin, flush=True)
             code, said = json.loads(process.stdout.readline())

@@ -146,7 +146,7 @@ def check_samples(seen: list[Seen], field: TrueField, predicts: bool) -> None:
         # What cannot be told from noise may show as 0.
         image = one.image.ravel()[indices]
         is_near = (np.abs(image - counts) <= changes_counts) | ((image == 0) & (counts <= TOUCH_COUNTS))
-        further += np.count_nonzero(~is_near)
+        further += int(np.count_nonzero(~is_near))
     assert further <= (FURTHER_LIMIT * 55 * len(seen) if predicts else 0)
 
 
