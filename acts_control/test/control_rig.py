@@ -16,7 +16,7 @@ import threading
 import time
 from collections.abc import Callable, Sequence
 from types import TracebackType
-from typing import Any
+from typing import Any, TypeVar
 
 import rclpy
 from geometry_msgs.msg import Vector3Stamped
@@ -44,6 +44,9 @@ def wait_for(condition: Callable[[], bool], what: str, timeout_s: float = 30.0) 
         if time.monotonic() > deadline:
             raise AssertionError(f"waited {timeout_s} s in vain for: {what}")
         time.sleep(0.005)
+
+
+P = TypeVar("P", bound="Process")
 
 
 class Process:
@@ -78,7 +81,7 @@ class Process:
                 self.process.kill()
                 self.process.wait()
 
-    def __enter__(self) -> Process:
+    def __enter__(self: P) -> P:
         return self
 
     def __exit__(

@@ -74,7 +74,7 @@ class RigidHand:
             self.now_s += DT_S
             if pressed is not None:
                 self.supervisor.touch(all_regions(*pressed), self.now_s - 0.002, self.now_s)
-            self.goal = np.asarray(self.supervisor.step(self.reading(), self.goal, self.now_s, DT_S))
+            self.goal = np.asarray(self.supervisor.step(self.reading(), self.goal.tolist(), self.now_s, DT_S))
             self.q = self.goal.copy()
             for name, stop in self.stops.items():
                 k = NAMES.index(name)

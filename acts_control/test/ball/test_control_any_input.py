@@ -206,9 +206,8 @@ def placed(message: Any, numbers: list[float]) -> Any:
 
 
 def raw_contact(stamp: tuple[int, int], numbers: list[float], small: list[float], touched: bool) -> bytes:
-    fields = ContactFields(
-        0, "plate", 7, touched, numbers[0], numbers[1], *small[:3], 5, *small[3:4], *numbers[2:4], *small[4:7]
-    )
+    first, last = (small[0], small[1], small[2]), (numbers[2], numbers[3], small[4], small[5], small[6])
+    fields = ContactFields(0, "plate", 7, touched, numbers[0], numbers[1], *first, 5, small[3], *last)
     data = bytearray(write_contact(fields))
     data[4:12] = stamp[0].to_bytes(4, "little", signed=True) + stamp[1].to_bytes(4, "little")
     return bytes(data)

@@ -8,8 +8,7 @@ from collections.abc import Callable
 import pytest
 from rolling_plant import run
 
-from acts_control.ball import ContactMeasurement, Phase, TrajectoryConfig
-from acts_control.ball.controller import ReferenceReport
+from acts_control.ball import ContactMeasurement, Phase, ReferenceReport, TrajectoryConfig
 
 pytestmark = pytest.mark.slow
 

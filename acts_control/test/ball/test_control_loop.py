@@ -7,6 +7,7 @@ import itertools
 import threading
 import time
 from collections.abc import Callable, Iterator
+from typing import Any
 
 import pytest
 from arm_in_process import DEADLINE_S, ArmInProcess, wait_for
@@ -32,9 +33,9 @@ def arm() -> ArmInProcess:
 def make(arm: ArmInProcess) -> Iterator[Make]:
     loops: list[ControlLoop] = []
 
-    def make_one(**settings: object) -> ControlLoop:
+    def make_one(**settings: Any) -> ControlLoop:
         # Loaded machines: touch may be late here without that being the test's subject.
-        defaults: dict[str, object] = {"connect_retry_s": 0.05, "touch_stale_after_s": 1.0, "touch_stop_after_s": 5.0}
+        defaults: dict[str, Any] = {"connect_retry_s": 0.05, "touch_stale_after_s": 1.0, "touch_stop_after_s": 5.0}
         loop = ControlLoop(LoopConfig(**(defaults | settings)), arm, time.time_ns)
         loops.append(loop)
         loop.launch()

@@ -9,7 +9,7 @@ ROS_DOMAIN_ID 226.
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import cache
 from typing import Any, NamedTuple
 
@@ -52,6 +52,9 @@ def made_regions(seed: int) -> list[RegionContact]:
         x, y, z = rng.uniform(-largest, largest, 3)
         return float(x), float(y), float(z)
 
+    def number() -> float:
+        return float(rng.choice([0.0, 1e-300, 1e-5, 1e-3, 1.0, 1e6]))
+
     def one(name: str) -> RegionContact:
         return RegionContact(
             name,
@@ -60,7 +63,11 @@ def made_regions(seed: int) -> list[RegionContact]:
             float(rng.choice([0.0, 0.3, 1.0, 5.0, 60.0, -1.0, 1e-30, 1e6])),
             vector(float(rng.choice([0.0, 0.03, 0.3, 10.0]))),
             vector(float(rng.choice([0.0, 0.5, 1.0]))),
-            *(float(rng.choice([0.0, 1e-300, 1e-5, 1e-3, 1.0, 1e6])) for _ in range(5)),
+            number(),
+            number(),
+            number(),
+            number(),
+            number(),
             vector(1.0),
             float(rng.choice([0.0, 1e-4, 1e-2, -1.0])),
             bool(rng.integers(2)),
@@ -181,7 +188,7 @@ class Fed(NamedTuple):
         hand = self.hand
         hand.now_s += DT_S
         self.topic.waiting += messages
-        hand.goal = np.array(touched.step(hand.reading(), hand.goal, hand.now_s, DT_S))
+        hand.goal = np.array(touched.step(hand.reading(), hand.goal.tolist(), hand.now_s, DT_S), dtype=np.float64)
         hand.q = hand.goal.copy()
         check_limits(hand.goal)
 
@@ -354,7 +361,7 @@ def changed() -> st.SearchStrategy[dict[str, Any]]:
         assert info.minimum is not None, name
         assert info.maximum is not None, name
         kind = type(default)
-        among = st.integers if kind is int else st.floats
+        among: Callable[..., st.SearchStrategy[Any]] = st.integers if kind is int else st.floats
         ends = st.sampled_from([kind(info.minimum), kind(info.maximum)])
         values[name] = ends | among(kind(info.minimum), kind(info.maximum))
     return st.fixed_dictionaries({}, optional=values)

@@ -78,10 +78,10 @@ def test_the_hand_is_released_and_enabled_again(bus: Bus, running: Running) -> N
     running.until_phase(HandPhase.ENABLED)
     assert torques(bus) == {1}
     assert running.loop.release() == ""
-    assert running.loop.status.phase is HandPhase.RELEASED
+    released = running.loop.status.phase
     assert torques(bus) == {0}
     assert running.loop.enable() == ""
-    assert running.loop.status.phase is HandPhase.ENABLED
+    assert (released, running.loop.status.phase) == (HandPhase.RELEASED, HandPhase.ENABLED)
     assert torques(bus) == {1}
 
 

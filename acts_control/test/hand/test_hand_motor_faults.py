@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 
 import pytest
 from dynamixel_bus import Bus, torques
@@ -223,11 +224,15 @@ def test_a_motor_that_may_not_switch_itself_off_even_once_starts_anew_when_that_
 def test_a_hand_that_was_given_up_begins_anew_when_it_is_enabled(bus: Bus) -> None:
     moved = Moved()
     running = Running(bus, behaviour=moved)
+
+    def is_over(restarts: int) -> bool:
+        return len(moved.restarts) > restarts or not running.loop._wish.is_on
+
     try:
         for number in (1, 2):
             running.until_phase(HandPhase.ENABLED)
             bus.command("overload 6")
-            running.until(lambda number=number: len(moved.restarts) > number or not running.loop._wish.is_on)
+            running.until(partial(is_over, number))
         running.until_phase(HandPhase.GIVEN_UP)
         running.loop.enable()
         running.until_phase(HandPhase.ENABLED)

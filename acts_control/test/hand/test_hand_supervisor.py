@@ -108,7 +108,7 @@ def test_a_finger_and_something_else_hold(tmp_path: Path, pressed: tuple[str, ..
         if k == 1:
             assert supervisor.grasp() == ""
         reading = HandReading(tuple(q), (0.0,) * 2, (0.0,) * 2, (30,) * 2, ("",) * 2)
-        q = np.asarray(supervisor.step(reading, q, now_s, DT_S))
+        q = np.asarray(supervisor.step(reading, q.tolist(), now_s, DT_S))
         if k > 1 and supervisor.status.state is not HandState.CLOSING:
             break
     assert supervisor.status.reason.startswith(ends)
@@ -130,7 +130,7 @@ def test_all_reflexes_bear_a_finger_that_feels_only_where_closing_it_moves_nothi
         if k == 1:
             assert supervisor.grasp() == ""
         reading = HandReading(tuple(q), (0.0,) * 2, (0.0,) * 2, (30,) * 2, ("",) * 2)
-        q = np.asarray(supervisor.step(reading, q, k * DT_S, DT_S))
+        q = np.asarray(supervisor.step(reading, q.tolist(), k * DT_S, DT_S))
         assert np.isfinite(q).all()
         seen.add(supervisor.status.state)
     assert HandState.HOLDING in seen

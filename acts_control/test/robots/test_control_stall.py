@@ -24,13 +24,11 @@ from control_rig import Bench, Process, RollingBall, SimulatedRobot, node_comman
 from diagnostic_msgs.msg import DiagnosticArray
 
 import acts_control.robots.ur.robot
-from acts_control.ball import Ball, BallReport, ControlLoop, LoopConfig, Phase
-from acts_control.ball.controller import ReferenceReport
-from acts_control.ball.pid import Reference
+from acts_control.ball import Ball, BallReport, ControlLoop, LoopConfig, Phase, Reference, ReferenceReport
 from acts_control.robots import with_robots
 from acts_control.robots.base import RobotReading
 from acts_control.robots.ur import UrRobot
-from acts_control.robots.ur.ur_probe import DASHBOARD_PORT
+from acts_control.robots.ur.ur_probe import DASHBOARD_PORT, probe
 from acts_core.robots import ur5e
 from acts_msgs.msg import BalanceStatus
 
@@ -237,7 +235,6 @@ def test_a_stall_while_connecting_holds_up_nobody(monkeypatch: pytest.MonkeyPatc
     with ExitStack() as stack:
         host = "127.0.17.10"
         simulated = stack.enter_context(SimulatedRobot(host))
-        probe = acts_control.robots.ur.robot.probe
         timeout_s = acts_control.robots.ur.robot._CONNECT_TIMEOUT_S
         monkeypatch.setattr(acts_control.robots.ur.robot, "_CONNECT_TIMEOUT_S", 0.5)
 

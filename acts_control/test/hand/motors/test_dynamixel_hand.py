@@ -275,8 +275,9 @@ def test_gains_beyond_what_a_motor_takes_are_refused_with_their_joint() -> None:
     hand = replace(LEAP_RIGHT, joints=tuple(joints))
     for name in ("position_p_gain", "position_d_gain"):
         told = f"joint ring_pip: {name} 9000 times gain_scale 8 is 72000; a motor takes 0 to 16383"
+        gain: dict[str, Any] = {name: 9000}
         with pytest.raises(SettingsError, match=told):
-            DynamixelHand(hand, DynamixelConfig(**{name: 9000}))
+            DynamixelHand(hand, DynamixelConfig(**gain))
     DynamixelHand(hand, DynamixelConfig(position_p_gain=2047, position_i_gain=16383))
 
 

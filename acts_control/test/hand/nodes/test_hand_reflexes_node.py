@@ -67,10 +67,12 @@ def test_the_hand_grasps_avoids_and_opens_by_touch_and_ends_in_order(bus: Bus) -
         node.create_subscription(HandTiming, "hand/timing", timings.append, 10)
         regions = node.create_publisher(RegionContacts, "regions", STREAM)
 
-        def feel(*touches: Touch) -> None:
+        def feel(*touches: Touch) -> bool:
+            """Publish touch; always true, for conditions."""
             message = RegionContacts(regions=[message_of(one) for one in all_regions(*touches)])
             message.header.stamp = node.get_clock().now().to_msg()
             regions.publish(message)
+            return True
 
         def until_state(state: int, *touches: Touch) -> HandStatus:
             def there() -> bool:
@@ -87,10 +89,10 @@ def test_the_hand_grasps_avoids_and_opens_by_touch_and_ends_in_order(bus: Bus) -
         until_state(HandStatus.STATE_STOPPED)
         until(lambda: statuses[-1].steps > 0)
         # Touch has to be there before the hand may close.
-        until(lambda: not feel() and statuses[-1].touch_age < 1.0)
+        until(lambda: feel() and statuses[-1].touch_age < 1.0)
         assert called("grasp").success
         until_state(HandStatus.STATE_CLOSING)
-        until(lambda: not feel() and statuses[-1].goals[2] > 0.4)
+        until(lambda: feel() and statuses[-1].goals[2] > 0.4)
         held = until_state(HandStatus.STATE_HOLDING, *GRIPPED)
         assert held.reason.startswith("gripped by index")
         avoiding = until_state(HandStatus.STATE_AVOIDING, TIP, *GRIPPED[1:])
@@ -100,7 +102,7 @@ def test_the_hand_grasps_avoids_and_opens_by_touch_and_ends_in_order(bus: Bus) -
         opening = until_state(HandStatus.STATE_OPEN)
         assert len(opening.goals) == 16
         until(lambda: any(dict_of(report).get("hand") == "OPEN" for report in reports))
-        until(lambda: not feel() and any(timing.latencies for timing in timings))
+        until(lambda: feel() and any(timing.latencies for timing in timings))
         told = next(timing for timing in timings if timing.latencies)
         assert all(duration > 0.0 for duration in told.durations)
         assert 0 < len(told.latencies) <= len(told.durations) <= told.cycles
