@@ -39,7 +39,8 @@ def grasps(recording_path: Callable[[str], Path]) -> tuple[Frame, list[str]]:
 
 
 def sample(frame: Frame, m: int) -> tuple[Frame, Frame]:
-    return adaptive(measure_in(frame), *frame.shape, m, threshold_counts=60)
+    rows, cols = frame.shape
+    return adaptive(measure_in(frame), rows, cols, m, threshold_counts=60)
 
 
 def random_dictionary(seed: int, atoms: int, side: int = 8) -> Dictionary:

@@ -110,7 +110,9 @@ def any_map(rng: np.random.Generator, rows: int, cols: int) -> SkinMap:
         patches = rng.integers(0, 16, row.shape)
     order = rng.permutation(taxels) if rng.random() < 0.5 else np.arange(taxels)
     no_skin = int(rng.choice([255, 0, 3, 15]))
-    return SkinMap(*row.shape, tuple(order.tolist()), tuple((patches.ravel() % 16).tolist()), no_skin)
+    return SkinMap(
+        picture_rows, taxels // picture_rows, tuple(order.tolist()), tuple((patches.ravel() % 16).tolist()), no_skin
+    )
 
 
 @settings(max_examples=200, deadline=None)
@@ -146,7 +148,7 @@ def test_fixed_on_any_skin(rows: int, cols: int, seed: int) -> None:
         m=int(rng.integers(1, rows * cols + 1)),
         fixed_row=int(rng.integers(rows)),
         fixed_col=int(rng.integers(cols)),
-        fixed_taxels=int(rng.choice([0, 1, rng.integers(rows * cols), 4096])),
+        fixed_taxels=int(rng.choice([0, 1, int(rng.integers(rows * cols)), 4096])),
     )
     fields = rng.integers(0, 1024, (FRAMES, rows, cols))
     compare(config, fields, None if rng.random() < 0.3 else any_map(rng, rows, cols))

@@ -81,7 +81,7 @@ def test_a_broken_address_line_is_pulled_low(tmp_path: Path) -> None:
     ],
 )
 def test_impossible_faults_are_refused(fault: str, words: str) -> None:
-    command = [installed("virtual_board"), *map(str, OPTIONS), "--hardware-fault", fault]
+    command: list[str | Path] = [installed("virtual_board"), *map(str, OPTIONS), "--hardware-fault", fault]
     result = subprocess.run(command, capture_output=True, text=True, timeout=30)
     assert result.returncode == 2
     assert "--hardware-fault" in result.stderr

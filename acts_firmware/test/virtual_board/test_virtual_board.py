@@ -233,7 +233,7 @@ def test_link_of_a_killed_board_is_replaced(tmp_path: Path) -> None:
 
 
 def refusal(link: Path, code: int) -> str:
-    command = [installed("virtual_board"), "--link", link]
+    command: list[str | Path] = [installed("virtual_board"), "--link", link]
     result = subprocess.run(command, capture_output=True, text=True, timeout=30)
     assert result.returncode == code
     return result.stderr

@@ -10,6 +10,7 @@ import threading
 import time
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
+from functools import partial
 from itertools import pairwise
 from pathlib import Path
 
@@ -46,6 +47,10 @@ def pressed(ring: Path, field: NDArray[np.float64]) -> Iterator[TimedRingWriter]
     finally:
         ended.set()
         world.join()
+
+
+def is_all(counts: float, frame: SampleFrame) -> bool:
+    return bool((frame.counts == counts).all())
 
 
 def measured_at_ns(board: BoardProcess, frame: SampleFrame, drift_ppm: float = 0.0) -> NDArray[np.float64]:
@@ -101,7 +106,7 @@ def test_ring_appears_is_replaced_and_goes(tmp_path: Path) -> None:
         for value in (100.0, 200.0):
             # Not closed: its writer was killed, and the next one replaces the file.
             with pressed(ring, np.full(TAXELS, value)):
-                board.read_until(lambda frame, value=value: bool((frame.counts == value).all()))
+                board.read_until(partial(is_all, value))
         # A ring of another array is refused in words, and its successor taken up.
         with pressed(ring, np.full(TAXELS + 1, 300.0)):
             board.read_until(lambda frame: not frame.counts.any())
@@ -160,7 +165,8 @@ def test_recording_is_interpolated_between_its_frames(tmp_path: Path, loop: bool
     rng = np.random.default_rng(4)
     recording = rng.integers(0, 1024, (7, ROWS, COLS), dtype=np.uint16)
     np.save(tmp_path / "frames.npy", recording)
-    options = ["--recording", tmp_path / "frames.npy", "--recording-rate-hz", 40, "--drift-ppm", drift_ppm]
+    options: list[str | float | Path] = ["--recording", tmp_path / "frames.npy", "--recording-rate-hz", 40]
+    options += ["--drift-ppm", drift_ppm]
     with BoardProcess(tmp_path, *SMALL, *options, *(["--loop"] if loop else [])) as board:
         board.open_port()
         frames = board.read_frames(400)
@@ -239,7 +245,7 @@ def test_broken_recordings_are_refused(tmp_path: Path) -> None:
 
 
 def refusal(path: Path) -> str:
-    command = [installed("virtual_board"), *map(str, SMALL), "--recording", path]
+    command: list[str | Path] = [installed("virtual_board"), *map(str, SMALL), "--recording", path]
     result = subprocess.run(command, capture_output=True, text=True, timeout=30)
     assert result.returncode == 2
     assert str(path) in result.stderr
