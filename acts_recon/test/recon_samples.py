@@ -23,7 +23,8 @@ def bump(
 
 def sample(frame: NDArray[np.uint16], m: int) -> tuple[NDArray[np.uint16], NDArray[np.uint16]]:
     """Adaptive samples of a frame."""
-    return adaptive(measure_in(frame), *frame.shape, m, threshold_counts=60)
+    rows, cols = frame.shape
+    return adaptive(measure_in(frame), rows, cols, m, threshold_counts=60)
 
 
 @st.composite

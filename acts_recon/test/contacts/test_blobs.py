@@ -169,7 +169,7 @@ def test_the_force_of_a_saturated_taxel_is_the_least_certain() -> None:
 
 
 def test_guesses_are_less_certain_than_readings_of_the_same_deviation() -> None:
-    image = bump(GEOMETRY, 5.3, 4.1)
+    image = bump(GEOMETRY, 5.3, 4.1).astype(np.float32)
     sigma = np.full((12, 9), 10.0)
     variances = []
     for noise_counts in (10.0, 0.0):

@@ -65,8 +65,8 @@ def centre(image: NDArray[np.number]) -> NDArray[np.float64]:
 
 def feet(shape: tuple[int, int], *, flicker: bool) -> Field:
     """A foot that rolls from heel to toe: wide light pressure of at most 9 counts, and small peaks."""
-    r, c = np.indices(shape)
-    r, c = r / shape[0], c / shape[1]
+    rows, cols = np.indices(shape)
+    r, c = rows / shape[0], cols / shape[1]
     wide = 9.5 * np.exp(-(((r - 0.5) / 0.25) ** 4) - ((c - 0.5) / 0.3) ** 4)
     heel, toe = (np.exp(-(((r - row) / 0.06) ** 2) - ((c - 0.5) / 0.12) ** 2) for row in (0.68, 0.32))
     rng = np.random.default_rng(5)
@@ -173,7 +173,7 @@ def test_kernels_equal_the_reference_while_noise_is_learnt(is_known: bool) -> No
     estimator = FusionEstimator(geometry)
     if is_known:
         estimator.set_noise(noise, np.ones(geometry.size, dtype=np.bool_))
-    told = noise.reshape(12, 20) if is_known else NOISE_COUNTS
+    told = noise.reshape(12, 20).astype(np.float64) if is_known else NOISE_COUNTS
     reference = FusionReference(12, 20, estimator.config.tuning, told, is_known=is_known)
     r, c = np.indices((12, 20))
     differing = 0
@@ -185,7 +185,7 @@ def test_kernels_equal_the_reference_while_noise_is_learnt(is_known: bool) -> No
         counts = np.clip(clean, 0, 1023).astype(np.uint16).ravel()[indices]
         image = estimator.step(indices, counts, 0.001 * k, 0.001)
         reference.step(indices, counts, 0.001, 0.001)
-        differing += np.count_nonzero(np.abs(image - reference.image) > 0.5)
+        differing += int(np.count_nonzero(np.abs(image - reference.image) > 0.5))
     # Rounding, and thresholds that single and double precision meet on different sides.
     assert differing < 300 * geometry.size / 1000
     assert estimator._state.log_noise[0] == pytest.approx(reference.log_noise, abs=0.02)

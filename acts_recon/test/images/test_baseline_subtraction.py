@@ -5,6 +5,7 @@
 
 from array import array
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -63,7 +64,7 @@ def test_baselines_that_do_not_fit_are_refused() -> None:
         (np.zeros(4, dtype=np.float32), np.ones(4), "valid is float64: needed is an array of numpy, of bool"),
     ):
         with pytest.raises(ArrayError, match=words):
-            subtraction.set(counts, valid)
+            subtraction.set(counts, valid)  # type: ignore[arg-type]
     assert not subtraction.is_set
 
 
@@ -92,12 +93,16 @@ def test_the_node_subtracts_the_baseline_once_there_is_one(bench: Bench) -> None
     bench.diagnostics(lambda status, values: values["rejected.bad_baseline"] == "1" and values["baseline"] == "none")
     publisher.publish(baseline_message(32, 32, 15.2))
     bench.until(lambda: bench.node._pipeline.subtracts)
+
+    def has_rejected(number: int) -> bool:
+        return bool(bench.node._rejected["bad_baseline"] == number)
+
     # What is refused changes nothing, not even half of it.
     for rejected, (counts_of_all, noise) in enumerate(((-2000.0, 1.0), (500.0, 1e30)), start=2):
         wrong = baseline_message(32, 32, counts_of_all)
         wrong.noise = array("f", [noise] * 1024)
         publisher.publish(wrong)
-        bench.until(lambda count=rejected: bench.node._rejected["bad_baseline"] == count)
+        bench.until(partial(has_rejected, rejected))
     bench.send(2, indices, counts)
     assert not bench.contact(2).in_contact
     bench.send(3, indices, counts + 100)

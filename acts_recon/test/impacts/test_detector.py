@@ -19,7 +19,7 @@ from acts_recon.impacts import UNKNOWN_DIRECTION_SD_RAD, Impact, ImpactDetector,
 from acts_recon.impacts.footprint_fit import fit_footprint
 from acts_recon.impacts.onset_fit import follow_back
 from acts_recon.impacts.samples import RecentSamples
-from acts_recon.settings import ReconstructionSettings
+from acts_recon.settings import ReconstructionConfig, ReconstructionSettings
 
 Array = NDArray[np.float64]
 
@@ -36,7 +36,7 @@ def bump(rows: int, cols: int, row: float, col: float, width: float) -> Array:
 
 
 def told_of(
-    settings: ReconstructionSettings,
+    settings: ReconstructionConfig,
     sampling: SamplingConfig,
     pressure: Callable[[float], Array],
     seconds: float,
@@ -187,11 +187,11 @@ def test_a_touch_is_followed_back_where_a_force_response_is_flat() -> None:
 
 
 def test_samples_of_one_moment_tell_no_footprint() -> None:
-    rows, cols = np.indices((4, 4)).reshape(2, 16)
+    rows, cols = np.indices((4, 4), dtype=np.float64).reshape(2, 16)
     # As near each other as two numbers can be at the time of today.
     time_s = 1.7e9 + np.arange(16) % 2 * np.spacing(1.7e9)
-    places = 0.005 * cols, 0.005 * rows
-    assert fit_footprint(time_s, *places, np.ones(16), np.full(16, 0.1), np.arange(16), 2, 2.5e-5) is None
+    x_m, y_m = 0.005 * cols, 0.005 * rows
+    assert fit_footprint(time_s, x_m, y_m, np.ones(16), np.full(16, 0.1), np.arange(16), 2, 2.5e-5) is None
 
 
 @pytest.mark.parametrize(

@@ -5,6 +5,7 @@
 
 from array import array
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 import pytest
@@ -38,6 +39,10 @@ def samples_of(image: NDArray, sequence: int) -> TactileSamples:
     return message
 
 
+def has_more(peers: Peers, count: int) -> bool:
+    return len(peers.received["contacts"]) > count
+
+
 def test_the_node_publishes_contacts_with_numbers_that_last(make_peers: Callable[..., Peers]) -> None:
     peers = make_peers(120)
     node = peers.add(ReconstructionNode(context=peers.context, namespace="/plate", cli_args=[]))
@@ -52,7 +57,7 @@ def test_the_node_publishes_contacts_with_numbers_that_last(make_peers: Callable
     ]
     for sequence, image in enumerate(images):
         publisher.publish(samples_of(image, sequence))
-        peers.until(lambda sequence=sequence: len(peers.received["contacts"]) > sequence)
+        peers.until(partial(has_more, peers, sequence))
     publisher.publish(samples_of(np.zeros((32, 32)), 20))
     peers.until(lambda: len(peers.received["contacts"]) > 20)
 
@@ -88,7 +93,8 @@ def test_contacts_on_a_board_that_begins_anew_have_new_numbers(make_peers: Calla
         message = samples_of(pressed, sequence)
         message.header.stamp.nanosec = 1_000_000 * count
         publisher.publish(message)
-        peers.until(lambda count=count: len(peers.received["contacts"]) == count)
+        peers.until(partial(has_more, peers, count - 1))
+        assert len(peers.received["contacts"]) == count
     assert [[contact.number for contact in message.contacts] for message in peers.received["contacts"]] == [
         [1],
         [1],
@@ -119,7 +125,12 @@ def test_standard_deviations_and_markers_are_those_of_the_contact(make_peers: Ca
     peers.listen(Contacts, "view/contacts", qos.VIEW)
     peers.listen(MarkerArray, "contacts_view", qos.VIEW)
     viewed = ["view/contacts", "contacts_view"]
-    peers.until(lambda: contacts.look_for_subscribers() or (contacts._send and contacts.viewed == viewed))
+
+    def is_heard() -> bool:
+        contacts.look_for_subscribers()
+        return contacts._send and contacts.viewed == viewed
+
+    peers.until(is_heard)
 
     (expected,) = BlobTracker(GEOMETRY).step(image, 0.0, sigma)
     contacts.publish(frame_of_image(1, image, viewed))

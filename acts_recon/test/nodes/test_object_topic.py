@@ -93,11 +93,11 @@ def test_fused_the_object_is_the_one_of_the_image(
         indices = order[55 * k : 55 * k + 55].astype(np.uint16)
         counts = pressed[indices].astype(np.uint16)
         estimator.step(indices, counts, 100 + k * 1e-3, 983_235e-9)
-        fields = (
+        image, sigma, age_s = (
             np.ascontiguousarray(arranged.matrix(field), dtype=np.float32)
             for field in (estimator.image, estimator.sigma, estimator.age_s)
         )
-        result = classifier.step(*fields, 1e-3 if k else 983_235e-9)
+        result = classifier.step(image, sigma, age_s, 1e-3 if k else 983_235e-9)
         expected.append((result.touched, result.best, result.residuals.tolist()))
         bench.send(k, indices, counts, **timed(k))
     bench.until(lambda: len(bench.received["object"]) == 18)

@@ -101,7 +101,7 @@ def test_impossible_frames_are_refused(objects: ObjectLibrary) -> None:
         (np.zeros(1025, dtype=np.uint16), np.zeros(1025, dtype=np.uint16), "1 to 1024"),
     ):
         with pytest.raises(ArrayError, match=word):
-            classifier.step(indices, counts)
+            classifier.step(indices, counts)  # type: ignore[arg-type]
 
 
 def test_settings_out_of_range_are_refused() -> None:

@@ -187,9 +187,9 @@ def test_impossible_images_are_refused(objects: ObjectLibrary) -> None:
     for image, sigma, word in cases:
         with pytest.raises(ArrayError, match=word):
             classifier.step(image, sigma, CERTAIN, 0.001)
-    for field, word in ((0, np.nan), (0, np.inf), (1, np.nan), (1, np.inf), (1, -1.0), (2, np.nan), (2, -1.0)):
+    for field, value in ((0, np.nan), (0, np.inf), (1, np.nan), (1, np.inf), (1, -1.0), (2, np.nan), (2, -1.0)):
         fields = [image_of(3.0), CERTAIN.copy(), CERTAIN.copy()]
-        fields[field][3, 4] = word
+        fields[field][3, 4] = value
         with pytest.raises(ArrayError, match="NaN, infinite counts or sigma, or negative sigma or age_s"):
             classifier.step(fields[0], fields[1], fields[2], 0.001)
     for period_s in (-0.001, math.nan, math.inf):

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -25,7 +26,7 @@ def library() -> ObjectLibrary:
 def write(path: Path, **changes: object) -> Path:
     """A library file with some fields changed; None leaves a field out."""
     good = build_object_library(frames(), LABELS)
-    content: dict[str, object] = {
+    content: dict[str, Any] = {
         "format": "acts-objects-2",
         "rows": 2,
         "cols": 2,

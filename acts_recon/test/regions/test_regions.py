@@ -107,7 +107,8 @@ def test_on_a_bent_patch_the_centre_lies_on_the_skin(bent: dict[str, float]) -> 
     patch = SkinPatch("finger", 0, 8, 0, 8, "link", 0.0025, 0.003, finger.pose, **bent)
     skin = Layout(
         "finger",
-        *(np.arange(64, dtype=np.uint16).reshape(shape) for shape in ((8, 8), (64,))),
+        np.arange(64, dtype=np.uint16).reshape(8, 8),
+        np.arange(64, dtype=np.uint16),
         8,
         8,
         0.0025,
@@ -190,7 +191,8 @@ def test_patches_too_small_for_motion_have_their_contact_all_the_same() -> None:
     strip = SkinPatch("strip", 0, 1, 0, 8, "link", 0.003, 0.003)
     skin = Layout(
         "strip",
-        *(np.arange(8, dtype=np.uint16).reshape(shape) for shape in ((1, 8), (8,))),
+        np.arange(8, dtype=np.uint16).reshape(1, 8),
+        np.arange(8, dtype=np.uint16),
         1,
         8,
         0.003,
@@ -207,4 +209,4 @@ def test_patches_too_small_for_motion_have_their_contact_all_the_same() -> None:
 def test_images_of_another_kind_are_refused() -> None:
     for wrong in (np.zeros((8, 8), np.float32), np.zeros((32, 32))):
         with pytest.raises(ArrayError, match=r"needed is \(32, 32\), float32"):
-            hand_regions().step(0.0, wrong)
+            hand_regions().step(0.0, wrong)  # type: ignore[arg-type]

@@ -118,7 +118,7 @@ def test_images_of_another_kind_are_refused() -> None:
     image = press(3, 3)
     for wrong in (image[:-1], image.astype(np.float64)):
         with pytest.raises(ArrayError, match="float32"):
-            detector.step(0.0, wrong)
+            detector.step(0.0, wrong)  # type: ignore[arg-type]
 
 
 def first_slip(images: list[NDArray[np.float32]], rate_hz: float, config: SlipConfig | None = None) -> int | None:

@@ -94,7 +94,7 @@ def test_a_contact_that_lies_elsewhere_after_a_pause_has_not_slipped(pause_s: fl
             regions.reset()
         time_s = k * 1e-3 + pause_s * is_after
         indices = order[(55 * k + np.arange(55)) % order.size].astype(np.uint16)
-        pressed = HAND.matrix(skin(0.006 * is_after)).ravel()[indices] + rng.normal(0.0, 2.0, 55)
+        pressed = HAND.matrix(skin(0.006 * is_after)).astype(np.float64).ravel()[indices] + rng.normal(0.0, 2.0, 55)
         fusion.step(indices, np.clip(np.rint(pressed), 0, 1023).astype(np.uint16), time_s, 0.95e-3)
         found = regions.step(time_s, fusion.image, fusion.measured, fusion.age_s)
         told += [time_s] * found[TIP].slipping

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,7 +14,7 @@ from acts_recon.sparse import Dictionary, load_dictionary, save_dictionary, ship
 def write(path: Path, **changes: object) -> Path:
     """A dictionary file with some fields changed; None leaves a field out."""
     good = Dictionary(np.ones((4, 3), dtype=np.float32), 2)
-    content: dict[str, object] = {
+    content: dict[str, Any] = {
         "format": "acts-dictionary-1",
         "atoms": good.atoms,
         "patch_size": 2,
@@ -123,7 +124,7 @@ def test_a_single_array_a_missing_file_and_a_folder_are_refused(tmp_path: Path) 
     with pytest.raises(DictionaryError, match="not a regular file"):
         load_dictionary(tmp_path)
     with pytest.raises(DictionaryError, match="cannot be written"):
-        save_dictionary(Dictionary(np.ones((4, 3)), 2), tmp_path / "no" / "d.npz")
+        save_dictionary(Dictionary(np.ones((4, 3), dtype=np.float32), 2), tmp_path / "no" / "d.npz")
 
 
 def test_the_patch_size_asked_for_is_needed(tmp_path: Path) -> None:

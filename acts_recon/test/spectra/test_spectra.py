@@ -5,6 +5,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -52,7 +54,7 @@ def hear(
         )
 
 
-def heard(tones: dict[float, float], **options: float) -> Spectrum:
+def heard(tones: dict[float, float], **options: Any) -> Spectrum:
     analyser = SpectrumAnalyser(GEOMETRY, RESPONSE, noise_counts=2.0)
     hear(analyser, tones, **options)
     (spectrum,) = analyser.spectra()
