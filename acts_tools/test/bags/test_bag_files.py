@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 import os
 import tempfile
+import time
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -21,7 +22,7 @@ from rosbags.interfaces import Qos, QosDurability, QosHistory, QosLiveliness, Qo
 from rosbags.rosbag2 import Reader, StoragePlugin, Writer
 
 from acts_core.errors import RecordingError
-from acts_ros.bags import qos, writing
+from acts_ros.bags import qos
 from acts_ros.bags.message_types import Definitions, message_class
 from acts_ros.bags.reading import open_bag
 from acts_ros.bags.rosbag2_format import McapFile
@@ -128,7 +129,7 @@ def test_a_folder_that_cannot_be_made_is_told_in_words(tmp_path: Path) -> None:
 
 def test_stamps_do_not_go_back_with_the_clock(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     clock = iter([1_000, 3_000, 2_000, 4_000])
-    monkeypatch.setattr(writing.time, "time_ns", lambda: next(clock))
+    monkeypatch.setattr(time, "time_ns", lambda: next(clock))
     write_bag(tmp_path / "bag", 4)
     with open_bag(tmp_path / "bag") as bag:
         assert [stamp for _, stamp, _ in bag.messages(["/word"])] == [1_000, 3_000, 3_000, 4_000]

@@ -16,7 +16,6 @@ from ament_index_python.packages import get_package_share_directory
 from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
 
 from acts_core.errors import RecordingError
-from acts_ros.bags import reading
 from acts_ros.bags.message_types import Definitions
 from acts_ros.bags.reading import open_bag
 from acts_ros.bags.unpacking import unpack, unpacked_bytes, zstd
@@ -240,7 +239,7 @@ def test_files_that_do_not_fit_unpacked_on_the_disk_are_refused(
 ) -> None:
     path = write(tmp_path / "bag", range(1, 40), StoragePlugin.SQLITE3, CompressionMode.FILE)
     usage = shutil.disk_usage(tmp_path)._replace(free=50_000)
-    monkeypatch.setattr(reading.shutil, "disk_usage", lambda _folder: usage)
+    monkeypatch.setattr(shutil, "disk_usage", lambda _folder: usage)
     with pytest.raises(RecordingError, match=r"bag.db3.zstd: unpacked it is larger than the space in"):
         read(path)
 

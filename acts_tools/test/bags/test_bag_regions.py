@@ -82,7 +82,7 @@ def decisions(messages: Sequence[bytes]) -> list[tuple[Any, ...]]:
         at = tuple(np.minimum(goal, 0.4).tolist())
         current_ma = tuple(np.clip(3000.0 * (goal - at), -350.0, 350.0).tolist())
         reading = HandReading(at, (0.0,) * 16, current_ma, (30,) * 16, ("",) * 16)
-        goal = np.asarray(supervisor.step(reading, goal, stamp_s + 0.002, PERIOD_S))
+        goal = np.asarray(supervisor.step(reading, goal.tolist(), stamp_s + 0.002, PERIOD_S))
         taken.append((supervisor.status, goal.tolist()))
     return taken
 

@@ -29,8 +29,7 @@ from std_msgs.msg import String
 from acts_core.errors import RecordingError
 from acts_msgs.msg import Contact, TactileSamples
 from acts_ros.bags import recorder as recorder_module
-from acts_ros.bags import writing
-from acts_ros.bags.message_types import Definitions
+from acts_ros.bags.message_types import Definitions, message_class
 from acts_ros.bags.reading import open_bag
 from acts_ros.bags.recorder import Recorder
 from acts_ros.bags.writing import BagWriter
@@ -272,12 +271,10 @@ def record_here(probe: Probe, path: Path, topics: list[str] | None, until: Calla
 def test_an_unknown_type_is_named_and_the_other_topics_are_recorded(
     probe: Probe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    known = recorder_module.message_class
-
     def forgetful(name: str) -> type:
         if name == "acts_msgs/msg/Contact":
             raise RecordingError(f"unknown message type '{name}'")
-        return known(name)
+        return message_class(name)
 
     monkeypatch.setattr(recorder_module, "message_class", forgetful)
     probe.node.create_publisher(Contact, "/strange", STREAM)
@@ -335,7 +332,7 @@ def make_bag(path: Path, topics: dict[str, str], stamps_ms: list[int], monkeypat
     definition, type_hash = Definitions().describe("std_msgs/msg/String")
     handles = [bag.add_topic(topic, kind, definition, type_hash, []) for topic, kind in topics.items()]
     with monkeypatch.context() as patched:
-        patched.setattr(writing.time, "time_ns", lambda: next(clock))
+        patched.setattr(time, "time_ns", lambda: next(clock))
         for index in range(len(stamps_ms)):
             text = str(index).encode() + b"\0"
             data = b"\0\1\0\0" + len(text).to_bytes(4, "little") + text

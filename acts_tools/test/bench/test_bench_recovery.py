@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import time
 from pathlib import Path
 
@@ -14,7 +15,7 @@ import pytest
 from acts_recon.learning import KsvdConfig
 from acts_recon.sparse import fast_omp, patch_layout
 from acts_tools.bench.cases import recovery, train
-from acts_tools.bench.references import multiply_adds, peers
+from acts_tools.bench.references import multiply_adds
 from acts_tools.bench.workbench import Workbench
 from acts_tools.running.stopping import StopFlag
 
@@ -31,7 +32,7 @@ def test_recovery_is_compared_with_what_is_installed(
     monkeypatch.setattr(recovery, "FRAMES", 2)
     monkeypatch.setattr(recovery, "CALLS", 2)
     if not installed:
-        monkeypatch.setattr(peers.importlib.util, "find_spec", lambda name: None)
+        monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
     result = recovery.measure(workbench)
     figures = {figure.key: figure for figure in result.figures}
     assert result.problems == []

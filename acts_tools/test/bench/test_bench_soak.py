@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -34,7 +35,7 @@ def test_five_seconds_lose_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     # How fast it is in the beginning is not asked here.
     monkeypatch.setattr(soak, "_SETTLE_S", 0.0)
     result = measure(Workbench(5.0, tmp_path, StopFlag()))
-    figures = {figure.key: figure.value for figure in result.figures}
+    figures: dict[str, Any] = {figure.key: figure.value for figure in result.figures}
     assert result.problems == []
     assert int(figures["frames_sent"]) >= 4000
     assert figures["frames_lost"] == int(figures["overruns"]) + int(figures["discarded"])

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import errno
+import os
 import re
 import signal
 import subprocess
@@ -165,7 +166,7 @@ def test_the_real_launch_takes_over_where_it_is_installed(prefix: Prefix, monkey
         raise SystemExit(0)
 
     monkeypatch.setattr(command, "real_launch_installed", lambda: True)
-    monkeypatch.setattr(command.os, "execvp", execute)
+    monkeypatch.setattr(os, "execvp", execute)
     with pytest.raises(SystemExit):
         main(["launch", "acts_bringup", "tactile.launch.xml", "sim:=true"])
     with pytest.raises(SystemExit):

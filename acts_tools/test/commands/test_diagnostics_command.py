@@ -151,5 +151,7 @@ def test_interrupted_before_anything_came_it_does_not_say_that_nobody_reports() 
     ):
         probe.wait_for_node("/acts_diagnostics")
         process.send_signal(signal.SIGINT)
-        assert process.communicate(timeout=60) == (None, "")
+        output, errors = process.communicate(timeout=60)
+        assert output is None
+        assert errors == ""
     assert process.returncode == 130

@@ -11,6 +11,7 @@ import resource
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -91,7 +92,7 @@ class Case:
     words: str
     mend: str = ""
     files: Mapping[str, str | None] = field(default_factory=dict)
-    machine: Mapping[str, object] = field(default_factory=dict)
+    machine: Mapping[str, Any] = field(default_factory=dict)
     for_realtime: bool = False
 
 

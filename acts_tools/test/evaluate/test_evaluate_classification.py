@@ -6,6 +6,7 @@
 import json
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -61,7 +62,8 @@ def grasps(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_the_noise_of_recorded_presses_is_not_known() -> None:
     pressed = np.zeros((1, 32, 32), dtype=np.uint16)
     pressed[0, 14:18, 14:18] = 500
-    ours = contenders(*2 * [build_object_library(pressed, ["block"])], 64)[ACTS]
+    library = build_object_library(pressed, ["block"])
+    ours = contenders(library, library, 64)[ACTS]
     rng = np.random.default_rng(1)
     for number in range(600):
         taxels = rng.permutation(1024)[:64].astype(np.uint16)
@@ -181,7 +183,7 @@ def test_recordings_without_a_touch_and_what_no_taxel_reads_stay_out_of_a_librar
     frames[:, 0, 0] = 900
     live = np.ones((8, 8), dtype=bool)
     live[0, 0] = False
-    made: dict[str, object] = {"frames": frames, "live": live, "start": [0, 2, 4], "length": [2, 2, 2]}
+    made: dict[str, Any] = {"frames": frames, "live": live, "start": [0, 2, 4], "length": [2, 2, 2]}
     np.savez(tmp_path / "f.npz", label=[1, 2, 3], **made)
     assert make_library("-o", tmp_path / "o.npz", "--frames", tmp_path / "f.npz") == 0
     assert "left out: 1 recording without a touch" in capsys.readouterr().out

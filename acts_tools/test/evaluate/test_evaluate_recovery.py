@@ -43,7 +43,7 @@ def scored(dictionary: Dictionary, frames: NDArray[np.uint16], method: str = "la
     return evaluate([Recording(frames, 1000.0, LIVE)], Task(sampling, method, **task), dictionary)
 
 
-def command(tmp_path: Path, frames: NDArray[np.uint16], *options: str, code: int = 0, **arrays: object) -> list[dict]:
+def command(tmp_path: Path, frames: NDArray[np.uint16], *options: str, code: int = 0, **arrays: Any) -> list[dict]:
     np.savez(tmp_path / "frames.npz", frames=frames, **{"rate_hz": 1000.0, **arrays})
     out = tmp_path / "out.json"
     words = ["evaluate", "recovery", "--frames", str(tmp_path / "frames.npz"), "--json", str(out), *options]

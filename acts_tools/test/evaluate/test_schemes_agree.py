@@ -22,7 +22,9 @@ def said_by_firmware() -> dict[tuple[str, ...], list[OwnSetting]]:
             OwnSetting(
                 row[1],
                 row[2],
-                *(int(number) for number in row[3:6]),
+                int(row[3]),
+                int(row[4]),
+                int(row[5]),
                 number=int(row[0]),
                 share=Share(row[6], row[7], float(row[8])) if row[6] else None,
                 below=row[9],

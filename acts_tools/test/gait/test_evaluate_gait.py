@@ -120,8 +120,8 @@ def test_what_acts_export_writes_of_one_insole_has_its_steps(name: str, tmp_path
     walking = walk(Walk(), 15.0, np.random.default_rng(1))
     frames = walking.frames(time_s, np.random.default_rng(1))[:, 0]
     np.savez(tmp_path / "frames.npz", frames=frames, rate_hz=20.0)
-    times = {"time_s": time_s, "rate_hz": 20.0}[name]
-    np.savez(tmp_path / "image.npz", image=frames, stamp_ns=(1e9 * time_s).astype(np.int64), **{name: times})
+    times: dict[str, Any] = {name: {"time_s": time_s, "rate_hz": 20.0}[name]}
+    np.savez(tmp_path / "image.npz", image=frames, stamp_ns=(1e9 * time_s).astype(np.int64), **times)
     found = []
     for path in (tmp_path / "frames.npz", tmp_path / "image.npz"):
         assert main(["evaluate", "gait", "--frames", str(path), "--json", str(tmp_path / "out.json")]) == 0

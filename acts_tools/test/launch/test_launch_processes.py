@@ -17,6 +17,7 @@ import time
 from collections.abc import Callable
 from contextlib import AbstractContextManager
 from pathlib import Path
+from typing import Any
 
 import psutil
 import pytest
@@ -46,7 +47,7 @@ while True:
 """
 
 
-def launch(prefix: Prefix, body: str, **arguments: str) -> AbstractContextManager[ProcessLaunch]:
+def launch(prefix: Prefix, body: str, **arguments: Any) -> AbstractContextManager[ProcessLaunch]:
     prefix.launch("it.launch.xml", body)
     return launched("fake", "it.launch.xml", domain_id=80, **arguments)
 
