@@ -52,6 +52,11 @@ def open_page(browser: Browser) -> Iterator[Callable[..., Page]]:
     pages: list[Page] = []
     complaints: list[str] = []
 
+    def note(line: Any) -> None:
+        # A server that is gone is told so by the browser itself.
+        if "ERR_CONNECTION_REFUSED" not in line.text:
+            complaints.append(line.text)
+
     def begin(
         player: HasAddress, width: int = 1280, height: int = 900, *, is_live: bool = True, **options: Any
     ) -> Page:
@@ -59,8 +64,7 @@ def open_page(browser: Browser) -> Iterator[Callable[..., Page]]:
         pages.append(page)
         page.set_default_timeout(DEADLINE_MS)
         page.on("pageerror", lambda error: complaints.append(str(error)))
-        # A server that is gone is told so by the browser itself.
-        page.on("console", lambda line: "ERR_CONNECTION_REFUSED" in line.text or complaints.append(line.text))
+        page.on("console", note)
         page.goto(player.url)
         if is_live:
             page.wait_for_selector(".skin .pill[data-state=live]")

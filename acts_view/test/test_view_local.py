@@ -19,6 +19,7 @@ from hypothesis import strategies as st
 from rclpy.serialization import serialize_message
 from test_view_codec import decode
 from websockets.sync.client import ClientConnection, connect
+from websockets.typing import Origin
 
 from acts_core.errors import ViewRequestError
 from acts_core.frames import SampleFrame, Scheme
@@ -255,9 +256,8 @@ def test_touch_is_recovered_as_by_the_node(tmp_path: Path) -> None:
     frame, samples = taken
     assert len(samples) == 60
     assert frame.image is not None
-    assert np.unravel_index(frame.image.argmax(), frame.image.shape) in itertools.product(
-        range(ROW - 1, ROW + 2), range(COL - 1, COL + 2)
-    )
+    row, col = np.unravel_index(frame.image.argmax(), frame.image.shape)
+    assert (int(row), int(col)) in itertools.product(range(ROW - 1, ROW + 2), range(COL - 1, COL + 2))
     assert len(frame.contacts) == 1
     np.testing.assert_allclose(frame.contacts[0, :2], [(COL - 15.5) * 0.004375, (15.5 - ROW) * 0.004375], atol=0.003)
     (outline,) = frame.outlines
@@ -319,7 +319,7 @@ class Shown:
 
     def connect(self) -> ClientConnection:
         origin = self.addresses[0].rstrip("/")
-        return connect(origin.replace("http", "ws") + "/stream", origin=origin, compression=None)  # type: ignore[arg-type]
+        return connect(origin.replace("http", "ws") + "/stream", origin=Origin(origin), compression=None)
 
     def close(self) -> None:
         self._signals.stop()

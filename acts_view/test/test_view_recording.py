@@ -22,6 +22,7 @@ from test_view_codec import decode
 from view_browser import expect, needs_browser
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import ClientConnection, connect
+from websockets.typing import Origin
 
 from acts_msgs.msg import Contact, TactileSamples
 from acts_ros import qos
@@ -58,7 +59,7 @@ class Bench:
 
     def connect(self, path: str = "/stream", origin: str | None = None) -> ClientConnection:
         own = self.url.rstrip("/")
-        return connect(own.replace("http", "ws") + path, origin=origin or own, compression=None)  # type: ignore[arg-type]
+        return connect(own.replace("http", "ws") + path, origin=Origin(origin or own), compression=None)
 
     def close(self) -> None:
         if not self._context.ok():

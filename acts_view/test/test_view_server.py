@@ -16,12 +16,14 @@ from contextlib import suppress
 from itertools import count
 from pathlib import Path
 from queue import Queue
+from typing import Any
 
 import numpy as np
 import pytest
 from test_view_codec import decode
 from websockets.exceptions import ConnectionClosed, InvalidMessage, InvalidStatus
 from websockets.sync.client import ClientConnection, connect
+from websockets.typing import Origin
 
 from acts_core.errors import SettingsError
 from acts_view.skin.snapshot import Frame, Sample, SkinShape
@@ -54,8 +56,9 @@ class Bench:
             self._is_closed = True
             self.server.close()
 
-    def connect(self, **options: object) -> ClientConnection:
-        return connect(self.url, **{"origin": self.origin, "compression": None, **options})  # type: ignore[arg-type]
+    def connect(self, **options: Any) -> ClientConnection:
+        given: dict[str, Any] = {"origin": self.origin, "compression": None, **options}
+        return connect(self.url, **given)
 
     def show(self, value: int) -> None:
         number = next(self._numbers)
@@ -250,10 +253,10 @@ def test_another_host_gets_a_token() -> None:
     try:
         port, token = server.address.port, server.address.token
         assert server.address.url.endswith(f":{port}/?token={token}")
-        origin = f"http://127.0.0.1:{port}"
-        with pytest.raises(InvalidStatus), connect(f"ws://127.0.0.1:{port}/stream", origin=origin):  # type: ignore[arg-type]
+        origin = Origin(f"http://127.0.0.1:{port}")
+        with pytest.raises(InvalidStatus), connect(f"ws://127.0.0.1:{port}/stream", origin=origin):
             pass
-        with connect(f"ws://127.0.0.1:{port}/stream?token={token}", origin=origin):  # type: ignore[arg-type]
+        with connect(f"ws://127.0.0.1:{port}/stream?token={token}", origin=origin):
             pass
     finally:
         server.close()
@@ -270,7 +273,7 @@ def test_connections_that_fail_are_told_in_one_line_and_without_a_traceback(capf
     url = f"ws://127.0.0.1:{server.address.port}/recordings/x.mcap"
     try:
         for _ in range(3):
-            with pytest.raises(InvalidStatus), connect(url, origin=server.address.url.rstrip("/")):  # type: ignore[arg-type]
+            with pytest.raises(InvalidStatus), connect(url, origin=Origin(server.address.url.rstrip("/"))):
                 pass
         # What asyncio finds where no connection can be accepted.
         server._loop.call_exception_handler({"message": "socket.accept() out of system resource"})

@@ -22,6 +22,7 @@ from std_srvs.srv import Trigger
 from test_view_codec import decode
 from view_browser import expect, needs_browser
 from websockets.sync.client import ClientConnection, connect
+from websockets.typing import Origin
 
 from acts_msgs.msg import Contact
 from acts_ros import qos
@@ -82,7 +83,8 @@ class Bench:
 
     def connect(self) -> ClientConnection:
         port = self.view.address.port
-        return connect(f"ws://127.0.0.1:{port}/stream", origin=f"http://127.0.0.1:{port}", compression=None)  # type: ignore[arg-type]
+        origin = Origin(f"http://127.0.0.1:{port}")
+        return connect(f"ws://127.0.0.1:{port}/stream", origin=origin, compression=None)
 
     def close(self) -> None:
         self._spinning.end()
@@ -143,7 +145,7 @@ def test_what_is_asked_is_bounded_and_a_service_that_is_silent_holds_nothing_up(
     bench = begin(control=True)
     with bench.connect() as client:
         until(client, lambda header: ["tare", "/stuck"] in header.get("offers", []))
-        refused = [
+        refused: list[dict[str, Any]] = [
             {"do": "tare", "skin": "/nowhere"},
             {"do": "shutdown", "skin": "/plate"},
             {"do": "set", "skin": "/plate", "name": "port", "value": "/dev/null"},

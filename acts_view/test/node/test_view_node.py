@@ -26,6 +26,7 @@ from sensor_msgs.msg import Image, JointState
 from spinning import Spinning
 from test_view_codec import decode
 from websockets.sync.client import ClientConnection, connect
+from websockets.typing import Origin
 
 from acts_core.errors import ArrayError, SettingsError
 from acts_core.skin import RegionContact
@@ -78,7 +79,8 @@ class Bench:
 
     def connect(self) -> ClientConnection:
         address = self.view.address
-        return connect(f"ws://127.0.0.1:{address.port}/stream", origin=address.url.rstrip("/"), compression=None)  # type: ignore[arg-type]
+        origin = Origin(address.url.rstrip("/"))
+        return connect(f"ws://127.0.0.1:{address.port}/stream", origin=origin, compression=None)
 
     def press(self, force_n: float) -> None:
         self._sequence += 1
@@ -382,6 +384,10 @@ def test_a_page_sees_ball_reference_tilt_and_joints_and_no_more_when_they_are_go
     def seen() -> dict[str, Any]:
         return bench.headers.get("frame", {"ball": {}, "hand": {}})
 
+    def press() -> None:
+        for _ in range(presses):
+            bench.press(1.0)
+
     with bench.connect() as client:
         bench.until(lambda: len(seen()["ball"]) == 7 and "joints" in seen()["hand"], client, play)
         assert seen()["ball"] == {
@@ -395,5 +401,5 @@ def test_a_page_sees_ball_reference_tilt_and_joints_and_no_more_when_they_are_go
         }
         assert seen()["hand"] == {"joints": [["knee", 0.5]]}
         bench.destroy([place, reference, status, joints])
-        none = {"ball": {}, "hand": {}}
-        bench.until(lambda: seen() | none == seen(), client, lambda: [bench.press(1.0) for _ in range(presses)])
+        none: dict[str, Any] = {"ball": {}, "hand": {}}
+        bench.until(lambda: seen() | none == seen(), client, press)

@@ -16,6 +16,7 @@ from rclpy.parameter import Parameter
 from spinning import Spinning
 from test_view_codec import decode
 from websockets.sync.client import connect
+from websockets.typing import Origin
 
 from acts_msgs.msg import Contact
 from acts_ros import qos
@@ -48,7 +49,7 @@ def test_a_skin_that_cannot_be_shown_leaves_the_others_and_is_told_of(
     address, shown, deadline_s = view.address, "", time.monotonic() + DEADLINE_S
     try:
         url = f"ws://127.0.0.1:{address.port}/stream"
-        with connect(url, origin=address.url.rstrip("/"), compression=None) as client:  # type: ignore[arg-type]
+        with connect(url, origin=Origin(address.url.rstrip("/")), compression=None) as client:
             while not shown:
                 assert time.monotonic() < deadline_s
                 for publisher in publishers:
