@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from acts_core.frames import SampleFrame
 from acts_core.wire import BoardMessage, BoardSettings, Reply, StreamDecoder
 from acts_driver.board import BoardLink, BoardParameters, BoardSession
 from acts_driver.port import Reader, SerialSource
@@ -35,8 +36,8 @@ class Host:
         self.source.open()
         self.reader.start(is_open=True)
 
-    def _take(self, frames: list[object], arrival_ns: int) -> None:
-        self.sizes += [len(one.indices) for one in frames]  # type: ignore[attr-defined]
+    def _take(self, frames: list[SampleFrame], arrival_ns: int) -> None:
+        self.sizes += [len(one.indices) for one in frames]
         if self.session is not None and self.session.may_publish:
             self.published += len(frames)
 

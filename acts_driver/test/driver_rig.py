@@ -24,10 +24,17 @@ from rclpy.parameter import Parameter
 from std_srvs.srv import Trigger
 
 from acts_driver.nodes.driver_node import DriverNode
+from acts_driver.nodes.intake import Intake
 from acts_msgs.msg import TactileSamples
 from acts_ros.qos import STREAM
 
 DEADLINE_S = 20.0
+
+
+def intake_of(driver: DriverNode) -> Intake:
+    """What a configured driver reads frames with."""
+    assert driver.intake is not None
+    return driver.intake
 
 
 class Rig:

@@ -4,6 +4,7 @@
 """Baseline, noise and drift of untouched taxels, and the file they are kept in."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -190,8 +191,8 @@ def test_kernel_equals_reference(seed: int, is_tracking: bool, rows: int, cols: 
     rng = np.random.default_rng(seed)
     size = rows * cols
 
-    def state() -> tuple[NDArray, ...]:
-        return (
+    def state() -> list[Any]:
+        return [
             np.zeros(size, dtype=np.int64),
             np.zeros((size, 2)),
             np.tile(np.array([1024, -1]), (size, 1)),
@@ -199,7 +200,7 @@ def test_kernel_equals_reference(seed: int, is_tracking: bool, rows: int, cols: 
             freeze,
             np.zeros(size, dtype=np.int64),
             np.zeros(size, dtype=np.int64),
-        )
+        ]
 
     baseline = rng.uniform(0, 60, size).astype(np.float32)
     freeze = np.where(rng.random(size) < 0.2, -1, 20).astype(np.float32)
@@ -207,7 +208,7 @@ def test_kernel_equals_reference(seed: int, is_tracking: bool, rows: int, cols: 
     for frame in range(6):
         indices = rng.permutation(size)[: rng.integers(0, size + 1)].astype(np.uint16)
         counts = rng.integers(0, 90, len(indices)).astype(np.uint16)
-        rest = (is_tracking, 2e9, 150_000_000, 0.05)
+        rest: list[Any] = [is_tracking, 2e9, 150_000_000, 0.05]
         baseline_kernels.observe(indices, counts, frame * 10**8, rows, cols, *one, *rest)
         baseline_reference.observe(indices, counts, frame * 10**8, rows, cols, *other, *rest)
     for mine, reference in zip(one, other, strict=True):
@@ -217,7 +218,7 @@ def test_kernel_equals_reference(seed: int, is_tracking: bool, rows: int, cols: 
 def some_baseline() -> Baseline:
     rng = np.random.default_rng(1)
     counts = rng.uniform(0, 40, (ROWS, COLS)).astype(np.float32)
-    return Baseline(counts, counts / 20, rng.random((ROWS, COLS)) < 0.9, BaselineSource.CALIBRATION, 5)
+    return Baseline(counts, counts / np.float32(20), rng.random((ROWS, COLS)) < 0.9, BaselineSource.CALIBRATION, 5)
 
 
 def test_a_file_keeps_the_baseline(tmp_path: Path) -> None:
@@ -250,7 +251,12 @@ def test_files_that_are_no_baseline_are_refused(tmp_path: Path) -> None:
         path.write_bytes(damaged)
         with pytest.raises(SettingsError, match="again"):
             Baseline.load(path, ROWS, COLS)
-    numbers = {"format": "acts_baseline", "version": 1, "valid": np.ones((ROWS, COLS), bool), "time_ns": 0}
+    numbers: dict[str, Any] = {
+        "format": "acts_baseline",
+        "version": 1,
+        "valid": np.ones((ROWS, COLS), bool),
+        "time_ns": 0,
+    }
     for wrong in (np.full((ROWS, COLS), 1e300), np.full((ROWS, COLS), 1 + 2j)):
         np.savez(path, baseline=wrong, noise=wrong, **numbers)
         with pytest.raises(SettingsError, match="no baseline, or a damaged one"):

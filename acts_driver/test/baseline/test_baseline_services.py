@@ -197,7 +197,7 @@ def test_as_soon_as_the_port_is_closed_the_past_is_not_taken_for_the_present(
 def test_the_file_is_read_at_the_start(rig: Rig, stream: Stream, tmp_path: Path) -> None:
     path = tmp_path / "skin.npz"
     counts = np.full((ROWS, COLS), 12.5, dtype=np.float32)
-    tracked = SavedBaseline(counts, counts / 10, counts > 0, BaselineSource.CALIBRATION, time_ns=5 * 10**9)
+    tracked = SavedBaseline(counts, counts / np.float32(10), counts > 0, BaselineSource.CALIBRATION, time_ns=5 * 10**9)
     tracked.save(path)
     baselines = start(rig, stream, path)
     first = await_baseline(rig, baselines)
@@ -233,7 +233,7 @@ def test_a_baseline_that_the_parameters_take_away_is_withdrawn(rig: Rig, stream:
 def test_a_file_of_another_skin_is_refused(rig: Rig, stream: Stream, tmp_path: Path) -> None:
     path = tmp_path / "skin.npz"
     counts = np.full((COLS, ROWS), 12.5, dtype=np.float32)
-    SavedBaseline(counts, counts / 10, counts > 0, BaselineSource.CALIBRATION, time_ns=0).save(path)
+    SavedBaseline(counts, counts / np.float32(10), counts > 0, BaselineSource.CALIBRATION, time_ns=0).save(path)
     with pytest.raises(SettingsError, match="6 x 8 taxels, the array has 8 x 6"):
         start(rig, stream, path)
 

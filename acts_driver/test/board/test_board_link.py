@@ -17,6 +17,7 @@ from pty_board import PtyBoard, wait_for
 from virtual_board import VirtualBoard
 
 from acts_core.errors import PortError
+from acts_core.frames import SampleFrame
 from acts_core.wire import BoardModel, BoardSettings, object_library, patch_dictionary
 from acts_core.wire.board_models import ModelKind
 from acts_driver.board import NoAnswerError, NotHeardError, RefusedError
@@ -48,10 +49,14 @@ def dictionary(n_atoms: int) -> BoardModel:
 
 def test_models_are_uploaded(host: Host) -> None:
     model = dictionary(300)
-    held = host.link.upload(model).state.model
+    reply = host.link.upload(model)
+    assert reply is not None
+    held = reply.state.model
     assert (held.kind, held.rows, held.columns, held.crc32) == (ModelKind.PATCH_DICTIONARY, 64, 300, model.crc32)
     library = object_library(np.eye(1024, 6), np.arange(6) % 3)
-    assert host.link.upload(library).state.model.crc32 == library.crc32
+    reply = host.link.upload(library)
+    assert reply is not None
+    assert reply.state.model.crc32 == library.crc32
 
 
 def test_a_silent_board_costs_bounded_time(tmp_path: Path) -> None:
@@ -71,7 +76,7 @@ class BusyHost(Host):
         super().__init__(path, reply_timeout_s=0.02)
         assert self._stands_still.wait(60.0)
 
-    def _take(self, frames: list[object], arrival_ns: int) -> None:
+    def _take(self, frames: list[SampleFrame], arrival_ns: int) -> None:
         self._stands_still.set()
         self._goes_on.wait(60.0)
         super()._take(frames, arrival_ns)

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -29,7 +30,7 @@ from acts_driver.board.model_file import load_model
         ({"other": [1]}, "needed is a dictionary"),
     ],
 )
-def test_models_that_no_board_can_hold(content: dict[str, object], words: str, tmp_path: Path) -> None:
+def test_models_that_no_board_can_hold(content: dict[str, Any], words: str, tmp_path: Path) -> None:
     np.savez(tmp_path / "m.npz", **content)
     with pytest.raises(BoardError, match=words) as caught:
         load_model(tmp_path / "m.npz")

@@ -63,7 +63,7 @@ def test_a_model_is_uploaded_when_its_file_has_been_read_at_last(rig: Rig, slow_
     np.savez(tmp_path / "model.npz", atoms=np.eye(64))
     slow_file.before(model_file, "load_model")
     with VirtualBoard(tmp_path / "board") as board:
-        rig.start_driver(port=board.link)
+        driver = rig.start_driver(port=board.link)
         rig.wait_until_active()
         assert rig.set_parameters(model=str(tmp_path / "model.npz")) == (True, "")
         assert slow_file.begun.is_set()
@@ -74,26 +74,26 @@ def test_a_model_is_uploaded_when_its_file_has_been_read_at_last(rig: Rig, slow_
         assert not slow_file.is_there.is_set()
         slow_file.is_there.set()
         rig.spin_until(lambda: "model patch_dictionary" in rig.query()[1], "the model")
-        rig.driver.close()
+        driver.close()
 
 
 def test_a_model_that_could_not_be_read_is_read_again_when_it_is_asked_for_again(rig: Rig, tmp_path: Path) -> None:
     path = tmp_path / "model.npz"
     with VirtualBoard(tmp_path / "board") as board:
-        rig.start_driver(port=board.link, model=path)
+        driver = rig.start_driver(port=board.link, model=path)
         rig.wait_until_active()
         rig.status_until(lambda status: f"{path}: cannot be read" in status["message"], "the report")
         np.savez(path, atoms=np.eye(64))
         assert rig.set_parameters(model=str(path)) == (True, "")
         rig.spin_until(lambda: "model patch_dictionary" in rig.query()[1], "the model")
-        rig.driver.close()
+        driver.close()
 
 
 def test_a_recording_begins_when_it_has_been_read_at_last(rig: Rig, slow_file: SlowFile, tmp_path: Path) -> None:
     path = tmp_path / "samples.npz"
     np.savez(path, indices=np.tile(np.arange(8), (50, 1)), counts=np.ones((50, 8), int), rate_hz=100.0)
     slow_file.before(driver_settings, "open_recording")
-    rig.start_driver(replay=path, replay_delay_s=0.0, autostart=False)
+    driver = rig.start_driver(replay=path, replay_delay_s=0.0, autostart=False)
     assert not rig.change_state(Transition.TRANSITION_CONFIGURE)
     assert rig.state() == "unconfigured"
     assert not slow_file.is_there.is_set()
@@ -102,13 +102,13 @@ def test_a_recording_begins_when_it_has_been_read_at_last(rig: Rig, slow_file: S
     rig.spin_until(lambda: rig.change_state(Transition.TRANSITION_CONFIGURE), "the recording")
     assert rig.change_state(Transition.TRANSITION_ACTIVATE)
     rig.spin_until(lambda: rig.samples, "frames")
-    rig.driver.close()
+    driver.close()
 
 
 def test_a_baseline_that_takes_too_long_is_not_taken_over(rig: Rig, slow_file: SlowFile, tmp_path: Path) -> None:
-    rig.start_driver(port=tmp_path / "nothing", autostart=False)
+    driver = rig.start_driver(port=tmp_path / "nothing", autostart=False)
     slow_file.before(baseline_services, "is_there")
     succeeded, reason = rig.set_parameters(calibration_file=str(tmp_path / "skin.npz"))
     assert not slow_file.is_there.is_set()
     assert (succeeded, "takes longer than 0.5 s" in reason) == (False, True), reason
-    assert rig.driver.get_parameter("calibration_file").value == ""
+    assert driver.get_parameter("calibration_file").value == ""

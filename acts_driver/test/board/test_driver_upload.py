@@ -9,6 +9,7 @@ ROS_DOMAIN_ID 116.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -56,6 +57,10 @@ def held(rig: Rig) -> int:
     return 0 if state is None else state.model.crc32
 
 
+def holds(rig: Rig, crc32: int) -> bool:
+    return held(rig) == crc32
+
+
 def test_frames_and_reports_go_on_during_an_upload(tmp_path: Path, rig: Rig, capfd: pytest.CaptureFixture[str]) -> None:
     models = dictionaries(tmp_path)
     # A slow board answers slowly: the upload takes seconds.
@@ -95,7 +100,7 @@ def test_nothing_is_lost_at_1_khz_during_an_upload(tmp_path: Path, rig: Rig) -> 
         for path in models:
             assert rig.set_parameters(model=str(path)) == (True, "")
             wanted = load_model(path).crc32
-            rig.spin_until(lambda wanted=wanted: held(rig) == wanted, "the model")
+            rig.spin_until(partial(holds, rig, wanted), "the model")
         status = rig.status_until(lambda status: True, "a report")
         # A busy machine may make the board drop frames, and the driver throw old ones away; both say so.
         lost, discarded, overruns = (int(status[name]) for name in ("lost", "discarded", "overruns"))

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from driver_rig import Rig
+from driver_rig import Rig, intake_of
 from lifecycle_msgs.msg import Transition
 from pty_board import PtyBoard, frame
 from virtual_board import VirtualBoard
@@ -84,7 +84,7 @@ def test_parameters_become_settings_of_the_board(board: VirtualBoard, rig: Board
 
 
 def test_the_port_changes_only_while_nothing_is_read(board: VirtualBoard, rig: BoardRig, tmp_path: Path) -> None:
-    rig.start_driver(port=board.link)
+    driver = rig.start_driver(port=board.link)
     rig.listen_to_board()
     rig.wait_until_active()
     with VirtualBoard(tmp_path / "other", "--board-id", "78", "--rows", "16") as other:
@@ -107,12 +107,12 @@ def test_the_port_changes_only_while_nothing_is_read(board: VirtualBoard, rig: B
         rig.samples.clear()
         rig.spin_until(lambda: rig.samples and rig.samples[-1].rows == 16, "frames of the other board")
         rig.status_until(lambda status: status.get("board") == "78" and status["level"] == "0", "a good report")
-        rig.driver.close()
+        driver.close()
 
 
 def test_a_query_tells_that_no_usable_frames_come(rig: BoardRig, tmp_path: Path) -> None:
     with PtyBoard(tmp_path) as board:
-        rig.start_driver(port=board.path, protocol="raster_ascii", rows=2, cols=3)
+        driver = rig.start_driver(port=board.path, protocol="raster_ascii", rows=2, cols=3)
         rig.wait_until_active()
         answers: list[tuple[bool, str]] = []
 
@@ -126,14 +126,14 @@ def test_a_query_tells_that_no_usable_frames_come(rig: BoardRig, tmp_path: Path)
         succeeded, reason = answers[-1]
         assert not succeeded
         assert "no frames from" in reason
-        rig.driver.close()
+        driver.close()
 
 
 def test_a_board_that_forgot_is_told_again(board: VirtualBoard, rig: BoardRig) -> None:
-    rig.start_driver(port=board.link, m=64, reconnect_s=0.05)
+    driver = rig.start_driver(port=board.link, m=64, reconnect_s=0.05)
     rig.wait_for_size(64)
     board.kill()
-    rig.spin_until(lambda: not rig.driver.intake.reader.connected, "the loss")
+    rig.spin_until(lambda: not intake_of(driver).reader.connected, "the loss")
     # A wish is noted while there is no board.
     assert rig.set_parameters(m=80) == (True, "")
     with VirtualBoard(board.link):
@@ -149,7 +149,7 @@ def test_a_size_unlike_the_parameters_is_an_error(board: VirtualBoard, rig: Boar
 
 def test_a_silent_board_is_heard_all_the_same(rig: BoardRig, tmp_path: Path) -> None:
     with PtyBoard(tmp_path) as board:
-        rig.start_driver(port=board.path, m=64)
+        driver = rig.start_driver(port=board.path, m=64)
         rig.wait_until_active()
         board.write_frames(frame(0))
         rig.spin_until(lambda: rig.samples, "a message")
@@ -160,14 +160,14 @@ def test_a_silent_board_is_heard_all_the_same(rig: BoardRig, tmp_path: Path) -> 
         assert not succeeded
         assert "does not answer" in reason
         assert rig.query()[0] is False
-        rig.driver.close()
+        driver.close()
 
 
 def test_the_raster_sketch_takes_no_settings(rig: BoardRig, tmp_path: Path) -> None:
     with PtyBoard(tmp_path) as board:
-        rig.start_driver(port=board.path, protocol="raster_ascii", rows=2, cols=3)
+        driver = rig.start_driver(port=board.path, protocol="raster_ascii", rows=2, cols=3)
         rig.wait_until_active()
         succeeded, reason = rig.set_parameters(m=32)
         assert not succeeded
         assert "binary protocol" in reason
-        rig.driver.close()
+        driver.close()

@@ -7,11 +7,12 @@ import math
 import threading
 import time
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
-from driver_rig import Rig, end_process, read_until, start_process
+from driver_rig import Rig, end_process, intake_of, read_until, start_process
 from lifecycle_msgs.msg import Transition
 from pty_board import PtyBoard, frame
 
@@ -112,10 +113,10 @@ def test_a_report_names_both_sizes_and_falls_back_to_fine(
         # Counted by frames, the board's clock would stand still while a loaded machine makes a pause: read late.
         return frame(sequence, rows=rows, cols=cols, board_us=time.monotonic_ns() // 1000)
 
-    def report(*frames_sent: object) -> tuple[int, str]:
-        wanted = driver.intake._report.totals().frames + len(frames_sent)
+    def report(*frames_sent: SampleFrame) -> tuple[int, str]:
+        wanted = intake_of(driver)._report.totals().frames + len(frames_sent)
         board.write_frames(*frames_sent)
-        rig.spin_until(lambda: driver.intake._report.totals().frames == wanted, "the frames")
+        rig.spin_until(lambda: intake_of(driver)._report.totals().frames == wanted, "the frames")
         level, message, _ = driver._make_report()
         return level, message
 
@@ -135,7 +136,7 @@ def test_a_report_names_both_sizes_and_falls_back_to_fine(
 
 
 def test_unplugged_and_plugged_in_again(board: PtyBoard, rig: Rig) -> None:
-    rig.start_driver(port=board.path, reconnect_s=0.05)
+    driver = rig.start_driver(port=board.path, reconnect_s=0.05)
     rig.wait_until_active()
     board.write_frames(frame(0))
     rig.spin_until(lambda: rig.samples, "the first message")
@@ -143,9 +144,11 @@ def test_unplugged_and_plugged_in_again(board: PtyBoard, rig: Rig) -> None:
     words = ("is not there", "was lost")
     rig.status_until(lambda s: s["level"] == "2" and any(word in s["message"] for word in words), "the loss")
     board.plug_in()
-    rig.spin_until(lambda: rig.driver.intake.reader.connected, "the port")
+    rig.spin_until(lambda: intake_of(driver).reader.connected, "the port")
     # This board says nothing, and its frames wait until that is certain.
-    rig.spin_until(lambda: rig.driver.intake.session.may_publish, "the silence")
+    session = intake_of(driver).session
+    assert session is not None
+    rig.spin_until(lambda: session.may_publish, "the silence")
     # A board that was without power counts from zero: nothing is lost, and stamps go on.
     board.write_frames(frame(0, board_us=100), frame(1, board_us=1100))
     rig.spin_until(lambda: len(rig.samples) == 3, "messages after the recovery")
@@ -156,17 +159,17 @@ def test_unplugged_and_plugged_in_again(board: PtyBoard, rig: Rig) -> None:
 
 def test_with_autostart_the_driver_waits_for_the_board(tmp_path: Path, rig: Rig) -> None:
     board = PtyBoard(tmp_path)
-    rig.start_driver(port=board.path, reconnect_s=0.05)
+    driver = rig.start_driver(port=board.path, reconnect_s=0.05)
     status = rig.status_until(lambda status: status["level"] == "2", "the missing port")
     assert "is not there" in status["message"]
     assert status["state"] == "unconfigured"
     rig.wait_for_match()
     with board:
-        rig.spin_until(lambda: rig.driver.active, "the port")
+        rig.spin_until(lambda: driver.active, "the port")
         assert rig.state() == "active"
         board.write_frames(frame(0))
         rig.spin_until(lambda: rig.samples, "a message")
-        rig.driver.close()
+        driver.close()
 
 
 def test_life_cycle(board: PtyBoard, rig: Rig) -> None:
@@ -177,14 +180,14 @@ def test_life_cycle(board: PtyBoard, rig: Rig) -> None:
     assert rig.state() == "inactive"
     # Inactive, the board is read, so that nothing old waits, and nothing is published.
     board.write_frames(frame(0))
-    rig.spin_until(lambda: driver.intake.stream.statistics.frames == 1, "reading")
+    rig.spin_until(lambda: intake_of(driver).stream.statistics.frames == 1, "reading")
     assert rig.change_state(Transition.TRANSITION_ACTIVATE)
     board.write_frames(frame(1))
     rig.spin_until(lambda: rig.samples, "a message")
     assert [message.sequence for message in rig.samples] == [1]
     assert rig.change_state(Transition.TRANSITION_DEACTIVATE)
     board.write_frames(frame(2))
-    rig.spin_until(lambda: driver.intake.stream.statistics.frames == 3, "reading")
+    rig.spin_until(lambda: intake_of(driver).stream.statistics.frames == 3, "reading")
     assert rig.change_state(Transition.TRANSITION_CLEANUP)
     assert rig.state() == "unconfigured"
     assert driver.intake is None
@@ -301,9 +304,13 @@ def test_a_node_of_the_same_process_gets_frames_and_what_fails_in_it_keeps_nothi
 
     driver.consumers.append(consume)
     rig.wait_until_active()
+
+    def has_come(number: int) -> bool:
+        return len(rig.samples) == number + 1
+
     for number in range(3):
         board.write_frames(frame(number, m=55))
-        rig.spin_until(lambda number=number: len(rig.samples) == number + 1, "the message")
+        rig.spin_until(partial(has_come, number), "the message")
     # A board may have sent results without a frame.
     driver._publish([], [])
     assert taken == [([0], "plate"), ([1], "plate"), ([2], "plate")]

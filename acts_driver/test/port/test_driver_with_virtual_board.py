@@ -11,10 +11,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from driver_rig import DEADLINE_S, Rig, end_process, start_process
+from driver_rig import DEADLINE_S, Rig, end_process, intake_of, start_process
 from lifecycle_msgs.msg import Transition
 from virtual_board import VirtualBoard
 
+from acts_core.frames import SampleFrame
 from acts_core.wire import RasterDecoder
 from acts_driver.port import SerialSource
 
@@ -68,10 +69,10 @@ def test_a_thousand_frames_a_second_without_a_loss_on_the_way(board: VirtualBoar
 
 
 def test_a_board_that_dies_and_comes_back_is_followed(board: VirtualBoard, rig: Rig) -> None:
-    rig.start_driver(port=board.link, reconnect_s=0.05)
+    driver = rig.start_driver(port=board.link, reconnect_s=0.05)
     rig.spin_until(lambda: len(rig.samples) >= 500, "messages")
     board.kill()
-    rig.spin_until(lambda: not rig.driver.intake.reader.connected, "the loss")
+    rig.spin_until(lambda: not intake_of(driver).reader.connected, "the loss")
     seen = len(rig.samples)
     again = VirtualBoard(board.link)
     try:
@@ -89,7 +90,7 @@ def test_the_virtual_boards_raster_text(tmp_path: Path) -> None:
     decoder = RasterDecoder()
     try:
         source.open()
-        frames = []
+        frames: list[SampleFrame] = []
         deadline_s = time.monotonic() + DEADLINE_S
         while len(frames) < 5:
             assert time.monotonic() < deadline_s, "no frames"

@@ -8,6 +8,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -46,7 +47,7 @@ class FixedRecording:
 
 
 def write_samples(path: Path, frames: list[SampleFrame], **others: object) -> Path:
-    content: dict[str, object] = {
+    content: dict[str, Any] = {
         "indices": np.array([one.indices for one in frames]),
         "counts": np.array([one.counts for one in frames]),
         "sequence": [one.sequence for one in frames],
