@@ -36,10 +36,6 @@ def tracked(*patterns: str) -> list[str]:
     return sorted(str(path) for path in found if path.parts[0] not in (".acts", "build", "install"))
 
 
-def python_packages() -> list[str]:
-    return sorted(f"{path.parent.name}/{path.parent.name}" for path in ROOT.glob("*/setup.py"))
-
-
 def run(title: str, command: list[str], env: dict[str, str] | None = None) -> list[str]:
     """Run a command; its title and exit code where it has failed."""
     print(f"[check] {title}", flush=True)
@@ -73,7 +69,7 @@ def lint(beside: dict[str, list[str]]) -> list[str]:
         {
             "ruff: rules": ["ruff", "check", "."],
             "ruff: format": ["ruff", "format", "--check", "--quiet", "."],
-            "mypy": ["mypy", *python_packages(), "scripts", "examples"],
+            "mypy": [sys.executable, "scripts/check_types.py"],
             "clang-format": ["clang-format", "--dry-run", "--Werror", *tracked(*CXX_PATTERNS)],
             "g++: warnings": ["g++", *CXX_WARNINGS, *firmware, *on_host],
             "package.xml: what is imported is declared": [sys.executable, "scripts/dependencies.py"],
