@@ -111,7 +111,8 @@ def _run_recorded(arguments: argparse.Namespace) -> int:
         print(_recorded_lines(entry), flush=True)
     feet = [foot for entry in results.entries for foot in entry["feet"].values()]
     if not any(foot["steps"] or foot["curve_steps"] for foot in feet):
-        least, most = (extreme([float(extreme(one.frames)) for one in recordings]) for extreme in (np.min, np.max))
+        frames: list[Any] = [one.frames for one in recordings]
+        least, most = (extreme([float(extreme(one)) for one in frames]) for extreme in (np.min, np.max))
         raise RecordingError(
             f"{arguments.frames}: nothing could be compared, since neither a step is found nor does the force curve "
             f"show one; frames hold {least:g} to {most:g}; needed are recordings of somebody who walks, with larger "

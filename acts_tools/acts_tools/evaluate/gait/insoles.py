@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -77,7 +78,7 @@ def read_insoles(path: Path) -> list[InsoleRecording]:
     return found
 
 
-def _frames(path: Path, content: dict[str, NDArray[np.generic]]) -> NDArray[np.generic]:
+def _frames(path: Path, content: dict[str, NDArray[Any]]) -> NDArray[np.generic]:
     frames = content.get("frames", content.get("image"))
     if frames is None:
         raise RecordingError(f"{path}: no array `frames`; {_NEEDED}")

@@ -93,7 +93,7 @@ def paper_spectrum(shown: Vibration, m: int, noise_counts: float, seed: int) -> 
         image = recovery.step(frame.indices, frame.counts, frame.end_s, frame.duration_s)
         forces.append(float(response.force_n(np.where(image > PAPER_TOUCH_COUNTS, image, 0.0)).sum()))
     force_n = np.array(forces) - np.mean(forces)
-    frequency_hz: Array = np.arange(force_n.size // 2 + 1) * (frame_rate_hz(m) / force_n.size)
+    frequency_hz: Array = np.arange(force_n.size // 2 + 1, dtype=np.float64) * (frame_rate_hz(m) / force_n.size)
     return frequency_hz, 2 * np.abs(np.fft.rfft(force_n)) / force_n.size
 
 
