@@ -83,10 +83,11 @@ def test_a_classifier_of_the_node_with_the_name_of_one_in_reports_is_refused(
     monkeypatch.setitem(CLASSIFIERS, name, Other)
     pressed = np.zeros((1, 32, 32), dtype=np.uint16)
     pressed[0, 14:18, 14:18] = 500
+    library = build_object_library(pressed, ["block"])
     with pytest.raises(
         SettingsError, match=rf"classifier '{name}' in .*classifiers/registry\.py: .* neither paper nor"
     ):
-        contenders(*2 * [build_object_library(pressed, ["block"])], 64)
+        contenders(library, library, 64)
 
 
 def test_ours_is_above_the_papers_method_on_the_same_presses() -> None:
