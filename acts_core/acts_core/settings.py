@@ -31,6 +31,7 @@ from typing import Any, TypeVar, cast
 import yaml
 
 from acts_core.errors import SettingsError
+from acts_core.yaml_values import YamlLoader
 
 T = TypeVar("T")
 
@@ -188,8 +189,9 @@ def from_text(settings_class: type, name: str, text: str) -> SettingValue:
 
 def _from_yaml(text: str) -> Any:
     try:
-        value = yaml.safe_load(text)
-    except yaml.YAMLError:
+        value = yaml.load(text, YamlLoader)
+    except (yaml.YAMLError, ValueError, RecursionError):
+        # ValueError: a time stamp such as 2024-13-45, or see `YamlLoader`.
         return text
     if isinstance(value, str):
         with suppress(ValueError):

@@ -92,6 +92,10 @@ def test_settings_are_read_as_people_write_them(name: str, text: str, value: Any
         ("depth", "1e-3"),
         ("enabled", "1"),
         ("home_rad", "1"),
+        ("depth", "2024-13-45"),
+        ("depth", 5000 * "9"),
+        ("rate_hz", "0x" + 5000 * "f"),
+        ("rate_hz", 5000 * "["),
     ],
 )
 def test_a_wrong_text_is_refused_by_the_name_of_its_setting(name: str, text: str) -> None:

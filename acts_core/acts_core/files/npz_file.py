@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import lzma
 import os
 import struct
 import tokenize
@@ -21,10 +22,12 @@ from numpy.typing import NDArray
 from acts_core.errors import ActsError
 from acts_core.files.regular_file import require_regular
 
-# What zipfile, zlib and NumPy raise for damaged files; a length that was hit may also ask for more than there is.
+# What zipfile, its decompressors and NumPy raise for damaged files; a length that was hit may also ask for more than
+# there is.
 _DAMAGED = (
     zipfile.BadZipFile,
     zlib.error,
+    lzma.LZMAError,
     struct.error,
     tokenize.TokenError,
     SyntaxError,

@@ -19,6 +19,7 @@ from acts_core.files.regular_file import read_text
 from acts_core.names import RULE
 from acts_core.settings import unknown_key_message
 from acts_core.transforms import Quaternion, Transform, Vector
+from acts_core.yaml_values import YamlLoader
 
 # Deeper than any file that is read by this; what lies below goes by the line of what holds it.
 _MAX_DEPTH = 5
@@ -192,7 +193,7 @@ def read_yaml(path: Path) -> Section:
     text = read_text(path, error=SettingsError, hint="give an existing YAML file", limit_bytes=_BYTES_MAX)
     lines: dict[Keys, int] = {}
     try:
-        loader = yaml.SafeLoader(text)
+        loader = YamlLoader(text)
         try:
             node = loader.get_single_node()
             if node is not None:
@@ -201,7 +202,7 @@ def read_yaml(path: Path) -> Section:
         finally:
             loader.dispose()
     except (yaml.YAMLError, RecursionError, ValueError) as error:
-        # ValueError: a time stamp such as 2024-13-45.
+        # ValueError: a time stamp such as 2024-13-45, or see `YamlLoader`.
         raise SettingsError(f"{path}: not valid YAML: {error}") from error
     if not isinstance(values, dict):
         raise SettingsError(f"{path}: the top level must be a mapping of names to values")

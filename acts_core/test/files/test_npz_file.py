@@ -9,6 +9,7 @@ import contextlib
 import io
 import os
 import tempfile
+import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -95,6 +96,20 @@ def test_pickled_arrays_and_folders_are_refused(tmp_path: Path) -> None:
     for path in (tmp_path / "x.npz", tmp_path):
         with pytest.raises(SettingsError):
             read_npz(path, error=SettingsError)
+
+
+@pytest.mark.parametrize("compression", [zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED, zipfile.ZIP_BZIP2, zipfile.ZIP_LZMA])
+def test_a_damaged_array_is_refused_however_it_is_compressed(compression: int, tmp_path: Path) -> None:
+    array = io.BytesIO()
+    np.save(array, np.arange(20_000))
+    path = tmp_path / "x.npz"
+    with zipfile.ZipFile(path, "w", compression) as file:
+        file.writestr("a.npy", array.getvalue())
+    content = bytearray(path.read_bytes())
+    content[80:300] = bytes(220)
+    path.write_bytes(content)
+    with pytest.raises(SettingsError, match=r"damaged npz file|cannot be read"):
+        read_npz(path, error=SettingsError)
 
 
 @given(st.lists(st.tuples(st.integers(0, len(WHOLE) - 1), st.integers(1, 255)), min_size=1, max_size=4))

@@ -47,3 +47,10 @@ def test_what_is_not_allowed_is_refused_with_its_line(
 ) -> None:
     with pytest.raises(SettingsError, match=message):
         read(section)
+
+
+@pytest.mark.parametrize("text", ["a: 0x" + 5000 * "f", "a: " + 5000 * "9", "a: 2024-13-45"])
+def test_numbers_that_no_message_could_show_and_dates_that_are_none_are_refused(text: str, tmp_path: Path) -> None:
+    (tmp_path / "x.yaml").write_text(text)
+    with pytest.raises(SettingsError, match="not valid YAML"):
+        read_yaml(tmp_path / "x.yaml")
