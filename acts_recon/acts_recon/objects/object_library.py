@@ -29,6 +29,7 @@ CLASSES_MAX = 0xFFFF
 """Most classes: what fits the class number of a message."""
 
 _NORM_TOLERANCE = 1e-3
+_NONE = np.empty(0, dtype=np.float32)
 
 
 @dataclass(frozen=True)
@@ -82,18 +83,23 @@ class ObjectLibrary:
         if np.abs(norms - 1).max() > _NORM_TOLERANCE:
             worst = int(np.argmax(np.abs(norms - 1)))
             raise ObjectLibraryError(f"column {worst} has norm {norms[worst]:.4g}; scale every column to norm 1")
-        pressed = np.asarray(self.norms_counts)
-        if pressed.shape != norms.shape or pressed.dtype.kind != "f" or not np.all((pressed > 0) & (pressed < np.inf)):
-            raise ObjectLibraryError(
-                f"norms_counts of shape {pressed.shape}, {pressed.dtype}: needed is a positive, finite float for each "
-                f"of the {norms.size} columns"
-            )
         names = tuple(str(name) for name in self.names)
         self._check_names(names)
         object.__setattr__(self, "columns", np.ascontiguousarray(columns, dtype=np.float32))
-        object.__setattr__(self, "norms_counts", np.ascontiguousarray(pressed, dtype=np.float32))
+        object.__setattr__(self, "norms_counts", self._checked_norms(norms.size))
         object.__setattr__(self, "classes", self._checked_classes(columns.shape[1], len(names)))
         object.__setattr__(self, "names", names)
+
+    def _checked_norms(self, n_columns: int) -> NDArray[np.float32]:
+        given = np.asarray(self.norms_counts)
+        with np.errstate(over="ignore"):  # what is too large for float32 is told below
+            norms = np.ascontiguousarray(given, dtype=np.float32) if given.dtype.kind == "f" else _NONE
+        if norms.shape != (n_columns,) or not np.all((norms > 0) & (norms < np.inf)):
+            raise ObjectLibraryError(
+                f"norms_counts of shape {given.shape}, {given.dtype}: needed is a positive, finite float for each "
+                f"of the {n_columns} columns, in single precision"
+            )
+        return norms
 
     @staticmethod
     def _check_names(names: tuple[str, ...]) -> None:

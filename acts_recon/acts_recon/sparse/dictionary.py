@@ -57,11 +57,15 @@ class Dictionary:
                 f"atoms of shape {atoms.shape}: for patches of {self.patch_size} x {self.patch_size} taxels needed are "
                 f"{self.patch_size**2} rows and at least one column"
             )
+        with np.errstate(over="ignore"):  # what is too large for float32 is told below
+            atoms = np.ascontiguousarray(atoms, dtype=np.float32)
         if not np.isfinite(atoms).all():
-            raise DictionaryError("the atoms hold NaN or infinity; learn the dictionary anew with `acts train`")
+            raise DictionaryError(
+                "the atoms hold NaN or infinity, in single precision; learn the dictionary anew with `acts train`"
+            )
         if not np.any(atoms):
             raise DictionaryError("all atoms are 0; learn the dictionary anew with `acts train`")
-        object.__setattr__(self, "atoms", np.ascontiguousarray(atoms, dtype=np.float32))
+        object.__setattr__(self, "atoms", atoms)
 
     @property
     def n_atoms(self) -> int:

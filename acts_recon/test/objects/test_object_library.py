@@ -90,6 +90,8 @@ def test_what_was_saved_is_loaded(library: ObjectLibrary, tmp_path: Path) -> Non
         ({"columns": np.full((4, 3), -0.5, dtype=np.float32)}, "negative values"),
         ({"columns": np.ones((4, 3), dtype=np.int32)}, "float matrix"),
         ({"columns": np.ones((4, 0), dtype=np.float32)}, "at least one column"),
+        ({"norms_counts": np.full(3, 1e300)}, "positive, finite float"),
+        ({"norms_counts": np.full(3, 1e-300)}, "positive, finite float"),
         ({"classes": np.array([0, 1])}, "each of the 3 columns"),
         ({"classes": np.array([0.0, 1.0, 0.0])}, "whole number"),
         ({"classes": np.array([0, 0, 0])}, "0 to 1, one for each name"),
