@@ -150,7 +150,7 @@ class PlainDriver:
             self._take,
             reconnect_s=reconnect_s,
             log=lambda level, message: self.log.append((level, message)),
-            on_reconnect=self.stream.statistics.reconnected,
+            on_reconnect=self.stream.reconnected,
         )
         self.report = DriverReport(source, self.reader, self.decoder, self.stream, (known_field.SIDE,) * 2)
 

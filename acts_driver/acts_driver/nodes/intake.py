@@ -148,7 +148,7 @@ class Intake:
 
     def _on_reconnect(self) -> None:
         """The port is open again; on the reader's thread, before the first frame."""
-        self.stream.statistics.reconnected()
+        self.stream.reconnected()
         if self.session is not None:
             self.session.reconnected()
 

@@ -96,7 +96,7 @@ class StreamStatistics:
         return True
 
     def reconnected(self) -> None:
-        """Tell that the port was lost and opened again: the next frame may be from a board that was restarted."""
+        """Tell that the port was lost and opened again; for boards with a clock, see `FrameStream.reconnected`."""
         self._reconnected = True
 
     def discarded_unread(self) -> None:
@@ -111,10 +111,11 @@ class StreamStatistics:
         self._measured_ns = stamp_ns
 
     def rate_hz(self, now_ns: int) -> float:
-        """New frames per second of arrival, over the last second."""
+        """New frames per second of arrival, over the last second; takes `lock`."""
         now = now_ns // _BIN_NS
         # The bin that is being filled is left out: with it the rate would depend on the time of the call.
-        done = [*self._bins, (self._bin, self._in_bin)]
+        with self.lock:
+            done = [*self._bins, (self._bin, self._in_bin)]
         return sum(count for number, count in done if now - _BINS <= number < now) / (_BINS * _BIN_NS * 1e-9)
 
     def _came_before(self, sequence: int, board_us: int) -> bool:

@@ -49,6 +49,12 @@ class FrameStream:
         self._rows = rows
         self._cols = cols
 
+    def reconnected(self) -> None:
+        """Tell that the port was lost and opened again: the next frame may be from a board that was restarted."""
+        # Nothing but the board's clock tells whether it was.
+        if self.has_board_clock:
+            self.statistics.reconnected()
+
     def accept(self, frames: Sequence[SampleFrame], arrival_ns: int) -> list[tuple[SampleFrame, int]]:
         """Check and stamp frames that were read together; return those to publish.
 

@@ -3,6 +3,8 @@
 
 """Gaps, wraps, restarts, repetitions and the rate; what of it is published."""
 
+from concurrent.futures import ThreadPoolExecutor
+
 import pytest
 from pty_board import frame
 
@@ -65,6 +67,18 @@ def test_rate_of_the_last_second() -> None:
     assert StreamStatistics().rate_hz(T0) == 0
 
 
+def test_the_rate_is_taken_between_two_frames_of_the_thread_that_counts() -> None:
+    statistics = StreamStatistics()
+    for k in range(2000):
+        statistics.observe(k, 1000 * k, 0, T0 + k * MS)
+    with ThreadPoolExecutor(1) as pool:
+        with statistics.lock:
+            rate_hz = pool.submit(statistics.rate_hz, T0 + 3000 * MS)
+            for k in range(2000, 3000):
+                statistics.observe(k, 1000 * k, 0, T0 + k * MS)
+        assert rate_hz.result(10.0) == pytest.approx(1000)
+
+
 def test_a_frame_of_another_size_is_dropped_and_counted_but_not_lost() -> None:
     stream = FrameStream(32, 32)
     frames = [frame(0), frame(1, rows=16, cols=24), frame(2)]
@@ -87,6 +101,16 @@ def test_without_a_board_clock_stamps_are_arrivals() -> None:
     frames = [frame(k)._replace(board_us=0) for k in range(2)]
     assert [stamp for _, stamp in stream.accept(frames, T0)] == [T0 - 1, T0]
     assert stream.clock.state.resets == 0
+
+
+def test_without_a_board_clock_a_reconnection_is_no_restart() -> None:
+    # The scans of one line after another, which leave out how long the port was gone.
+    stream = FrameStream(32, 32, has_board_clock=False)
+    stream.accept([frame(0)], T0)
+    stream.reconnected()
+    stream.accept([frame(1)], T0 + 3000 * MS)
+    stream.accept([frame(4)], T0 + 3001 * MS)
+    assert (stream.statistics.restarts, stream.statistics.lost) == (0, 2)
 
 
 def test_the_boards_overruns_are_told() -> None:
