@@ -163,3 +163,14 @@ def test_classes_of_random_frames(shape: tuple[int, int], n_classes: int, of_eac
 
 def test_the_board_takes_two_columns_of_the_largest_frame_and_more_of_smaller_ones() -> None:
     assert [core.atoms_limit(m) for m in (1, 64, 512, 513, 1024, 4096)] == [16, 16, 16, 15, 8, 2]
+
+
+def test_a_class_whose_residual_is_no_number_is_not_the_object() -> None:
+    objects = build_object_library(np.full((2, 2, 2), 900), ["first", "second"])
+    # A board takes any finite numbers; those of the first class overflow.
+    object.__setattr__(objects, "columns", objects.columns * np.array([1e38, 1.0], dtype=np.float32))
+    counts = np.full(4, 900, dtype=np.uint16)
+    result = core.classify(objects, np.arange(4, dtype=np.uint16), counts, max_columns=BOARD_COLUMNS)
+    assert np.isnan(result.residuals[0])
+    assert (result.touched, result.best) == (True, 1)
+    assert 0 <= result.confidence <= 1

@@ -14,7 +14,8 @@ namespace acts {
 // must be asked more often than that.
 class FramePacer {
  public:
-  // Held up for longer than this, frames count as skipped (the virtual board's limit too).
+  // Held up for longer than this, frames count as skipped. The virtual board has a limit of its own: its field is kept
+  // for less.
   static constexpr std::uint32_t kCatchUpUs = 250000;
 
   bool due(std::uint32_t now_us, std::uint32_t period_us) const { return !started_ || now_us - grid_us_ >= period_us; }

@@ -62,10 +62,11 @@ float ObjectClassifier::residual_of(const ObjectLibrary& library, int class_numb
 }
 
 void ObjectClassifier::decide() {
-  float smallest = result_.residuals[0];
+  float smallest = INFINITY;
   float second = INFINITY;
   result_.best = 0;
-  for (int number = 1; number < result_.classes; ++number) {
+  // From the first class on: NaN, which an uploaded library may cause, is below nothing.
+  for (int number = 0; number < result_.classes; ++number) {
     const float residual = result_.residuals[static_cast<std::size_t>(number)];
     if (residual < smallest) {
       second = smallest;
@@ -75,7 +76,7 @@ void ObjectClassifier::decide() {
       second = std::min(second, residual);
     }
   }
-  const bool decidable = result_.touched && result_.classes > 1 && second > 0.0F;
+  const bool decidable = result_.touched && result_.classes > 1 && second > 0.0F && std::isfinite(smallest);
   result_.confidence = decidable ? 1.0F - smallest / second : 0.0F;
 }
 
