@@ -5,11 +5,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from concurrent.futures import Future
 from functools import partial
 
-from acts_core.runtime import begin, is_done
+from acts_core.runtime import LogCallback, begin, is_done
 from acts_core.sampling import SkinMap
 from acts_core.wire import BoardState
 from acts_driver.board.dialogue import BoardLink
@@ -23,10 +22,10 @@ class BoardLayout:
     ----------
     link : BoardLink
     log : callable
-        Takes a level and a sentence.
+        See `acts_core.runtime.LogCallback`.
     """
 
-    def __init__(self, link: BoardLink, log: Callable[[str, str], None]) -> None:
+    def __init__(self, link: BoardLink, log: LogCallback) -> None:
         self._link = link
         self._log = log
         self._map: SkinMap | None = None

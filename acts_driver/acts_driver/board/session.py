@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from acts_core.errors import ActsError, BoardError, PortError
+from acts_core.runtime import LogCallback
 from acts_core.wire import BoardModel, BoardSettings, BoardState, ReplyStatus
 from acts_driver.board.dialogue import BoardLink, NoAnswerError, NotHeardError, RefusedError
 from acts_driver.board.layout import BoardLayout
@@ -66,7 +67,7 @@ class BoardSession:
     size : tuple of int
         Rows and columns that the driver expects.
     log : callable
-        Takes a level ("info", "warning" or "error") and a sentence.
+        See `acts_core.runtime.LogCallback`.
     on_change : callable
         Called with the status when anything but times and counters in it has changed; from any thread.
     """
@@ -77,7 +78,7 @@ class BoardSession:
         parameters: BoardParameters,
         *,
         size: tuple[int, int],
-        log: Callable[[str, str], None],
+        log: LogCallback,
         on_change: Callable[[BoardStatus], None] = lambda status: None,
     ) -> None:
         self._link = link

@@ -10,11 +10,11 @@ from collections.abc import Callable
 
 from acts_core.errors import BoardError
 from acts_core.frames import SampleFrame
-from acts_core.runtime import RateLimit
+from acts_core.runtime import LogCallback, RateLimit
 from acts_core.wire import BoardMessage
 from acts_driver.board import BoardLink, BoardResult, BoardResults, BoardSession, BoardStatus
 from acts_driver.nodes.report import DriverReport
-from acts_driver.port import LogCallback, Reader, Source, StaleFrames
+from acts_driver.port import Reader, Source, StaleFrames
 from acts_driver.settings import DriverSettings
 from acts_driver.stream import BacklogWatch, FrameStream
 from acts_ros.diagnostics import Report
@@ -40,7 +40,7 @@ class Intake:
     consume : callable
         See `Consume`. Called for what may be used: of boards with another firmware nothing.
     log : callable
-        Takes a level ("info", "warning" or "error") and a sentence; from any thread.
+        See `acts_core.runtime.LogCallback`; called from any thread.
     on_board : callable
         Takes what is known of the board whenever it has changed; from any thread.
 

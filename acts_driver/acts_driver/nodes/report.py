@@ -7,9 +7,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 
+from acts_core.runtime import LogCallback
 from acts_core.words import counted
 from acts_driver.board import BoardSession, BoardStatus, settings_in_words, version_in_words
-from acts_driver.port import LogCallback, Reader, Source
+from acts_driver.port import Reader, Source
 from acts_driver.protocols import Decoder
 from acts_driver.stream import FrameStream
 from acts_ros.diagnostics import ERROR, OK, WARN, Report

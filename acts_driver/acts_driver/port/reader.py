@@ -11,7 +11,7 @@ from collections.abc import Callable
 
 from acts_core.errors import ActsError
 from acts_core.frames import SampleFrame
-from acts_core.runtime import RealtimeConfig, enter_realtime
+from acts_core.runtime import LogCallback, RealtimeConfig, enter_realtime
 from acts_driver.port.source import READ_TIMEOUT_S, Source
 from acts_driver.protocols import Decoder
 
@@ -19,9 +19,6 @@ FramesCallback = Callable[[list[SampleFrame], int], None]
 """Takes frames that were read together and the host time of their arrival [ns], on the reader's thread.
 
 There may be none of them where `Reader` was told to look for results."""
-
-LogCallback = Callable[[str, str], None]
-"""Takes a level ("info", "warning" or "error") and a sentence, on the reader's thread."""
 
 _FIRST_RETRY_S = 0.02
 _STOP_S = 5.0
@@ -50,11 +47,9 @@ class Reader:
     realtime : RealtimeConfig or None
         How the process is scheduled once its first frames have been handed on.
     log : callable
-        See `LogCallback`.
+        See `acts_core.runtime.LogCallback`; called on the reader's thread.
     on_reconnect : callable or None
         Called on the reader's thread when a lost source is open again, before its first frame.
-    now_ns : callable
-        The host's clock [ns].
 
     Attributes
     ----------
@@ -79,7 +74,6 @@ class Reader:
         realtime: RealtimeConfig | None = None,
         log: LogCallback = lambda level, message: None,
         on_reconnect: Callable[[], None] | None = None,
-        now_ns: Callable[[], int] = time.time_ns,
     ) -> None:
         self._source = source
         self._decoder = decoder
@@ -89,7 +83,6 @@ class Reader:
         self._reconnect_s = reconnect_s
         self._realtime = realtime
         self._log = log
-        self._now_ns = now_ns
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._run, name="acts_reader", daemon=True)
         self._consumer_error = ""
@@ -176,7 +169,7 @@ class Reader:
         return False
 
     def _read_until_stopped(self) -> None:
-        read, feed, now_ns, has_results = self._source.read, self._decoder.feed, self._now_ns, self._has_results
+        read, feed, now_ns, has_results = self._source.read, self._decoder.feed, time.time_ns, self._has_results
         while not self._stop.is_set():
             data = read()
             arrival_ns = now_ns()
