@@ -30,7 +30,7 @@ class FramePipeline:
     ----------
     settings : ReconstructionConfig
         Size, layout and method, as the node's parameters.
-    forget : callable, optional
+    forget : callable
         Called when all frames are forgotten: whoever keeps something of them forgets it, too.
 
     Attributes
@@ -52,7 +52,7 @@ class FramePipeline:
         As of `ReconstructionConfig.recovery`.
     """
 
-    def __init__(self, settings: ReconstructionConfig, forget: Callable[[], None] | None = None) -> None:
+    def __init__(self, settings: ReconstructionConfig, forget: Callable[[], None]) -> None:
         self.recovery = settings.recovery()
         self.size = (settings.rows, settings.cols)
         self._forget_more = forget
@@ -133,5 +133,4 @@ class FramePipeline:
 
     def _forget(self) -> None:
         self.recovery.reset()
-        if self._forget_more is not None:
-            self._forget_more()
+        self._forget_more()

@@ -52,9 +52,9 @@ def _wait_for_running() -> None:
         thread.join(max(0.0, until_s - time.monotonic()))
 
 
-def is_done(future: Future[T], timeout_s: float = PATIENCE_S) -> bool:
-    """Whether the work has ended, with or without success; waits for it up to a time [s]."""
-    return bool(wait([future], timeout_s).done)
+def is_done(future: Future[T]) -> bool:
+    """Whether the work has ended, with or without success; waits for it up to `PATIENCE_S`."""
+    return bool(wait([future], PATIENCE_S).done)
 
 
 def within_patience(work: Callable[[], T], error: type[ActsError], what: str) -> T:

@@ -117,16 +117,9 @@ class BoardSettings(_Own):  # type: ignore[misc]
             own.check(getattr(self, own.name), self.rows, self.cols, self.m, self.scheme)
 
     @classmethod
-    def from_sampling(
-        cls,
-        config: SamplingConfig,
-        *,
-        frame_period_us: int = 1000,
-        touch_counts: int = 60,
-        output: str = "samples",
-        led: str = "frames",
-    ) -> BoardSettings:
-        """The settings that make a board sample as `config` says."""
+    def from_sampling(cls, config: SamplingConfig) -> BoardSettings:
+        """The settings that make a board sample as `config` says; what is not about sampling has its default."""
+        own: dict[str, Any] = {setting.name: config.own(setting) for setting in BOARD_OWN_SETTINGS.values()}
         return cls(
             rows=config.rows,
             cols=config.cols,
@@ -134,12 +127,8 @@ class BoardSettings(_Own):  # type: ignore[misc]
             neighbour_order=config.neighbour_order,
             m=config.m,
             threshold_counts=config.threshold_counts,
-            touch_counts=touch_counts,
-            output=output,
-            led=led,
-            frame_period_us=frame_period_us,
             seed=config.seed,
-            **{own.name: config.own(own) for own in BOARD_OWN_SETTINGS.values()},
+            **own,
         )
 
     @property

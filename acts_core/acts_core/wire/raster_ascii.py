@@ -22,6 +22,7 @@ _NUMBER_CHARACTERS = b"0123456789,"
 _DURATION_DIGITS = 10
 _COUNT_DIGITS = 4
 _DURATION_MAX_US = 0xFFFFFFFF
+_SHOWN_BYTES = 40
 
 
 class RasterDecoder(DelimitedDecoder):
@@ -104,8 +105,8 @@ class RasterDecoder(DelimitedDecoder):
         )
 
 
-def _shown(line: bytes, place: int = 0, size: int = 40) -> str:
+def _shown(line: bytes, place: int = 0) -> str:
     """A piece of a line around a place in it, for a person."""
-    begin = max(0, min(place - size // 2, len(line) - size))
-    piece = repr(line[begin : begin + size])[1:]
-    return ("..." if begin else "") + piece + ("..." if len(line) > begin + size else "")
+    begin = max(0, min(place - _SHOWN_BYTES // 2, len(line) - _SHOWN_BYTES))
+    end = begin + _SHOWN_BYTES
+    return ("..." if begin else "") + repr(line[begin:end])[1:] + ("..." if len(line) > end else "")

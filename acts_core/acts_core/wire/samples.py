@@ -91,9 +91,7 @@ def encode_frame(frame: SampleFrame) -> bytes:
     return encoded[: encode_into(packet, encoded)].tobytes() + cobs_reference.DELIMITER
 
 
-def sample_fault(
-    indices: NDArray[np.integer], counts: NDArray[np.integer], size: int, *, may_repeat: bool = False
-) -> str:
+def sample_fault(indices: NDArray[np.integer], counts: NDArray[np.integer], size: int, *, may_repeat: bool) -> str:
     """What is wrong with the samples of a frame, in words; empty for nothing.
 
     The reference implementation of `first_fault`.

@@ -198,10 +198,10 @@ def test_settings_that_cannot_be_are_refused(values: dict[str, object], words: s
 
 def test_settings_of_a_sampling_config() -> None:
     config = SamplingConfig("tracking", 16, 24, 100, 200, "rows", 7, search_share=0.5, adaptive_share=0.25)
-    settings = BoardSettings.from_sampling(config, frame_period_us=500, led="touch")
+    settings = BoardSettings.from_sampling(config)
     assert (settings.rows, settings.cols, settings.m, settings.threshold_counts) == (16, 24, 100, 200)
     assert (settings.search_quota, settings.adaptive_quota, settings.seed) == (50, 25, 7)
-    assert (settings.scheme, settings.neighbour_order, settings.led) == ("tracking", "rows", "touch")
+    assert (settings.scheme, settings.neighbour_order, settings.led) == ("tracking", "rows", "frames")
     assert BoardSettings.from_sampling(SamplingConfig()) == BoardSettings()
 
 

@@ -41,7 +41,7 @@ class BagRecording:
         definition.
     """
 
-    def __init__(self, path: Path, topic: str = "") -> None:
+    def __init__(self, path: Path, topic: str) -> None:
         require_rosbags()
         from acts_ros.bags.reading import open_bag
 

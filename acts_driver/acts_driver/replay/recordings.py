@@ -146,7 +146,7 @@ class SampledFrames:
         How the taxels are chosen; every pass begins with a new `Sampler`.
     rate_cap_hz : float
         At most so many samplings per second; 0 for `BOARD_RATE_HZ`.
-    skin_map : SkinMap, optional
+    skin_map : SkinMap or None
         See `acts_core.sampling.Sampler`.
     """
 
@@ -156,7 +156,7 @@ class SampledFrames:
         frames_hz: float,
         sampling: SamplingConfig,
         rate_cap_hz: float,
-        skin_map: SkinMap | None = None,
+        skin_map: SkinMap | None,
     ) -> None:
         self._map = skin_map
         self._frames = content.frames

@@ -28,7 +28,7 @@ class ContactFinder:
         From counts to newtons.
     touch_counts : float
         A taxel above it is pressed.
-    noise_counts, err_together : float
+    noise_counts : float
         See `acts_recon.images.uncertainty`.
     borders : Borders, optional
         What lies behind one is not beside the contact.
@@ -40,13 +40,12 @@ class ContactFinder:
         response: Response,
         touch_counts: float,
         noise_counts: float = NOISE_COUNTS,
-        err_together: float = ERR_TOGETHER,
         borders: Borders | None = None,
     ) -> None:
         self._bounds = (borders or borders_of(geometry.rows, geometry.cols)).bounds()
         self._cols = geometry.cols
         self._pitches_m = geometry.pitch_m, geometry.pitch_y_m
-        self._thresholds = touch_counts, noise_counts, err_together
+        self._thresholds = touch_counts, noise_counts, ERR_TOGETHER
         force_n = force_table(response)
         self._tables = force_n, slope_table(force_n)
         self._results = np.zeros(contact_kernels.RESULTS)

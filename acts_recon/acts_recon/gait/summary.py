@@ -74,7 +74,7 @@ class Gait:
         return float(2 * (left - right) / (left + right))
 
 
-def summarise(left: Sequence[Step], right: Sequence[Step], longest_stride_s: float = 10.0) -> Gait:
+def summarise(left: Sequence[Step], right: Sequence[Step], longest_stride_s: float) -> Gait:
     """Summarise steps, each foot's in the order of time; longer from strike to strike is a pause [s]."""
     strides = [_strides(steps, longest_stride_s) for steps in (left, right)]
     return Gait(

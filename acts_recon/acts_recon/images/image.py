@@ -17,9 +17,9 @@ _ROTATIONS = -1.2
 _SATURATION = 1.3
 
 
-def colour_table(size: int = 256) -> NDArray[np.uint8]:
-    """Colours from black (0) to white, of evenly growing lightness; np.ndarray [shape=(size, 3), dtype=uint8]."""
-    light = np.linspace(0, 1, size)[:, None]
+def colour_table() -> NDArray[np.uint8]:
+    """Colours from black (0) to white, of evenly growing lightness; np.ndarray [shape=(256, 3), dtype=uint8]."""
+    light = np.linspace(0, 1, 256)[:, None]
     angle = 2 * np.pi * (_START / 3 + 1 + _ROTATIONS * light)
     amplitude = _SATURATION * light * (1 - light) / 2
     towards_cos = np.array([-0.14861, -0.29227, 1.97294])

@@ -22,7 +22,7 @@ class PlacedSamples:
     ----------
     geometry : ArrayGeometry
         Of the picture; without a layout that is the matrix itself.
-    layout : Layout, optional
+    layout : Layout or None
         Where the taxels of the matrix lie in the picture.
 
     Raises
@@ -31,7 +31,7 @@ class PlacedSamples:
         When the layout is of another size.
     """
 
-    def __init__(self, geometry: ArrayGeometry, layout: Layout | None = None) -> None:
+    def __init__(self, geometry: ArrayGeometry, layout: Layout | None) -> None:
         self._matrix_size = (geometry.rows, geometry.cols)
         self._places: NDArray[np.uint16] | None = None
         self._skin: NDArray[np.uint16] | None = None

@@ -64,8 +64,8 @@ def variances(
     least: float,
     geometry: ArrayGeometry,
     response: Response,
-    noise_counts: float = NOISE_COUNTS,
-    err_together: float = ERR_TOGETHER,
+    noise_counts: float,
+    err_together: float,
 ) -> Variances:
     """Variances of the contact that is made of the taxels `inside`.
 
