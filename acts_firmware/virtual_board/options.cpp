@@ -4,6 +4,7 @@
 #include "options.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
@@ -20,10 +21,6 @@ namespace {
 constexpr double kMinShare = 0.0001;
 
 constexpr int kMaxPriority = 99;
-
-// Bases of strtoull.
-constexpr int kDecimal = 10;
-constexpr int kDecimalOrHexadecimal = 0;
 
 struct Option {
   std::string name;
@@ -59,11 +56,14 @@ int whole(const std::string& name, const std::string& text, int minimum, int max
   return static_cast<int>(value);
 }
 
-std::uint64_t whole64(const std::string& name, const std::string& text, int base) {
+// Decimal, or hexadecimal after 0x.
+std::uint64_t whole64(const std::string& name, const std::string& text) {
   char* end = nullptr;
   errno = 0;
-  const unsigned long long value = std::strtoull(text.c_str(), &end, base);
-  if (text.empty() || text[0] == '-' || *end != '\0' || errno != 0) {
+  // Not base 0, of which 010 would be 8; nor a sign or blanks, of which strtoull makes -1 the largest number.
+  const bool hexadecimal = text.rfind("0x", 0) == 0 || text.rfind("0X", 0) == 0;
+  const unsigned long long value = std::strtoull(text.c_str(), &end, hexadecimal ? 16 : 10);
+  if (std::isdigit(static_cast<unsigned char>(text[0])) == 0 || *end != '\0' || errno != 0) {
     throw OptionError(name + " " + text + ": allowed is a whole number from 0 to 18446744073709551615");
   }
   return value;
@@ -169,7 +169,7 @@ std::vector<Option> common_options(Options& o) {
       {"--noise-counts", "S", "standard deviation of the noise in counts (1.5)",
        [&o](const std::string& v) { o.noise_counts = number("--noise-counts", v, 0.0, 1000.0); }},
       {"--seed", "N", "of the noise and of random and hybrid sampling (1)",
-       [&s](const std::string& v) { s.seed = whole64("--seed", v, kDecimal); }},
+       [&s](const std::string& v) { s.seed = whole64("--seed", v); }},
       {"--drift-ppm", "D", "how much faster the board's clock runs than the host's, in millionths (0)",
        [&o](const std::string& v) { o.drift_ppm = number("--drift-ppm", v, -10000.0, 10000.0); }},
       {"--hardware-fault", "FAULT",
@@ -177,7 +177,7 @@ std::vector<Option> common_options(Options& o) {
        "address-bit=B; may be given again",
        [&o](const std::string& v) { named("--hardware-fault", [&o, &v] { o.wiring_faults.add(v); }); }},
       {"--board-id", "N", "the board's serial number, in decimal or as 0x... (0x4143545300000001)",
-       [&o](const std::string& v) { o.board_id = whole64("--board-id", v, kDecimalOrHexadecimal); }},
+       [&o](const std::string& v) { o.board_id = whole64("--board-id", v); }},
       {"--protocol", "NAME", "binary, or raster_ascii: the authors' raster sketch (binary)",
        [&o](const std::string& v) {
          o.protocol =

@@ -165,6 +165,9 @@ def test_what_the_host_sends_is_taken_and_disturbs_nothing(tmp_path: Path) -> No
         (["--loop=yes"], "--loop takes no value"),
         (["--m"], "--m needs a value"),
         (["--m", "--ros-args"], "--m needs a value"),
+        (["--seed", " -1"], "--seed  -1: allowed is a whole number from 0 to 18446744073709551615"),
+        (["--board-id", "0x"], "--board-id 0x: allowed is a whole number from 0 to 18446744073709551615"),
+        (["--board-id", "0x-1"], "--board-id 0x-1: allowed is a whole number"),
     ],
 )
 def test_refused_options(options: list[str], message: str) -> None:

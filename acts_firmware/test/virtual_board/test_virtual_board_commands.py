@@ -9,6 +9,7 @@ from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
+import pytest
 from board_process import DEADLINE_S, BoardProcess
 from core_library import installed
 
@@ -83,6 +84,13 @@ def test_settings_change_the_running_stream(tmp_path: Path) -> None:
         (reply,) = host.ask(encode_query(9))
         assert reply.state.uptime_us >= frames[-1].board_us
         assert board.decoder.malformed == board.decoder.crc_errors == 0
+
+
+@pytest.mark.parametrize(("given", "board_id"), [("0010", 10), ("0X10", 16), ("18446744073709551615", 2**64 - 1)])
+def test_a_board_id_is_decimal_unless_it_says_hexadecimal(tmp_path: Path, given: str, board_id: int) -> None:
+    with BoardProcess(tmp_path, "--board-id", given) as board:
+        (reply,) = Host(board).ask(encode_query(1))
+    assert reply.state.board_id == board_id
 
 
 def test_a_slow_board_hears_commands_between_its_frames(tmp_path: Path) -> None:
