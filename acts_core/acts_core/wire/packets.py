@@ -57,10 +57,14 @@ def seal(kind: PacketType, content: bytes) -> bytes:
     content : bytes
         What stands between the length and the CRC.
     """
-    packet = HEAD.pack(kind, VERSION, HEAD.size + len(content) + CRC.size) + content
+    return stuffed(HEAD.pack(kind, VERSION, HEAD.size + len(content) + CRC.size) + content)
+
+
+def stuffed(packet: bytes) -> bytes:
+    """Bytes for the wire of a packet that lacks only its CRC; delimiter included."""
     packet += CRC.pack(zlib.crc32(packet))
-    stuffed = np.empty(encoded_size_max(len(packet)), dtype=np.uint8)
-    return stuffed[: encode_into(packet, stuffed)].tobytes() + DELIMITER
+    encoded = np.empty(encoded_size_max(len(packet)), dtype=np.uint8)
+    return encoded[: encode_into(packet, encoded)].tobytes() + DELIMITER
 
 
 def unseal(packet: bytes) -> tuple[int, bytes]:

@@ -26,9 +26,9 @@ from acts_core.frames import SampleFrame, Scheme
 from acts_core.sampling import REPEATING
 from acts_core.wire import cobs_reference
 from acts_core.wire.board_messages import BoardMessage, decode_message
-from acts_core.wire.cobs_kernels import decode_into, encode_into
+from acts_core.wire.cobs_kernels import decode_into
 from acts_core.wire.delimited import DelimitedDecoder
-from acts_core.wire.packets import CRC, VERSION, ChecksumError, PacketType, version_mismatch
+from acts_core.wire.packets import CRC, VERSION, ChecksumError, PacketType, stuffed, version_mismatch
 from acts_core.wire.sample_kernels import COUNT_RANGE, INDEX_RANGE, INDEX_REPEATED, first_fault
 
 # type, version, length, sequence, board_us, duration_us, overruns, scheme, rows, cols, flags, m, reserved
@@ -85,10 +85,7 @@ def encode_frame(frame: SampleFrame) -> bytes:
         len(indices),
         0,
     )
-    packet += indices.astype(_U2).tobytes() + counts.astype(_U2).tobytes()
-    packet += CRC.pack(zlib.crc32(packet))
-    encoded = np.empty(cobs_reference.encoded_size_max(len(packet)), dtype=np.uint8)
-    return encoded[: encode_into(packet, encoded)].tobytes() + cobs_reference.DELIMITER
+    return stuffed(packet + indices.astype(_U2).tobytes() + counts.astype(_U2).tobytes())
 
 
 def sample_fault(indices: NDArray[np.integer], counts: NDArray[np.integer], size: int, *, may_repeat: bool) -> str:
