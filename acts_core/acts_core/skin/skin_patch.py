@@ -64,6 +64,11 @@ class SkinPatch:
         """Columns of the patch."""
         return self.end_col - self.first_col
 
+    @property
+    def bounds(self) -> tuple[int, int, int, int]:
+        """``first_row, end_row, first_col, end_col``, as kernels take them."""
+        return self.first_row, self.end_row, self.first_col, self.end_col
+
     @cached_property
     def geometry(self) -> ArrayGeometry:
         """The patch as an array of its own, laid flat."""

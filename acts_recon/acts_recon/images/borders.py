@@ -44,7 +44,7 @@ def borders_of(rows: int, cols: int, layout: Layout | None = None) -> Borders:
     """
     if layout is None:
         return Borders(np.array([[0, rows, 0, cols]], dtype=np.int32), np.zeros(rows * cols, dtype=np.uint16))
-    patches = [(patch.first_row, patch.end_row, patch.first_col, patch.end_col) for patch in layout.patches]
+    patches = [patch.bounds for patch in layout.patches]
     of = layout.patch_of.astype(np.uint16)
     bare = np.argwhere(layout.patch_of == NO_PATCH)
     of[layout.patch_of == NO_PATCH] = len(patches) + np.arange(len(bare))

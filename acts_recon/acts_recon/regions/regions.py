@@ -61,14 +61,11 @@ class Regions:
         self._sigmas = (SlipConfig() if slip is None else slip).slip_sigmas
         self._untouched = [RegionContact(patch.name, patch.link) for patch in patches]
         self._regions = list(self._untouched)
-        self._bounds = np.array(
-            [(patch.first_row, patch.end_row, patch.first_col, patch.end_col) for patch in patches], dtype=np.int64
-        )
+        self._bounds = np.array([patch.bounds for patch in patches], dtype=np.int64)
         self._points_m = np.zeros((*self._shape, 3))
         self._normals = np.zeros((*self._shape, 3))
         for patch in patches:
-            place = np.s_[patch.first_row : patch.end_row, patch.first_col : patch.end_col]
-            self._points_m[place], self._normals[place] = patch.points_m(), patch.normals()
+            patch.of(self._points_m)[:], patch.of(self._normals)[:] = patch.points_m(), patch.normals()
         self._areas_m2 = np.array([patch.geometry.taxel_area_m2 for patch in patches])
         self._touch_counts = float(touch_counts)
         self._force_n = force_table(response)

@@ -76,9 +76,7 @@ class Sharpness:
         noise_counts: float,
         config: SharpnessConfig,
     ) -> None:
-        self._bounds = np.array(
-            [(patch.first_row, patch.end_row, patch.first_col, patch.end_col) for patch in patches], dtype=np.int64
-        )
+        self._bounds = np.array([patch.bounds for patch in patches], dtype=np.int64)
         self._force_n = force_n
         self._touch_counts, self._noise_counts = touch_counts, noise_counts
         self._gain_error = config.sharpness_gain_error

@@ -96,9 +96,7 @@ class SlipWatch:
         if not noise_counts > 0.0:
             raise ArrayError(f"noise_counts = {noise_counts}: allowed is a number above 0")
         self._pitches_m = [(patch.pitch_m, patch.row_pitch_m) for patch in patches]
-        self._bounds = np.array(
-            [(patch.first_row, patch.end_row, patch.first_col, patch.end_col) for patch in patches], dtype=np.int64
-        ).reshape(-1, 4)
+        self._bounds = np.array([patch.bounds for patch in patches], dtype=np.int64).reshape(-1, 4)
         self._tuning = kernels.Tuning(
             config.slip_window_s,
             config.slip_window_s / (_KEPT - 8),
