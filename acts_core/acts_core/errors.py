@@ -55,6 +55,10 @@ class LaunchError(ActsError):
     """A launch file is not valid, or holds something outside the supported subset."""
 
 
+class ViewRequestError(ActsError):
+    """A page asked for something that is not understood or not allowed."""
+
+
 REFUSED_EXIT_CODE = 2
 """Exit code of a process that cannot work with what it was given; starting it again is of no use."""
 
@@ -64,7 +68,3 @@ _REFUSALS = (SettingsError, ArrayError, DictionaryError, ObjectLibraryError)
 def exit_code(error: ActsError) -> int:
     """Exit code of a process that ends with an error: `REFUSED_EXIT_CODE` where starting it again is of no use."""
     return REFUSED_EXIT_CODE if isinstance(error, _REFUSALS) else 1
-
-
-class ViewRequestError(ActsError):
-    """A page asked for something that is not understood or not allowed."""
