@@ -12,8 +12,6 @@ from acts_core.skin import SkinPatch
 from acts_recon.slip.config import SlipConfig
 from acts_recon.slip.watch import NOISE_COUNTS, Slip, SlipWatch
 
-__all__ = ["Slip", "SlipConfig", "SlipDetector"]
-
 
 class SlipDetector:
     """Watches one patch; `acts_recon.slip.watch.SlipWatch` watches many, and taxels measured at different times.
