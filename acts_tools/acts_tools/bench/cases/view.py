@@ -91,32 +91,15 @@ def measure(workbench: Workbench, *, is_realtime: bool = False) -> Result:
         with _watchers(workbench, port, half_s + _SETTLE_S) as watchers:
             with realtime.subscriber(is_realtime):
                 graph.spin_for(_SETTLE_S)
-                watched = _Stretch(counter)
-                memory, used_s = psutil.Process(server.pid).memory_info().rss, cpu_s(server.pid)
-                began_s = time.monotonic()
+                watched, load = _Stretch(counter), _Load(server.pid)
                 graph.spin_for(half_s)
                 watched.end()
-            percent = 100 * (cpu_s(server.pid) - used_s) / (time.monotonic() - began_s)
-            grown_mb = (psutil.Process(server.pid).memory_info().rss - memory) / _MB
+            load.end()
             graph.spin_until(
                 lambda: all(one.poll() is not None for one in watchers.values()), _WATCHERS_S, "the clients' end", check
             )
         got = {name: _told(workbench, name) for name in watchers}
-    figures = [
-        *alone.figures("alone", "nobody looks"),
-        *watched.figures("watched", f"{CLIENTS} clients and a stalled one"),
-    ]
-    if alone.p99_ms and watched.p99_ms:
-        ratio = watched.p99_ms / alone.p99_ms
-        figures.append(Figure("p99_ratio", "    with to without", ratio, "times", is_ratio=True))
-    figures += [
-        Figure("server_percent", "server of the page", percent, "% of one core"),
-        Figure("server_growth_mb", "    growth of its memory meanwhile", grown_mb, "MB"),
-        *_of_clients("clients", "clients", got["clients"]),
-        *_of_clients("browser", "page in a browser", got.get("browser", Watched())),
-    ]
-    pictures = sum(len(one.images_hz) for one in got.values())
-    return Result(figures, [] if pictures == CLIENTS else [f"{pictures} of {CLIENTS} clients got pictures"])
+    return _result(alone, watched, load, got)
 
 
 class _Stretch:
@@ -142,6 +125,47 @@ class _Stretch:
             Figure(f"{key}_lost", "    lost", self._lost),
             Figure(f"{key}_p99_ms", "    stamp to reception, 99 % within", self.p99_ms, "ms"),
         ]
+
+
+class _Load:
+    """What a process takes from now until `end`.
+
+    Attributes
+    ----------
+    percent : float
+        CPU [% of a core].
+    grown_mb : float
+        Growth of its memory [MB].
+    """
+
+    def __init__(self, pid: int) -> None:
+        self._pid = pid
+        self._began = time.monotonic(), cpu_s(pid), psutil.Process(pid).memory_info().rss
+
+    def end(self) -> None:
+        """It is over."""
+        began_s, used_s, memory_bytes = self._began
+        self.percent = 100 * (cpu_s(self._pid) - used_s) / (time.monotonic() - began_s)
+        self.grown_mb = (psutil.Process(self._pid).memory_info().rss - memory_bytes) / _MB
+
+
+def _result(alone: _Stretch, watched: _Stretch, load: _Load, got: dict[str, Watched]) -> Result:
+    """The figures of both stretches, and what the clients got, by their names."""
+    figures = [
+        *alone.figures("alone", "nobody looks"),
+        *watched.figures("watched", f"{CLIENTS} clients and a stalled one"),
+    ]
+    if alone.p99_ms and watched.p99_ms:
+        ratio = watched.p99_ms / alone.p99_ms
+        figures.append(Figure("p99_ratio", "    with to without", ratio, "times", is_ratio=True))
+    figures += [
+        Figure("server_percent", "server of the page", load.percent, "% of one core"),
+        Figure("server_growth_mb", "    growth of its memory meanwhile", load.grown_mb, "MB"),
+        *_of_clients("clients", "clients", got["clients"]),
+        *_of_clients("browser", "page in a browser", got.get("browser", Watched())),
+    ]
+    pictures = sum(len(one.images_hz) for one in got.values())
+    return Result(figures, [] if pictures == CLIENTS else [f"{pictures} of {CLIENTS} clients got pictures"])
 
 
 def _of_clients(key: str, label: str, watched: Watched) -> list[Figure]:
