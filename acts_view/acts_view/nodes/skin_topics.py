@@ -6,8 +6,8 @@
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Any, TypeVar
 
 import numpy as np
@@ -51,6 +51,8 @@ _ROBOT: dict[str, tuple[type, Callable[[Any], dict[str, Any]], str]] = {
     "ball/status": (BalanceStatus, balance_state, "ball"),
 }
 """Of each topic that says what a robot does: its type, what is taken of a message, and where in `Frame` it goes."""
+# All of them come several times a second; as of the diagnostics on the page.
+_STALE_S = 3.0
 
 
 class SkinTopics:
@@ -71,6 +73,8 @@ class SkinTopics:
         self._polled: dict[str, PolledSubscription[Any]] = {}
         self._silent: set[str] = set()
         self._frame = Frame()
+        # Of each topic that says what a robot does, what it said last, and when by the monotonic clock [s].
+        self._robot: dict[str, tuple[float, dict[str, Any]]] = {}
         self._is_robot_gone = False
         self._contact = ContactTopic(node, namespace)
         self._polled["regions"] = node.create_raw_polled_subscription(
@@ -92,12 +96,11 @@ class SkinTopics:
         self._silent = {
             what for what, polled in self._polled.items() if not self._node.count_publishers(polled.topic_name)
         }
-        # What a controller has said is no longer so when it is gone.
-        old = self._frame
-        self._frame = replace(
-            old, hand=old.hand if self._is_told("hand") else {}, ball=old.ball if self._is_told("ball") else {}
-        )
-        self._is_robot_gone |= (self._frame.hand, self._frame.ball) != (old.hand, old.ball)
+        # What a controller has said is no longer so when it is gone or hangs; another one may go on.
+        since_s = time.monotonic() - _STALE_S
+        for topic in [topic for topic, (told_s, _) in self._robot.items() if told_s < since_s or topic in self._silent]:
+            del self._robot[topic]
+            self._is_robot_gone = True
 
     def close(self) -> None:
         """Subscribe no longer."""
@@ -113,11 +116,13 @@ class SkinTopics:
         samples, touch, stamp_s = self._contact.take()
         images = {name: self._newest_read(name, read_image) for name in ("image_raw", "confidence", "age")}
         contacts, regions = self._newest_read("contacts", read_contacts), self._newest_read("regions", read_regions)
-        robot = {topic: self._newest(topic) for topic in _ROBOT}
-        nothing_came = all(one is None for one in (*images.values(), contacts, regions, *robot.values()))
+        robot = {topic: message for topic in _ROBOT if (message := self._newest(topic)) is not None}
+        nothing_came = not robot and all(one is None for one in (*images.values(), contacts, regions))
         if not samples and nothing_came and not self._is_robot_gone:
             return None
         self._is_robot_gone = False
+        now_s = time.monotonic()
+        self._robot |= {topic: (now_s, _ROBOT[topic][1](message)) for topic, message in robot.items()}
         old = self._frame
         image = _pixels(images["image_raw"], "mono16")
         confidence = _pixels(images["confidence"], "mono8")
@@ -133,15 +138,19 @@ class SkinTopics:
             outlines=() if self._outlines is None else self._outlines.take(),
             touch=touch if samples else old.touch,
             regions=old.regions if regions is None else _regions(regions),
-            hand=old.hand | _told(robot, "hand"),
-            ball=old.ball | _told(robot, "ball"),
+            hand=self._told("hand"),
+            ball=self._told("ball"),
         )
         return self._frame, samples
 
-    def _is_told(self, place: str) -> bool:
-        """Whether somebody publishes what goes there."""
-        topics = [topic for topic, (_, _, goes_to) in _ROBOT.items() if goes_to == place]
-        return any(self._node.count_publishers(f"{self._namespace}/{topic}") for topic in topics)
+    def _told(self, place: str) -> dict[str, Any]:
+        """What is known of a hand or a ball."""
+        return {
+            key: value
+            for topic, (_, told) in self._robot.items()
+            if _ROBOT[topic][2] == place
+            for key, value in told.items()
+        }
 
     def _choose(self, what: str, kind: type) -> None:
         at_view_rate = f"{self._namespace}/view/{what}"
@@ -203,15 +212,6 @@ def _table(fields: ContactsFields) -> tuple[NDArray[np.uint32], NDArray[np.float
     ]
     numbers = np.array([one.number for one in shown], np.uint32)
     return numbers, np.array(rows, np.float32).reshape(-1, len(CONTACT_COLUMNS))
-
-
-def _told(robot: dict[str, Any], place: str) -> dict[str, Any]:
-    """What is new of a hand or a ball."""
-    told: dict[str, Any] = {}
-    for topic, (_, read, goes_to) in _ROBOT.items():
-        if goes_to == place and robot[topic] is not None:
-            told |= read(robot[topic])
-    return told
 
 
 def _regions(fields: RegionsFields) -> list[RegionState]:

@@ -9,32 +9,19 @@ import math
 import time
 import tracemalloc
 from array import array
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 import pytest
-import rclpy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
-from numpy.typing import NDArray
-from rclpy.context import Context
-from rclpy.node import Node
-from rclpy.parameter import Parameter
-from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile
-from sensor_msgs.msg import Image, JointState
-from spinning import Spinning
-from test_view_codec import decode
-from websockets.sync.client import ClientConnection, connect
-from websockets.typing import Origin
+from sensor_msgs.msg import Image
+from view_node_bench import DEADLINE_S, Bench
 
 from acts_core.errors import ArrayError, SettingsError
 from acts_core.skin import RegionContact
 from acts_msgs.msg import (
-    BalanceStatus,
-    BallReference,
-    BallState,
-    Contact,
     Contacts,
     ContactSeries,
     HandStatus,
@@ -45,97 +32,17 @@ from acts_msgs.msg import (
 from acts_ros import qos
 from acts_ros.messages import ContactFields, write_contact, write_regions
 from acts_view.nodes import view_node
-from acts_view.nodes.view_node import ViewNode
 from acts_view.settings import ViewSettings
 from acts_view.skin.snapshot import SkinShape
 
 pytestmark = pytest.mark.slow
 
 DOMAIN_ID = 176
-DEADLINE_S = 30.0
-SHAPE = {"layout": "leap_right", "rows": 32, "cols": 32, "pitch_m": 0.0, "row_pitch_m": 0.0, "touch_counts": 50}
-SHAPE |= {"force_full_scale_counts": 1000.0, "force_dead_n": 0.01, "force_half_n": 0.5, "force_response": ""}
-
-
-class Bench:
-    """The node, a skin that a test plays, and what pages were sent."""
-
-    def __init__(self) -> None:
-        self._context = Context()
-        rclpy.init(context=self._context, domain_id=DOMAIN_ID)
-        self.skin = Node("skin", namespace="hand", context=self._context)
-        # The node asks this one what the skin is like.
-        self._reconstruction = Node("reconstruction", namespace="hand", context=self._context)
-        for name, value in SHAPE.items():
-            self._reconstruction.declare_parameter(name, value)
-        self.contact = self.skin.create_publisher(Contact, "contact", qos.STREAM)
-        options = [Parameter("port", value=0), Parameter("outlines", value=True)]
-        self.view = ViewNode(context=self._context, parameter_overrides=options)
-        self._spinning = Spinning(self._context, self.skin, self._reconstruction, self.view)
-        self.headers: dict[str, dict[str, Any]] = {}
-        self.arrays: dict[str, NDArray[Any]] = {}
-        self.history: list[NDArray[np.float32]] = []
-        self._sequence = 0
-
-    def connect(self) -> ClientConnection:
-        address = self.view.address
-        origin = Origin(address.url.rstrip("/"))
-        return connect(f"ws://127.0.0.1:{address.port}/stream", origin=origin, compression=None)
-
-    def press(self, force_n: float) -> None:
-        self._sequence += 1
-        stamp_ns = self.skin.get_clock().now().nanoseconds
-        fields = ContactFields(
-            stamp_ns, "hand", self._sequence, True, 0.01, 0.02, force_n, 700.0, 1e-4, 5, 0.002, 0, 0, 0, 0, 0
-        )
-        self.contact.publish(write_contact(fields))
-
-    def destroy(self, publishers: list[Publisher]) -> None:
-        # By the thread that spins: the executor may not meet one that is being destroyed.
-        task = self._spinning.executor.create_task(lambda: [self.skin.destroy_publisher(one) for one in publishers])
-        deadline_s = time.monotonic() + DEADLINE_S
-        while not task.done():
-            assert time.monotonic() < deadline_s
-        task.result()
-
-    def until(self, condition: Callable[[], bool], client: ClientConnection, meanwhile: Callable[[], Any]) -> None:
-        deadline_s = time.monotonic() + DEADLINE_S
-        while not condition():
-            assert time.monotonic() < deadline_s, (self.headers, self.arrays)
-            meanwhile()
-            self.read(client)
-
-    def read(self, client: ClientConnection) -> None:
-        patience_s = 0.02
-        while True:
-            try:
-                message = client.recv(timeout=patience_s)
-            except TimeoutError:
-                return
-            patience_s = 0.001
-            header, arrays = decode(message)  # type: ignore[arg-type]
-            self.headers[header["type"]] = header
-            if header["type"] == "frame":
-                self.arrays = arrays
-                self.history.append(arrays["history"])
-
-    def spin_until(self, condition: Callable[[], bool]) -> None:
-        deadline_s = time.monotonic() + DEADLINE_S
-        while not condition():
-            assert time.monotonic() < deadline_s
-            time.sleep(0.002)
-
-    def close(self) -> None:
-        self._spinning.end()
-        self.view.close()
-        for node in (self.view, self._reconstruction, self.skin):
-            node.destroy_node()
-        rclpy.try_shutdown(context=self._context)
 
 
 @pytest.fixture
 def bench() -> Iterator[Bench]:
-    made = Bench()
+    made = Bench(DOMAIN_ID)
     yield made
     made.close()
 
@@ -361,47 +268,3 @@ def test_only_namespaces_are_taken_as_skins(skins: str) -> None:
 
 def contact_subscribers(bench: Bench) -> int:
     return bench.contact.get_subscription_count()
-
-
-@pytest.mark.parametrize("presses", [0, 1])
-def test_a_page_sees_ball_reference_tilt_and_joints_and_no_more_when_they_are_gone(bench: Bench, presses: int) -> None:
-    place = bench.skin.create_publisher(BallState, "ball/state", qos.STATE)
-    reference = bench.skin.create_publisher(BallReference, "ball/reference", qos.STATE)
-    status = bench.skin.create_publisher(BalanceStatus, "ball/status", qos.STATE)
-    joints = bench.skin.create_publisher(JointState, "joint_states", qos.STATE)
-    ball = BallState(valid=True)
-    ball.position.x, ball.position.y = 0.01, -0.02
-    wanted = BallReference(segment="N")
-    wanted.position.x = 0.03
-    balancing = BalanceStatus(state=BalanceStatus.STATE_BALANCING, reason="a ball and a reference")
-    balancing.tilt_measured.x, balancing.tilt_commanded.y = 0.05, float("nan")
-
-    def play() -> None:
-        bench.press(1.0)
-        place.publish(ball)
-        reference.publish(wanted)
-        status.publish(balancing)
-        joints.publish(JointState(name=["knee", "hip"], position=[0.5, float("nan")]))
-
-    def seen() -> dict[str, Any]:
-        return bench.headers.get("frame", {"ball": {}, "hand": {}})
-
-    def press() -> None:
-        for _ in range(presses):
-            bench.press(1.0)
-
-    with bench.connect() as client:
-        bench.until(lambda: len(seen()["ball"]) == 7 and "joints" in seen()["hand"], client, play)
-        assert seen()["ball"] == {
-            "ball": [0.01, -0.02],
-            "reference": [0.03, 0.0],
-            "segment": "N",
-            "state": "balancing",
-            "reason": "a ball and a reference",
-            "tilt_measured": [0.05, 0.0],
-            "tilt_commanded": None,
-        }
-        assert seen()["hand"] == {"joints": [["knee", 0.5]]}
-        bench.destroy([place, reference, status, joints])
-        none: dict[str, Any] = {"ball": {}, "hand": {}}
-        bench.until(lambda: seen() | none == seen(), client, press)

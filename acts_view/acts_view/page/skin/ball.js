@@ -34,7 +34,7 @@ export class Ball {
     const { ball, reference, segment, state, reason, tilt_measured, tilt_commanded } = told;
     text(this.find(".state"), [state, segment && segment !== "hold" ? `segment ${segment}` : ""].filter(Boolean).join(" · "));
     text(this.find(".reason"), reason && reason !== state ? reason : "");
-    text(this.find("[data-ball=ball]"), ball ? millimetres(ball) : "none");
+    text(this.find("[data-ball=ball]"), ball === null ? "none" : ball ? millimetres(ball) : "–");
     text(this.find("[data-ball=reference]"), reference ? millimetres(reference) : "–");
     const off_m = ball && reference ? Math.hypot(ball[0] - reference[0], ball[1] - reference[1]) : null;
     text(this.find("[data-ball=off]"), off_m === null ? "–" : (1000 * off_m).toFixed(1));

@@ -1,0 +1,102 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""What the node ``view`` tells of a ball and a hand, and that it is told no longer than it is so; ROS_DOMAIN_ID 154."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from sensor_msgs.msg import JointState
+from view_node_bench import Bench
+
+from acts_msgs.msg import BalanceStatus, BallReference, BallState, HandStatus
+from acts_ros import qos
+
+pytestmark = pytest.mark.slow
+
+DOMAIN_ID = 154
+
+
+@pytest.fixture
+def bench() -> Iterator[Bench]:
+    made = Bench(DOMAIN_ID)
+    yield made
+    made.close()
+
+
+@pytest.mark.parametrize("presses", [0, 1])
+def test_a_page_sees_ball_reference_tilt_and_joints_and_no_more_when_they_are_gone(bench: Bench, presses: int) -> None:
+    place = bench.skin.create_publisher(BallState, "ball/state", qos.STATE)
+    reference = bench.skin.create_publisher(BallReference, "ball/reference", qos.STATE)
+    status = bench.skin.create_publisher(BalanceStatus, "ball/status", qos.STATE)
+    joints = bench.skin.create_publisher(JointState, "joint_states", qos.STATE)
+    ball = BallState(valid=True)
+    ball.position.x, ball.position.y = 0.01, -0.02
+    wanted = BallReference(segment="N")
+    wanted.position.x = 0.03
+    balancing = BalanceStatus(state=BalanceStatus.STATE_BALANCING, reason="a ball and a reference")
+    balancing.tilt_measured.x, balancing.tilt_commanded.y = 0.05, float("nan")
+
+    def play() -> None:
+        bench.press(1.0)
+        place.publish(ball)
+        reference.publish(wanted)
+        status.publish(balancing)
+        joints.publish(JointState(name=["knee", "hip"], position=[0.5, float("nan")]))
+
+    def seen() -> dict[str, Any]:
+        return bench.headers.get("frame", {"ball": {}, "hand": {}})
+
+    with bench.connect() as client:
+        bench.until(lambda: len(seen()["ball"]) == 7 and "joints" in seen()["hand"], client, play)
+        assert seen()["ball"] == {
+            "ball": [0.01, -0.02],
+            "reference": [0.03, 0.0],
+            "segment": "N",
+            "state": "balancing",
+            "reason": "a ball and a reference",
+            "tilt_measured": [0.05, 0.0],
+            "tilt_commanded": None,
+        }
+        assert seen()["hand"] == {"joints": [["knee", 0.5]]}
+        bench.destroy([place, reference, status, joints])
+        none = {"ball": {}, "hand": {}}
+        bench.until(lambda: seen() | none == seen(), client, lambda: [bench.press(1.0) for _ in range(presses)])
+
+
+@pytest.mark.parametrize("is_gone", [True, False])
+def test_what_one_node_has_said_goes_where_it_is_gone_or_hangs_and_others_go_on(bench: Bench, is_gone: bool) -> None:
+    place = bench.skin.create_publisher(BallState, "ball/state", qos.STATE)
+    balance = bench.skin.create_publisher(BalanceStatus, "ball/status", qos.STATE)
+    joints = bench.skin.create_publisher(JointState, "joint_states", qos.STATE)
+    hand = bench.skin.create_publisher(HandStatus, "hand/status", qos.STATE)
+    ball = BallState(valid=True)
+    ball.position.x = 0.01
+
+    def play() -> None:
+        bench.press(1.0)
+        place.publish(ball)
+        joints.publish(JointState(name=["knee"], position=[0.5]))
+
+    def play_all() -> None:
+        play()
+        balance.publish(BalanceStatus(state=BalanceStatus.STATE_BALANCING))
+        hand.publish(HandStatus(state=HandStatus.STATE_HOLDING))
+
+    def seen() -> dict[str, Any]:
+        return bench.headers.get("frame", {"ball": {}, "hand": {}})
+
+    with bench.connect() as client:
+        bench.until(
+            lambda: {"ball", "state"} <= seen()["ball"].keys() and {"joints", "state"} <= seen()["hand"].keys(),
+            client,
+            play_all,
+        )
+        if is_gone:
+            bench.destroy([balance, hand])
+        bench.until(lambda: "state" not in seen()["ball"] and "state" not in seen()["hand"], client, play)
+        assert seen()["ball"] == {"ball": [0.01, 0.0]}
+        assert seen()["hand"] == {"joints": [["knee", 0.5]]}
