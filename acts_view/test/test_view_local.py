@@ -31,7 +31,7 @@ from acts_ros.bags.message_types import Definitions
 from acts_ros.bags.writing import BagWriter
 from acts_view.local import playback as playback_module
 from acts_view.local.local_skin import LocalSkin
-from acts_view.local.playback import Playback
+from acts_view.local.playback import Playback, PlaybackState
 from acts_view.local.show import show
 from acts_view.local.sources import LocalSource, RecordedSource, open_recorded
 from acts_view.web.requests import Request, read_request
@@ -72,10 +72,10 @@ class Counted:
 
 
 class Played:
-    def __init__(self) -> None:
+    def __init__(self, recording: Counted) -> None:
         self.numbers: list[int] = []
         self.jumps: list[int] = []
-        self.playback = Playback(Counted(), self._take, lambda: self.jumps.append(len(self.numbers)))
+        self.playback = Playback(recording, self._take, lambda: self.jumps.append(len(self.numbers)))
 
     def _take(self, frames: list[SampleFrame]) -> None:
         self.numbers += [one.sequence for one in frames]
@@ -83,7 +83,7 @@ class Played:
 
 @pytest.fixture
 def played() -> Iterator[Played]:
-    made = Played()
+    made = Played(Counted())
     made.playback.start()
     yield made
     made.playback.stop()
@@ -117,6 +117,36 @@ def test_a_held_recording_shows_where_one_goes_and_goes_on_from_there(played: Pl
     until(lambda: not playback.state.is_playing)
     playback.seek(-5.0)
     until(lambda: played.numbers[-1] == 0)
+
+
+class ClockSet(Counted):
+    """The same, but the clock of the frames is set when it is half over."""
+
+    def __init__(self, by_s: int) -> None:
+        self._by_us = 1_000_000 * by_s
+
+    def frames(self, from_us: int = 0) -> Iterator[SampleFrame]:
+        for one in super().frames(from_us):
+            yield one._replace(board_us=one.board_us + (self._by_us if one.sequence >= 500 else 0))
+
+
+@pytest.mark.parametrize("by_s", [3600, -3600, -3])
+def test_a_recording_is_played_and_sought_beyond_a_time_at_which_its_clock_was_set(by_s: int) -> None:
+    played = Played(ClockSet(by_s))
+    playback = played.playback
+    playback.start()
+    try:
+        until(lambda: not playback.state.is_playing)
+        assert played.numbers == list(range(1000))
+        # It is held at its end. How long the step was at which the clock was set nobody knows.
+        for time_s, number in ((1.2, 700), (0.05, 50), (1.4, 900)):
+            playback.seek(time_s)
+            until(lambda number=number: number <= played.numbers[-1] <= number + 1)  # type: ignore[misc]
+        playback.play()
+        until(lambda: not playback.state.is_playing)
+        assert played.numbers[-98:] == list(range(902, 1000))
+    finally:
+        playback.stop()
 
 
 def test_a_recording_that_is_read_slower_than_it_plays_is_shown_as_it_is_read(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -263,6 +293,19 @@ def test_touch_is_recovered_as_by_the_node(tmp_path: Path) -> None:
     (outline,) = frame.outlines
     np.testing.assert_allclose(outline.mean(axis=0), frame.contacts[0, :2], atol=0.003)
     assert skin.newest() is None
+
+
+def test_an_error_in_a_recording_stays_one_where_frames_were_left_out_before(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    source, _ = open_recorded(write_frames(tmp_path / "press.npz"), [], "square")
+    monkeypatch.setattr(Playback, "state", PlaybackState(1.0, 2.0, is_playing=False, problem="message 9 is damaged"))
+    source.start(lambda: None)
+    source.stop()
+    source.skin.rejected, source.skin.problem = 5, "frame of 4 x 4 taxels"
+    (diagnosis,) = source.status()["diagnostics"]
+    assert diagnosis["level"] == 2
+    assert diagnosis["message"] == "message 9 is damaged; 5 frames left out: frame of 4 x 4 taxels"
 
 
 def test_what_does_not_fit_is_counted_and_a_baseline_subtracted() -> None:

@@ -22,6 +22,8 @@ _READ_MAX_US = 100_000
 _LATE_MAX_S = 0.25
 # One frame alone shows little: those before the time that is sought are shown with it [us].
 _RUN_UP_US = 100_000
+# Times that are further from where they can be are those of a clock that was set [us].
+_CLOCK_SET_US = 1_000_000
 
 
 @dataclass(frozen=True)
@@ -68,8 +70,9 @@ class Playback:
         self._seek_us: int | None = 0
         self._position_us = 0
         self._problem = ""
+        # Of the thread alone: the frames' clock at the beginning, what is still to be read, the first of it,
+        # and when the recording's time was 0.
         self._zero_us: int | None = None
-        # Of the thread alone: what is still to be read, the first of it, and when the recording's time was 0.
         self._frames: Iterator[SampleFrame] = iter(())
         self._coming: SampleFrame | None = None
         self._anchor_us = 0.0
@@ -153,15 +156,18 @@ class Playback:
 
     def _jump(self, seek_us: int) -> None:
         """Go to a time: hand on the frame there, and those shortly before it."""
-        self._frames = self._recording.frames(max(seek_us - _RUN_UP_US, 0))
+        from_us = max(seek_us - _RUN_UP_US, 0)
+        self._frames = self._recording.frames(from_us)
         self._coming = next(self._frames, None)
-        if self._coming is not None and self._zero_us is None:
-            self._zero_us = self._coming.board_us
+        if self._coming is not None:
+            place_us = self._place_us(self._coming)
+            if self._zero_us is None or place_us < from_us - _CLOCK_SET_US or self._is_beyond_end(place_us):
+                self._zero_us = self._coming.board_us - from_us
         self._on_jump()
         shown: list[SampleFrame] = []
         while self._coming is not None and (not shown or self._place_us(self._coming) <= seek_us):
             shown.append(self._coming)
-            self._coming = next(self._frames, None)
+            self._read_on(self._coming)
         if shown:
             self._on_frames(shown)
         self._set_position(seek_us)
@@ -177,10 +183,24 @@ class Playback:
         # Up to a time that stands still: after one that moves on, slow reading would run for ever.
         while self._coming is not None and self._place_us(self._coming) <= now_us - self._anchor_us:
             due.append(self._coming)
-            self._coming = next(self._frames, None)
+            self._read_on(self._coming)
             if _now_us() - now_us > _READ_MAX_US:
                 break
         return due
+
+    def _read_on(self, last: SampleFrame) -> None:
+        """Read the next frame; where the frames' clock was set before it, it follows at once."""
+        self._coming = next(self._frames, None)
+        if self._coming is None or self._zero_us is None:
+            return
+        step_us = self._coming.board_us - last.board_us
+        # A pause is as long by the frames' clock as by the recording's length.
+        is_past_end = step_us > _CLOCK_SET_US and self._is_beyond_end(self._place_us(self._coming))
+        if step_us < -_CLOCK_SET_US or is_past_end:
+            self._zero_us += step_us
+
+    def _is_beyond_end(self, place_us: int) -> bool:
+        return place_us > self._length_us + _CLOCK_SET_US
 
     def _place_us(self, frame: SampleFrame) -> int:
         return frame.board_us - (self._zero_us or 0)

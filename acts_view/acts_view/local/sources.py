@@ -140,10 +140,8 @@ class RecordedSource:
             if words and level < 2:
                 level, message = 1, f"{message}; {words}"
         if self.skin.rejected:
-            level, message = (
-                1,
-                f"{message}; {counted(self.skin.rejected, 'frame does', 'frames do')} not fit: {self.skin.problem}",
-            )
+            left_out = f"{counted(self.skin.rejected, 'frame')} left out: {self.skin.problem}"
+            level, message = max(level, 1), f"{message}; {left_out}"
         return {
             "note": "A recording is shown: there is nothing to record, and no node to ask.",
             "replay": {
