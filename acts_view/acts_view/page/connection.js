@@ -8,6 +8,14 @@ import { decode } from "./codec.js";
 const SILENT_MS = 4000; // the server says something every second
 const AGAIN_MS = [300, 600, 1200, 2400];
 
+/** Where the server has a socket, beside the page. */
+export function socketUrl(path) {
+  const url = new URL(path, location.href);
+  url.protocol = "ws:";
+  url.search = location.search; // the token, if there is one
+  return url;
+}
+
 async function isServed() {
   try {
     return (await fetch("index.html", { method: "HEAD", signal: AbortSignal.timeout(SILENT_MS) })).ok;
@@ -27,10 +35,7 @@ export function connect(onMessage, onState) {
   let watchdog = 0;
 
   function open() {
-    const url = new URL("stream", location.href);
-    url.protocol = "ws:";
-    url.search = location.search; // the token, if there is one
-    const socket = new WebSocket(url);
+    const socket = new WebSocket(socketUrl("stream"));
     socket.binaryType = "arraybuffer";
     let isOver = false;
     let wasOpen = false;

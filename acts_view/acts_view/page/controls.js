@@ -88,12 +88,8 @@ export class Controls {
     refused.setAttribute("role", "status");
     field.onchange = () => {
       const value = name === "scheme" ? field.value : field.valueAsNumber;
-      // An empty field is NaN.
-      const isNone = name !== "scheme" && !(Number.isInteger(value) && value >= least);
-      const isTooLarge = value > most;
-      refused.textContent = isNone ? `not set: needed is a whole number from ${least} on` : isTooLarge ? `not set: the largest is ${most}` : "";
-      if (isNone || isTooLarge) return;
-      this.#ask(`${title}, ${of || "/"}`, "set", { skin: of, name, value });
+      refused.textContent = name === "scheme" ? "" : refusal(value, least, most);
+      if (!refused.textContent) this.#ask(`${title}, ${of || "/"}`, "set", { skin: of, name, value });
     };
     label.append(field);
     const both = document.createElement("span");
@@ -118,6 +114,13 @@ export class Controls {
     line.dataset.done = String(done);
     line.textContent = `${title}: ${text}`;
   }
+}
+
+/** Why a number is not taken; empty where it is. */
+function refusal(value, least, most) {
+  // An empty field is NaN.
+  if (!(Number.isInteger(value) && value >= least)) return `not set: needed is a whole number from ${least} on`;
+  return value > most ? `not set: the largest is ${most}` : "";
 }
 
 /**

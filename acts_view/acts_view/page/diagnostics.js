@@ -4,6 +4,7 @@
 // What the nodes say of themselves: a line each, with what to do, and its values when it is opened.
 
 import { advice } from "./advice.js";
+import { setText } from "./words.js";
 
 const LEVELS = ["OK", "Warning", "Error", "Stale"];
 const STALE_S = 3;
@@ -22,9 +23,9 @@ export class Diagnostics {
       const word = LEVELS[isStale ? 3 : Math.min(level, 3)];
       const node = this.#node(name);
       node.dataset.level = word.toLowerCase();
-      text(node.querySelector(".level"), word);
-      text(node.querySelector(".message"), isStale ? `nothing heard of it for ${Math.round(age_s)} s; before: ${message}` : message);
-      text(node.querySelector(".advice"), advice(word.toLowerCase(), message));
+      setText(node.querySelector(".level"), word);
+      setText(node.querySelector(".message"), isStale ? `nothing heard of it for ${Math.round(age_s)} s; before: ${message}` : message);
+      setText(node.querySelector(".advice"), advice(word.toLowerCase(), message));
       if (node.open) node.querySelector("dl").replaceChildren(...values.flatMap(([key, value]) => [term("dt", key), term("dd", value)]));
     }
     const names = new Set(diagnostics.map(({ name }) => name));
@@ -46,10 +47,6 @@ export class Diagnostics {
     }
     return this.nodes.get(name);
   }
-}
-
-function text(element, words) {
-  if (element.textContent !== words) element.textContent = words;
 }
 
 function term(kind, words) {

@@ -3,14 +3,13 @@
 
 // Files from the server, and to the person's disk.
 
+import { socketUrl } from "./connection.js";
+
 const WHOLE = 1000; // how a socket is closed behind a file that is whole
 
 /** Pieces of a file, by a socket of its own, since that is where the server checks who asks; onSent(bytes) meanwhile. */
 export function fetchFile(path, onSent) {
-  const url = new URL(path, location.href);
-  url.protocol = "ws:";
-  url.search = location.search; // the token, if there is one
-  const socket = new WebSocket(url);
+  const socket = new WebSocket(socketUrl(path));
   socket.binaryType = "blob"; // the browser may keep it on disk
   return new Promise((resolve, reject) => {
     const pieces = [];

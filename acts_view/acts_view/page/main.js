@@ -14,6 +14,8 @@ import { next, onChange, set, settings } from "./settings.js";
 
 const TICK_MS = 50;
 const STATES = { connecting: "connecting", live: "connected", gone: "server gone, trying again", refused: "the server refuses this page: does the address have its token, or are 32 pages open?" };
+const LISTS = ["scale", "unit", "colours", "window"];
+const SWITCHES = ["smooth", "contacts", "outlines", "unsure", "measured"];
 const KEYS = { s: "scale", n: "unit", m: "colours", i: "smooth", c: "contacts", o: "outlines", u: "unsure", t: "measured", d: "theme" };
 const ZOOMS = { "+": (plots) => plots.zoom(0.5), "=": (plots) => plots.zoom(0.5), "-": (plots) => plots.zoom(2), 0: (plots) => plots.reset(), "<": (plots) => plots.move(-0.5), ">": (plots) => plots.move(0.5) };
 
@@ -67,14 +69,14 @@ function hold(isHeld) {
 }
 
 function show() {
-  for (const name of ["scale", "unit", "colours", "window"]) byId(name).value = settings[name];
-  for (const name of ["smooth", "contacts", "outlines", "unsure", "measured"]) byId(name).setAttribute("aria-pressed", String(settings[name]));
+  for (const name of LISTS) byId(name).value = settings[name];
+  for (const name of SWITCHES) byId(name).setAttribute("aria-pressed", String(settings[name]));
   byId("theme").textContent = `Theme: ${settings.theme}`;
   document.documentElement.dataset.theme = settings.theme;
   for (const one of panels) one.redraw();
 }
 
-for (const name of ["scale", "unit", "colours", "window"]) {
+for (const name of LISTS) {
   let isByKeys = false;
   byId(name).onkeydown = () => { isByKeys = true; };
   byId(name).onpointerdown = () => { isByKeys = false; };
@@ -84,7 +86,7 @@ for (const name of ["scale", "unit", "colours", "window"]) {
     if (!isByKeys) event.target.blur();
   };
 }
-for (const name of ["smooth", "contacts", "outlines", "unsure", "measured", "theme"]) byId(name).onclick = () => next(name);
+for (const name of [...SWITCHES, "theme"]) byId(name).onclick = () => next(name);
 byId("pause").onclick = () => hold(!panels.isHeld);
 document.addEventListener("keydown", (event) => {
   if (event.ctrlKey || event.metaKey || event.altKey) return;

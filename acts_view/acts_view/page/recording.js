@@ -5,6 +5,7 @@
 
 import { fetchFile, save } from "./files.js";
 import { ask } from "./requests.js";
+import { setText } from "./words.js";
 
 const megabytes = (bytes) => `${(bytes / 1e6).toFixed(1)} MB`;
 
@@ -74,6 +75,6 @@ export class Recording {
 
   #tell(text, done = true) {
     this.line.dataset.done = String(done);
-    if (this.line.textContent !== text) this.line.textContent = text;
+    setText(this.line, text);
   }
 }

@@ -3,7 +3,7 @@
 
 // Of a ball that is balanced: what the controller is about, where the ball is, and how the plate is tilted.
 
-import { rounded } from "./words.js";
+import { rounded, setText } from "../words.js";
 
 const FULL_RAD = 0.15; // the rim of the level
 
@@ -32,13 +32,13 @@ export class Ball {
     this.element.hidden = !Object.keys(told).length;
     if (this.element.hidden) return;
     const { ball, reference, segment, state, reason, tilt_measured, tilt_commanded } = told;
-    text(this.find(".state"), [state, segment && segment !== "hold" ? `segment ${segment}` : ""].filter(Boolean).join(" · "));
-    text(this.find(".reason"), reason && reason !== state ? reason : "");
-    text(this.find("[data-ball=ball]"), ball === null ? "none" : ball ? millimetres(ball) : "–");
-    text(this.find("[data-ball=reference]"), reference ? millimetres(reference) : "–");
+    setText(this.find(".state"), [state, segment && segment !== "hold" ? `segment ${segment}` : ""].filter(Boolean).join(" · "));
+    setText(this.find(".reason"), reason && reason !== state ? reason : "");
+    setText(this.find("[data-ball=ball]"), ball === null ? "none" : ball ? millimetres(ball) : "–");
+    setText(this.find("[data-ball=reference]"), reference ? millimetres(reference) : "–");
     const off_m = ball && reference ? Math.hypot(ball[0] - reference[0], ball[1] - reference[1]) : null;
-    text(this.find("[data-ball=off]"), off_m === null ? "–" : (1000 * off_m).toFixed(1));
-    text(this.find("[data-ball=tilt]"), tilt_measured ? degrees(tilt_measured) : "–");
+    setText(this.find("[data-ball=off]"), off_m === null ? "–" : (1000 * off_m).toFixed(1));
+    setText(this.find("[data-ball=tilt]"), tilt_measured ? degrees(tilt_measured) : "–");
     place(this.find(".measured"), tilt_measured);
     place(this.find(".commanded"), tilt_commanded);
   }
@@ -59,8 +59,4 @@ function millimetres([x_m, y_m]) {
 
 function degrees([about_x, about_y]) {
   return [about_x, about_y].map((angle_rad) => rounded((angle_rad * 180) / Math.PI, 2)).join(", ");
-}
-
-function text(element, words) {
-  if (element.textContent !== words) element.textContent = words;
 }

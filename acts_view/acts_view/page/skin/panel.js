@@ -11,7 +11,7 @@ import { Regions } from "./regions.js";
 import { saveContacts, savePicture, savePlots, saveTaxels } from "./saving.js";
 import { settings } from "../settings.js";
 import { SkinView } from "./view.js";
-import { rounded } from "./words.js";
+import { rounded, setText } from "../words.js";
 
 const CONTACT_ROWS = 4;
 const SILENT_MS = 1500;
@@ -28,6 +28,29 @@ const NUMBERS = [
   ["lost", "Lost", "in 60 s"],
 ];
 
+const MARKUP = `
+  <header><h2></h2><p class="shape"></p><p class="pill" data-state="waiting">waiting</p><p class="lacks"></p></header>
+  <div class="body">
+    <div class="picture">
+      <div class="canvases"><canvas class="taxels"></canvas><canvas class="marks" tabindex="0" role="img"></canvas></div>
+      <div class="legend"><div class="ramp"></div><p class="ends"><span>0</span><span class="unit">counts</span><span class="top">1023</span></p></div>
+      <p class="pointed" aria-live="polite"></p>
+      <p class="savers" role="group" aria-label="Save what is shown"><button type="button" data-save="picture" title="of the skin, as it is shown (PNG)">Picture</button><button type="button" data-save="taxels" title="a row for each taxel">Taxels, CSV</button><button type="button" data-save="contacts" title="a row for each contact">Contacts, CSV</button><button type="button" data-save="plots" title="what the plots show, 8 ms a row">Plots, CSV</button></p>
+    </div>
+    <div class="facts">
+      <dl class="numbers">${NUMBERS.map(([key, title, unit]) => `<div data-of="${key}"><dt>${title} [${unit}]</dt><dd><output aria-live="off" data-number="${key}">–</output></dd></div>`).join("")}</dl>
+      <table class="contacts">
+        <caption>Contacts</caption>
+        <thead><tr><th scope="col">no.</th><th scope="col">force <small>N</small></th><th scope="col">peak <small>counts</small></th><th scope="col">area <small>mm²</small></th><th scope="col">speed <small>mm/s</small></th></tr></thead>
+        <tbody>${`<tr>${"<td></td>".repeat(5)}</tr>`.repeat(CONTACT_ROWS)}</tbody>
+      </table>
+      <p class="more"></p>
+    </div>
+    <div class="plots"></div>
+    <section class="ball robot" hidden></section>
+    <section class="regions robot" hidden></section>
+  </div>`;
+
 export class Panel {
   constructor(name, onHold) {
     this.name = name;
@@ -40,28 +63,7 @@ export class Panel {
     this.element = document.createElement("article");
     this.element.className = "card skin";
     this.element.dataset.skin = name;
-    this.element.innerHTML = `
-      <header><h2></h2><p class="shape"></p><p class="pill" data-state="waiting">waiting</p><p class="lacks"></p></header>
-      <div class="body">
-        <div class="picture">
-          <div class="canvases"><canvas class="taxels"></canvas><canvas class="marks" tabindex="0" role="img"></canvas></div>
-          <div class="legend"><div class="ramp"></div><p class="ends"><span>0</span><span class="unit">counts</span><span class="top">1023</span></p></div>
-          <p class="pointed" aria-live="polite"></p>
-          <p class="savers" role="group" aria-label="Save what is shown"><button type="button" data-save="picture" title="of the skin, as it is shown (PNG)">Picture</button><button type="button" data-save="taxels" title="a row for each taxel">Taxels, CSV</button><button type="button" data-save="contacts" title="a row for each contact">Contacts, CSV</button><button type="button" data-save="plots" title="what the plots show, 8 ms a row">Plots, CSV</button></p>
-        </div>
-        <div class="facts">
-          <dl class="numbers">${NUMBERS.map(([key, title, unit]) => `<div data-of="${key}"><dt>${title} [${unit}]</dt><dd><output aria-live="off" data-number="${key}">–</output></dd></div>`).join("")}</dl>
-          <table class="contacts">
-            <caption>Contacts</caption>
-            <thead><tr><th scope="col">no.</th><th scope="col">force <small>N</small></th><th scope="col">peak <small>counts</small></th><th scope="col">area <small>mm²</small></th><th scope="col">speed <small>mm/s</small></th></tr></thead>
-            <tbody>${`<tr>${"<td></td>".repeat(5)}</tr>`.repeat(CONTACT_ROWS)}</tbody>
-          </table>
-          <p class="more"></p>
-        </div>
-        <div class="plots"></div>
-        <section class="ball robot" hidden></section>
-        <section class="regions robot" hidden></section>
-      </div>`;
+    this.element.innerHTML = MARKUP;
     this.find = (selector) => this.element.querySelector(selector);
     this.find("h2").textContent = name;
     this.find("canvas.marks").setAttribute("aria-label", `tactile image of ${name}; arrow keys move from taxel to taxel`);
@@ -140,7 +142,7 @@ export class Panel {
     const isSilent = silent_ms > SILENT_MS;
     const state = this.isHeld ? "held" : isGone || !this.#isHeard ? "waiting" : isStill ? "held" : isSilent ? "silent" : "live";
     const words = { held: "paused", waiting: "waiting", silent: `silent for ${Math.round(silent_ms / 1000)} s`, live: "live" }[state];
-    if (pill.textContent !== words) pill.textContent = words;
+    setText(pill, words);
     pill.dataset.state = state;
     this.element.dataset.gone = String(isGone && !this.isHeld);
     this.element.dataset.silent = String(state === "silent");
@@ -158,7 +160,7 @@ export class Panel {
     const { message, name } = this;
     if (!message || !this.shape) return;
     const { top, unit } = this.view.taxels;
-    const scale = `0 to ${unit === "counts" ? Math.round(top) : top.toFixed(2)} ${unit}`;
+    const scale = `0 to ${inUnit(top, unit)} ${unit}`;
     if (what === "picture") savePicture(this.view.layers, name, message.stamp_s, scale);
     if (what === "taxels") saveTaxels(name, this.shape, message);
     if (what === "contacts") saveContacts(name, message);
@@ -176,9 +178,8 @@ export class Panel {
 
   #showTop() {
     const { top, unit } = this.view.taxels;
-    const words = unit === "counts" ? String(Math.round(top)) : top.toFixed(2);
-    if (this.find(".top").textContent !== words) this.find(".top").textContent = words;
-    if (this.find(".unit").textContent !== unit) this.find(".unit").textContent = unit;
+    setText(this.find(".top"), inUnit(top, unit));
+    setText(this.find(".unit"), unit);
   }
 
   #showNumbers() {
@@ -199,9 +200,7 @@ export class Panel {
       latency: latencies.length ? Math.max(...latencies).toFixed(1) : "–",
       lost: nothing(lost.reduce((sum, count) => sum + count, 0).toFixed(0)),
     };
-    for (const [key, text] of Object.entries(values)) {
-      if (this.outputs[key].textContent !== text) this.outputs[key].textContent = text;
-    }
+    for (const [key, text] of Object.entries(values)) setText(this.outputs[key], text);
   }
 
   #showContacts() {
@@ -219,4 +218,9 @@ export class Panel {
     const more = numbers.length - this.rows.length;
     this.find(".more").textContent = more > 0 ? `and ${more} more` : "";
   }
+}
+
+/** The end of a scale, in words. */
+function inUnit(top, unit) {
+  return unit === "counts" ? String(Math.round(top)) : top.toFixed(2);
 }

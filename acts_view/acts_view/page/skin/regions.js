@@ -3,7 +3,7 @@
 
 // Of a hand: what each region feels, what the hand does, and the angles of its joints.
 
-import { rounded } from "./words.js";
+import { rounded, setText } from "../words.js";
 
 const FULL_N = 5;
 
@@ -21,20 +21,20 @@ export class Regions {
   /** The newest of both; hidden as long as neither is published. */
   show(regions, hand) {
     this.element.hidden = !regions.length && !hand.state && !hand.joints?.length;
-    this.#text(this.element.querySelector(".state"), [hand.state, ...(hand.active ?? [])].filter(Boolean).join(" · "));
-    this.#text(this.element.querySelector(".reason"), hand.reason ?? "");
+    setText(this.element.querySelector(".state"), [hand.state, ...(hand.active ?? [])].filter(Boolean).join(" · "));
+    setText(this.element.querySelector(".reason"), hand.reason ?? "");
     const joints = hand.joints ?? [];
     this.#showJoints(joints);
     this.element.querySelector(".joints-title").hidden = !this.joints.size;
     const events = (hand.events ?? []).filter(([, count]) => count).map(([name, count]) => `${name} ${count} ×`);
-    this.#text(this.element.querySelector(".note"), events.length ? `Reflexes so far: ${events.join(", ")}` : "");
+    setText(this.element.querySelector(".note"), events.length ? `Reflexes so far: ${events.join(", ")}` : "");
     this.#keepThose(regions);
     for (const [name, force_n, slip_m, isSlipping] of regions) {
       const row = this.#row(name);
       row.dataset.slipping = isSlipping;
       row.querySelector("i").style.transform = `scaleX(${Math.min(force_n / FULL_N, 1)})`;
-      this.#text(row.querySelector(".force"), `${force_n.toFixed(2)} N`);
-      this.#text(row.querySelector(".slip"), isSlipping ? `slips ${(1000 * slip_m).toFixed(1)} mm` : "");
+      setText(row.querySelector(".force"), `${force_n.toFixed(2)} N`);
+      setText(row.querySelector(".slip"), isSlipping ? `slips ${(1000 * slip_m).toFixed(1)} mm` : "");
     }
   }
 
@@ -43,7 +43,7 @@ export class Regions {
     for (const [name, angle_rad] of joints) {
       const joint = this.#joint(name);
       joint.told_ms = now_ms;
-      this.#text(joint.angle, rounded((angle_rad * 180) / Math.PI, 0));
+      setText(joint.angle, rounded((angle_rad * 180) / Math.PI, 0));
     }
     for (const [name, joint] of this.joints) {
       if (now_ms - joint.told_ms <= JOINT_STAYS_MS) continue;
@@ -82,9 +82,5 @@ export class Regions {
       this.joints.set(name, { pair, angle, told_ms: 0 });
     }
     return this.joints.get(name);
-  }
-
-  #text(element, text) {
-    if (element.textContent !== text) element.textContent = text;
   }
 }

@@ -4,9 +4,9 @@
 // What is shown of a skin as files: a picture, and tables of its taxels, its contacts and its plots.
 
 import { save } from "../files.js";
+import { AGE_UNKNOWN } from "./view.js";
 
 const CAPTION_PX = 28;
-const AGE_UNKNOWN = 65535;
 const CONTACTS = ["number", "x_m", "y_m", "force_n", "peak_counts", "area_m2", "spread_m", "speed_m_s", "age_s"];
 const PLOTS = ["time_s", "frames", "lost", "force_min_n", "force_max_n", "latency_min_ms", "latency_max_ms"];
 

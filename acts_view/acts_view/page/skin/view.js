@@ -9,7 +9,8 @@ import { Marks } from "./marks.js";
 import { Taxels } from "./taxels.js";
 
 const NOISE_COUNTS = 30; // as acts_recon's confidence has it
-const AGE_UNKNOWN = 65535; // in tenths of a millisecond, as acts_view/skin/snapshot.py has it
+/** An age that is not known, in tenths of a millisecond; as acts_view/skin/snapshot.py has it. */
+export const AGE_UNKNOWN = 65535;
 const STEPS = { ArrowUp: [-1, 0], ArrowDown: [1, 0], ArrowLeft: [0, -1], ArrowRight: [0, 1] };
 
 export class SkinView {

@@ -1,10 +1,15 @@
 // Copyright 2026 ACTS contributors
 // SPDX-License-Identifier: Apache-2.0
 
-// Numbers in words.
+// Numbers in words, and where they stand.
 
 /** With so many digits behind the point; what is rounded to zero has no sign. */
 export function rounded(value, digits) {
   const words = value.toFixed(digits);
   return Number(words) === 0 ? (0).toFixed(digits) : words;
+}
+
+/** Let an element say these; one that says so already is not touched, since what changes may be read out. */
+export function setText(element, words) {
+  if (element.textContent !== words) element.textContent = words;
 }
