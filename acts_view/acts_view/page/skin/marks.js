@@ -4,6 +4,7 @@
 // What is drawn over the taxels: contacts with number and force, outlines, trails, the centre of pressure, the cursor.
 
 import { settings } from "../settings.js";
+import { textScale } from "../words.js";
 
 const TRAIL_MS = 1200;
 
@@ -109,7 +110,8 @@ export class Marks {
   #drawContacts(context, { contacts, contact_numbers }, hasRings) {
     const { ratio, geometry } = this;
     const width = contacts.shape[1];
-    context.font = `600 ${13 * ratio}px system-ui, "DejaVu Sans", sans-serif`;
+    const letter = ratio * textScale();
+    context.font = `600 ${13 * letter}px system-ui, "DejaVu Sans", sans-serif`;
     context.textBaseline = "middle";
     context.textAlign = "center";
     contact_numbers.data.forEach((number, index) => {
@@ -124,9 +126,9 @@ export class Marks {
       }
       const text = `${number}  ${force_n.toFixed(2)} N`;
       const half = context.measureText(text).width / 2 + 3 * ratio;
-      const away = radius + 10 * ratio;
+      const away = radius + 10 * letter;
       const [x, y] = centre;
-      label(context, ratio, text, Math.min(Math.max(x, half), this.canvas.width - half), y > away + 8 * ratio ? y - away : y + away);
+      label(context, ratio, text, Math.min(Math.max(x, half), this.canvas.width - half), y > away + 8 * letter ? y - away : y + away);
     });
   }
 

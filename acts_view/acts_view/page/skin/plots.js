@@ -5,8 +5,9 @@
 
 import { BIN_S, FORCE, FRAMES, LATENCY, LOST } from "./history.js";
 import { settings } from "../settings.js";
+import { textScale } from "../words.js";
 
-const HEIGHT = 112;
+const HEIGHT = 112 * textScale();
 const EVERY_MS = 100;
 const LEAST_S = 0.05; // of a zoom: some six intervals of the history
 
@@ -128,7 +129,7 @@ function options(kind, onZoom, onReset) {
   const ink = colour("--ink-soft");
   const line = colour(`--plot-${kind.name}`);
   const fill = colour(`--plot-${kind.name}-fill`);
-  const axis = { stroke: ink, font: "11px system-ui, sans-serif", ticks: { show: false }, grid: { stroke: colour("--line"), width: 1 } };
+  const axis = { stroke: ink, font: `${11 * textScale()}px system-ui, sans-serif`, ticks: { show: false }, grid: { stroke: colour("--line"), width: 1 } };
   const series = { stroke: line, width: 1.25, points: { show: false }, spanGaps: false };
   const values = kind.isBars
     ? [{ ...series, width: 0, fill: line, paths: uPlot.paths.bars({ size: [0.8, 12] }) }]
@@ -136,7 +137,7 @@ function options(kind, onZoom, onReset) {
   return {
     width: 300,
     height: HEIGHT,
-    padding: [6, 12, 0, 0],
+    padding: [6, 12 * textScale(), 0, 0],
     legend: { show: false },
     cursor: { y: false, points: { show: false }, drag: { setScale: false, x: true, y: false }, bind: { dblclick: () => () => { onReset(); return null; } } },
     scales: {
@@ -144,8 +145,8 @@ function options(kind, onZoom, onReset) {
       y: { range: (plot, low, high) => [0, Math.max(kind.least, 1.1 * (high ?? 0))] },
     },
     axes: [
-      { ...axis, size: 22, space: 60, values: (plot, times) => times.map((time) => (time === 0 ? "now" : `${Number(time.toFixed(3))} s`)) },
-      { ...axis, size: 44, space: 26 },
+      { ...axis, size: 22 * textScale(), space: 60 * textScale(), values: (plot, times) => times.map((time) => (time === 0 ? "now" : `${Number(time.toFixed(3))} s`)) },
+      { ...axis, size: 44 * textScale(), space: 26 * textScale() },
     ],
     series: [{}, ...values],
     bands: values.length === 2 ? [{ series: [1, 2], fill }] : [],

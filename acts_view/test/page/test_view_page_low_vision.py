@@ -1,26 +1,27 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What a program that reads the page out tells by itself, in a real browser: nothing that changes all the time."""
+"""The page for who sees little or nothing, in a real browser: what is read out by itself, and text twice as large."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from itertools import count
 from typing import TYPE_CHECKING
 
 import pytest
-from view_browser import expect, needs_browser
+from view_browser import BROWSER, DEADLINE_MS, expect, needs_browser
 from view_player import Player
 
 from acts_view.skin.snapshot import Frame
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Page
+    from playwright.sync_api import Browser, Page
 
 pytestmark = [needs_browser, pytest.mark.slow]
 
+OFFERS = [[do, "/plate"] for do in ("tare", "calibrate", "balance", "stop_balancing", "grasp", "release", "set")]
 # Keeps what changes and is read out, in the order in which it changes.
 LISTEN = """() => {
   window.told = [];
@@ -62,3 +63,46 @@ def test_what_changes_by_itself_is_not_read_out_but_an_answer_is(
     player.status["recording"] = {**recording, "on": False, "note": "5 messages in 1.0 s"}
     expect(line).to_have_text("5 messages in 1.0 s")
     assert "5 messages in 1.0 s" in page.evaluate("() => window.told")
+
+
+@pytest.fixture
+def large(browser: Browser) -> Iterator[Browser]:
+    """Where letters are 32 px high, not 16."""
+    made = browser.browser_type.launch(executable_path=BROWSER, args=["--blink-settings=defaultFontSize=32"])
+    yield made
+    made.close()
+
+
+def sizes(page: Page) -> list[float]:
+    """Of the letters of elements that are sentences or figures [px]."""
+    return list(
+        page.evaluate(
+            """() => ["#diagnostics .message", "#note", "[data-number=force]"].map(
+              (one) => parseFloat(getComputedStyle(document.querySelector(one)).fontSize))"""
+        )
+    )
+
+
+@pytest.mark.parametrize("width", [360, 1280])
+def test_all_text_is_as_large_as_its_reader_wants_it_and_the_page_no_wider(
+    play: Callable[..., Player], open_page: Callable[..., Page], large: Browser, width: int
+) -> None:
+    player = play()
+    files = [["touch_2026-11-26_10-20-30.mcap", 12_345_678]]
+    player.status = {"offers": OFFERS, "recording": {"on": False, "note": "", "files": files}, "note": "only shows"}
+    usual = open_page(player, width)
+    usual.wait_for_selector("#diagnostics .message")
+    page = large.new_page(viewport={"width": width, "height": 900})
+    page.set_default_timeout(DEADLINE_MS)
+    page.goto(player.url)
+    page.wait_for_selector(".skin .pill[data-state=live]")
+    page.wait_for_selector("#controls [data-name=m]")
+    page.wait_for_selector(".regions li")
+    page.wait_for_selector("#diagnostics .message")
+    assert sizes(page) == [2 * size for size in sizes(usual)]
+    assert page.evaluate("() => document.documentElement.scrollWidth") <= width
+    # The picture has not made way for the words.
+    expect(page.locator(".canvases")).to_be_visible()
+    picture = page.locator(".canvases").bounding_box()
+    assert picture is not None
+    assert picture["width"] >= min(width / 2, 700)
