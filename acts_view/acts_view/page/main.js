@@ -92,13 +92,16 @@ document.addEventListener("keydown", (event) => {
   if (event.ctrlKey || event.metaKey || event.altKey) return;
   // What is typed there is theirs; a slider has arrows, Home, End and the page keys, and none of these is ours.
   if (event.target.closest("select, input:not([type=range])")) return;
-  if (event.key in KEYS) next(KEYS[event.key]);
-  else if (event.key in ZOOMS) for (const one of panels) ZOOMS[event.key](one.plots);
-  // On a button it presses that.
-  else if (event.key !== " " || event.target.closest("button, summary")) return;
+  const isBlank = event.key === " ";
+  // On a button the blank presses that.
+  if (isBlank ? event.target.closest("button, summary") : !(event.key in KEYS || event.key in ZOOMS)) return;
+  event.preventDefault();
+  if (event.key in ZOOMS) for (const one of panels) ZOOMS[event.key](one.plots);
+  // Of the others one that is kept down acts once, or the page would flicker.
+  else if (event.repeat) return;
+  else if (event.key in KEYS) next(KEYS[event.key]);
   else if (replay.isShown) replay.toggle();
   else hold(!panels.isHeld);
-  event.preventDefault();
 });
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", show);
 onChange(show);

@@ -209,6 +209,22 @@ def test_keys_act_wherever_the_last_click_was(play: Callable[..., Player], open_
     expect(page.locator(".skin .pill")).to_have_text("paused")
 
 
+@pytest.mark.parametrize(("key", "pressed_of"), [("i", "#smooth"), (" ", "#pause")])
+def test_a_key_that_is_kept_down_acts_once(
+    play: Callable[..., Player], open_page: Callable[..., Page], key: str, pressed_of: str
+) -> None:
+    page = open_page(play(), 360, 640)
+    page.focus("canvas.marks")
+    before = page.evaluate("() => scrollY")
+    for _ in range(4):
+        page.keyboard.down(key)
+    expect(page.locator(pressed_of)).to_have_attribute("aria-pressed", "true")
+    assert page.evaluate("() => scrollY") == before
+    page.keyboard.up(key)
+    page.keyboard.press(key)
+    expect(page.locator(pressed_of)).to_have_attribute("aria-pressed", "false")
+
+
 def test_keys_act_after_a_choice_in_the_toolbar(play: Callable[..., Player], open_page: Callable[..., Page]) -> None:
     page = open_page(play())
     page.focus("#colours")
